@@ -1,0 +1,25 @@
+#include "Kernel/MercuryNames.h"
+#include "Kernel/Simulation/Simulation.h"
+struct WetTower : Simulation<HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies> {
+    void setupInitialConditions() override {
+        auto glass = speciesHandler.copyAndAddObject({});
+        glass->setDensity(2500);                                                 // kg/m^3
+        glass->setEffectiveElasticModulusAndRestitutionCoefficient(2.8e6, 0.5);  // Pa
+        glass->setEffectiveShearModulus(0.6e6), glass->setSlidingFrictionCoefficient(0.4);
+        glass->setLiquidBridgeVolume(2e-12), glass->setContactAngle(0.3), glass->setSurfaceTension(0.072);
+        InfiniteWall floor;
+        floor.setSpecies(glass), floor.set({0, 0, -1}, {0, 0, 0});
+        wallHandler.copyAndAddObject(floor);
+        SphericalParticle grain;
+        grain.setSpecies(glass), grain.setRadius(1e-3);  // m
+        for (int k = 0; k < 10; ++k) {
+            grain.setPosition({1e-4 * (k % 3), 0, 1.2e-3 + 2.2e-3 * k});
+            particleHandler.copyAndAddObject(grain);
+        }
+        setGravity({0, 0, -9.81}), setTimeStep(0.1 * stabilityLimit()), setTimeMax(0.3), setSaveCount(5000);
+    }
+    void writeOutput() override {
+        fmt::print("{:.3f} s, top at {} m\n", getTime(), particleHandler.getObject(9).getPosition().z());
+    }
+};
+int main() { WetTower().solve(); }

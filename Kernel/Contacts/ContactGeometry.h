@@ -1,0 +1,122 @@
+#pragma once
+
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/PeriodicBox.h"
+
+namespace pendular {
+
+/// Eight contacts as the kernel sees them before any law acts.
+template <class T>
+struct ContactGeometry {
+    Vector<T> normal;     // unit, from body 1 to body 2
+    T overlap;            // m, negative where the surfaces are apart
+    T inverseDistance;    // 1/m, of the centres; 0 at a plane wall
+    T effectiveRadius;    // m
+    T effectiveMass;      // kg
+    Vector<T> velocity;   // m/s, of body 1 against body 2 (their centres)
+    Vector<T> spinLever;  // m/s, sum of spin x lever arm over the bodies; zero without torque
+    Vector<T> spinSum;    // rad/s, of both bodies
+};
+
+/// The geometry of grain with grain; in a scene that repeats itself, with the nearest image.
+template <class S, bool isPeriodic>
+struct PairGeometry {
+    const TranslationRecord* translation;
+    const RotationRecord* rotation;
+    const ContactBlock& block;
+
+    Vector<Pack> shift;  // m, centre 2 - centre 1
+    Pack distance2;      // m^2
+    Pack radius1, radius2;
+
+    PairGeometry(const TranslationRecord* t, const RotationRecord* r, const ContactBlock& b,
+                 [[maybe_unused]] const PeriodicBox& box)
+        : translation(t), rotation(r), block(b) {
+        const auto [x1, y1, z1, r1] = loadRecords<4>(numbers(t), 8, b.first.data());
+        const auto [x2, y2, z2, r2] = loadRecords<4>(numbers(t), 8, b.second.data());
+        shift = {x2 - x1, y2 - y1, z2 - z1};
+        if constexpr (isPeriodic) shift = box.nearest(shift);
+        distance2 = squaredNorm(shift);
+        radius1 = r1;
+        radius2 = r2;
+    }
+
+    [[nodiscard]] Mask overlapping() const { return distance2 < square(radius1 + radius2); }
+
+    [[nodiscard]] ContactGeometry<Pack> complete() const {
+        ContactGeometry<Pack> g;
+        const Pack distance = sqrt(distance2);
+        const Pack sum = radius1 + radius2;
+        g.inverseDistance = Pack(1) / distance;
+        g.normal = shift * g.inverseDistance;
+        g.overlap = sum - distance;
+        g.effectiveRadius = radius1 * radius2 / sum;
+        const auto [vx1, vy1, vz1, im1] = loadRecords<4>(numbers(translation) + 4, 8, block.first.data());
+        const auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
+        g.velocity = {vx1 - vx2, vy1 - vy2, vz1 - vz2};
+        g.effectiveMass = Pack(1) / (im1 + im2);
+        if constexpr (S::hasTorque) {
+            const auto [wx1, wy1, wz1] = loadRecords<3>(numbers(rotation), 8, block.first.data());
+            const auto [wx2, wy2, wz2] = loadRecords<3>(numbers(rotation), 8, block.second.data());
+            const Vector<Pack> spin1{wx1, wy1, wz1}, spin2{wx2, wy2, wz2};
+            const Pack half = Pack(0.5) * g.overlap;
+            g.spinLever = (radius1 - half) * spin1 + (radius2 - half) * spin2;
+            g.spinSum = spin1 + spin2;
+        }
+        return g;
+    }
+
+private:
+    template <class Record>
+    static const double* numbers(const Record* records) {
+        return reinterpret_cast<const double*>(records);
+    }
+};
+
+/// The geometry of grain with wall: that of a grain with a sphere of infinite radius and mass.
+template <class S>
+struct WallGeometry {
+    const TranslationRecord* translation;
+    const RotationRecord* rotation;
+    const ContactBlock& block;
+    const WallPointColumns& points;
+
+    Pack radius;
+    Pack distance;  // m, from the centre to the wall
+
+    WallGeometry(const TranslationRecord* t, const RotationRecord* r, const ContactBlock& b,
+                 const WallPointColumns& p)
+        : translation(t), rotation(r), block(b), points(p), distance(Pack::load(p.distance.lane.data())) {
+        const auto columns = loadRecords<4>(reinterpret_cast<const double*>(t), 8, b.first.data());
+        radius = columns[3];
+    }
+
+    [[nodiscard]] Mask overlapping() const { return distance < radius; }
+
+    [[nodiscard]] ContactGeometry<Pack> complete() const {
+        ContactGeometry<Pack> g;
+        g.normal = load(points.normal);
+        g.overlap = radius - distance;
+        g.inverseDistance = Pack(0);
+        g.effectiveRadius = radius;
+        const auto [vx, vy, vz, im] =
+            loadRecords<4>(reinterpret_cast<const double*>(translation) + 4, 8, block.first.data());
+        g.velocity = Vector<Pack>{vx, vy, vz} - load(points.velocity);
+        g.effectiveMass = Pack(1) / im;
+        if constexpr (S::hasTorque) {
+            const auto [wx, wy, wz] =
+                loadRecords<3>(reinterpret_cast<const double*>(rotation), 8, block.first.data());
+            g.spinSum = {wx, wy, wz};
+            g.spinLever = (radius - Pack(0.5) * g.overlap) * g.spinSum;
+        }
+        return g;
+    }
+
+private:
+    static Vector<Pack> load(const std::array<LaneColumn, 3>& v) {
+        return {Pack::load(v[0].lane.data()), Pack::load(v[1].lane.data()), Pack::load(v[2].lane.data())};
+    }
+};
+
+}  // namespace pendular

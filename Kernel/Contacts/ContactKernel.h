@@ -1,0 +1,211 @@
+#pragma once
+
+#include "Kernel/Contacts/ContactGeometry.h"
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/SampleTiming.h"
+#include "Kernel/Species/Species.h"
+
+namespace pendular {
+
+/// The laws between two species, prepared for the step.
+template <class S>
+struct PreparedLaws {
+    typename S::Normal::Prepared normal;
+    typename S::Friction::Prepared friction;
+
+    PreparedLaws() = default;
+    explicit PreparedLaws(const typename S::Mixed& laws)
+        : normal(static_cast<const typename S::Normal&>(laws).prepare()),
+          friction(static_cast<const typename S::Friction&>(laws).prepare(
+              static_cast<const typename S::Normal&>(laws))) {}
+};
+
+/// The batched contact kernel: geometry, then the three laws, on eight contacts at a time. It reads grains,
+/// reads and writes the contacts' own memory, and writes a force record for each contact; the particle sum
+/// does the rest.
+template <class S, bool withLedger>
+class ContactKernel {
+public:
+    using Normal = typename S::Normal;
+    using Friction = typename S::Friction;
+    using Adhesion = typename S::Adhesion;
+
+    ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactStore<S>& contactStore)
+        : laws(preparedLaws), timeStep(step), store(contactStore) {}
+
+    template <class Geometry>
+    [[gnu::flatten]] void computeBlock(std::size_t block, const Geometry& geometry) {
+        BlockState& state = store.states[block];
+        const Mask listed = maskFromBits(state.listed);
+        Mask touching = geometry.overlapping() & listed;
+        const auto interaction = store.interaction.load(block);
+        Mask joined = touching | maskFromBits(state.bridged);
+        if constexpr (Adhesion::acts && !Adhesion::formsAtContact) joined = listed;
+        if (none(joined)) return clear(block, state);
+
+        const ContactGeometry<Pack> g = geometry.complete();
+        // A step of no length, at the start of a scene, finds overlaps that did not begin in it.
+        const Mask begins = maskFromBits(timeStep > 0 ? 0xff : 0) & touching & !maskFromBits(state.touching);
+
+        Pack adhesive = 0;
+        Mask bridged = touching & !touching;
+        if constexpr (Adhesion::acts) {
+            const Pack separation = max(-g.overlap, Pack(0));
+            bridged = joined & (separation < interaction.range());
+            adhesive = select(bridged, interaction.force(separation), Pack(0));
+        }
+        const NormalPart normal = computeNormal(block, state, g, touching, begins, adhesive);
+        Vector<Pack> tangential = zero;
+        Pack slipPower = 0;
+        if constexpr (Friction::acts)
+            tangential = computeFriction(block, g, touching, begins, normal, slipPower);
+
+        const Pack normalForce = normal.repulsion - adhesive;
+        writeRecords(block, g.normal, normal.contact.overlap, normalForce, tangential);
+        if constexpr (withLedger) writeEnergies(block, g, normal, adhesive, slipPower, touching);
+        state.touching = bits(touching);
+        state.bridged = bits(bridged);
+        state.closing = bits(normal.closing);
+    }
+
+private:
+    struct NormalPart {
+        Pack repulsion;  // N, elastic and damping
+        Pack damping;    // kg/s
+        Pack approach;   // m/s, at the sample
+        Contact<Pack> contact;
+        SampleTiming<Pack> timing;
+        Mask closing;
+    };
+
+    /// The normal force with the approach speed at the end of the step. Grains carry the predicted velocity v
+    /// + a dt, with the acceleration a of the last step; here it gets the change of this contact's own force,
+    /// (F - F_last) dt / (2 m*), in which the dashpot is implicit. For two grains that makes the step exactly
+    /// the trapezoidal rule.
+    NormalPart computeNormal(std::size_t block, const BlockState& state, const ContactGeometry<Pack>& g,
+                             Mask touching, Mask begins, Pack adhesive) const {
+        NormalPart part;
+        part.contact = {.overlap = max(g.overlap, Pack(0)),
+                        .effectiveRadius = g.effectiveRadius,
+                        .effectiveMass = g.effectiveMass,
+                        .contactRadius = {}};
+        part.contact.contactRadius = sqrt(part.contact.effectiveRadius * part.contact.overlap);
+        NormalForce<Pack> force = Normal::force(laws.normal, part.contact);
+        force.damping = select(touching, force.damping, Pack(0));
+
+        const Pack halfStep = Pack(0.5 * timeStep) / g.effectiveMass;
+        const Pack predicted = dot(g.velocity, g.normal);
+        const Pack lastForce = gatherColumn(&store.records[block * Pack::lanes].normalForce, recordStride);
+        const auto approachWith = [&](Pack damping) {
+            return (predicted - halfStep * (force.elastic - adhesive - lastForce)) /
+                   (Pack(1) + halfStep * damping);
+        };
+
+        part.damping = force.damping;
+        part.approach = approachWith(part.damping);
+        part.timing = {Pack(0.5), Pack(0.5)};
+        const Pack acceleration = Pack(-timeStep * timeStep) / g.effectiveMass *
+                                  (force.elastic + part.damping * part.approach - adhesive);  // m/step^2
+        const Pack approachInStep = part.approach * timeStep;
+        const Pack nextOverlap = g.overlap + approachInStep + Pack(0.5) * acceleration;
+        part.closing = touching & (part.approach < Pack(0)) & (nextOverlap <= Pack(0));
+        if (any(begins | part.closing)) {
+            const Pack sinceBegin =
+                select(predicted > Pack(0), min(g.overlap / (predicted * timeStep), Pack(1)), Pack(1));
+            part.timing.before = select(begins, sinceBegin, Pack(0.5));
+            part.timing.after =
+                select(part.closing, timeToEnd(g.overlap, approachInStep, acceleration), Pack(0.5));
+            const Mask covered =
+                part.closing & maskFromBits(state.closing);  // the last step stands for this time too
+            part.timing.before = select(covered, Pack(0), part.timing.before);
+            part.damping = force.damping * part.timing.factor(Normal::dampingExponent, begins, part.closing);
+            force.elastic = force.elastic * part.timing.factor(Normal::elasticExponent, begins, part.closing);
+            part.approach = approachWith(part.damping);
+        }
+        part.repulsion = select(touching, force.elastic + part.damping * part.approach, Pack(0));
+        return part;
+    }
+
+    Vector<Pack> computeFriction(std::size_t block, const ContactGeometry<Pack>& g, Mask touching,
+                                 Mask begins, const NormalPart& normal, Pack& slipPower) {
+        const Pack approach = dot(g.velocity, g.normal);
+        const Vector<Pack> sideways = g.velocity - approach * g.normal;
+        // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
+        // last step; 1/m + r^2/I of a solid sphere is 7/2 of 1/m.
+        const Pack response = Pack(3.5 * 0.5 * timeStep) / g.effectiveMass;
+        const Vector<Pack> predicted = sideways + cross(g.spinLever, g.normal);
+        const Slip<Pack> slip{.velocity = predicted - response * lastTangential(block, g.normal),
+                              .timeBefore = timeStep * select(begins, normal.timing.before, Pack(0.5)),
+                              .timeAfter = Pack(0.5 * timeStep),
+                              .response = response};
+        auto history = store.history.load(block);
+        if constexpr (requires { history.turn(FrameRotation<Pack>{}); })
+            history.turn({.normal = g.normal,
+                          .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
+                          .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
+        const Vector<Pack> force =
+            Friction::force(laws.friction, normal.contact, max(normal.repulsion, Pack(0)), slip, history);
+        store.history.store(block, selectColumns(touching, history));
+        const Vector<Pack> tangential = select(touching, force, zero);
+        const Vector<Pack> velocity = slip.velocity + response * tangential;
+        slipPower =
+            select(touching, -dot(tangential, velocity), Pack(0));  // no slip where a wall's part is left out
+        return tangential;
+    }
+
+    /// The tangential force on body 1 at the last step, turned into today's tangential plane: (n x F) x n.
+    [[nodiscard]] Vector<Pack> lastTangential(std::size_t block, const Vector<Pack>& normal) const {
+        const ForceTorqueRecord* records = &store.records[block * Pack::lanes];
+        const Vector<Pack> torque{gatherColumn(&records->leverless.x, recordStride),
+                                  gatherColumn(&records->leverless.y, recordStride),
+                                  gatherColumn(&records->leverless.z, recordStride)};
+        return cross(torque, normal);
+    }
+
+    void writeRecords(std::size_t block, const Vector<Pack>& direction, Pack overlap, Pack normalForce,
+                      const Vector<Pack>& tangential) {
+        auto* base = reinterpret_cast<double*>(&store.records[block * Pack::lanes]);
+        const Vector<Pack> along = -normalForce * direction;
+        if constexpr (S::hasTorque) {
+            const Vector<Pack> force = along + tangential;
+            const Vector<Pack> torque = cross(direction, tangential);
+            storeRecords(base, std::array<Pack, 8>{force.x, force.y, force.z, Pack(0.5) * overlap, torque.x,
+                                                   torque.y, torque.z, normalForce});
+        } else {
+            storeRecords(base, std::array<Pack, 4>{along.x, along.y, along.z, normalForce});
+        }
+    }
+
+    void writeEnergies(std::size_t block, const ContactGeometry<Pack>& g, const NormalPart& normal,
+                       Pack adhesive, Pack slipPower, Mask touching) {
+        const Pack damping = select(touching, normal.damping * normal.approach * normal.approach, Pack(0));
+        const Pack adhesion = -adhesive * normal.approach;
+        for (int k = 0; k < Pack::lanes; ++k) {
+            const Contact<double> contact{normal.contact.overlap[k], normal.contact.effectiveRadius[k],
+                                          normal.contact.effectiveMass[k], normal.contact.contactRadius[k]};
+            store.energies[block * Pack::lanes + k] = {
+                g.overlap[k] > 0 ? Normal::elasticEnergy(laws.normal, contact) : 0, damping[k], adhesion[k],
+                slipPower[k]};
+        }
+    }
+
+    /// A block in which nothing touches or joins any more: its memory and its forces become zero, once.
+    void clear(std::size_t block, BlockState& state) {
+        if ((state.touching | state.bridged) == 0) return;
+        store.history.store(block, {});
+        for (int k = 0; k < Pack::lanes; ++k) {
+            store.records[block * Pack::lanes + k] = {};
+            if constexpr (withLedger) store.energies[block * Pack::lanes + k] = {};
+        }
+        state.touching = state.bridged = state.closing = 0;
+    }
+
+    static constexpr std::size_t recordStride = sizeof(typename ContactStore<S>::Record) / sizeof(double);
+    const Vector<Pack> zero{Pack(0), Pack(0), Pack(0)};
+
+    const PreparedLaws<S>& laws;
+    double timeStep;
+    ContactStore<S>& store;
+};
+
+}  // namespace pendular

@@ -1,0 +1,255 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Contacts/RememberedContacts.h"
+#include "Kernel/Species/SpeciesHandler.h"
+#include "Kernel/Walls/WallHandler.h"
+
+namespace pendular {
+
+/// Lists anew the contacts that can act before two bodies have approached by the skin, and takes over the
+/// memory of those that were listed before. A bridge that forms at contact only needs no search at its own
+/// length: the pairs it joins are remembered, and all others must touch first.
+template <class S>
+class ContactList {
+public:
+    using Grains = ParticleStore<S::hasTorque>;
+
+    ContactList(const SpeciesHandler<S>& speciesHandler, const WallHandler& wallHandler,
+                const PeriodicBox& box, double skinWidth)
+        : species(speciesHandler), walls(wallHandler), periodic(box), skin(skinWidth) {}
+
+    /// Sorts the grains in space and lists their contacts.
+    void rebuild(Grains& grains, ContactStore<S>& store) {
+        const RememberedContacts<S> old(store, grains.identity);
+        for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
+        grains.reorder(spatialOrder(grains.translation, 2 * smallestRadius(grains) + skin));
+        findPairs(grains, old);
+        findWallContacts(grains, old);
+        fill(grains, store);
+        recall(old, grains, store);
+        listSides(grains.size(), store);
+    }
+
+private:
+    /// Whether bodies may act on each other without having touched.
+    static constexpr bool actsApart = S::Adhesion::acts && !S::Adhesion::formsAtContact;
+
+    struct Listed {
+        std::uint32_t first, second;
+    };
+    struct Group {
+        Bucket bucket;
+        std::vector<Listed> contacts;
+    };
+
+    static double smallestRadius(const Grains& grains) {
+        double smallest = infinity;
+        for (const TranslationRecord& grain : grains.translation) smallest = std::min(smallest, grain.radius);
+        return smallest;
+    }
+
+    double rangeOf(int a, int b, const Bodies& bodies) const { return species.mixture(a, b).range(bodies); }
+
+    /// The largest range (m) that two grains of the scene can have; a law's range is taken to be monotonous
+    /// in the radii.
+    double largestRange(const Grains& grains) const {
+        std::vector<Bodies> extremes(species.getSize(), {infinity, 0});
+        for (std::size_t k = 0; k < grains.size(); ++k) {
+            Bodies& e = extremes[grains.species[k]];
+            e = {std::min(e.radius1, grains.translation[k].radius),
+                 std::max(e.radius2, grains.translation[k].radius)};
+        }
+        double largest = 0;
+        for (std::size_t a = 0; a < extremes.size(); ++a)
+            for (std::size_t b = 0; b < extremes.size(); ++b)
+                for (const double r1 : {extremes[a].radius1, extremes[a].radius2})
+                    for (const double r2 : {extremes[b].radius1, extremes[b].radius2})
+                        if (r1 > 0 && r2 > 0 && r1 < infinity && r2 < infinity)
+                            largest = std::max(largest,
+                                               rangeOf(static_cast<int>(a), static_cast<int>(b), {r1, r2}));
+        return largest;
+    }
+
+    std::size_t groupOf(int species1, int species2, int wall) {
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            const Bucket& bucket = groups[g].bucket;
+            if (bucket.species1 == species1 && bucket.species2 == species2 && bucket.wall == wall) return g;
+        }
+        groups.push_back({{0, 0, species1, species2, wall}, {}});
+        return groups.size() - 1;
+    }
+
+    void findPairs(const Grains& grains, const RememberedContacts<S>& old) {
+        const NeighbourSearch search(grains.translation, skin + (actsApart ? largestRange(grains) : 0),
+                                     periodic);
+        for (std::size_t a = 0; a < species.getSize(); ++a)
+            for (std::size_t b = a; b < species.getSize(); ++b)
+                groupOf(static_cast<int>(a), static_cast<int>(b), -1);
+        for (std::uint32_t i = 0; i < grains.size(); ++i) {
+            search.forEachPartner(i, [&](std::uint32_t j) {
+                if (nearEnough(grains, i, j)) addPair(grains, i, j);
+            });
+            if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
+                for (const auto& entry : old.of(grains.identity[i]))
+                    if (entry.wall == 0 && entry.bridged && !nearEnough(grains, i, grains.place[entry.other]))
+                        addPair(grains, i, grains.place[entry.other]);
+        }
+    }
+
+    bool nearEnough(const Grains& grains, std::uint32_t i, std::uint32_t j) const {
+        const TranslationRecord& a = grains.translation[i];
+        const TranslationRecord& b = grains.translation[j];
+        double reach = a.radius + b.radius + skin;
+        if constexpr (actsApart) reach += rangeOf(grains.species[i], grains.species[j], {a.radius, b.radius});
+        return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
+    }
+
+    void addPair(const Grains& grains, std::uint32_t i, std::uint32_t j) {
+        if (grains.translation[i].inverseMass == 0 && grains.translation[j].inverseMass == 0) return;
+        const std::size_t low = std::min(grains.species[i], grains.species[j]);
+        const std::size_t high = std::max(grains.species[i], grains.species[j]);
+        // The groups of pairs stand first, in the order of a triangle of species.
+        const std::size_t group = low * species.getSize() - low * (low + 1) / 2 + high;
+        groups[group].contacts.push_back({std::min(i, j), std::max(i, j)});
+    }
+
+    void findWallContacts(const Grains& grains, const RememberedContacts<S>& old) {
+        std::vector<std::uint32_t> parts;
+        for (std::size_t w = 0; w < walls.getSize(); ++w) {
+            const Wall& wall = walls.getObject(w);
+            for (std::uint32_t i = 0; i < grains.size(); ++i) {
+                const TranslationRecord& grain = grains.translation[i];
+                if (grain.inverseMass == 0) continue;
+                parts.clear();
+                // A bridge may pass on to the next part of the wall: then all within its range are listed.
+                bool far = actsApart;
+                if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
+                    for (const auto& entry : old.of(grains.identity[i]))
+                        far |= entry.wall == w + 1 && entry.bridged;
+                const double apart = far ? rangeOf(grains.species[i], wall.species, {grain.radius}) : 0;
+                wall.listParts(grain.position, grain.radius + apart + skin, parts);
+                if (parts.empty()) continue;
+                Group& group = groups[groupOf(grains.species[i], wall.species, static_cast<int>(w))];
+                for (const std::uint32_t part : parts) group.contacts.push_back({i, part});
+            }
+        }
+    }
+
+    /// Within each stretch of the list, puts the pairs that touch before those that do not: the blocks of the
+    /// latter cost next to nothing, and those of the former are full. Stretches are short enough for the
+    /// grains to stay in the cache.
+    void putTouchingFirst(Group& g, const Grains& grains) const {
+        constexpr std::ptrdiff_t stretch = 2048;
+        const auto touching = [&](const Listed& pair) {
+            const TranslationRecord& a = grains.translation[pair.first];
+            const TranslationRecord& b = grains.translation[pair.second];
+            const double reach = a.radius + b.radius;
+            return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
+        };
+        for (auto begin = g.contacts.begin(); begin != g.contacts.end();) {
+            const auto end = begin + std::min(stretch, g.contacts.end() - begin);
+            std::stable_partition(begin, end, touching);
+            begin = end;
+        }
+    }
+
+    /// Turns the groups into blocks and prepares the adhesion of each contact.
+    void fill(const Grains& grains, ContactStore<S>& store) {
+        std::size_t blocks = 0, wallBlocks = 0;
+        for (Group& g : groups) {
+            if (g.contacts.empty()) continue;
+            if (g.bucket.wall < 0) putTouchingFirst(g, grains);
+            g.bucket.begin = static_cast<std::uint32_t>(blocks);
+            const std::size_t own = (g.contacts.size() + Pack::lanes - 1) / Pack::lanes;
+            blocks += own;
+            if (g.bucket.wall >= 0) wallBlocks += own;
+            g.bucket.end = static_cast<std::uint32_t>(blocks);
+            store.buckets.push_back(g.bucket);
+        }
+        store.blocks.resize(blocks);
+        store.states.resize(blocks);
+        store.history.resize(blocks);
+        store.interaction.resize(blocks);
+        store.records.assign(blocks * Pack::lanes, {});
+        store.wallPoints.resize(wallBlocks);
+        for (const Group& g : groups) {
+            for (std::size_t k = 0; k < g.contacts.size(); ++k) {
+                const std::size_t block = g.bucket.begin + k / Pack::lanes, lane = k % Pack::lanes;
+                store.blocks[block].first[lane] = g.contacts[k].first;
+                store.blocks[block].second[lane] = g.contacts[k].second;
+                store.states[block].listed |= static_cast<std::uint8_t>(1u << lane);
+            }
+            if constexpr (S::Adhesion::acts) prepareAdhesion(g, grains, store);
+        }
+        groups.clear();
+    }
+
+    void prepareAdhesion(const Group& g, const Grains& grains, ContactStore<S>& store) const {
+        const typename S::Adhesion& law = species.mixture(g.bucket.species1, g.bucket.species2);
+        Bodies last{-1, -1};
+        typename S::Adhesion::template Interaction<double> prepared{};
+        for (std::size_t k = 0; k < g.contacts.size(); ++k) {
+            const double r1 = grains.translation[g.contacts[k].first].radius;
+            const double r2 = g.bucket.wall >= 0 ? infinity : grains.translation[g.contacts[k].second].radius;
+            const Bodies bodies{std::min(r1, r2), std::max(r1, r2)};
+            if (bodies.radius1 != last.radius1 || bodies.radius2 != last.radius2) {
+                last = bodies;
+                prepared = law.prepare(bodies);
+            }
+            store.interaction.set(g.bucket.begin * Pack::lanes + k, prepared);
+        }
+    }
+
+    /// Copies the memory of contacts that were touching or joined before.
+    static void recall(const RememberedContacts<S>& old, const Grains& grains, ContactStore<S>& store) {
+        forEachListed(store, [&](const Bucket& bucket, std::uint32_t c) {
+            const ContactBlock& block = store.blocks[c / Pack::lanes];
+            const std::uint32_t first = grains.identity[block.first[c % Pack::lanes]];
+            const std::uint32_t second = block.second[c % Pack::lanes];
+            const std::uint32_t other = bucket.wall >= 0 ? second : grains.identity[second];
+            const bool exchanged = bucket.wall < 0 && other < first;
+            const auto* entry = exchanged
+                                    ? old.find(other, 0, first)
+                                    : old.find(first, static_cast<std::uint32_t>(bucket.wall + 1), other);
+            if (entry) old.copy(*entry, exchanged, store, c);
+        });
+    }
+
+    template <class Function>
+    static void forEachListed(const ContactStore<S>& store, Function&& function) {
+        for (const Bucket& bucket : store.buckets)
+            for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
+                if ((store.states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0) function(bucket, c);
+    }
+
+    static void listSides(std::size_t grainCount, ContactStore<S>& store) {
+        std::vector<std::uint32_t>& begins = store.sidesBegin;
+        begins.assign(grainCount + 1, 0);
+        const auto forEachSide = [&](auto&& function) {
+            forEachListed(store, [&](const Bucket& bucket, std::uint32_t c) {
+                function(store.blocks[c / Pack::lanes].first[c % Pack::lanes], 2 * c);
+                if (bucket.wall < 0)
+                    function(store.blocks[c / Pack::lanes].second[c % Pack::lanes], 2 * c + 1);
+            });
+        };
+        forEachSide([&](std::uint32_t grain, std::uint32_t) { ++begins[grain + 1]; });
+        for (std::size_t k = 0; k < grainCount; ++k) begins[k + 1] += begins[k];
+        store.sides.resize(begins.back());
+        std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+        forEachSide([&](std::uint32_t grain, std::uint32_t side) { store.sides[next[grain]++] = side; });
+    }
+
+    const SpeciesHandler<S>& species;
+    const WallHandler& walls;
+    const PeriodicBox& periodic;
+    double skin;
+    std::vector<Group> groups;
+};
+
+}  // namespace pendular

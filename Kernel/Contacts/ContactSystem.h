@@ -1,0 +1,232 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "Kernel/Contacts/ContactKernel.h"
+#include "Kernel/Contacts/ContactList.h"
+#include "Kernel/Contacts/WallContacts.h"
+
+namespace pendular {
+
+/// Energy by kind, summed over all contacts.
+struct ContactEnergies {
+    double elastic = 0;     // J, stored in the normal overlaps
+    double damping = 0;     // W, lost in the normal dashpots
+    double adhesion = 0;    // W, done against the adhesion
+    double tangential = 0;  // W, given to tangential springs, dashpots and sliders
+};
+
+/// One contact as an observer sees it after a step.
+struct ObservedContact {
+    std::uint32_t particle1;
+    std::uint32_t particle2;  // meaningless at a wall
+    int wall;                 // -1: grain with grain
+    double separation;        // m, of the surfaces; negative where they overlap
+    double normalForce;       // N, elastic and damping, repulsion positive
+    double adhesiveForce;     // N, attraction positive
+    bool bridged;
+};
+
+/// The contacts of a scene: their list, and the forces of a step.
+template <class S>
+class ContactSystem {
+public:
+    using Grains = ParticleStore<S::hasTorque>;
+
+    /// To be called when species, walls and grains are known.
+    /// @param skin m: contacts are listed anew when some grain has moved half of it
+    void prepare(const SpeciesHandler<S>& speciesHandler, const WallHandler& wallHandler,
+                 const PeriodicBox& box, double skinWidth, bool withLedger) {
+        periodic = box;
+        species = &speciesHandler;
+        walls = &wallHandler;
+        skin = skinWidth;
+        ledger = withLedger;
+        unlisted = infinity;
+    }
+
+    /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
+    /// contacts anew where it is time.
+    void refresh(Grains& grains, double grainShift, double wallShift) {
+        unlisted += grainShift + std::max(grainShift, wallShift);
+        if (unlisted < skin) return;
+        ContactList<S>(*species, *walls, periodic, skin).rebuild(grains, contacts);
+        laws.clear();
+        for (const Bucket& bucket : contacts.buckets)
+            laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
+        contacts.energies.assign(ledger ? contacts.records.size() : 0, {});
+        unlisted = 0;
+        ++rebuilds;
+    }
+
+    /// Threads for the forces; the results do not depend on it.
+    void setThreads(int count) { threads = count; }
+
+    /// The force records of all contacts, for grains at the end of a step (s) with their predicted
+    /// velocities.
+    void computeForces(const Grains& grains, double step) {
+        if (ledger) computeAll<true>(grains, step);
+        else computeAll<false>(grains, step);
+    }
+
+    [[nodiscard]] const ContactStore<S>& store() const { return contacts; }
+    [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
+
+    /// Calls function(bucket, contact) for each listed contact.
+    template <class Function>
+    void forEachListed(Function&& function) const {
+        for (const Bucket& bucket : contacts.buckets)
+            for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
+                if ((contacts.states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0)
+                    function(bucket, c);
+    }
+
+    [[nodiscard]] ContactEnergies energies() const {
+        ContactEnergies sum;
+        if (!ledger) return sum;
+        forEachListed([&](const Bucket&, std::uint32_t c) {
+            const EnergyRecord& e = contacts.energies[c];
+            sum.elastic += e.elastic;
+            sum.damping += e.damping;
+            sum.adhesion += e.adhesion;
+            sum.tangential += e.tangential;
+        });
+        return sum;
+    }
+
+    [[nodiscard]] ObservedContact observe(const Grains& grains, const Bucket& bucket,
+                                          std::uint32_t contact) const {
+        const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
+        const BlockState& state = contacts.states[contact / Pack::lanes];
+        const std::size_t lane = contact % Pack::lanes;
+        const TranslationRecord& first = grains.translation[block.first[lane]];
+        const TranslationRecord& second = grains.translation[block.second[lane]];
+        ObservedContact seen{grains.identity[block.first[lane]],
+                             grains.identity[block.second[lane]],
+                             bucket.wall,
+                             0,
+                             contacts.records[contact].normalForce,
+                             0,
+                             (state.bridged >> lane & 1) != 0};
+        if (bucket.wall < 0) {
+            seen.separation =
+                norm(periodic.nearest(second.position - first.position)) - (first.radius + second.radius);
+        } else {
+            const std::uint32_t part = block.second[lane];
+            WallPoint point;
+            walls->getObject(static_cast<std::size_t>(bucket.wall))
+                .findPoints(first.position, first.radius, {&part, 1}, {&point, 1});
+            seen.separation = point.distance - first.radius;
+        }
+        if constexpr (S::Adhesion::acts)
+            if (seen.bridged)
+                seen.adhesiveForce = contacts.interaction.get(contact).force(std::max(seen.separation, 0.0));
+        seen.normalForce += seen.adhesiveForce;
+        return seen;
+    }
+
+private:
+    /// Blocks are independent: each writes only its own memory and records.
+    template <bool withLedger>
+    void computeAll(const Grains& grains, double step) {
+        const TranslationRecord* translation = grains.translation.data();
+        const RotationRecord* rotation = grains.rotation.data();
+        for (std::size_t k = 0; k < contacts.buckets.size(); ++k) {
+            const Bucket& bucket = contacts.buckets[k];
+            ContactKernel<S, withLedger> kernel(laws[k], step, contacts);
+            const auto forEachBlock = [&](auto geometryOf) {
+#pragma omp parallel for schedule(static) firstprivate(kernel) num_threads(threads) if (threads > 1)
+                for (std::uint32_t b = bucket.begin; b < bucket.end; ++b)
+                    kernel.computeBlock(b, geometryOf(b));
+            };
+            const auto pairOf = [&]<bool isPeriodic>(std::uint32_t b) {
+                return PairGeometry<S, isPeriodic>(translation, rotation, contacts.blocks[b], periodic);
+            };
+            if (bucket.wall >= 0) {
+                findWallPoints(grains, bucket, step);
+                forEachBlock([&, first = contacts.firstWallBlock()](std::uint32_t b) {
+                    return WallGeometry<S>(translation, rotation, contacts.blocks[b],
+                                           contacts.wallPoints[b - first]);
+                });
+            } else if (periodic.any()) {
+                forEachBlock([&](std::uint32_t b) { return pairOf.template operator()<true>(b); });
+            } else {
+                forEachBlock([&](std::uint32_t b) { return pairOf.template operator()<false>(b); });
+            }
+        }
+        sumWallForces(grains);
+    }
+
+    void sumWallForces(const Grains& grains) {
+        for (std::size_t w = 0; w < walls->getSize(); ++w) {
+            Wall& wall = walls->getObject(w);
+            if (!wall.keepsForces()) continue;
+            WallForce sum{.about = toVector(wall.getTorquePoint())};
+            for (const Bucket& bucket : contacts.buckets)
+                if (bucket.wall == static_cast<int>(w)) addWallForces(contacts, bucket, grains, sum);
+            wall.setForce(sum.force, sum.torque);
+        }
+    }
+
+    /// Where the grains of a wall's bucket are nearest to it; the contacts of one grain follow each other.
+    void findWallPoints(const Grains& grains, const Bucket& bucket, double step) {
+        const Wall& wall = walls->getObject(static_cast<std::size_t>(bucket.wall));
+        const auto grainOf = [&](std::size_t c) {
+            return contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
+        };
+        const auto listed = [&](std::size_t c) {
+            return (contacts.states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0;
+        };
+        const std::size_t end = bucket.end * Pack::lanes;
+        Bodies last{-1};
+        double range = 0;
+        handOvers.clear();
+        for (std::size_t c = bucket.begin * Pack::lanes; c < end && listed(c);) {
+            const std::uint32_t grain = grainOf(c);
+            partsOfGrain.clear();
+            const std::size_t begin = c;
+            for (; c < end && listed(c) && grainOf(c) == grain; ++c)
+                partsOfGrain.push_back(contacts.blocks[c / Pack::lanes].second[c % Pack::lanes]);
+            pointsOfGrain.resize(partsOfGrain.size());
+            const TranslationRecord& record = grains.translation[grain];
+            if constexpr (S::Adhesion::acts)
+                if (record.radius != last.radius1) {
+                    last = {record.radius};
+                    range = species->mixture(bucket.species1, bucket.species2).range(last);
+                }
+            wall.findPoints(record.position, record.radius + range, partsOfGrain, pointsOfGrain);
+            for (std::size_t k = 0; k < pointsOfGrain.size(); ++k) {
+                const WallPoint& point = pointsOfGrain[k];
+                contacts.wallPoints[(begin + k) / Pack::lanes - contacts.firstWallBlock()].set(
+                    (begin + k) % Pack::lanes, point);
+                if (point.coveredBy >= 0)
+                    handOvers.push_back({begin + k, begin + static_cast<std::size_t>(point.coveredBy),
+                                         point.normal,
+                                         pointsOfGrain[static_cast<std::size_t>(point.coveredBy)].normal});
+                refuseCrossing(wall, bucket.wall, record, grains.identity[grain], point, step);
+            }
+        }
+        for (const HandOver& h : handOvers) handOver(contacts, h.from, h.to, h.oldNormal, h.newNormal);
+    }
+    struct HandOver {
+        std::size_t from, to;  // contacts
+        Vector<double> oldNormal, newNormal;
+    };
+
+    const SpeciesHandler<S>* species = nullptr;
+    const WallHandler* walls = nullptr;
+    PeriodicBox periodic;
+    ContactStore<S> contacts;
+    std::vector<PreparedLaws<S>> laws;  // of each bucket
+    double skin = 0;
+    double unlisted = infinity;  // m, that two bodies can have approached since contacts were listed
+    bool ledger = false;
+    int threads = 1;
+    std::size_t rebuilds = 0;
+    std::vector<std::uint32_t> partsOfGrain;
+    std::vector<WallPoint> pointsOfGrain;
+    std::vector<HandOver> handOvers;
+};
+
+}  // namespace pendular

@@ -1,0 +1,148 @@
+#include "Kernel/Contacts/NeighbourSearch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pendular {
+
+namespace {
+
+struct Extent {
+    std::array<double, 3> lowest, highest;
+};
+
+double along(const Vector<double>& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+template <class Items, class Position>
+Extent extentOf(const Items& items, Position position) {
+    Extent e{{}, {}};
+    for (int axis = 0; axis < 3; ++axis) {
+        e.lowest[axis] = e.highest[axis] = along(position(items[0]), axis);
+        for (const auto& item : items) {
+            e.lowest[axis] = std::min(e.lowest[axis], along(position(item), axis));
+            e.highest[axis] = std::max(e.highest[axis], along(position(item), axis));
+        }
+    }
+    return e;
+}
+
+/// The factor by which to enlarge cells so that there are no more than a few of them for each item.
+double enlargement(const std::array<double, 3>& lengths, double cellSize, std::size_t items) {
+    const double most = 4.0 * static_cast<double>(items) + 64;
+    double factor = 1;
+    const auto cells = [&] {
+        double product = 1;
+        for (const double length : lengths) product *= std::floor(length / (cellSize * factor)) + 1;
+        return product;
+    };
+    while (cells() > most) factor *= 1.25;
+    return factor;
+}
+
+/// Stable counting sort: begins[c] is where the members of cell c start in the order returned.
+std::vector<std::uint32_t> sortByCell(const std::vector<std::uint32_t>& cellOf, std::size_t cells,
+                                      std::vector<std::uint32_t>& begins) {
+    begins.assign(cells + 1, 0);
+    for (const std::uint32_t cell : cellOf) ++begins[cell + 1];
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+    std::vector<std::uint32_t> order(cellOf.size());
+    for (std::size_t k = 0; k < cellOf.size(); ++k) order[next[cellOf[k]]++] = static_cast<std::uint32_t>(k);
+    return order;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grains, double cellSize) {
+    if (grains.empty()) return {};
+    const Extent e = extentOf(grains, [](const TranslationRecord& g) { return g.position; });
+    std::array<double, 3> lengths{};
+    for (int axis = 0; axis < 3; ++axis) lengths[axis] = e.highest[axis] - e.lowest[axis];
+    const double size = cellSize * enlargement(lengths, cellSize, grains.size());
+    std::array<std::uint32_t, 3> tiles{};
+    for (int axis = 0; axis < 3; ++axis)
+        tiles[axis] = static_cast<std::uint32_t>(lengths[axis] / size) / 4 + 1;
+
+    const auto cellOf = [&](const Vector<double>& p) {
+        std::array<std::uint32_t, 3> c{};
+        for (int axis = 0; axis < 3; ++axis)
+            c[axis] = static_cast<std::uint32_t>((along(p, axis) - e.lowest[axis]) / size);
+        const std::uint32_t tile = (c[2] / 4 * tiles[1] + c[1] / 4) * tiles[0] + c[0] / 4;
+        return tile * 64 + (c[2] % 4 * 4 + c[1] % 4) * 4 + c[0] % 4;
+    };
+    std::vector<std::uint32_t> cells(grains.size());
+    for (std::size_t k = 0; k < grains.size(); ++k) cells[k] = cellOf(grains[k].position);
+    std::vector<std::uint32_t> begins;
+    return sortByCell(cells, std::size_t{64} * tiles[0] * tiles[1] * tiles[2], begins);
+}
+
+NeighbourSearch::NeighbourSearch(std::span<const TranslationRecord> grains, double margin,
+                                 const PeriodicBox& box)
+    : periodic(box), self(grains.size()), levelOf(grains.size()) {
+    if (grains.empty()) return;
+    double smallest = grains[0].radius;
+    for (const TranslationRecord& grain : grains) smallest = std::min(smallest, grain.radius);
+    smallest += 0.5 * margin;
+
+    std::vector<std::vector<Point>> members;
+    for (std::uint32_t k = 0; k < grains.size(); ++k) {
+        self[k] = {box.wrap(grains[k].position), grains[k].radius + 0.5 * margin, k};
+        levelOf[k] = static_cast<std::uint8_t>(std::log2(self[k].size / smallest));
+        if (levelOf[k] >= members.size()) members.resize(levelOf[k] + 1u);
+        members[levelOf[k]].push_back(self[k]);
+    }
+    levels.resize(members.size());
+    for (std::size_t l = 0; l < members.size(); ++l)
+        if (!members[l].empty()) levels[l].build(std::move(members[l]), box);
+}
+
+void NeighbourSearch::Level::build(std::vector<Point> members, const PeriodicBox& box) {
+    for (const Point& p : members) largest = std::max(largest, p.size);
+    const Extent e = extentOf(members, [](const Point& p) { return p.position; });
+    std::array<double, 3> lengths{};
+    std::array<double, 3> low{};
+    for (int axis = 0; axis < 3; ++axis) {
+        wraps[axis] = along(box.length, axis) > 0;
+        low[axis] = wraps[axis] ? along(box.lowest, axis) : e.lowest[axis];
+        lengths[axis] = wraps[axis] ? along(box.length, axis) : e.highest[axis] - e.lowest[axis];
+    }
+    lowest = {low[0], low[1], low[2]};
+    const double size = 2 * largest * enlargement(lengths, 2 * largest, members.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        // An axis that wraps is divided evenly, so that its last cell is whole.
+        cells[axis] = wraps[axis] ? std::max(1, static_cast<int>(lengths[axis] / size))
+                                  : static_cast<int>(lengths[axis] / size) + 1;
+        cellSize[axis] = wraps[axis] ? lengths[axis] / cells[axis] : size;
+        inverseSize[axis] = 1 / cellSize[axis];
+    }
+    std::vector<std::uint32_t> cell(members.size());
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const auto [x, y, z] = cellOf(members[k].position);
+        cell[k] = static_cast<std::uint32_t>(index(x, y, z));
+    }
+    const auto order = sortByCell(cell, index(0, 0, cells[2]), begins);
+    points.resize(members.size());
+    for (std::size_t k = 0; k < order.size(); ++k) points[k] = members[order[k]];
+}
+
+int NeighbourSearch::Level::cellAlong(int axis, double x) const {
+    const double cell = std::floor((x - along(lowest, axis)) * inverseSize[axis]);
+    return static_cast<int>(std::clamp(cell, 0.0, cells[axis] - 1.0));
+}
+
+std::array<int, 3> NeighbourSearch::Level::cellOf(const Vector<double>& p) const {
+    return {cellAlong(0, p.x), cellAlong(1, p.y), cellAlong(2, p.z)};
+}
+
+std::array<int, 2> NeighbourSearch::Level::cellRange(int axis, double x, double reach) const {
+    if (!wraps[axis]) return {cellAlong(axis, x - reach), cellAlong(axis, x + reach)};
+    const double origin = along(lowest, axis);
+    const int first = static_cast<int>(std::floor((x - reach - origin) * inverseSize[axis]));
+    const int last = static_cast<int>(std::floor((x + reach - origin) * inverseSize[axis]));
+    // Never a cell twice; with so few cells all of them are looked at.
+    if (last - first + 1 >= cells[axis]) return {0, cells[axis] - 1};
+    return {first, last};
+}
+
+}  // namespace pendular

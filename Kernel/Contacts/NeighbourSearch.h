@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/PeriodicBox.h"
+
+namespace pendular {
+
+/// An order of the grains in which neighbours in space are mostly neighbours in memory: order[k] is the place
+/// of the grain that comes k-th. Cells of the size (m) given, in tiles of 4 x 4 x 4.
+std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grains, double cellSize);
+
+/// Finds all pairs of grains whose surfaces are nearer than a margin, for any distribution of sizes: a
+/// hierarchy of cell grids, one for each factor of two of the size, as of Ogarko and Luding (2012), Comput.
+/// Phys. Commun. 183, 932. A grain looks for its equals in its own grid and for larger grains in theirs, so
+/// that its cost does not depend on the sizes.
+class NeighbourSearch {
+public:
+    /// @param margin m, of the surfaces, at least 0
+    NeighbourSearch(std::span<const TranslationRecord> grains, double margin, const PeriodicBox& box);
+
+    [[nodiscard]] std::size_t grainCount() const { return levelOf.size(); }
+
+    /// Calls function(other) for each grain that forms a pair with this one, and is not less than it in the
+    /// order of (level, place); so each pair is found once. The order of the calls depends on the grains
+    /// only.
+    template <class Function>
+    void forEachPartner(std::uint32_t grain, Function&& function) const {
+        const Point self = pointOf(grain);
+        for (std::size_t l = levelOf[grain]; l < levels.size(); ++l) {
+            const bool own = l == levelOf[grain];
+            levels[l].forEachNear(self, [&](const Point& other) {
+                if (own && other.grain <= grain) return;
+                const double reach = self.size + other.size;
+                if (squaredNorm(periodic.nearest(other.position - self.position)) < reach * reach)
+                    function(other.grain);
+            });
+        }
+    }
+
+private:
+    struct Point {
+        Vector<double> position;
+        double size;  // m, radius + half the margin
+        std::uint32_t grain;
+    };
+
+    struct Level {
+        Vector<double> lowest{0, 0, 0};
+        std::array<double, 3> cellSize{};
+        std::array<double, 3> inverseSize{};
+        std::array<int, 3> cells{1, 1, 1};
+        std::array<bool, 3> wraps{};
+        double largest = 0;  // m, size of the largest member
+        std::vector<std::uint32_t> begins;
+        std::vector<Point> points;  // in the order of cells
+
+        void build(std::vector<Point> members, const PeriodicBox& box);
+        [[nodiscard]] int cellAlong(int axis, double x) const;
+        [[nodiscard]] std::size_t index(int x, int y, int z) const {
+            return (static_cast<std::size_t>(z) * cells[1] + y) * cells[0] + x;
+        }
+        [[nodiscard]] std::array<int, 3> cellOf(const Vector<double>& p) const;
+
+        /// Calls function(point) for the points in all cells that a sphere of this size may reach into, each
+        /// cell once.
+        template <class Function>
+        void forEachNear(const Point& self, Function&& function) const {
+            if (points.empty()) return;
+            const double reach = self.size + largest;
+            const auto [x0, x1] = cellRange(0, self.position.x, reach);
+            const auto [y0, y1] = cellRange(1, self.position.y, reach);
+            const auto [z0, z1] = cellRange(2, self.position.z, reach);
+            for (int z = z0; z <= z1; ++z)
+                for (int y = y0; y <= y1; ++y)
+                    for (int x = x0; x <= x1; ++x) {
+                        const std::size_t cell = index(wrapped(0, x), wrapped(1, y), wrapped(2, z));
+                        for (std::uint32_t k = begins[cell]; k < begins[cell + 1]; ++k) function(points[k]);
+                    }
+        }
+        /// First and last cell along an axis within reach; beyond the ends where the axis wraps.
+        [[nodiscard]] std::array<int, 2> cellRange(int axis, double x, double reach) const;
+        [[nodiscard]] int wrapped(int axis, int cell) const {
+            if (cell < 0) return cell + cells[axis];
+            return cell < cells[axis] ? cell : cell - cells[axis];
+        }
+    };
+
+    [[nodiscard]] Point pointOf(std::uint32_t grain) const { return self[grain]; }
+
+    PeriodicBox periodic;
+    std::vector<Point> self;            // of each grain
+    std::vector<std::uint8_t> levelOf;  // of each grain
+    std::vector<Level> levels;          // from small to large
+};
+
+}  // namespace pendular

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "Kernel/Contacts/ContactStore.h"
+
+namespace pendular {
+
+/// What all contacts of a grain give it.
+template <bool hasTorque>
+struct ForceAndTorque {
+    Vector<double> force{0, 0, 0};   // N
+    Vector<double> torque{0, 0, 0};  // N m
+};
+template <>
+struct ForceAndTorque<false> {
+    Vector<double> force{0, 0, 0};  // N
+};
+
+/// The sum over the contacts of the grain at a place, always in the order of the list: no scatter, no
+/// atomics, and the same bits for any number of threads. A record with torque is one Pack, weighted by the
+/// side's sign for the force and by the grain's lever arm for the torque. Contacts without force are not
+/// read.
+/// @param radius of the grain, m
+template <class S>
+ForceAndTorque<S::hasTorque> sumContacts(const ContactStore<S>& store, std::size_t grain, double radius) {
+    const std::uint32_t end = store.sidesBegin[grain + 1];
+    if constexpr (S::hasTorque) {
+        const Mask torquePart = maskFromBits(0b01110000);
+        Pack sum = 0;
+        for (std::uint32_t k = store.sidesBegin[grain]; k < end; ++k) {
+            const std::uint32_t side = store.sides[k];
+            if (!store.acts(side / 2)) continue;
+            const ForceTorqueRecord& record = store.records[side / 2];
+            const Pack sign = (side & 1) == 0 ? 1.0 : -1.0;
+            sum += Pack::load(&record.force.x) * select(torquePart, Pack(radius - record.halfOverlap), sign);
+        }
+        const auto lanes = sum.toLanes();
+        return {{lanes[0], lanes[1], lanes[2]}, {lanes[4], lanes[5], lanes[6]}};
+    } else {
+        ForceAndTorque<false> sum;
+        for (std::uint32_t k = store.sidesBegin[grain]; k < end; ++k) {
+            const std::uint32_t side = store.sides[k];
+            if (!store.acts(side / 2)) continue;
+            sum.force += ((side & 1) == 0 ? 1.0 : -1.0) * store.records[side / 2].force;
+        }
+        return sum;
+    }
+}
+
+}  // namespace pendular

@@ -1,0 +1,48 @@
+#pragma once
+
+/// A vector in space for both number types (double and Pack).
+
+#include "Kernel/Math/Pack.h"
+
+namespace pendular {
+
+template <class T>
+struct Vector {
+    T x, y, z;
+
+    [[gnu::always_inline]] friend Vector operator+(const Vector& a, const Vector& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    [[gnu::always_inline]] friend Vector operator-(const Vector& a, const Vector& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    [[gnu::always_inline]] friend Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
+    [[gnu::always_inline]] friend Vector operator*(const Vector& a, const T& factor) {
+        return {a.x * factor, a.y * factor, a.z * factor};
+    }
+    [[gnu::always_inline]] friend Vector operator*(const T& factor, const Vector& a) { return a * factor; }
+    [[gnu::always_inline]] Vector& operator+=(const Vector& other) { return *this = *this + other; }
+    [[gnu::always_inline]] Vector& operator-=(const Vector& other) { return *this = *this - other; }
+    [[gnu::always_inline]] Vector& operator*=(const T& factor) { return *this = *this * factor; }
+
+    [[gnu::always_inline]] friend T dot(const Vector& a, const Vector& b) {
+        return a.x * b.x + a.y * b.y + a.z * b.z;
+    }
+    [[gnu::always_inline]] friend Vector cross(const Vector& a, const Vector& b) {
+        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+    /// Of finite vectors well inside the range of a double: no protection from overflow.
+    [[gnu::always_inline]] friend T squaredNorm(const Vector& a) { return dot(a, a); }
+    [[gnu::always_inline]] friend T norm(const Vector& a) { return sqrt(squaredNorm(a)); }
+
+    /// Lane by lane: yes where the mask is set, else no.
+    [[gnu::always_inline]] friend Vector select(MaskOf<T> mask, const Vector& yes, const Vector& no) {
+        return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+    }
+    [[gnu::always_inline]] friend bool operator==(const Vector& a,
+                                                  const Vector& b) requires std::same_as<T, double> {
+        return a.x == b.x && a.y == b.y && a.z == b.z;
+    }
+};
+
+}  // namespace pendular

@@ -1,0 +1,32 @@
+#pragma once
+
+/// MercuryDPM's names for what a driver's species block uses, so that such a block compiles after a change of
+/// its include.
+
+#include <numbers>
+
+#include "Kernel/Species/Laws.h"
+#include "Kernel/Species/TimeStepAdvice.h"
+
+using Mdouble = double;
+
+namespace constants {
+inline constexpr double pi = std::numbers::pi;
+}
+
+namespace helpers {
+
+/// @param radius m; @param shearModulus Pa; @param density kg/m^3. Returns s.
+inline double getRayleighTime(double radius, double shearModulus, double poissonRatio, double density) {
+    return pendular::rayleighTime(radius, shearModulus, poissonRatio, density);
+}
+/// @param mass1 kg; @param mass2 kg. Returns m1 m2 / (m1 + m2), kg.
+inline double getEffectiveMass(double mass1, double mass2) { return mass1 * mass2 / (mass1 + mass2); }
+/// @param elasticModulus Pa. Returns the effective modulus of two bodies of this material, Pa.
+inline double computeEffectiveElasticModulus(double elasticModulus, double poissonRatio) {
+    return pendular::computeEffectiveElasticModulus(elasticModulus, poissonRatio);
+}
+
+}  // namespace helpers
+
+using namespace pendular;  // NOLINT(google-global-names-in-headers): MercuryDPM's names are global

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "Kernel/Math/Vector.h"
+
+namespace pendular {
+
+/// What every contact reads of a grain: one cache line.
+struct alignas(64) TranslationRecord {
+    Vector<double> position;  // m
+    double radius;            // m
+    Vector<double> velocity;  // m/s
+    double inverseMass;       // 1/kg; 0: the grain is held in place
+};
+static_assert(sizeof(TranslationRecord) == 64);
+
+/// What contacts with friction read of a grain besides, and its angular motion: one cache line.
+struct alignas(64) RotationRecord {
+    Vector<double> spin;                 // rad/s
+    double inverseInertia;               // 1/(kg m^2), of a solid sphere
+    Vector<double> angularAcceleration;  // rad/s^2, of the last step
+    double unused = 0;
+};
+static_assert(sizeof(RotationRecord) == 64);
+
+/// The grains of a scene, as columns. Their order is that of space, and changes when neighbours are searched
+/// anew; the identity (the number in the order of adding) stays. Without spin there is no rotation column.
+template <bool hasSpin>
+class ParticleStore {
+public:
+    std::vector<TranslationRecord> translation;
+    std::vector<RotationRecord> rotation;      // empty without spin
+    std::vector<Vector<double>> acceleration;  // m/s^2, of the last step
+    std::vector<std::uint16_t> species;
+    std::vector<std::uint32_t> identity;  // of the grain at a place
+    std::vector<std::uint32_t> place;     // of the grain with an identity
+
+    [[nodiscard]] std::size_t size() const { return translation.size(); }
+
+    /// Adds a grain; returns its identity.
+    std::uint32_t add(const TranslationRecord& grain, const Vector<double>& spin,
+                      std::uint16_t speciesIndex) {
+        const auto number = static_cast<std::uint32_t>(size());
+        translation.push_back(grain);
+        acceleration.push_back({0, 0, 0});
+        species.push_back(speciesIndex);
+        identity.push_back(number);
+        place.push_back(number);
+        if constexpr (hasSpin)
+            rotation.push_back({spin, 2.5 * grain.inverseMass / (grain.radius * grain.radius), {0, 0, 0}});
+        return number;
+    }
+
+    /// Puts the grain at order[k] to place k, for all k.
+    void reorder(const std::vector<std::uint32_t>& order) {
+        permute(translation, order);
+        permute(acceleration, order);
+        permute(species, order);
+        permute(identity, order);
+        if constexpr (hasSpin) permute(rotation, order);
+        for (std::size_t k = 0; k < identity.size(); ++k) place[identity[k]] = static_cast<std::uint32_t>(k);
+    }
+
+private:
+    template <class Value>
+    static void permute(std::vector<Value>& column, const std::vector<std::uint32_t>& order) {
+        std::vector<Value> sorted(column.size());
+        for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = column[order[k]];
+        column.swap(sorted);
+    }
+};
+
+}  // namespace pendular

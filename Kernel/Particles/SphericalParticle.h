@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <numbers>
+
+#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Species/Field.h"
+
+namespace pendular {
+
+using Vec3D = Eigen::Vector3d;
+
+/// kg, of a solid sphere; @param radius m; @param density kg/m^3
+inline double sphereMass(double radius, double density) {
+    return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
+}
+
+/// A grain as a driver describes it, before it is added to a scene.
+class SphericalParticle {
+public:
+    /// @param radius m
+    void setRadius(double radius) {
+        checkValue("SphericalParticle", "radius", radius, "m", positive);
+        radiusValue = radius;
+    }
+    void setPosition(const Vec3D& position) { positionValue = finite("position", position, "m"); }
+    void setVelocity(const Vec3D& velocity) { velocityValue = finite("velocity", velocity, "m/s"); }
+    void setAngularVelocity(const Vec3D& spin) { spinValue = finite("angular velocity", spin, "rad/s"); }
+    template <class S>
+    void setSpecies(const S* species) {
+        speciesIndex = species->getIndex();
+    }
+    /// Holds the grain where it is: an infinite mass.
+    void fixParticle() { fixed = true; }
+
+    [[nodiscard]] double getRadius() const { return radiusValue; }
+    [[nodiscard]] const Vec3D& getPosition() const { return positionValue; }
+    [[nodiscard]] const Vec3D& getVelocity() const { return velocityValue; }
+    [[nodiscard]] const Vec3D& getAngularVelocity() const { return spinValue; }
+    [[nodiscard]] int getSpeciesIndex() const { return speciesIndex; }
+    [[nodiscard]] bool isFixed() const { return fixed; }
+
+private:
+    static Vec3D finite(const char* field, const Vec3D& value, const char* unit) {
+        for (int axis = 0; axis < 3; ++axis)
+            checkValue("SphericalParticle", field, value[axis], unit, {-infinity, infinity, false, false});
+        return value;
+    }
+
+    double radiusValue = unset;
+    Vec3D positionValue = Vec3D::Zero();
+    Vec3D velocityValue = Vec3D::Zero();
+    Vec3D spinValue = Vec3D::Zero();
+    int speciesIndex = -1;
+    bool fixed = false;
+};
+
+}  // namespace pendular

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <vector>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/InputError.h"
+#include "Kernel/Species/TimeStepAdvice.h"
+
+namespace pendular {
+
+/// The smallest and the largest grain of one species, m.
+struct SizeRange {
+    double smallest = infinity;
+    double largest = 0;
+
+    [[nodiscard]] bool empty() const { return largest == 0; }
+};
+
+/// The sizes of the grains of each species; of those that are free to move only, or of all.
+template <bool hasSpin>
+std::vector<SizeRange> sizeRanges(const ParticleStore<hasSpin>& grains, std::size_t speciesCount,
+                                  bool freeOnly) {
+    std::vector<SizeRange> ranges(speciesCount);
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        if (freeOnly && grains.translation[k].inverseMass == 0) continue;
+        SizeRange& range = ranges[grains.species[k]];
+        range.smallest = std::min(range.smallest, grains.translation[k].radius);
+        range.largest = std::max(range.largest, grains.translation[k].radius);
+    }
+    return ranges;
+}
+
+template <bool hasSpin>
+double sceneSmallestRadius(const ParticleStore<hasSpin>& grains) {
+    double smallest = infinity;
+    for (const TranslationRecord& grain : grains.translation) smallest = std::min(smallest, grain.radius);
+    return smallest;
+}
+
+/// Calls function(laws, bodies, effective mass) for the extreme pairs of bodies of a scene: the smallest and
+/// the largest grains of each two species, and of each species with each wall. (A grain that is held in place
+/// counts as free.)
+template <class S, class Function>
+void forEachExtremePair(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
+                        const WallHandler& walls, Function&& function) {
+    const std::vector<SizeRange> free = sizeRanges(grains, species.getSize(), true);
+    const std::vector<SizeRange> sizes = sizeRanges(grains, species.getSize(), false);
+    const auto mass = [&](std::size_t s, double radius) {
+        return sphereMass(radius, species.getObject(s)->getDensity());
+    };
+    const auto forBodies = [&](std::size_t a, std::size_t b, double r1, double r2) {
+        function(species.mixture(static_cast<int>(a), static_cast<int>(b)), Bodies{r1, r2},
+                 1 / (1 / mass(a, r1) + 1 / mass(b, r2)));
+    };
+    for (std::size_t a = 0; a < free.size(); ++a) {
+        if (free[a].empty()) continue;
+        for (const double r1 : {free[a].smallest, free[a].largest}) {
+            for (std::size_t b = 0; b < sizes.size(); ++b)
+                if (!sizes[b].empty())
+                    for (const double r2 : {sizes[b].smallest, sizes[b].largest}) forBodies(a, b, r1, r2);
+            for (std::size_t w = 0; w < walls.getSize(); ++w)
+                forBodies(a, static_cast<std::size_t>(walls.getObject(w).species), r1, infinity);
+        }
+    }
+}
+
+/// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains.
+template <class S>
+double sceneStabilityLimit(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
+                           const WallHandler& walls) {
+    double limit = infinity;
+    forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double mass) {
+        limit = std::min(limit, stabilityLimit(laws, bodies, mass));
+    });
+    return limit;
+}
+
+/// Throws InputError if a law cannot serve bodies of the scene, or if the time step (s) is above the
+/// stability limit.
+template <class S>
+void checkScene(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
+                const WallHandler& walls, double timeStep) {
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        static_cast<void>(
+            species.getObject(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
+    forEachExtremePair(species, grains, walls, [](const auto& laws, const Bodies& bodies, double) {
+        if (const auto objection = laws.objection(bodies)) throw InputError(*objection);
+    });
+    const double limit = sceneStabilityLimit(species, grains, walls);
+    if (timeStep > limit)
+        throw InputError(fmt::format(
+            "Simulation: time step = {:.6g} s is above the stability limit of the stiffest contact; it "
+            "must be at most {:.6g} s (advice: {:.2g} s), unless acceptUnstableTimeStep() is called.",
+            timeStep, limit, 0.2 * limit));
+}
+
+/// Throws InputError if two bodies overlap by more than a sound share of the smaller radius (m).
+inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) {
+    const double share = -contact.separation / smallerRadius;
+    if (!(share > largestSoundOverlap)) return;
+    const std::string other = contact.wall < 0 ? fmt::format("particle {}", contact.particle2)
+                                               : fmt::format("wall {}", contact.wall);
+    throw InputError(fmt::format(
+        "particle {} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
+        "most {:g} %.",
+        contact.particle1, other, -contact.separation, 100 * share, 100 * largestSoundOverlap));
+}
+
+/// The error that ends a run in which a grain has moved farther in a step than the smallest radius (m).
+template <bool hasSpin>
+std::runtime_error runawayError(const ParticleStore<hasSpin>& grains, double smallestRadius, double time,
+                                double step) {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        const double speed = norm(grains.translation[k].velocity);
+        if (speed * step <= smallestRadius) continue;
+        return std::runtime_error(
+            fmt::format("At time {:.6g} s particle {} moves at {:.4g} m/s, farther in a step of {:.4g} s "
+                        "than the smallest radius, {:.4g} m: "
+                        "take a smaller time step, stiffer grains, or lower speeds.",
+                        time, grains.identity[k], speed, step, smallestRadius));
+    }
+    return std::runtime_error(
+        fmt::format("At time {:.6g} s a particle moved farther in a step than the smallest radius, {:.4g} m.",
+                    time, smallestRadius));
+}
+
+}  // namespace pendular

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Output/Progress.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Simulation/EnergyLedger.h"
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Walls/WallHandler.h"
+
+namespace pendular {
+
+/// What a driver derives from: a scene of grains of species S, and its run.
+/// A driver adds species, grains and walls in setupInitialConditions() or before solve(), and overrides
+/// hooks.
+template <class S>
+class Simulation {
+public:
+    Simulation() { reportUncaughtExceptions(); }
+    virtual ~Simulation() = default;
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
+
+    virtual void setupInitialConditions() {}
+    virtual void actionsBeforeTimeStep() {}
+    virtual void actionsAfterTimeStep() {}
+    /// Called at the start, after every saveCount steps and at the end.
+    virtual void writeOutput() {}
+    /// The run ends when this returns false.
+    [[nodiscard]] virtual bool continueSolve() const { return true; }
+
+    SpeciesHandler<S> speciesHandler;
+    ParticleHandler<S> particleHandler{speciesHandler};
+    WallHandler wallHandler;
+
+    /// @param step s
+    void setTimeStep(double step) {
+        checkValue("Simulation", "time step", step, "s", positive);
+        timeStep = step;
+    }
+    /// @param end s
+    void setTimeMax(double end) {
+        checkValue("Simulation", "maximum time", end, "s", notNegative);
+        timeMax = end;
+    }
+    /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
+    void setSaveCount(std::size_t steps) { saveCount = steps; }
+    /// @param acceleration m/s^2
+    void setGravity(const Vec3D& acceleration) { gravity = toVector(acceleration); }
+    /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m).
+    void setPeriodic(int axis, double lowest, double highest) {
+        checkValue("Simulation", "periodic axis", axis, "", fromZeroTo(2));
+        checkValue("Simulation", "periodic length", highest - lowest, "m", positive);
+        double Vector<double>::*const along[] = {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+        periodic.lowest.*along[axis] = lowest;
+        periodic.length.*along[axis] = highest - lowest;
+    }
+    /// OpenMP threads, at least 1; the results do not depend on their number.
+    void setNumberOfThreads(int count) {
+        checkValue("Simulation", "number of threads", count, "", {1, 4096});
+        threads = count;
+        contactSystem.setThreads(count);
+    }
+    /// Runs also with a step above the stability limit. The results of such a run mean nothing.
+    void acceptUnstableTimeStep(bool accept = true) { unstableAccepted = accept; }
+    /// Keeps account of the energy; costs time, and is off by default.
+    void keepEnergyLedger(bool keep = true) { ledgerKept = keep; }
+
+    [[nodiscard]] double getTime() const { return static_cast<double>(steps) * timeStep; }
+    [[nodiscard]] double getTimeStep() const { return timeStep; }
+    [[nodiscard]] double getTimeMax() const { return timeMax; }
+    [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
+    [[nodiscard]] Vec3D getGravity() const { return toEigen(gravity); }
+    [[nodiscard]] const ContactSystem<S>& contacts() const { return contactSystem; }
+    [[nodiscard]] const EnergyLedger& energyLedger() const { return ledger; }
+
+    /// The time step (s) above which the stiffest possible contact of this scene is no longer stable.
+    [[nodiscard]] double stabilityLimit() {
+        speciesHandler.mixAll();
+        return sceneStabilityLimit<S>(speciesHandler, particleHandler.store(), wallHandler);
+    }
+
+    /// Sets up, and steps until the maximum time.
+    void solve() {
+        initialise();
+        writeOutput();
+        Progress progress(timeMax);
+        const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
+        while (steps < last && continueSolve()) {
+            step();
+            if (saveCount > 0 && steps % saveCount == 0) writeOutput();
+            progress.update(getTime(), steps);
+        }
+        if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeOutput();
+    }
+
+    /// Checks the scene and computes the forces at its start. solve() calls it; a driver that steps by itself
+    /// does.
+    void initialise() {
+        setupInitialConditions();
+        checkValue("Simulation", "time step", timeStep, "s", positive);
+        speciesHandler.mixAll();
+        checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
+        smallestRadius = sceneSmallestRadius(particleHandler.store());
+        contactSystem.prepare(speciesHandler, wallHandler, periodic, skinShare * smallestRadius, ledgerKept);
+        checkOverlaps();
+        advance(0);  // a step of no length: forces and accelerations at the start
+    }
+
+    void step() {
+        actionsBeforeTimeStep();
+        advance(timeStep);
+        ++steps;
+        actionsAfterTimeStep();
+    }
+
+private:
+    using Motion = VelocityVerlet<S::hasTorque>;
+
+    void advance(double length) {
+        auto& grains = particleHandler.store();
+        const double grainShift = std::sqrt(Motion::begin(grains, length, threads));
+        refuseRunaway(grainShift);
+        const double wallShift = wallHandler.moveTo(getTime() + length);
+        contactSystem.refresh(grains, grainShift, wallShift);
+        contactSystem.computeForces(grains, length);
+        Motion::finish(grains, contactSystem.store(), gravity, length, threads);
+        if (ledgerKept) account(length);
+    }
+
+    void account(double length) {
+        ledger.add(contactSystem.energies(), length);
+        ledger.measureGrains(particleHandler.store(), gravity);
+    }
+
+    void checkOverlaps() {
+        auto& grains = particleHandler.store();
+        contactSystem.refresh(grains, 0, 0);
+        contactSystem.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+            refuseOverlap(contactSystem.observe(grains, bucket, contact), smallerRadius(bucket, contact));
+        });
+    }
+    double smallerRadius(const Bucket& bucket, std::uint32_t contact) const {
+        const ContactBlock& block = contactSystem.store().blocks[contact / Pack::lanes];
+        const auto& grains = particleHandler.store().translation;
+        const double radius1 = grains[block.first[contact % Pack::lanes]].radius;
+        return bucket.wall >= 0 ? radius1
+                                : std::min(radius1, grains[block.second[contact % Pack::lanes]].radius);
+    }
+
+    /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
+    void refuseRunaway(double shift) const {
+        if (!(shift <= smallestRadius))
+            throw runawayError(particleHandler.store(), smallestRadius, getTime(), timeStep);
+    }
+
+    /// Width of the list's skin against the smallest radius.
+    static constexpr double skinShare = 0.15;
+
+    ContactSystem<S> contactSystem;
+    EnergyLedger ledger;
+    PeriodicBox periodic;
+    Vector<double> gravity{0, 0, 0};
+    double timeStep = unset;
+    double timeMax = 0;
+    double smallestRadius = infinity;
+    std::size_t saveCount = 0;
+    std::size_t steps = 0;
+    int threads = 1;
+    bool unstableAccepted = false;
+    bool ledgerKept = false;
+};
+
+}  // namespace pendular

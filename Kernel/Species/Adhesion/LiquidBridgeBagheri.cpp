@@ -1,0 +1,36 @@
+#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pendular {
+
+namespace {
+
+/// The smallest value of 1 + b x + c x^2 for 0 <= x <= 1.
+double smallestDenominator(double b, double c) {
+    double smallest = std::min(1.0, 1 + b + c);
+    if (const double x = -0.5 * b / c; c > 0 && x > 0 && x < 1)
+        smallest = std::min(smallest, 1 + x * (b + c * x));
+    return smallest;
+}
+
+}  // namespace
+
+std::optional<std::string> LiquidBridgeBagheri::objection(const Bodies& bodies) const {
+    if (rawFit > 0 || liquidBridgeVolume == 0) return std::nullopt;
+    const Interaction<double> bridge = prepare(bodies);
+    const bool repulsive = !(bridge.contactForce > 0) || !(1 + bridge.numerator > 0);
+    const bool pole = !(smallestDenominator(bridge.linear, bridge.quadratic) > 0);
+    if (!repulsive && !pole) return std::nullopt;
+    return fmt::format(
+        "{}: the fit {} for contactAngle = {:.6g} rad and V* = liquidBridgeVolume/R^3 = {:.6g} "
+        "(liquidBridgeVolume = {:.6g} "
+        "m^3, R = {:.6g} m); take a smaller angle or volume, another bridge law, or setRawFit(true) to use "
+        "it as it is.",
+        name, pole ? "has a pole before the rupture" : "is not attractive", contactAngle,
+        scales(bodies).volume, liquidBridgeVolume, 2 * bodies.effectiveRadius());
+}
+
+}  // namespace pendular

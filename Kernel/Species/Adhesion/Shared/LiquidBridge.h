@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "Kernel/Species/Law.h"
+
+namespace pendular {
+
+/// The lengths and numbers of one bridge, as in Bagheri, Roy and Poeschel, "Discrete Element Simulations of
+/// particles interacting via capillary forces using MercuryDPM", Appendix A.
+struct BridgeScales {
+    double radius;           // R, m; 2/R = 1/r1 + 1/r2, so R = 2 r at a wall (equation A.1)
+    double volume;           // V* = V / R^3
+    double ruptureDistance;  // S_c R, m; S_c = (1 + theta/2) (V*^(1/3) + V*^(2/3)/10)
+    double forceScale;       // 2 pi R gamma, N
+};
+
+/// Parameters that every bridge of constant volume has, and the rupture distance that the fits share.
+/// A bridge forms when the grains touch, acts with its value at S = 0 while they overlap, and until S exceeds
+/// the rupture distance. Model is the law derived from this.
+template <class Model>
+struct LiquidBridge {
+    static constexpr bool acts = true;
+    static constexpr bool formsAtContact = true;
+
+    double liquidBridgeVolume = unset;  // V, m^3
+    double contactAngle = unset;        // theta, rad
+    double surfaceTension = unset;      // gamma, N/m
+
+    static constexpr auto fields() {
+        return std::to_array<Field<LiquidBridge>>(
+            {{"liquidBridgeVolume", &LiquidBridge::liquidBridgeVolume, "m^3", notNegative, Mixing::Arithmetic,
+              "volume V of a bridge: half from each body; 0 is dry", "Bagheri et al., Appendix A"},
+             {"contactAngle", &LiquidBridge::contactAngle, "rad", fromZeroTo(std::numbers::pi),
+              Mixing::MeanCosine, "contact angle theta", "Bagheri et al., Appendix A"},
+             {"surfaceTension", &LiquidBridge::surfaceTension, "N/m", positive, Mixing::Arithmetic,
+              "surface tension gamma of the liquid", "Bagheri et al., Appendix A"}});
+    }
+
+    void setLiquidBridgeVolume(double value) { set(&LiquidBridge::liquidBridgeVolume, value); }
+    void setContactAngle(double value) { set(&LiquidBridge::contactAngle, value); }
+    void setSurfaceTension(double value) { set(&LiquidBridge::surfaceTension, value); }
+    [[nodiscard]] double getLiquidBridgeVolume() const { return liquidBridgeVolume; }
+    [[nodiscard]] double getContactAngle() const { return contactAngle; }
+    [[nodiscard]] double getSurfaceTension() const { return surfaceTension; }
+
+    [[nodiscard]] BridgeScales scales(const Bodies& bodies) const {
+        const double radius = 2 * bodies.effectiveRadius();
+        const double cubeRoot = std::cbrt(liquidBridgeVolume) / radius;
+        return {.radius = radius,
+                .volume = liquidBridgeVolume / (radius * radius * radius),
+                .ruptureDistance = (1 + 0.5 * contactAngle) * (cubeRoot + 0.1 * cubeRoot * cubeRoot) * radius,
+                .forceScale = 2 * std::numbers::pi * radius * surfaceTension};
+    }
+    /// The rupture distance (m).
+    [[nodiscard]] double range(const Bodies& bodies) const { return scales(bodies).ruptureDistance; }
+
+private:
+    void set(double LiquidBridge::*member, double value) {
+        setField(static_cast<Model&>(*this), member, value);
+    }
+};
+
+}  // namespace pendular

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "Kernel/Species/Law.h"
+
+namespace pendular {
+
+/// What a friction law with one tangential spring remembers of a contact.
+template <class T>
+struct TangentialSpring {
+    Vector<T> displacement;  // m, of body 1 against body 2, tangential, half a step ahead of the force
+
+    /// Turns the spring with the contact, its length unchanged to fourth order in the angles. With a = s.n,
+    /// the turn of n by normalShift takes s to s - a (n - normalShift/2), which is tangential again; the
+    /// twist follows. (Projection and rescaling, as is common, costs a square root and a division more.)
+    void turn(const FrameRotation<T>& r) {
+        const Vector<T> tilted =
+            displacement - dot(displacement, r.normal) * (r.normal - T(0.5) * r.normalShift);
+        displacement = tilted + r.twist * cross(r.normal, tilted) - (T(0.5) * r.twist * r.twist) * tilted;
+    }
+    /// The same spring seen with the two bodies exchanged. (From zero, so that no zero becomes a negative
+    /// one.)
+    void exchangeBodies() { displacement = Vector<T>{T(0), T(0), T(0)} - displacement; }
+};
+
+}  // namespace pendular

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <concepts>
+#include <string_view>
+#include <type_traits>
+
+#include "Kernel/Math/Pack.h"
+#include "Kernel/Math/Vector.h"
+#include "Kernel/Species/Bodies.h"
+#include "Kernel/Species/Field.h"
+
+// clang-format off
+/// What a contact law is. A species is composed of three: a normal, a friction and an adhesion law. Each has a
+/// table of fields and three moments:
+/// - prepare(), once when species are mixed (normal, friction) or when a contact is listed (adhesion): every
+///   costly function belongs here;
+/// - force(), in each step, on T = double in tests and tools and on T = Pack in the kernel: + - * / sqrt select,
+///   and exponential2 and logarithm2 where a law cannot do without;
+/// - range(), the largest separation of the surfaces at which the law can act (m): the neighbour search and the
+///   rupture of a bridge use this same number.
+// clang-format on
+
+namespace pendular {
+
+/// One touching contact as the normal and the friction law see it.
+template <class T>
+struct Contact {
+    T overlap;          // m, greater than 0
+    T effectiveRadius;  // m, r1 r2 / (r1 + r2)
+    T effectiveMass;    // kg, m1 m2 / (m1 + m2)
+    T contactRadius;    // m, sqrt(effective radius x overlap): Hertz
+};
+
+/// The normal force of a contact is elastic - damping x (speed of separation).
+template <class T>
+struct NormalForce {
+    T elastic;  // N, positive where it pushes the bodies apart
+    T damping;  // kg/s
+};
+
+/// The tangential motion of a contact at the moment at which the force F is wanted: its velocity then is
+/// velocity + response x F, so that a law can be implicit in its own force.
+template <class T>
+struct Slip {
+    Vector<T> velocity;  // m/s, of body 1 against body 2 at the contact point, without its normal part and
+                         // without F
+    T timeBefore;        // s, for which a spring has moved with the velocity since it was stored
+    T timeAfter;         // s, for which it will move with it until it is stored again
+    T response = T(0);   // m/s per N on body 1
+};
+
+/// The small rotation of a contact in a step. A history with a direction has a function turn(FrameRotation)
+/// that follows it, and one exchangeBodies() that sees it from the other body.
+template <class T>
+struct FrameRotation {
+    Vector<T> normal;       // n, now; from body 1 to body 2
+    Vector<T> normalShift;  // m/m, n now - n at the last step
+    T twist;                // rad, about n: mean of the two bodies
+};
+
+template <class Law>
+concept HasFieldTable = requires {
+    { Law::name } -> std::convertible_to<std::string_view>;
+    { Law::summary } -> std::convertible_to<std::string_view>;
+    { Law::domain } -> std::convertible_to<std::string_view>;
+    Law::fields();
+};
+
+template <class Law>
+concept HasRange = requires(const Law law, const Bodies bodies) {
+    { law.range(bodies) } -> std::convertible_to<double>;
+};
+
+template <class Law, class T>
+concept HasNormalForce = requires(const typename Law::Prepared p, const Contact<T>& contact) {
+    { Law::force(p, contact) } -> std::same_as<NormalForce<T>>;
+};
+
+template <class Law>
+concept NormalLaw = HasFieldTable<Law> && HasRange<Law> && HasNormalForce<Law, double> &&
+    HasNormalForce<Law, Pack> &&
+    requires(const Law law, const typename Law::Prepared p, const Contact<double>& contact) {
+    { law.prepare() } -> std::same_as<typename Law::Prepared>;
+    { Law::elasticEnergy(p, contact) } -> std::same_as<double>;  // J, stored in the overlap
+    { Law::stiffness(p, contact) } -> std::same_as<double>;      // N/m, slope of the elastic force
+    {
+        Law::elasticExponent
+        } -> std::convertible_to<double>;  // powers of the overlap with which the two parts
+    {
+        Law::dampingExponent
+        } -> std::convertible_to<double>;  // grow from the begin of a touch: see SampleTiming
+};
+
+template <class Law, class T>
+concept HasFrictionForce = requires(const typename Law::Prepared p, const Contact<T>& contact, T normalForce,
+                                    const Slip<T>& slip, typename Law::template History<T> history) {
+    { Law::force(p, contact, normalForce, slip, history) } -> std::same_as<Vector<T>>;
+};
+
+/// Stands for any normal law where a concept asks for a function of one.
+struct AnyNormalLaw {};
+
+/// `acts` is false for the law that does nothing: its species have no tangential force, no torque and no
+/// spin.
+template <class Law>
+concept FrictionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<decltype(Law::acts), const bool> &&
+    requires(const Law law) {
+    { law.prepare(AnyNormalLaw{}) } -> std::same_as<typename Law::Prepared>;
+} &&(!Law::acts || (HasFrictionForce<Law, double> && HasFrictionForce<Law, Pack> &&
+                    requires(const typename Law::Prepared p, const Contact<double>& contact) {
+                        {
+                            Law::stiffness(p, contact)
+                            } -> std::same_as<double>;  // N/m, of the tangential spring
+                    }));
+
+template <class Law, class T>
+concept HasAdhesionForce = requires(const typename Law::template Interaction<T> interaction, T separation) {
+    {
+        interaction.force(separation)
+        } -> std::same_as<T>;                    // N, attraction positive; separation in m, 0 in contact
+    { interaction.range() } -> std::same_as<T>;  // m
+};
+
+/// `acts` is false for the law that does nothing. `formsAtContact` says that the force exists only from the
+/// first touch until the separation exceeds the range (a liquid bridge), not whenever bodies are within the
+/// range.
+template <class Law>
+concept AdhesionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<decltype(Law::acts), const bool> &&
+    (!Law::acts || (HasAdhesionForce<Law, double> && HasAdhesionForce<Law, Pack> &&
+                    std::same_as<decltype(Law::formsAtContact), const bool> &&
+                    requires(const Law law, const Bodies bodies) {
+                        { law.prepare(bodies) } -> std::same_as<typename Law::template Interaction<double>>;
+                    }));
+
+}  // namespace pendular

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Species/Law.h"
+
+namespace pendular {
+
+/// Linear spring and dashpot: F = k d + g d'. Source: Cundall and Strack (1979), Geotechnique 29, 47.
+struct LinearViscoelastic {
+    static constexpr std::string_view name = "LinearViscoelastic";
+    static constexpr std::string_view summary = "linear spring and dashpot, F = k d + g d'";
+    static constexpr std::string_view domain =
+        "any overlap; contact time and restitution do not depend on the speed";
+
+    double stiffnessConstant = unset;  // k, N/m
+    double dissipation = 0;            // g, kg/s
+
+    static constexpr auto fields() {
+        using Law = LinearViscoelastic;
+        return std::to_array<Field<Law>>(
+            {{"stiffness", &Law::stiffnessConstant, "N/m", positive, Mixing::Harmonic, "spring constant k",
+              "Cundall and Strack (1979)"},
+             {"dissipation", &Law::dissipation, "kg/s", notNegative, Mixing::Arithmetic, "dashpot constant g",
+              "Cundall and Strack (1979)"}});
+    }
+
+    void setStiffness(double value) { setField(*this, &LinearViscoelastic::stiffnessConstant, value); }
+    void setDissipation(double value) { setField(*this, &LinearViscoelastic::dissipation, value); }
+    [[nodiscard]] double getStiffness() const { return stiffnessConstant; }
+    [[nodiscard]] double getDissipation() const { return dissipation; }
+
+    /// Sets k and g so that two grains of the given mass (kg) each collide for collisionTime (s) and part
+    /// with the restitution coefficient (0 to 1, 0 excluded): the damped oscillator of the reduced mass.
+    void setCollisionTimeAndRestitutionCoefficient(double collisionTime, double restitution, double mass) {
+        checkValue(name, "collision time", collisionTime, "s", positive);
+        checkValue(name, "restitution coefficient", restitution, "", positiveUpTo(1));
+        checkValue(name, "mass", mass, "kg", positive);
+        const double reducedMass = 0.5 * mass;
+        const double rate = -std::log(restitution) / collisionTime;
+        const double frequency = std::numbers::pi / collisionTime;
+        setStiffness(reducedMass * (frequency * frequency + rate * rate));
+        setDissipation(2 * reducedMass * rate);
+    }
+
+    /// Sets k (N/m) and the g that gives the restitution coefficient to two grains of the given mass (kg)
+    /// each.
+    void setStiffnessAndRestitutionCoefficient(double stiffness, double restitution, double mass) {
+        checkValue(name, "restitution coefficient", restitution, "", positiveUpTo(1));
+        checkValue(name, "mass", mass, "kg", positive);
+        setStiffness(stiffness);
+        const double logarithm = std::log(restitution);
+        const double dampingRatio = -logarithm / std::hypot(logarithm, std::numbers::pi);
+        setDissipation(2 * dampingRatio * std::sqrt(0.5 * mass * stiffness));
+    }
+
+    struct Prepared {
+        double stiffness;
+        double dissipation;
+    };
+    [[nodiscard]] Prepared prepare() const { return {stiffnessConstant, dissipation}; }
+
+    template <class T>
+    static NormalForce<T> force(const Prepared& p, const Contact<T>& contact) {
+        return {p.stiffness * contact.overlap, T(p.dissipation)};
+    }
+    static double elasticEnergy(const Prepared& p, const Contact<double>& contact) {
+        return 0.5 * p.stiffness * contact.overlap * contact.overlap;
+    }
+    static double stiffness(const Prepared& p, const Contact<double>&) { return p.stiffness; }
+    /// The elastic force grows with the overlap, the dashpot does not: the powers 1 and 0 of it.
+    static constexpr double elasticExponent = 1;
+    static constexpr double dampingExponent = 0;
+
+    [[nodiscard]] double range(const Bodies&) const { return 0; }
+};
+
+}  // namespace pendular

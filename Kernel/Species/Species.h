@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "Kernel/Species/Adhesion/NoAdhesion.h"
+#include "Kernel/Species/Friction/NoFriction.h"
+#include "Kernel/Species/JoinedName.h"
+#include "Kernel/Species/Law.h"
+
+namespace pendular {
+
+/// The laws of the contacts between two species, with the values of that pair.
+template <NormalLaw N, FrictionLaw F = NoFriction, AdhesionLaw A = NoAdhesion>
+struct MixedSpecies : N, F, A {
+    using Normal = N;
+    using Friction = F;
+    using Adhesion = A;
+
+    /// Calls function(law) for each of the three laws.
+    template <class Function>
+    void forEachLaw(Function&& function) {
+        function(static_cast<N&>(*this));
+        function(static_cast<F&>(*this));
+        function(static_cast<A&>(*this));
+    }
+    template <class Function>
+    void forEachLaw(Function&& function) const {
+        function(static_cast<const N&>(*this));
+        function(static_cast<const F&>(*this));
+        function(static_cast<const A&>(*this));
+    }
+
+    /// Throws InputError if a field of a law is unset or out of its range.
+    void check() const {
+        forEachLaw([](const auto& law) { checkFields(law); });
+    }
+
+    /// The largest separation (m) at which one of the laws can act between the bodies.
+    [[nodiscard]] double range(const Bodies& bodies) const {
+        double largest = 0;
+        forEachLaw([&](const auto& law) { largest = std::max(largest, law.range(bodies)); });
+        return largest;
+    }
+
+    /// Why a law cannot be used between the bodies, if so.
+    [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const {
+        std::optional<std::string> found;
+        forEachLaw([&](const auto& law) {
+            if constexpr (requires { law.objection(bodies); })
+                if (!found) found = law.objection(bodies);
+        });
+        return found;
+    }
+};
+
+inline constexpr std::string_view speciesSuffix = "Species";
+
+/// A material: its density and the laws of the contacts between grains of it. The name is the concatenation
+/// of the names of its laws, as MercuryDPM's users know it:
+/// HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies.
+template <NormalLaw N, FrictionLaw F = NoFriction, AdhesionLaw A = NoAdhesion>
+struct Species : MixedSpecies<N, F, A> {
+    using Mixed = MixedSpecies<N, F, A>;
+
+    static constexpr std::string_view name = JoinedName<N::name, F::name, A::name, speciesSuffix>::value;
+    [[nodiscard]] std::string getName() const { return std::string(name); }
+
+    /// Grains of this species have a spin and their contacts a torque.
+    static constexpr bool hasTorque = F::acts;
+
+    void setDensity(double value) {
+        checkValue(name, "density", value, "kg/m^3", positive);
+        density = value;
+    }
+    [[nodiscard]] double getDensity() const { return density; }
+
+    /// Values that follow from others where the user has not set them.
+    void deriveUnset() {
+        if constexpr (requires(Species s) { s.F::deriveUnset(static_cast<const N&>(s)); })
+            F::deriveUnset(static_cast<const N&>(*this));
+    }
+    /// Throws InputError if the density or a field of a law is unset or out of its range.
+    void check() const {
+        checkValue(name, "density", density, "kg/m^3", positive);
+        Mixed::check();
+    }
+
+    [[nodiscard]] int getIndex() const { return index; }
+
+private:
+    template <class>
+    friend class SpeciesHandler;
+
+    double density = unset;  // kg/m^3
+    int index = -1;
+};
+
+}  // namespace pendular

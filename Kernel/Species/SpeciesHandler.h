@@ -1,0 +1,93 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Species/Species.h"
+
+namespace pendular {
+
+/// The species of a scene and the values of each pair of them. The laws of a pair are mixed from its two
+/// species by the rule of each field, but for the values that getMixedObject(a, b)->set...() gives to that
+/// pair.
+template <class S>
+class SpeciesHandler {
+public:
+    using Mixed = typename S::Mixed;
+
+    /// Adds a copy; the pointer stays valid, and values may still be set through it until the run begins
+    /// (the density: until the first grain of the species is added).
+    S* copyAndAddObject(const S& species) {
+        S& added = all.emplace_back(species);
+        added.index = static_cast<int>(all.size()) - 1;
+        return &added;
+    }
+    [[nodiscard]] std::size_t getSize() const { return all.size(); }
+    [[nodiscard]] S* getObject(std::size_t index) { return &all.at(checked(index)); }
+    [[nodiscard]] const S* getObject(std::size_t index) const { return &all.at(checked(index)); }
+    [[nodiscard]] S* getLastObject() { return getObject(all.size() - 1); }
+
+    /// The pair's own values: nothing is set in it but what the driver sets.
+    Mixed* getMixedObject(const S* a, const S* b) { return getMixedObject(a->getIndex(), b->getIndex()); }
+    Mixed* getMixedObject(int a, int b) {
+        checked(static_cast<std::size_t>(a)), checked(static_cast<std::size_t>(b));
+        return &own.try_emplace(std::minmax({a, b}), nothingSet()).first->second;
+    }
+
+    /// Derives what is unset, checks every species and mixes every pair. Throws InputError.
+    void mixAll() {
+        if (all.empty())
+            throw InputError("The scene has no species; add one with speciesHandler.copyAndAddObject().");
+        std::vector<S> complete(all.begin(), all.end());
+        for (S& species : complete) {
+            species.deriveUnset();
+            species.check();
+        }
+        mixtures.clear();
+        for (const S& a : complete)
+            for (const S& b : complete) mixtures.push_back(mixtureOf(a, b));
+    }
+    /// The laws between species a and b, after mixAll().
+    [[nodiscard]] const Mixed& mixture(int a, int b) const {
+        return mixtures[static_cast<std::size_t>(a) * all.size() + static_cast<std::size_t>(b)];
+    }
+
+private:
+    std::size_t checked(std::size_t index) const {
+        if (index >= all.size())
+            throw InputError(fmt::format("There is no species {}; the scene has {} (counted from 0).",
+                                         static_cast<std::ptrdiff_t>(index), all.size()));
+        return index;
+    }
+    static Mixed nothingSet() {
+        Mixed mixed;
+        mixed.forEachLaw([](auto& law) { unsetFields(law); });
+        return mixed;
+    }
+    Mixed mixtureOf(const S& a, const S& b) const {
+        const auto found = own.find(std::minmax({a.getIndex(), b.getIndex()}));
+        Mixed result = found == own.end()
+                           ? (a.getIndex() == b.getIndex() ? static_cast<const Mixed&>(a) : nothingSet())
+                           : found->second;
+        using N = typename S::Normal;
+        using F = typename S::Friction;
+        using A = typename S::Adhesion;
+        static_cast<N&>(result) = mixLaws<N>(result, a, b);
+        static_cast<F&>(result) = mixLaws<F>(result, a, b);
+        static_cast<A&>(result) = mixLaws<A>(result, a, b);
+        result.check();
+        return result;
+    }
+
+    std::deque<S> all;
+    std::map<std::pair<int, int>, Mixed> own;
+    std::vector<Mixed> mixtures;
+};
+
+}  // namespace pendular

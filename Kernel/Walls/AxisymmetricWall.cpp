@@ -1,0 +1,156 @@
+#include "Kernel/Walls/AxisymmetricWall.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Walls/PartCover.h"
+
+namespace pendular {
+
+namespace {
+
+using Point = ProfilePoint;
+
+Point operator-(const Point& a, const Point& b) { return {a.radius - b.radius, a.height - b.height}; }
+double product(const Point& a, const Point& b) { return a.radius * b.radius + a.height * b.height; }
+double length(const Point& a) { return std::hypot(a.radius, a.height); }
+bool same(const Point& a, const Point& b) { return a.radius == b.radius && a.height == b.height; }
+
+Point nearestOn(const Point& begin, const Point& end, const Point& from) {
+    const Point along = end - begin;
+    const double share = std::clamp(product(from - begin, along) / product(along, along), 0.0, 1.0);
+    if (share == 1) return end;
+    return {begin.radius + share * along.radius, begin.height + share * along.height};
+}
+
+/// Whether two segments that leave a common point in directions a and b go on smoothly.
+bool smoothly(const Point& a, const Point& b) {
+    return product(a, b) < -smoothCosine * length(a) * length(b);
+}
+
+}  // namespace
+
+void AxisymmetricWall::set(const Vec3D& direction, const Vec3D& point, std::vector<ProfilePoint> polyline) {
+    axis = checkedDirection("AxisymmetricWall", "length of the axis' direction", direction);
+    origin = checkedVector("AxisymmetricWall", "point", point, "m");
+    if (polyline.size() < 2)
+        throw InputError(fmt::format("AxisymmetricWall: the profile has {} points; it must have at least 2.",
+                                     polyline.size()));
+    for (std::size_t k = 0; k < polyline.size(); ++k) {
+        checkValue(fmt::format("AxisymmetricWall, profile point {}", k), "radius", polyline[k].radius, "m",
+                   notNegative);
+        checkValue(fmt::format("AxisymmetricWall, profile point {}", k), "height", polyline[k].height, "m",
+                   {-infinity, infinity, false, false});
+        if (k == 0) continue;
+        if (same(polyline[k], polyline[k - 1]))
+            throw InputError(
+                fmt::format("AxisymmetricWall: profile points {} and {} are the same.", k - 1, k));
+        if (polyline[k].radius == 0 && polyline[k - 1].radius == 0)
+            throw InputError(
+                fmt::format("AxisymmetricWall: profile points {} and {} both lie on the axis.", k - 1, k));
+    }
+    profile = std::move(polyline);
+    given = true;
+}
+
+AxisymmetricWall::Meridian AxisymmetricWall::meridianOf(const Vector<double>& centre) const {
+    const Vector<double> relative = centre - origin;
+    const double z = dot(relative, axis);
+    const Vector<double> across = relative - z * axis;
+    const double r = norm(across);
+    return {r, z, r > 0 ? (1 / r) * across : anyAcross(axis)};
+}
+
+AxisymmetricWall::Segment AxisymmetricWall::segmentOf(std::uint32_t part) const {
+    const double side = part % 2 == 0 ? 1 : -1;
+    const Point &a = profile[part / 2], &b = profile[part / 2 + 1];
+    return {{side * a.radius, a.height}, {side * b.radius, b.height}};
+}
+
+/// The far side of a segment counts where the near one lies farther out than the centre: seen from inside.
+bool AxisymmetricWall::acts(std::uint32_t part, const Meridian& at) const {
+    if (part % 2 == 0) return true;
+    const Segment nearSide = segmentOf(part - 1);
+    return nearestOn(nearSide.begin, nearSide.end, {at.r, at.z}).radius > at.r;
+}
+
+void AxisymmetricWall::listInBody(const Vector<double>& centre, double reach,
+                                  std::vector<std::uint32_t>& parts) const {
+    const Meridian at = meridianOf(centre);
+    for (std::uint32_t part = 0; part < 2 * (profile.size() - 1); ++part) {
+        const Segment segment = segmentOf(part);
+        const Point shift = nearestOn(segment.begin, segment.end, {at.r, at.z}) - Point{at.r, at.z};
+        if (product(shift, shift) < reach * reach) parts.push_back(part);
+    }
+}
+
+void AxisymmetricWall::findInBody(const Vector<double>& centre, double reach,
+                                  std::span<const std::uint32_t> parts, std::span<WallPoint> points) const {
+    const Meridian at = meridianOf(centre);
+    const Point here{at.r, at.z};
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const Segment segment = segmentOf(parts[k]);
+        const Point shift = nearestOn(segment.begin, segment.end, here) - here;
+        const double distance = std::sqrt(product(shift, shift));
+        const Vector<double> normal =
+            distance > 0 ? (shift.radius / distance) * at.radial + (shift.height / distance) * axis
+                         : at.radial;
+        points[k] = {normal, acts(parts[k], at) ? distance : infinity, {0, 0, 0}};
+    }
+    const double tolerance = 1e-7 * reach;
+    leaveOutCovered(points, reach, [&](std::uint32_t near, std::uint32_t far) {
+        const Vector<double> shift = points[far].distance * points[far].normal;
+        return holds(parts[near], {at.r + dot(shift, at.radial), at.z + dot(shift, axis)}, tolerance) ||
+               (isSmooth(points[near].normal, points[far].normal) && meetSmoothly(parts[near], parts[far]));
+    });
+}
+
+bool AxisymmetricWall::holds(std::uint32_t part, const Point& point, double tolerance) const {
+    const Segment a = segmentOf(part);
+    return length(nearestOn(a.begin, a.end, point) - point) < tolerance;
+}
+
+bool AxisymmetricWall::meetSmoothly(std::uint32_t part1, std::uint32_t part2) const {
+    const Segment a = segmentOf(part1), b = segmentOf(part2);
+    for (const auto& [a1, a2] : {std::pair{a.begin, a.end}, std::pair{a.end, a.begin}})
+        for (const auto& [b1, b2] : {std::pair{b.begin, b.end}, std::pair{b.end, b.begin}})
+            if (same(a1, b1) && smoothly(a2 - a1, b2 - b1)) return true;
+    return false;
+}
+
+bool AxisymmetricWall::isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const {
+    // The way is short against all radii that matter: in the plane of (r, z) it is a straight line.
+    const Meridian m1 = meridianOf(from), m2 = meridianOf(to);
+    const double side = dot(m1.radial, m2.radial) < 0 ? -1 : 1;  // through the axis
+    const Point begin{m1.r, m1.z}, end{side * m2.r, m2.z};
+    const auto sideOf = [](const Point& a, const Point& b, const Point& p) {
+        return (b.radius - a.radius) * (p.height - a.height) - (b.height - a.height) * (p.radius - a.radius);
+    };
+    for (std::uint32_t part = 0; part < 2 * (profile.size() - 1); ++part) {
+        const Segment s = segmentOf(part);
+        if ((sideOf(s.begin, s.end, begin) < 0) != (sideOf(s.begin, s.end, end) < 0) &&
+            (sideOf(begin, end, s.begin) < 0) != (sideOf(begin, end, s.end) < 0))
+            return true;
+    }
+    return false;
+}
+
+SurfaceExtent AxisymmetricWall::extent() const {
+    const auto [low, high] = std::minmax_element(
+        profile.begin(), profile.end(), [](const Point& a, const Point& b) { return a.height < b.height; });
+    const double middle = 0.5 * (low->height + high->height);
+    double radius = 0;
+    for (const Point& p : profile) radius = std::max(radius, std::hypot(p.radius, p.height - middle));
+    return {SurfaceExtent::Symmetry::Axis, origin + middle * axis, radius, axis};
+}
+
+void FiniteCylinder::set(const Vec3D& direction, const Vec3D& point, double radius, double length) {
+    checkValue("FiniteCylinder", "radius", radius, "m", positive);
+    checkValue("FiniteCylinder", "length", length, "m", positive);
+    AxisymmetricWall::set(direction, point, {{radius, -0.5 * length}, {radius, 0.5 * length}});
+}
+
+}  // namespace pendular

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "Kernel/Walls/RigidWall.h"
+
+namespace pendular {
+
+/// A point of a profile: distance from the axis and place along it.
+struct ProfilePoint {
+    double radius;  // m
+    double height;  // m
+};
+
+/// A thin surface of revolution: a polyline of (radius, height) turned about an axis. A cone, a hopper, a
+/// tube, a disc, a closed drum. Grains may lie on both sides of it, and meet its rims.
+///
+/// The plane of a grain's centre and the axis cuts the surface in the profile and in its mirror image. Part
+/// 2s is segment s on the grain's side of the axis, part 2s + 1 its mirror image: a grain in an outlet
+/// narrower than itself rests on both.
+class AxisymmetricWall : public RigidWall {
+public:
+    /// @param direction of the axis, of any length; @param point on the axis where the height is 0, m
+    /// @param polyline at least two points; consecutive ones differ
+    void set(const Vec3D& direction, const Vec3D& point, std::vector<ProfilePoint> polyline);
+
+protected:
+    void listInBody(const Vector<double>& centre, double reach,
+                    std::vector<std::uint32_t>& parts) const override;
+    void findInBody(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                    std::span<WallPoint> points) const override;
+    [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override;
+    [[nodiscard]] SurfaceExtent extent() const override;
+
+private:
+    struct Meridian {
+        double r, z;            // m
+        Vector<double> radial;  // unit, from the axis to the centre
+    };
+    struct Segment {
+        ProfilePoint begin, end;
+    };
+    [[nodiscard]] Meridian meridianOf(const Vector<double>& centre) const;
+    [[nodiscard]] Segment segmentOf(std::uint32_t part) const;
+    [[nodiscard]] bool acts(std::uint32_t part, const Meridian& at) const;
+    [[nodiscard]] bool holds(std::uint32_t part, const ProfilePoint& point, double tolerance) const;
+    [[nodiscard]] bool meetSmoothly(std::uint32_t part1, std::uint32_t part2) const;
+
+    Vector<double> axis{0, 0, 1};
+    Vector<double> origin{0, 0, 0};  // m
+    std::vector<ProfilePoint> profile;
+};
+
+/// A cylinder of finite length with open ends, of no thickness: grains lie inside, outside, or on its rims.
+class FiniteCylinder final : public AxisymmetricWall {
+public:
+    /// @param direction of the axis; @param point its middle, m; @param radius m; @param length m
+    void set(const Vec3D& direction, const Vec3D& point, double radius, double length);
+};
+
+}  // namespace pendular

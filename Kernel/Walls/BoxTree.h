@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "Kernel/Math/Vector.h"
+
+namespace pendular {
+
+/// An axis-parallel box.
+struct Box {
+    Vector<double> lowest{1e300, 1e300, 1e300};      // m
+    Vector<double> highest{-1e300, -1e300, -1e300};  // m
+
+    void include(const Vector<double>& p) {
+        lowest = {std::min(lowest.x, p.x), std::min(lowest.y, p.y), std::min(lowest.z, p.z)};
+        highest = {std::max(highest.x, p.x), std::max(highest.y, p.y), std::max(highest.z, p.z)};
+    }
+    void include(const Box& box) { include(box.lowest), include(box.highest); }
+    [[nodiscard]] Vector<double> middle() const { return 0.5 * (lowest + highest); }
+    /// m, of a point outside; 0 inside
+    [[nodiscard]] double squaredDistance(const Vector<double>& p) const {
+        const auto out = [](double x, double low, double high) { return std::max({low - x, 0.0, x - high}); };
+        return squaredNorm(Vector<double>{out(p.x, lowest.x, highest.x), out(p.y, lowest.y, highest.y),
+                                          out(p.z, lowest.z, highest.z)});
+    }
+};
+
+/// A binary tree over boxes, halved at the median of their middles along the longest side.
+class BoxTree {
+public:
+    BoxTree() = default;
+    explicit BoxTree(std::span<const Box> boxes) : order(boxes.size()) {
+        std::iota(order.begin(), order.end(), 0u);
+        if (!boxes.empty()) build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+    }
+
+    /// Calls function(number) for each box that may lie within a distance (m) of a point.
+    template <class Function>
+    void forEachNear(const Vector<double>& point, double distance, Function&& function) const {
+        std::uint32_t node = 0;
+        while (node <
+               nodes.size()) {  // nodes lie in the order of a walk; a subtree that is out of reach is skipped
+            const Node& at = nodes[node];
+            if (!(at.box.squaredDistance(point) < distance * distance)) {
+                node = at.next;
+                continue;
+            }
+            for (std::uint32_t k = at.begin; k < at.end; ++k) function(order[k]);
+            ++node;
+        }
+    }
+
+private:
+    struct Node {
+        Box box;
+        std::uint32_t next;        // the first node after this subtree
+        std::uint32_t begin, end;  // of a leaf's boxes in `order`
+    };
+    static constexpr std::uint32_t leafSize = 4;
+
+    void build(std::span<const Box> boxes, std::uint32_t begin, std::uint32_t end) {
+        const std::size_t node = nodes.size();
+        Box box, middles;
+        for (std::uint32_t k = begin; k < end; ++k)
+            box.include(boxes[order[k]]), middles.include(boxes[order[k]].middle());
+        nodes.push_back({box, 0, begin, begin});
+        if (end - begin <= leafSize) {
+            nodes[node].end = end;
+        } else {
+            const Vector<double> side = middles.highest - middles.lowest;
+            double Vector<double>::*const along = side.x >= side.y && side.x >= side.z ? &Vector<double>::x
+                                                  : side.y >= side.z                   ? &Vector<double>::y
+                                                                                       : &Vector<double>::z;
+            const std::uint32_t half = begin + (end - begin) / 2;
+            std::nth_element(order.begin() + begin, order.begin() + half, order.begin() + end,
+                             [&](std::uint32_t a, std::uint32_t b) {
+                                 const double x = boxes[a].middle().*along, y = boxes[b].middle().*along;
+                                 return x < y || (x == y && a < b);
+                             });
+            build(boxes, begin, half);
+            build(boxes, half, end);
+        }
+        nodes[node].next = static_cast<std::uint32_t>(nodes.size());
+    }
+
+    std::vector<std::uint32_t> order;
+    std::vector<Node> nodes;
+};
+
+}  // namespace pendular

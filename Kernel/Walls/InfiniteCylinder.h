@@ -1,0 +1,57 @@
+#pragma once
+
+#include "Kernel/Walls/RigidWall.h"
+
+namespace pendular {
+
+enum class CylinderSide {
+    Inside,  ///< grains lie inside: a container
+    Outside  ///< grains lie outside: a rod
+};
+
+/// A circular cylinder without ends.
+class InfiniteCylinder final : public RigidWall {
+public:
+    /// @param direction of the axis, of any length; @param point on the axis, m; @param radius m
+    void set(const Vec3D& direction, const Vec3D& point, double radius, CylinderSide side) {
+        axis = checkedDirection("InfiniteCylinder", "length of the axis' direction", direction);
+        origin = checkedVector("InfiniteCylinder", "point", point, "m");
+        checkValue("InfiniteCylinder", "radius", radius, "m", positive);
+        cylinderRadius = radius;
+        inside = side == CylinderSide::Inside;
+        given = true;
+    }
+
+protected:
+    void listInBody(const Vector<double>& centre, double reach,
+                    std::vector<std::uint32_t>& parts) const override {
+        if (gap(norm(across(centre))) < reach) parts.push_back(0);
+    }
+    void findInBody(const Vector<double>& centre, double, std::span<const std::uint32_t>,
+                    std::span<WallPoint> points) const override {
+        const Vector<double> radial = across(centre);
+        const double r = norm(radial);
+        const Vector<double> outward = r > 0 ? (1 / r) * radial : anyAcross(axis);
+        points[0] = {inside ? outward : -outward, gap(r), {0, 0, 0}};
+    }
+    [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override {
+        return gap(norm(across(from))) >= 0 && gap(norm(across(to))) < 0;
+    }
+    [[nodiscard]] SurfaceExtent extent() const override {
+        return {SurfaceExtent::Symmetry::Cylinder, origin, infinity, axis};
+    }
+
+private:
+    [[nodiscard]] Vector<double> across(const Vector<double>& centre) const {
+        const Vector<double> relative = centre - origin;
+        return relative - dot(relative, axis) * axis;
+    }
+    [[nodiscard]] double gap(double r) const { return inside ? cylinderRadius - r : r - cylinderRadius; }
+
+    Vector<double> axis{0, 0, 1};
+    Vector<double> origin{0, 0, 0};  // m
+    double cylinderRadius = 0;       // m
+    bool inside = true;
+};
+
+}  // namespace pendular

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "Kernel/Walls/RigidWall.h"
+
+namespace pendular {
+
+/// A plane wall. Grains lie on the side from which its normal points away.
+class InfiniteWall final : public RigidWall {
+public:
+    /// @param outward normal into the wall, of any length; @param point on its surface, m
+    void set(const Vec3D& outward, const Vec3D& point) {
+        normal = checkedDirection("InfiniteWall", "length of the normal", outward);
+        offset = dot(normal, checkedVector("InfiniteWall", "point", point, "m"));
+        given = true;
+    }
+
+protected:
+    void listInBody(const Vector<double>& centre, double reach,
+                    std::vector<std::uint32_t>& parts) const override {
+        if (gap(centre) < reach) parts.push_back(0);
+    }
+    void findInBody(const Vector<double>& centre, double, std::span<const std::uint32_t>,
+                    std::span<WallPoint> points) const override {
+        points[0] = {normal, gap(centre), {0, 0, 0}};
+    }
+    [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override {
+        return gap(from) >= 0 && gap(to) < 0;
+    }
+    [[nodiscard]] SurfaceExtent extent() const override {
+        return {SurfaceExtent::Symmetry::Plane, offset * normal, infinity, normal};
+    }
+
+private:
+    [[nodiscard]] double gap(const Vector<double>& centre) const { return offset - dot(normal, centre); }
+
+    Vector<double> normal{0, 0, -1};
+    double offset = 0;  // m
+};
+
+}  // namespace pendular

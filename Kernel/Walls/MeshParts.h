@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "Kernel/Walls/TriangleReader.h"
+
+namespace pendular {
+
+/// A plane convex polygon, made of triangles that lie in one plane.
+struct MeshPart {
+    std::vector<Vector<double>> corners;  // m, in a ring
+    Vector<double> normal;                // unit
+};
+
+/// The parts of a mesh, in the order of their first triangles. Merging is only an economy (a wall of a
+/// thousand coplanar triangles is one part): triangles that do not merge touch the same grains with the same
+/// forces.
+struct MeshParts {
+    std::vector<MeshPart> parts;
+    /// Parts (lower, higher) that share an edge at which the surface turns by less than smoothAngle; sorted.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> smoothPairs;
+    double size = 0;          // m, diagonal of the box around all vertices
+    std::size_t leftOut = 0;  // triangles without area, and repeated ones
+};
+
+/// Lengths below this share of the mesh's size count as zero: coplanarity, the height of a
+/// triangle, and the distance at which two vertices are one.
+inline constexpr double meshTolerance = 1e-9;
+
+/// Throws InputError if a coordinate is not finite (or above 1e9 m) or no triangle has an area.
+MeshParts makeMeshParts(std::span<const Triangle> triangles);
+
+}  // namespace pendular

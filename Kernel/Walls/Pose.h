@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "Kernel/Math/EigenConversion.h"
+
+namespace pendular {
+
+/// A rigid placement: x = rotation X + shift, with X in the body's own frame.
+struct Pose {
+    Vector<double> column[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // of the rotation
+    Vector<double> shift{0, 0, 0};                                 // m
+
+    Pose() = default;
+    explicit Pose(const Eigen::Isometry3d& pose) : shift(toVector(pose.translation())) {
+        for (int k = 0; k < 3; ++k) column[k] = toVector(pose.linear().col(k));
+    }
+
+    [[nodiscard]] Vector<double> turn(const Vector<double>& v) const {
+        return v.x * column[0] + v.y * column[1] + v.z * column[2];
+    }
+    [[nodiscard]] Vector<double> turnBack(const Vector<double>& v) const {
+        return {dot(column[0], v), dot(column[1], v), dot(column[2], v)};
+    }
+    [[nodiscard]] Vector<double> place(const Vector<double>& point) const { return turn(point) + shift; }
+    [[nodiscard]] Vector<double> placeBack(const Vector<double>& point) const {
+        return turnBack(point - shift);
+    }
+};
+
+/// How a rigid body moves: the velocity of a point x is linear + spin x (x - point).
+struct RigidVelocity {
+    Vector<double> linear{0, 0, 0};  // m/s
+    Vector<double> spin{0, 0, 0};    // rad/s
+    Vector<double> point{0, 0, 0};   // m
+
+    [[nodiscard]] Vector<double> at(const Vector<double>& x) const { return linear + cross(spin, x - point); }
+};
+
+/// Which points of a surface there are, and which motions carry it into itself: from these follows how far a
+/// motion can bring any of its points towards a grain.
+struct SurfaceExtent {
+    enum class Symmetry { None, Axis, Cylinder, Plane };
+
+    Symmetry symmetry = Symmetry::None;
+    Vector<double> centre{0, 0, 0};  // m
+    double radius = 0;               // m, of all points around the centre; may be infinite
+    Vector<double> axis{0, 0, 0};    // unit; of a plane its normal
+
+    /// The farthest (m) that the surface as a set of points moves between two poses.
+    [[nodiscard]] double displacement(const Pose& from, const Pose& to) const;
+};
+
+}  // namespace pendular

@@ -1,0 +1,145 @@
+#include "Kernel/Walls/RigidWall.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "Kernel/InputError.h"
+
+namespace pendular {
+
+namespace {
+
+constexpr Range finiteRange{-infinity, infinity, false, false};
+constexpr double differenceInterval = 1e-6;  // s
+
+}  // namespace
+
+Vector<double> checkedVector(std::string_view owner, std::string_view field, const Vec3D& vector,
+                             std::string_view unit) {
+    for (int axis = 0; axis < 3; ++axis) checkValue(owner, field, vector[axis], unit, finiteRange);
+    return toVector(vector);
+}
+
+Vector<double> checkedDirection(std::string_view owner, std::string_view field, const Vec3D& direction) {
+    checkValue(owner, field, direction.norm(), "", positive);
+    return toVector(direction.normalized());
+}
+
+Vector<double> anyAcross(const Vector<double>& d) {
+    const Vector<double> other = std::abs(d.x) < 0.6 ? Vector<double>{1, 0, 0} : Vector<double>{0, 1, 0};
+    const Vector<double> across = cross(d, other);
+    return (1 / norm(across)) * across;
+}
+
+double SurfaceExtent::displacement(const Pose& from, const Pose& to) const {
+    double turned = 0;  // m/m, the farthest shift of a unit vector
+    if (symmetry == Symmetry::None) {
+        for (int k = 0; k < 3; ++k) turned += squaredNorm(to.column[k] - from.column[k]);
+        turned = std::sqrt(0.5 * turned);
+    } else {
+        turned = norm(to.turn(axis) - from.turn(axis));
+    }
+    // Less than this in a step is the round-off of a turn about the surface's own axis; 10^6 steps of it are
+    // 10^-8 rad.
+    if (turned < 1e-14) turned = 0;
+    const Vector<double> shift = to.place(centre) - from.place(centre);
+    const Vector<double> along = dot(shift, to.turn(axis)) * to.turn(axis);
+    const double carried = symmetry == Symmetry::Cylinder ? norm(shift - along)
+                           : symmetry == Symmetry::Plane  ? norm(along)
+                                                          : norm(shift);
+    return turned == 0 ? carried : carried + turned * radius;
+}
+
+void RigidWall::setVelocity(const Vec3D& value) {
+    steady.linear = checkedVector("Wall", "velocity", value, "m/s");
+    atRest = false;
+    moveTo(0);
+}
+
+void RigidWall::setAngularVelocity(const Vec3D& spin, const Vec3D& point) {
+    steady.spin = checkedVector("Wall", "angular velocity", spin, "rad/s");
+    steady.point = checkedVector("Wall", "point of the angular velocity", point, "m");
+    atRest = false;
+    moveTo(0);
+}
+
+void RigidWall::setMotion(std::function<Eigen::Isometry3d(double)> poseOfTime) {
+    if (!poseOfTime) throw InputError("Wall: the function of the motion is empty.");
+    motion = std::move(poseOfTime);
+    atRest = false;
+    moveTo(0);
+}
+
+void RigidWall::setSurfaceVelocity(const Vec3D& value) {
+    surfaceVelocity = checkedVector("Wall", "surface velocity", value, "m/s");
+}
+
+Vec3D RigidWall::getVelocityAt(const Vec3D& point) const {
+    return toEigen(velocity.at(toVector(point)) + pose.turn(surfaceVelocity));
+}
+
+Eigen::Isometry3d RigidWall::askedPose(double time) const {
+    const Eigen::Isometry3d asked = motion(time);
+    const double error = (asked.linear() * asked.linear().transpose() - Eigen::Matrix3d::Identity()).norm();
+    if (!(error < 1e-9) || !(asked.linear().determinant() > 0) || !asked.translation().allFinite())
+        throw InputError(
+            fmt::format("Wall: the function of the motion gives no rigid pose at time {:.6g} s.", time));
+    return asked;
+}
+
+Pose RigidWall::poseAt(double time) const {
+    if (motion) return Pose(askedPose(time));
+    const Vec3D spin = toEigen(steady.spin), point = toEigen(steady.point);
+    const double rate = spin.norm();
+    Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+    if (rate > 0) result.linear() = Eigen::AngleAxisd(rate * time, spin / rate).toRotationMatrix();
+    result.translation() = point - result.linear() * point + time * toEigen(steady.linear);
+    return Pose(result);
+}
+
+RigidVelocity RigidWall::velocityAt(double time) const {
+    if (!motion) return {steady.linear, steady.spin, steady.point + time * steady.linear};
+    const double h = differenceInterval;
+    const Eigen::Isometry3d before = askedPose(time - h), after = askedPose(time + h);
+    const Eigen::Vector3d linear = (after.translation() - before.translation()) / (2 * h);
+    // The skew part of R(t + h) R(t - h)^T is sin(angle) n; for small angles the angle itself.
+    const Eigen::Matrix3d turn = after.linear() * before.linear().transpose();
+    const Eigen::Vector3d spin(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+    return {toVector(linear), toVector(Eigen::Vector3d(spin / (4 * h))), pose.shift};
+}
+
+double RigidWall::moveTo(double time) {
+    if (atRest) return 0;
+    const Pose last = pose;
+    pose = poseAt(time);
+    velocity = velocityAt(time);
+    return given ? extent().displacement(last, pose) : 0;
+}
+
+void RigidWall::listParts(const Vector<double>& centre, double reach,
+                          std::vector<std::uint32_t>& parts) const {
+    listInBody(atRest ? centre : pose.placeBack(centre), reach, parts);
+}
+
+void RigidWall::findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                           std::span<WallPoint> points) const {
+    if (atRest) {
+        findInBody(centre, reach, parts, points);
+        for (WallPoint& point : points) point.velocity = surfaceVelocity;
+        return;
+    }
+    findInBody(pose.placeBack(centre), reach, parts, points);
+    const Vector<double> belt = pose.turn(surfaceVelocity);
+    for (WallPoint& point : points) {
+        point.normal = pose.turn(point.normal);
+        const double distance = std::isfinite(point.distance) ? point.distance : 0;
+        point.velocity = velocity.at(centre + distance * point.normal) + belt;
+    }
+}
+
+bool RigidWall::isCrossed(const Vector<double>& from, const Vector<double>& to) const {
+    return atRest ? isCrossedInBody(from, to) : isCrossedInBody(pose.placeBack(from), pose.placeBack(to));
+}
+
+}  // namespace pendular

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <functional>
+
+#include "Kernel/Walls/Pose.h"
+#include "Kernel/Walls/Wall.h"
+
+namespace pendular {
+
+/// A wall that is a rigid body with a prescribed motion. The shape is given in the body's own frame, which is
+/// that of the scene at time 0 unless setMotion() says otherwise; it never changes, so that a mesh is
+/// searched by one tree for ever.
+class RigidWall : public Wall {
+public:
+    template <class S>
+    void setSpecies(const S* wallSpecies) {
+        species = wallSpecies->getIndex();
+    }
+    [[nodiscard]] bool isSet() const { return given; }
+
+    /// @param velocity m/s; with an angular velocity, that of its point
+    void setVelocity(const Vec3D& velocity);
+    /// @param spin rad/s, about an axis through a point (m) that moves with setVelocity()
+    void setAngularVelocity(const Vec3D& spin, const Vec3D& point);
+    /// @param pose from the body's own frame to the scene, by the time (s). Its velocities are taken from
+    /// differences over 1e-6 s before and after: to 1e-7 of them up to 100 Hz.
+    void setMotion(std::function<Eigen::Isometry3d(double)> pose);
+    /// The surface runs with this velocity (m/s, in the body's frame) while the shape stays: a conveyor belt.
+    void setSurfaceVelocity(const Vec3D& velocity);
+
+    /// m/s, of the wall's material at a point (m) of the scene.
+    [[nodiscard]] Vec3D getVelocityAt(const Vec3D& point) const;
+    [[nodiscard]] const Pose& getPose() const { return pose; }
+
+    double moveTo(double time) final;
+    void listParts(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
+    void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                    std::span<WallPoint> points) const final;
+    [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const final;
+
+protected:
+    // As those of Wall, in the body's own frame and at rest.
+    virtual void listInBody(const Vector<double>& centre, double reach,
+                            std::vector<std::uint32_t>& parts) const = 0;
+    virtual void findInBody(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                            std::span<WallPoint> points) const = 0;
+    [[nodiscard]] virtual bool isCrossedInBody(const Vector<double>& from,
+                                               const Vector<double>& to) const = 0;
+    [[nodiscard]] virtual SurfaceExtent extent() const = 0;
+
+    bool given = false;
+
+private:
+    [[nodiscard]] Pose poseAt(double time) const;
+    [[nodiscard]] RigidVelocity velocityAt(double time) const;
+    [[nodiscard]] Eigen::Isometry3d askedPose(double time) const;
+
+    bool atRest = true;
+    RigidVelocity steady;  // at time 0
+    std::function<Eigen::Isometry3d(double)> motion;
+    Vector<double> surfaceVelocity{0, 0, 0};  // m/s, in the body's frame
+    Pose pose;
+    RigidVelocity velocity;
+};
+
+/// A unit vector along the given one. Throws InputError unless it is finite and not zero.
+Vector<double> checkedDirection(std::string_view owner, std::string_view field, const Vec3D& direction);
+/// Throws InputError unless all three numbers are finite.
+Vector<double> checkedVector(std::string_view owner, std::string_view field, const Vec3D& vector,
+                             std::string_view unit);
+/// Any unit vector across a unit vector.
+Vector<double> anyAcross(const Vector<double>& direction);
+
+}  // namespace pendular

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "Kernel/Particles/SphericalParticle.h"
+
+namespace pendular {
+
+/// Where a sphere is nearest to a part of a wall.
+struct WallPoint {
+    Vector<double> normal;    // unit, from the sphere's centre to the wall
+    double distance;          // m, from the centre to the surface; infinite: this part is not to be touched
+    Vector<double> velocity;  // m/s, of the wall's surface there
+    int coveredBy = -1;       // of an infinite distance: the place of the point that stands for it
+};
+
+/// The force of all grains on a wall, and its torque about a point.
+struct WallForce {
+    Vector<double> force{0, 0, 0};   // N
+    Vector<double> torque{0, 0, 0};  // N m
+    Vector<double> about{0, 0, 0};   // m
+};
+
+/// A wall as the contacts see it. A wall consists of parts (faces of a mesh; one part for a plane or a
+/// cylinder); a grain has at most one contact with each. The contact kernel reads wall points only, so that a
+/// shape is nothing but these two functions; they run once a rebuild and once a step for the grains near the
+/// wall, from several threads.
+class Wall {
+public:
+    virtual ~Wall() = default;
+
+    /// Appends the parts that a sphere with this centre may touch while its centre is within `reach` (m) of
+    /// them.
+    virtual void listParts(const Vector<double>& centre, double reach,
+                           std::vector<std::uint32_t>& parts) const = 0;
+
+    /// The nearest points of the listed parts to a sphere, all of one sphere at once, so that a wall can
+    /// leave out parts that others cover (the edge between two faces).
+    /// @param reach m, the radius and the range of the adhesion: parts farther away need not be told apart,
+    /// and their distance may be any that is larger
+    /// @param points one for each part
+    virtual void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                            std::span<WallPoint> points) const = 0;
+
+    /// Whether a centre that moves straight from one point to the other goes through the surface.
+    [[nodiscard]] virtual bool isCrossed(const Vector<double>& /*from*/, const Vector<double>& /*to*/) const {
+        return false;
+    }
+
+    /// Moves the wall to where it is at a time (s); returns how far (m) any point of its surface can have
+    /// moved.
+    virtual double moveTo(double /*time*/) { return 0; }
+
+    /// Sums the forces of the grains on this wall after each step; off by default, because it costs time.
+    /// @param about m, the point of the torque
+    void keepForces(bool keep = true, const Vec3D& about = Vec3D::Zero()) {
+        forcesKept = keep;
+        kept = {.about = toVector(about)};
+    }
+    [[nodiscard]] bool keepsForces() const { return forcesKept; }
+    /// N, of all grains on the wall at the end of the last step; zero unless keepForces() was called.
+    [[nodiscard]] Vec3D getForce() const { return toEigen(kept.force); }
+    /// N m, about the point given to keepForces().
+    [[nodiscard]] Vec3D getTorque() const { return toEigen(kept.torque); }
+    [[nodiscard]] Vec3D getTorquePoint() const { return toEigen(kept.about); }
+    void setForce(const Vector<double>& force, const Vector<double>& torque) {
+        kept = {force, torque, kept.about};
+    }
+
+    int species = -1;
+
+private:
+    WallForce kept;
+    bool forcesKept = false;
+};
+
+}  // namespace pendular

@@ -1,0 +1,32 @@
+// expect: HasRange
+// A law without range(): see LawWithRange.cpp for the same one, complete.
+
+#include <array>
+
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Species.h"
+
+struct Glue {
+    static constexpr std::string_view name = "Glue";
+    static constexpr std::string_view summary = "constant attraction";
+    static constexpr std::string_view domain = "everywhere";
+    static constexpr bool acts = true;
+    static constexpr bool formsAtContact = true;
+
+    double strength = pendular::unset;  // N
+
+    static constexpr auto fields() {
+        return std::to_array<pendular::Field<Glue>>({{"strength", &Glue::strength, "N", pendular::positive,
+                                                      pendular::Mixing::Geometric, "attraction", "test"}});
+    }
+    template <class T>
+    struct Interaction {
+        T strength;
+        T width;
+        [[nodiscard]] T force(T) const { return strength; }
+        [[nodiscard]] T range() const { return width; }
+    };
+    [[nodiscard]] Interaction<double> prepare(const pendular::Bodies&) const { return {strength, 1e-6}; }
+};
+
+pendular::Species<pendular::HertzianViscoelastic, pendular::NoFriction, Glue> species;

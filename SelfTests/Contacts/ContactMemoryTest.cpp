@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/ContactKey.h"
+
+namespace pendular {
+namespace {
+
+using scenes::SettlingBox;
+using support::ContactKey;
+using support::keyOf;
+
+using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
+
+constexpr double r = 1e-3;  // m
+
+/// Runs a scene with a contact system of the test's own, so that the test chooses the skin.
+template <class S>
+struct Settling {
+    explicit Settling(double skin) : scene(6) {
+        scene.speciesHandler.mixAll();
+        system.prepare(scene.speciesHandler, scene.wallHandler, {}, skin, false);
+        step(0);
+    }
+    void step(double length) {
+        auto& grains = scene.particleHandler.store();
+        system.refresh(grains, std::sqrt(VelocityVerlet<S::hasTorque>::begin(grains, length)), 0);
+        system.computeForces(grains, length);
+        VelocityVerlet<S::hasTorque>::finish(grains, system.store(), {0, 0, -9.81}, length);
+    }
+    void advance(int steps) {
+        for (int k = 0; k < steps; ++k) step(scene.getTimeStep());
+    }
+
+    SettlingBox<S> scene;
+    ContactSystem<S> system;
+};
+
+TEST(ContactMemory, makesTrajectoriesIndependentOfTheSkin) {
+    Settling<Wet> always(0), rarely(0.5 * r);
+    // Until grains have met, bridges have ruptured, and contacts have slid. The order of sums differs: 1e-16
+    // of each force, which the collisions of 1000 steps magnify.
+    always.advance(1000);
+    rarely.advance(1000);
+    EXPECT_EQ(always.system.rebuildCount(), 1001u);
+    EXPECT_LT(rarely.system.rebuildCount(), 100u);
+    EXPECT_GT(rarely.system.rebuildCount(), 5u);
+    int stretched = 0;
+    always.system.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+        const ObservedContact seen = always.system.observe(always.scene.particleHandler.store(), bucket, c);
+        stretched += seen.bridged && seen.separation > 0 ? 1 : 0;
+    });
+    EXPECT_GT(stretched, 10);
+    for (std::size_t k = 0; k < always.scene.particleHandler.getSize(); ++k) {
+        const auto a = always.scene.particleHandler.getObject(k),
+                   b = rarely.scene.particleHandler.getObject(k);
+        EXPECT_LT((a.getPosition() - b.getPosition()).norm(), 1e-9 * r) << k;
+        EXPECT_LT((a.getVelocity() - b.getVelocity()).norm(), 1e-9) << k;
+        EXPECT_LT((a.getAngularVelocity() - b.getAngularVelocity()).norm(), 1e-6) << k;
+    }
+}
+
+struct Memory {
+    Vector<double> spring{0, 0, 0};  // seen from the grain with the smaller identity
+    double bridgeForce = 0, lastForce = 0;
+    bool touching = false, bridged = false, closing = false;
+
+    bool operator==(const Memory&) const = default;
+};
+
+std::map<ContactKey, Memory> memories(Settling<Wet>& run, int& exchanged) {
+    std::map<ContactKey, Memory> result;
+    const auto& store = run.system.store();
+    const auto& identity = run.scene.particleHandler.store().identity;
+    exchanged = 0;
+    run.system.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+        const BlockState& state = store.states[c / Pack::lanes];
+        const auto bit = [&](std::uint8_t bits) { return (bits >> (c % Pack::lanes) & 1) != 0; };
+        if (!bit(state.touching) && !bit(state.bridged)) return;
+        const ContactBlock& block = store.blocks[c / Pack::lanes];
+        const bool reversed = bucket.wall < 0 && identity[block.first[c % Pack::lanes]] >
+                                                     identity[block.second[c % Pack::lanes]];
+        exchanged += reversed ? 1 : 0;
+        const Vector<double> spring = store.history.get(c).displacement;
+        result[keyOf(store, identity, bucket, c)] = {
+            reversed ? -spring : spring,  store.interaction.get(c).contactForce,
+            store.records[c].normalForce, bit(state.touching),
+            bit(state.bridged),           bit(state.closing)};
+    });
+    return result;
+}
+
+TEST(ContactMemory, isCarriedOverARebuildBitForBit) {
+    Settling<Wet> run(0.1 * r);
+    run.advance(900);
+    auto& grains = run.scene.particleHandler.store();
+    int exchangedBefore = 0, exchangedAfter = 0;
+    const auto before = memories(run, exchangedBefore);
+    EXPECT_GT(before.size(), 100u);
+    EXPECT_TRUE(std::ranges::any_of(before, [](const auto& m) { return m.second.spring.x != 0; }));
+    const auto records = [&] {
+        std::vector<TranslationRecord> byIdentity;
+        for (std::uint32_t place : grains.place) byIdentity.push_back(grains.translation[place]);
+        return byIdentity;
+    };
+    run.system.refresh(grains, 1, 0);
+    EXPECT_EQ(memories(run, exchangedAfter), before);
+    EXPECT_TRUE(std::ranges::any_of(before, [](const auto& m) { return std::get<0>(m.first) >= 0; }));
+
+    // Turned upside down, grains are sorted in another order, and bodies change roles; nothing else happens
+    // to the pairs.
+    for (TranslationRecord& grain : grains.translation) grain.position = -grain.position;
+    const auto expected = records();
+    run.system.refresh(grains, 1, 0);
+    const auto pairsOf = [](std::map<ContactKey, Memory> all) {
+        std::erase_if(all, [](const auto& m) { return std::get<0>(m.first) >= 0; });
+        return all;
+    };
+    EXPECT_EQ(pairsOf(memories(run, exchangedAfter)), pairsOf(before));
+    EXPECT_NE(exchangedBefore, exchangedAfter);
+    const auto found = records();
+    for (std::uint32_t k = 0; k < grains.size(); ++k) {
+        EXPECT_EQ(grains.identity[grains.place[k]], k);
+        EXPECT_EQ(found[k].position, expected[k].position);
+        EXPECT_EQ(found[k].velocity, expected[k].velocity);
+        EXPECT_EQ(found[k].radius, expected[k].radius);
+    }
+}
+
+TEST(ContactMemory, forgetsContactsThatHaveEnded) {
+    Settling<Wet> run(0.1 * r);
+    run.advance(900);
+    auto& grains = run.scene.particleHandler.store();
+    int exchanged = 0;
+    ASSERT_GT(memories(run, exchanged).size(), 100u);
+    for (TranslationRecord& grain : grains.translation) grain.position *= 100;
+    run.scene.wallHandler.clear();
+    run.system.refresh(grains, 1, 0);
+    run.system.computeForces(grains, 1e-6);
+    EXPECT_TRUE(memories(run, exchanged).empty());
+    run.system.forEachListed([&](const Bucket&, std::uint32_t c) {
+        EXPECT_EQ(squaredNorm(run.system.store().records[c].force), 0);
+    });
+}
+
+}  // namespace
+}  // namespace pendular

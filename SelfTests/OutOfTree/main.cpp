@@ -1,0 +1,11 @@
+// A driver outside Pendular's tree, which knows only the installed kernel.
+
+#include <fmt/format.h>
+
+#include "Kernel/Species/Laws.h"
+
+int main() {
+    using S = pendular::HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
+    fmt::print("{}\n", S::name);
+    return S::name == "HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies" ? 0 : 1;
+}

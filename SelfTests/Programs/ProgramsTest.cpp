@@ -1,0 +1,124 @@
+// The programs as a user runs them: exit codes, one sentence for wrong input, files with the promised
+// columns.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+struct Result {
+    int exitCode;
+    std::string output;  // standard output, and standard error behind it
+};
+
+Result run(const std::string& command) {
+    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    Result result{-1, {}};
+    std::array<char, 4096> buffer{};
+    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        result.output.append(buffer.data(), n);
+    const int status = pclose(pipe);
+    if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
+    return result;
+}
+
+std::string contentOf(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::stringstream content;
+    content << file.rdbuf();
+    return content.str();
+}
+
+const std::string tools = PENDULAR_TOOLS_DIR;
+const std::string drivers = PENDULAR_DRIVERS_DIR;
+const std::filesystem::path source = PENDULAR_SOURCE_DIR;
+
+void expectOneSentence(const Result& result, const std::string& part) {
+    EXPECT_EQ(result.exitCode, 1) << result.output;
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+}
+
+TEST(Documentation, referencePageIsWhatTheToolPrints) {
+    EXPECT_EQ(contentOf(source / "Kernel/Species/REFERENCE.md"),
+              run(tools + "/species --describe all").output);
+}
+
+TEST(Documentation, driverOfTheReadmeIsThatOfTheFolder) {
+    const std::string driver = contentOf(source / "Drivers/WetTower/WetTower.cpp");
+    EXPECT_NE(contentOf(source / "README.md").find(driver), std::string::npos);
+    EXPECT_EQ(run(drivers + "/WetTower/WetTower").exitCode, 0);
+}
+
+TEST(BridgeForce, printsTheFiguresOfThePaper) {
+    // B1 of the paper's case 0.5/0.8 mm, 10 nl: four printed digits, so half a unit of the fourth.
+    const std::array<std::pair<const char*, std::array<double, 2>>, 3> models{
+        {{"LiquidBridgeWillet", {3.055e-4, 9.085e-5}},
+         {"LiquidBridgeClassicalWillett", {2.508e-4, 1.033e-4}},
+         {"LiquidBridgeBagheri", {2.537e-4, 1.023e-4}}}};
+    for (const auto& [model, forces] : models) {
+        const Result result =
+            run(tools +
+                "/bridge-force --r1 0.5e-3 --r2 0.8e-3 --volume 1e-11 --surface-tension 0.079 "
+                "--separation 0 --separation 1e-4 --model " +
+                model);
+        ASSERT_EQ(result.exitCode, 0) << result.output;
+        std::istringstream lines(result.output);
+        std::string line;
+        while (std::getline(lines, line) && line != "separation_m,force_N") EXPECT_EQ(line[0], '#');
+        for (const double expected : forces) {
+            ASSERT_TRUE(std::getline(lines, line));
+            const double force = std::stod(line.substr(line.find(',') + 1));
+            EXPECT_NEAR(force / expected, 1,
+                        0.5e-3 * std::pow(10, std::floor(std::log10(expected))) / expected + 1e-12);
+        }
+    }
+}
+
+TEST(BridgeForce, refusesInOneSentence) {
+    const std::string bridge = tools + "/bridge-force --surface-tension 0.07 ";
+    expectOneSentence(run(bridge + "--r1 1e-3 --volume 1e-12 --model Bageri"), "LiquidBridgeBagheri");
+    expectOneSentence(run(bridge + "--r1 -1 --volume 1e-12"), "r1 = -1 m");
+    expectOneSentence(run(bridge + "--volume 1e-12"), "r1 is not set");
+    expectOneSentence(run(bridge + "--r1 1e-3"), "liquidBridgeVolume is not set");
+    expectOneSentence(run(bridge + "--r1 1e-3 --r2 many --volume 1e-12"), "r2 = many");
+    expectOneSentence(run(bridge + "--r1 1e-3 --r2 1e-3 --volume 5e-10 --contact-angle-deg 60"),
+                      "has a pole");
+    EXPECT_EQ(run(bridge + "--r1 1e-3 --r2 1e-3 --volume 5e-10 --contact-angle-deg 60 --raw-fit").exitCode,
+              0);
+}
+
+TEST(TwoParticleCollision, writesItsTwoTables) {
+    const auto folder = std::filesystem::temp_directory_path() / "pendular-two-particle-collision";
+    const Result result =
+        run(drivers + "/TwoParticleCollision/TwoParticleCollision --output " + folder.string());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    const std::string forces = contentOf(folder / "force_separation.csv");
+    EXPECT_EQ(forces.substr(0, forces.find('\n')),
+              "time_s,separation_m,normal_force_N,capillary_force_N,bridge");
+    EXPECT_EQ(contentOf(folder / "energy.csv").substr(0, 7), "time_s,");
+    std::filesystem::remove_all(folder);
+    expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --adhesion Bagheri"),
+                      "LiquidBridgeBagheri");
+    expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --radius1-m 0"),
+                      "radius = 0 m");
+    expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --time-step-s 1"),
+                      "stability limit");
+    expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --time-step-s -1"),
+                      "time step = -1 s");
+    expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --speed-m/s 50"),
+                      "into each other");
+    expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --output /proc/nowhere"),
+                      "cannot be written");
+}
+
+TEST(UserDefinedLaw, runs) { EXPECT_EQ(run(drivers + "/UserDefinedLaw/UserDefinedLaw").exitCode, 0); }
+
+}  // namespace

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ParticleSum.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "SelfTests/Support/EveryLaw.h"
+
+// A scene pays, in time and in memory, only for the physics in it.
+
+namespace pendular {
+namespace {
+
+using Dry = Species<HertzianViscoelastic>;
+using Rough = Species<HertzianViscoelastic, Mindlin>;
+using Wet = Species<HertzianViscoelastic, NoFriction, LiquidBridgeBagheri>;
+using RoughAndWet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
+
+template <class S>
+inline constexpr std::size_t historyColumns = columnsOf<ContactStore<S>::template History>;
+template <class S>
+inline constexpr std::size_t interactionColumns = columnsOf<ContactStore<S>::template Interaction>;
+template <class T>
+concept HasTorque = requires(T sum) {
+    sum.torque;
+};
+
+// Memory of a contact.
+static_assert(historyColumns<Dry> == 0 && interactionColumns<Dry> == 0);
+static_assert(historyColumns<Wet> == 0 && interactionColumns<Wet> == 6);
+static_assert(historyColumns<Rough> == 3 && interactionColumns<Rough> == 0);
+static_assert(historyColumns<RoughAndWet> == 3 && interactionColumns<RoughAndWet> == 6);
+static_assert(interactionColumns<Species<LinearViscoelastic, NoFriction, LiquidBridgeWillett>> == 3);
+
+// What a contact gives to its bodies.
+static_assert(!Dry::hasTorque && !Wet::hasTorque && Rough::hasTorque && RoughAndWet::hasTorque);
+static_assert(std::is_same_v<ContactStore<Dry>::Record, ForceRecord>);
+static_assert(std::is_same_v<ContactStore<Wet>::Record, ForceRecord>);
+static_assert(std::is_same_v<ContactStore<Rough>::Record, ForceTorqueRecord>);
+static_assert(sizeof(ForceRecord) == 32 && sizeof(ForceTorqueRecord) == 64);
+
+// What a grain sums.
+static_assert(!HasTorque<ForceAndTorque<false>> && HasTorque<ForceAndTorque<true>>);
+static_assert(sizeof(ForceAndTorque<false>) == 3 * sizeof(double) &&
+              sizeof(ForceAndTorque<true>) == 6 * sizeof(double));
+static_assert(
+    std::is_same_v<decltype(sumContacts(std::declval<ContactStore<Dry>>(), 0, 1.0)), ForceAndTorque<false>>);
+static_assert(
+    std::is_same_v<decltype(sumContacts(std::declval<ContactStore<Rough>>(), 0, 1.0)), ForceAndTorque<true>>);
+
+// A law that does nothing has no size; a species is no larger than the numbers of its laws.
+static_assert(std::is_empty_v<NoFriction> && std::is_empty_v<NoAdhesion>);
+static_assert(sizeof(Dry::Mixed) == sizeof(HertzianViscoelastic));
+static_assert(sizeof(RoughAndWet::Mixed) ==
+              sizeof(HertzianViscoelastic) + sizeof(Mindlin) + sizeof(LiquidBridgeBagheri));
+static_assert(!std::is_polymorphic_v<RoughAndWet>);
+
+// Memory is trivially copied; blocks of it are arrays of packs.
+static_assert(std::is_trivially_copyable_v<TangentialSpring<Pack>>);
+static_assert(std::is_trivially_copyable_v<LiquidBridgeBagheri::Interaction<Pack>>);
+static_assert(sizeof(LiquidBridgeBagheri::Interaction<Pack>) == 6 * sizeof(Pack));
+
+// Bytes: places and state 8.5, rounded up to 9; record 32 or 64; two sides 8; memory 8 for each number.
+static_assert(ContactStore<Dry>::bytesPerContact() <= 9 + 32 + 8);
+static_assert(ContactStore<Rough>::bytesPerContact() <= 9 + 64 + 8 + 3 * 8);
+static_assert(ContactStore<Wet>::bytesPerContact() <= 9 + 32 + 8 + 6 * 8);
+
+TEST(NoCost, absentLawsHaveNoColumns) {
+    ContactStore<Dry> dry;
+    dry.history.resize(100);
+    dry.interaction.resize(100);
+    EXPECT_TRUE(dry.history.columns.empty());
+    EXPECT_TRUE(dry.interaction.columns.empty());
+
+    ContactStore<RoughAndWet> full;
+    full.history.resize(100);
+    full.interaction.resize(100);
+    EXPECT_EQ(full.history.columns.size(), 300u);
+    EXPECT_EQ(full.interaction.columns.size(), 600u);
+}
+
+TEST(NoCost, grainsWithoutSpinHaveNoRotation) {
+    ParticleStore<false> smooth;
+    ParticleStore<true> spinning;
+    const TranslationRecord grain{{0, 0, 0}, 1e-3, {0, 0, 0}, 1e5};
+    for (int k = 0; k < 4; ++k) {
+        smooth.add(grain, {1, 2, 3}, 0);
+        spinning.add(grain, {1, 2, 3}, 0);
+    }
+    smooth.reorder({3, 1, 2, 0});
+    spinning.reorder({3, 1, 2, 0});
+    EXPECT_EQ(smooth.size(), 4u);
+    EXPECT_EQ(smooth.rotation.capacity(), 0u);
+    EXPECT_EQ(spinning.rotation.size(), 4u);
+}
+
+TEST(NoCost, everySpeciesHasTheMemoryOfItsLawsAndNoMore) {
+    support::forEverySpecies([]<class S>() {
+        using F = typename S::Friction;
+        using A = typename S::Adhesion;
+        static_assert(S::hasTorque == F::acts);
+        EXPECT_EQ(historyColumns<S> > 0, F::acts) << S::name;
+        EXPECT_EQ(interactionColumns<S> > 0, A::acts) << S::name;
+    });
+}
+
+}  // namespace
+}  // namespace pendular

@@ -1,0 +1,206 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "SelfTests/Species/Normal/IndependentCollisions.h"
+#include "SelfTests/Support/Draw.h"
+#include "SelfTests/Support/EveryLaw.h"
+
+namespace pendular {
+namespace {
+
+using support::Draw;
+
+constexpr double pi = std::numbers::pi;
+
+Contact<double> contactAt(double overlap, double radius, double mass) {
+    return {overlap, radius, mass, std::sqrt(radius * overlap)};
+}
+
+template <class Law>
+Law randomLaw(Draw& draw) {
+    Law law;
+    for (const auto& field : Law::fields()) law.*field.member = draw.uniform(0.1, 1);
+    if constexpr (std::is_same_v<Law, HertzianViscoelastic>)
+        law.setEffectiveElasticModulus(draw.logarithmic(1e5, 1e11));
+    if constexpr (std::is_same_v<Law, LinearViscoelastic>) law.setStiffness(draw.logarithmic(1, 1e6));
+    return law;
+}
+
+// With the overlap d = u^2 the integrand F(u^2) 2 u is a polynomial in u, u^4 for Hertz and u^3 for the
+// linear law: three Gauss points are exact up to u^5. 1e-14: rounding.
+TEST(Normal, energyIsTheIntegralOfTheForce) {
+    const std::array nodes{-std::sqrt(0.6), 0.0, std::sqrt(0.6)};
+    constexpr std::array weights{5.0 / 9, 8.0 / 9, 5.0 / 9};
+    NormalLaws::forEach([&]<class Law>() {
+        Draw draw(1);
+        for (int k = 0; k < 200; ++k) {
+            const auto prepared = randomLaw<Law>(draw).prepare();
+            const double radius = draw.logarithmic(1e-6, 1), overlap = radius * draw.logarithmic(1e-9, 0.1);
+            const double mass = draw.logarithmic(1e-15, 1), half = 0.5 * std::sqrt(overlap);
+            double integral = 0;
+            for (std::size_t node = 0; node < nodes.size(); ++node) {
+                const double u = half * (1 + nodes[node]);
+                integral += weights[node] * half * 2 * u *
+                            Law::force(prepared, contactAt(u * u, radius, mass)).elastic;
+            }
+            EXPECT_NEAR(Law::elasticEnergy(prepared, contactAt(overlap, radius, mass)) / integral, 1, 1e-14)
+                << Law::name;
+            EXPECT_EQ(Law::elasticEnergy(prepared, contactAt(0, radius, mass)), 0);
+        }
+    });
+}
+
+// The central difference over d (1 +- h) of d^(3/2) has the relative error -h^2/24: 4e-10 at h = 1e-4;
+// rounding adds 2e-12.
+TEST(Normal, stiffnessIsTheDerivativeOfTheForce) {
+    NormalLaws::forEach([]<class Law>() {
+        Draw draw(2);
+        for (int k = 0; k < 200; ++k) {
+            const auto prepared = randomLaw<Law>(draw).prepare();
+            const double radius = draw.logarithmic(1e-6, 1), overlap = radius * draw.logarithmic(1e-9, 0.1);
+            const auto force = [&](double d) {
+                return Law::force(prepared, contactAt(d, radius, 1)).elastic;
+            };
+            const double h = 1e-4, difference = (force(overlap * (1 + h)) - force(overlap * (1 - h))) /
+                                                (2 * h * overlap);
+            EXPECT_NEAR(Law::stiffness(prepared, contactAt(overlap, radius, 1)) / difference, 1, 1e-9)
+                << Law::name;
+        }
+    });
+}
+
+// The powers that the kernel is told are those of the force itself.
+TEST(Normal, exponentsAreThoseOfTheForce) {
+    NormalLaws::forEach([]<class Law>() {
+        Draw draw(3);
+        const auto prepared = randomLaw<Law>(draw).prepare();
+        const auto once = Law::force(prepared, contactAt(1e-6, 1e-3, 1e-6)),
+                   twice = Law::force(prepared, contactAt(16e-6, 1e-3, 1e-6));
+        EXPECT_NEAR(twice.elastic / once.elastic, std::pow(16, Law::elasticExponent), 1e-12) << Law::name;
+        EXPECT_NEAR(twice.damping / once.damping, std::pow(16, Law::dampingExponent), 1e-13) << Law::name;
+        EXPECT_GT(once.damping, 0);
+        EXPECT_EQ(Law::force(prepared, contactAt(0, 1e-3, 1e-6)).elastic, 0);
+    });
+}
+
+// Equations 4.1 to 4.3 of Thornton et al. (2023), written out with powers.
+TEST(Normal, hertzIsItsFormula) {
+    HertzianViscoelastic law;
+    law.setElasticModulusAndPoissonRatio(5e6, 0.35);
+    law.setDissipation(0.3);
+    const double modulus = 5e6 / (2 * (1 - 0.35 * 0.35)), overlap = 3e-6, radius = 4e-4, mass = 2e-6;
+    EXPECT_NEAR(law.getEffectiveElasticModulus() / modulus, 1, 1e-15);
+    const auto force = HertzianViscoelastic::force(law.prepare(), contactAt(overlap, radius, mass));
+    EXPECT_NEAR(force.elastic / (4.0 / 3 * modulus * std::pow(radius, 0.5) * std::pow(overlap, 1.5)), 1,
+                1e-14);
+    EXPECT_NEAR(
+        force.damping / (0.3 * std::sqrt(mass * 4.0 / 3 * modulus) * std::pow(radius * overlap, 0.25)), 1,
+        1e-14);
+}
+
+struct Rebound {
+    double speed, time, largestOverlap;
+};
+
+/// The law's own collision of two grains by the classical Runge-Kutta method, in steps of 1/4000 of the
+/// elastic contact time and the end by interpolation. The dashpot's d^(1/4) at either end limits the order:
+/// see the tolerances.
+template <class Law>
+Rebound collide(const Law& law, double radius, double mass, double speed, double contactTime) {
+    const auto prepared = law.prepare();
+    const auto acceleration = [&](double overlap, double approach) {
+        const auto force = Law::force(prepared, contactAt(std::max(overlap, 0.0), radius, mass));
+        return -(force.elastic + force.damping * approach) / mass;
+    };
+    const double h = contactTime / 4000;
+    double d = 0, v = speed, time = 0, largest = 0;
+    while (true) {
+        const double a1 = acceleration(d, v), v2 = v + h / 2 * a1;
+        const double a2 = acceleration(d + h / 2 * v, v2), v3 = v + h / 2 * a2;
+        const double a3 = acceleration(d + h / 2 * v2, v3), v4 = v + h * a3;
+        const double a4 = acceleration(d + h * v3, v4);
+        const double nextD = d + h / 6 * (v + 2 * v2 + 2 * v3 + v4),
+                     nextV = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+        if (v > 0 && nextV <= 0) largest = d + 0.5 * v * h * v / (v - nextV);  // a parabola at its top
+        if (nextD <= 0) {
+            const double share = d / (d - nextD);
+            return {-(v + share * (nextV - v)), time + share * h, largest};
+        }
+        d = nextD, v = nextV, time += h;
+    }
+}
+
+// 2e-5: at either end a step of h sees an overlap d = v h with an error of the damping of the order
+// (h/t)^(5/4) = 3e-5 of the whole, times its share. At the top the parabola is exact to (h/t)^2.
+TEST(Normal, hertzReboundsWithTheRestitutionGiven) {
+    for (const auto& row : independent::dampedCollisions) {
+        HertzianViscoelastic law;
+        law.setElasticModulusAndPoissonRatio(row.youngModulus, row.poissonRatio);
+        law.setRestitutionCoefficient(row.restitution);
+        const double radius = row.radius1 * row.radius2 / (row.radius1 + row.radius2);
+        const auto massOf = [&](double r) { return 4.0 / 3 * pi * r * r * r * row.density; };
+        const double mass = 1 / (1 / massOf(row.radius1) + 1 / massOf(row.radius2));
+        const Rebound rebound = collide(law, radius, mass, row.speed, row.contactTime);
+        EXPECT_NEAR(rebound.speed / row.speed, row.restitution, 2e-5) << row.restitution;
+        EXPECT_NEAR(rebound.time / row.contactTime, 1, 1e-4) << row.restitution;
+        EXPECT_NEAR(rebound.largestOverlap / row.largestOverlap, 1, 2e-5) << row.restitution;
+    }
+}
+
+// beta = sqrt(5) |ln e| / sqrt(ln^2 e + pi^2), from 0 (elastic) to sqrt(5) (no rebound).
+TEST(Normal, hertzDissipationFollowsTheRestitution) {
+    HertzianViscoelastic law;
+    double last = infinity;
+    for (const double e : {1e-300, 1e-9, 0.1, 0.5, 0.86, 0.99, 1 - 1e-12}) {
+        law.setEffectiveElasticModulusAndRestitutionCoefficient(1e6, e);
+        const double logarithm = std::log(e);
+        EXPECT_NEAR(
+            law.getDissipation() / std::sqrt(5 * logarithm * logarithm / (logarithm * logarithm + pi * pi)),
+            1, 1e-15);
+        EXPECT_LT(law.getDissipation(), last);
+        last = law.getDissipation();
+    }
+    law.setRestitutionCoefficient(1);
+    EXPECT_EQ(law.getDissipation(), 0);
+    law.setRestitutionCoefficient(0);
+    EXPECT_EQ(law.getDissipation(), std::sqrt(5.0));
+}
+
+// The damped oscillator of the reduced mass m/2: contact time pi/omega with omega^2 = k/m* - (g/2m*)^2, and
+// e = exp(-g/(2 m*) x contact time). A few roundings: 1e-14 (k is the sum of both terms, the oscillation its
+// difference).
+TEST(Normal, linearHelpersGiveContactTimeAndRestitution) {
+    const double mass = 4e-6, reduced = mass / 2;
+    for (const double e : {0.1, 0.5, 0.86, 0.99, 1.0}) {
+        const auto expectRestitution = [&](const LinearViscoelastic& law) {
+            const double rate = law.getDissipation() / (2 * reduced);
+            const double time = pi / std::sqrt(law.getStiffness() / reduced - rate * rate);
+            EXPECT_NEAR(std::exp(-rate * time), e, 1e-14);
+            return time;
+        };
+        LinearViscoelastic law;
+        law.setCollisionTimeAndRestitutionCoefficient(2e-4, e, mass);
+        EXPECT_NEAR(expectRestitution(law) / 2e-4, 1, 1e-14);
+        law.setStiffnessAndRestitutionCoefficient(1e3, e, mass);
+        EXPECT_EQ(law.getStiffness(), 1e3);
+        expectRestitution(law);
+    }
+}
+
+// Its motion is the closed form: Runge-Kutta's error in 4000 steps is below rounding, that of the
+// interpolated end is (1/4000)^2/8 of the contact time.
+TEST(Normal, linearReboundsWithTheRestitutionGiven) {
+    for (const double e : {0.1, 0.5, 0.9}) {
+        LinearViscoelastic law;
+        law.setCollisionTimeAndRestitutionCoefficient(2e-4, e, 4e-6);
+        const Rebound rebound = collide(law, 5e-4, 2e-6, 0.2, 2e-4);
+        EXPECT_NEAR(rebound.speed / 0.2, e, 1e-6);
+        EXPECT_NEAR(rebound.time / 2e-4, 1, 1e-6);
+    }
+}
+
+}  // namespace
+}  // namespace pendular

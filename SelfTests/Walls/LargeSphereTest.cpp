@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "Kernel/Walls/InfiniteWall.h"
+#include "SelfTests/Support/EveryLaw.h"
+#include "SelfTests/Walls/WallScene.h"
+
+namespace pendular {
+namespace {
+
+using namespace wallTests;
+using scenes::GrainMotion;
+
+/// Values for any composition of laws.
+template <class S>
+S anyMaterial() {
+    S species;
+    species.setDensity(density);
+    if constexpr (requires { species.setElasticModulusAndPoissonRatio(1.0, 0.2); }) {
+        species.setElasticModulusAndPoissonRatio(youngModulus, poissonRatio);
+        species.setRestitutionCoefficient(0.7);
+    } else {
+        species.setStiffnessAndRestitutionCoefficient(500, 0.7, mass());
+    }
+    if constexpr (S::hasTorque) {
+        species.setEffectiveShearModulus(computeEffectiveShearModulus(youngModulus, poissonRatio));
+        species.setSlidingFrictionCoefficient(0.3);
+        species.setSlidingDissipation(0.1);
+    }
+    if constexpr (S::Adhesion::acts) {
+        species.setLiquidBridgeVolume(1e-12);
+        species.setContactAngle(0.2);
+        species.setSurfaceTension(0.07);
+    }
+    return species;
+}
+
+/// R* and the bridge's R of a contact with a sphere of 1000 R are smaller by 1/1000, and forces with them by
+/// half (Hertz) to the whole of it (bridge); so are the velocities that a bounce gives.
+TEST(LargeSphere, ofAThousandRadiiIsAlmostAWallForAllLaws) {
+    support::forEverySpecies([]<class S>() {
+        SCOPED_TRACE(S::name);
+        const S species = anyMaterial<S>();
+        const GrainMotion grain{.radius = radius,
+                                .position = {0, 0, 1.003e-3},
+                                .velocity = {0.1, -0.05, -0.3},
+                                .spin = {90, 200, -70}};
+        const auto bounced = [&](auto&& addWall, bool isSphere, double large) {
+            std::vector<GrainMotion> grains{grain};
+            if (isSphere) grains.push_back({.radius = large, .position = {0, 0, -large}, .fixed = true});
+            WallScene<S> scene(grains, species);
+            scene.acceptUnstableTimeStep();  // two such spheres need not be thought of
+            addWall(scene);
+            scene.initialise();
+            scene.steps(200);
+            return scene.motion(0);
+        };
+        const auto plane = bounced(
+            [](auto& scene) {
+                InfiniteWall wall;
+                wall.set({0, 0, -1}, {0, 0, 0});
+                scene.add(wall);
+            },
+            false, 0);
+        const auto faces = bounced(
+            [](auto& scene) {
+                scene.add(mesh(parallelogram(at(-0.01, -0.01, 0), at(0.02, 0, 0), at(0, 0.02, 0), 4, 4)));
+            },
+            false, 0);
+        ASSERT_GT(plane.velocity.z(), 0);
+        EXPECT_LT((plane.velocity - faces.velocity).norm(), 1e-13);
+        double last = infinity;
+        for (double ratio : {1e3, 1e4}) {
+            const auto sphere = bounced([](auto&) {}, true, ratio * radius);
+            const double difference = (sphere.velocity - plane.velocity).norm();
+            EXPECT_LT(difference, 5 * 0.3 / ratio);
+            EXPECT_LT((sphere.spin - plane.spin).norm(), 5 * 0.3 / radius / ratio);
+            EXPECT_LT(difference, 0.2 * last + 1e-8);
+            last = difference;
+        }
+    });
+}
+
+}  // namespace
+}  // namespace pendular

@@ -1,0 +1,78 @@
+# A folder below SelfTests/ with a *Test.cpp in it is a test program, made of all .cpp files in the folder.
+#   SelfTests/CompileFail/*.cpp  must not compile, with the message they expect (CheckCompileFailure.cmake)
+#   SelfTests/OutOfTree/         a driver outside the tree, built against the installed kernel (CheckOutOfTree.cmake)
+# Labels, by the beginning of the suite's name:
+#   fast   all that are not named otherwise
+#   heavy  Heavy...: seconds of computing; not run under the sanitizers, which make them ten times as long
+#   long   Long...: minutes; run only by ctest --preset long
+#   build  (with fast) those that only run a compiler; not run under the sanitizers
+
+enable_testing()
+include(GoogleTest)
+find_package(GTest QUIET)
+if(NOT TARGET GTest::gtest_main)
+    message(FATAL_ERROR "The self-tests need GoogleTest: install libgtest-dev, or build without them "
+                        "(-DPENDULAR_BUILD_TESTS=OFF).")
+endif()
+
+set(selfTests "${PROJECT_SOURCE_DIR}/SelfTests")
+
+function(pendular_add_self_test folder)
+    string(REPLACE "/" "" joined "${folder}")
+    set(name "SelfTest${joined}")
+    file(GLOB sources CONFIGURE_DEPENDS "${selfTests}/${folder}/*.cpp")
+    add_executable(${name} ${sources})
+    target_link_libraries(${name} PRIVATE Pendular::Kernel GTest::gtest_main)
+    target_compile_definitions(${name} PRIVATE
+        PENDULAR_TOOLS_DIR="${PROJECT_BINARY_DIR}/Tools"
+        PENDULAR_DRIVERS_DIR="${PROJECT_BINARY_DIR}/Drivers"
+        PENDULAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+        PENDULAR_BINARY_DIR="${PROJECT_BINARY_DIR}"
+        PENDULAR_SHARED_DIR="${PENDULAR_SHARED_DIR}")
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
+    add_warnings(${name})
+
+    # The suite's name may follow that of an instantiation: "Materials/LongCollision.Restitution/3".
+    set(long "Long*:*/Long*.*")
+    set(heavy "Heavy*:*/Heavy*.*")
+    set(options TEST_PREFIX "${folder}/" DISCOVERY_TIMEOUT 60)
+    gtest_discover_tests(${name} ${options} TEST_FILTER "-${long}:${heavy}" TEST_LIST ${name}Fast PROPERTIES LABELS fast)
+    gtest_discover_tests(${name} ${options} TEST_FILTER "${heavy}" TEST_LIST ${name}Heavy PROPERTIES LABELS heavy)
+    gtest_discover_tests(${name} ${options} TEST_FILTER "${long}" TEST_LIST ${name}Long PROPERTIES LABELS long)
+endfunction()
+
+file(GLOB_RECURSE testFolders CONFIGURE_DEPENDS RELATIVE "${selfTests}" "${selfTests}/*/*Test.cpp")
+list(TRANSFORM testFolders REPLACE "/[^/]*$" "")
+list(REMOVE_DUPLICATES testFolders)
+list(REMOVE_ITEM testFolders CompileFail OutOfTree)
+foreach(folder IN LISTS testFolders)
+    pendular_add_self_test(${folder})
+endforeach()
+
+# What must not compile: the flags of a driver, in a file for the compiler.
+string(TOUPPER "${CMAKE_BUILD_TYPE}" configuration)
+set(compilerFlags "${PROJECT_BINARY_DIR}/SelfTests/CompileFail/flags.txt")
+set(kernelProperty "$<TARGET_PROPERTY:PendularKernel,INTERFACE")
+set(kernelOptions "${kernelProperty}_COMPILE_OPTIONS>")
+set(kernelDefinitions "${kernelProperty}_COMPILE_DEFINITIONS>")
+set(kernelIncludes "$<FILTER:${kernelProperty}_INCLUDE_DIRECTORIES>,EXCLUDE,^/usr/include$>")
+file(GENERATE OUTPUT "${compilerFlags}" CONTENT
+"${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${configuration}} ${CMAKE_CXX20_STANDARD_COMPILE_OPTION}
+$<JOIN:${kernelOptions},\n>
+$<$<BOOL:${kernelDefinitions}>:-D$<JOIN:${kernelDefinitions},\n-D>>
+-I\"$<JOIN:${kernelIncludes},\"\n-I\">\"
+" TARGET PendularKernel)
+file(GLOB failures CONFIGURE_DEPENDS "${selfTests}/CompileFail/*.cpp")
+foreach(source IN LISTS failures)
+    cmake_path(GET source STEM name)
+    add_test(NAME CompileFail/${name}
+             COMMAND "${CMAKE_COMMAND}" -D "compiler=${CMAKE_CXX_COMPILER}" -D "flags=${compilerFlags}"
+                     -D "source=${source}" -P "${PROJECT_SOURCE_DIR}/Tools/CMake/CheckCompileFailure.cmake")
+    set_tests_properties(CompileFail/${name} PROPERTIES LABELS "fast;build")
+endforeach()
+
+add_test(NAME OutOfTree
+         COMMAND "${CMAKE_COMMAND}" -D "source=${selfTests}/OutOfTree" -D "pendular=${PROJECT_BINARY_DIR}"
+                 -D "generator=${CMAKE_GENERATOR}" -D "compiler=${CMAKE_CXX_COMPILER}" -D "flags=${CMAKE_CXX_FLAGS}"
+                 -D "configuration=$<CONFIG>" -P "${PROJECT_SOURCE_DIR}/Tools/CMake/CheckOutOfTree.cmake")
+set_tests_properties(OutOfTree PROPERTIES LABELS "fast;build")

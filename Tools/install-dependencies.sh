@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that Pendular is built with, where they are missing.
+#   Tools/install-dependencies.sh           installs
+#   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
+set -euo pipefail
+
+if [[ $# -gt 1 || ${1:---check} != --check ]]; then
+    echo "usage: Tools/install-dependencies.sh [--check]" >&2
+    exit 2
+fi
+
+# package | its program, if it has one | what it is for
+packages='git|git|the source code
+g++|g++|compiler (C++20)
+cmake|cmake|build
+ninja-build|ninja|build
+libeigen3-dev||vectors and linear algebra
+libfmt-dev||text
+libcli11-dev||command lines of drivers and tools
+libgtest-dev||self-tests
+gnuplot-nox|gnuplot|charts'
+
+is_installed() {  # package, program
+    if [[ -n $2 ]] && command -v "$2" >/dev/null; then
+        return 0
+    fi
+    command -v dpkg-query >/dev/null &&
+        [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+missing=()
+missing_programs=()
+while IFS='|' read -r package program _; do
+    if ! is_installed "$package" "$program"; then
+        missing+=("$package")
+        if [[ -n $program ]]; then missing_programs+=("$program"); fi
+    fi
+done <<<"$packages"
+
+list_packages() {
+    while IFS='|' read -r package _ purpose; do
+        printf '    %-16s %s\n' "$package" "$purpose"
+    done <<<"$packages"
+}
+
+if ! command -v apt-get >/dev/null; then
+    echo "This system has no apt-get. Pendular needs these packages (names as in Debian):"
+    list_packages
+    if ((${#missing_programs[@]} > 0)); then
+        echo "Not found: ${missing_programs[*]}. Please install them, and run this again." >&2
+        exit 1
+    fi
+    echo "All programs are found; CMake will look for the libraries."
+    exit 0
+fi
+
+if ((${#missing[@]} == 0)); then
+    echo "All packages are installed."
+    exit 0
+fi
+echo "Missing packages: ${missing[*]}"
+if [[ ${1:-} == --check ]]; then
+    exit 1
+fi
+
+as_root=()
+if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+        echo "To install them, run as root:  apt-get install ${missing[*]}" >&2
+        exit 1
+    fi
+    as_root=(sudo)
+fi
+echo "Installing them with apt-get ..."
+${as_root[@]+"${as_root[@]}"} apt-get update -qq
+${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" </dev/null

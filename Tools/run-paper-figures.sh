@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds Pendular, runs two-particle collisions with three models of the bridge, and
+# draws Figures 3a, 3b, 4a and 4b of Bagheri, Roy and Poeschel, "Discrete Element Simulations of particles
+# interacting via capillary forces using MercuryDPM".
+#   Tools/run-paper-figures.sh [OUTPUT_FOLDER]     (default: output/paper-figures)
+set -euo pipefail
+mkdir -p "${1:-$(dirname "${BASH_SOURCE[0]}")/../output/paper-figures}"
+output=$(cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../output/paper-figures}" && pwd)
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+Tools/install-dependencies.sh
+echo "== Building (preset release, folder build/release)"
+cmake --preset release
+cmake --build --preset release --parallel "$(getconf _NPROCESSORS_ONLN)" --target TwoParticleCollision
+
+models='LiquidBridgeWillett LiquidBridgeClassicalWillett LiquidBridgeBagheri'
+
+# Table 1 of the paper. Speed and restitution are ours, and the curves do not depend on them; at 0.1 m/s the
+# grains would not part.
+collide() {  # radius of the second sphere (m), bridge volume (m^3), model, output folder
+    build/release/Drivers/TwoParticleCollision/TwoParticleCollision \
+        --radius1-m 0.0005 --radius2-m "$1" --volume-m3 "$2" --adhesion "$3" --output "$4" \
+        --surface-tension-N/m 0.079 --contact-angle-deg 0 --speed-m/s 0.5 \
+        --elastic-modulus-Pa 5e6 --poisson-ratio 0.35 --density-kg/m3 2000 --restitution 0.86
+}
+
+draw_figure() {  # name, radius of the second sphere (mm), bridge volume (nl)
+    echo "== Figure $1: spheres of 0.5 mm and $2 mm, bridge of $3 nl"
+    local model
+    for model in $models; do
+        mkdir -p "$output/figure-$1/$model"
+        collide "$2e-3" "$3e-12" "$model" "$output/figure-$1/$model"
+    done
+    gnuplot -c Tools/plot-figure.gp "$output/figure-$1" "Figure $1: r_1 = 0.5 mm, r_2 = $2 mm, V = $3 nl" \
+        "$output/figure-$1"
+}
+
+draw_figure 3a 0.8 10
+draw_figure 3b 0.8 80
+draw_figure 4a 1.0 10
+draw_figure 4b 1.0 80
+
+echo
+echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg}"
+echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv"

@@ -1,0 +1,109 @@
+/// Lists the laws that species are composed of, and describes their parameters from the field tables.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/Species/LawNames.h"
+#include "Kernel/Species/Laws.h"
+
+using namespace pendular;
+
+namespace {
+
+template <class Function>
+void forEachSpecies(Function&& function) {
+    NormalLaws::forEach([&]<class N>() {
+        FrictionLaws::forEach([&]<class F>() {
+            AdhesionLaws::forEach([&]<class A>() { function.template operator()<Species<N, F, A>>(); });
+        });
+    });
+}
+
+template <class Law>
+std::string_view shownName() {
+    return Law::name.empty() ? std::string_view("none") : Law::name;
+}
+
+template <class Laws>
+void listLaws(std::string_view kind) {
+    fmt::print("{} laws\n", kind);
+    Laws::forEach([]<class Law>() { fmt::print("  {:<30} {}\n", shownName<Law>(), Law::summary); });
+}
+
+void list() {
+    listLaws<NormalLaws>("Normal");
+    listLaws<FrictionLaws>("Friction");
+    listLaws<AdhesionLaws>("Adhesion");
+    fmt::print("Species: every normal law with every friction and every adhesion law\n");
+    forEachSpecies([]<class S>() {
+        fmt::print("  {:<72} {} + {} + {}\n", S::name, S::Normal::name, shownName<typename S::Friction>(),
+                   shownName<typename S::Adhesion>());
+    });
+}
+
+template <class Law>
+void describeLaw() {
+    fmt::print("## {}\n\n{}. Domain: {}.\n\n", shownName<Law>(), Law::summary, Law::domain);
+    if (Law::fields().empty()) return;
+    fmt::print(
+        "| field | unit | range | default | mixing of a and b | meaning | source "
+        "|\n|---|---|---|---|---|---|---|\n");
+    const Law law;
+    for (const auto& field : Law::fields()) {
+        const double value = law.*field.member;
+        const std::string standard = isSet(value)            ? fmt::format("{:.6g}", value)
+                                     : field.ifUnset.empty() ? std::string("must be set")
+                                                             : std::string(field.ifUnset);
+        fmt::print("| {} | {} | {} | {} | {} | {} | {} |\n", field.name,
+                   field.unit.empty() ? "-" : field.unit, field.range.text(field.unit), standard,
+                   formula(field.mixing), field.meaning, field.source);
+    }
+    fmt::print("\n");
+}
+
+/// Describes the law or the species of this name; all laws for "all".
+void describe(std::string_view name) {
+    bool found = false;
+    std::vector<std::string_view> known;
+    const std::string wanted = canonicalLawName(name);
+    const auto tryLaw = [&]<class Law>() {
+        if (!Law::name.empty()) known.push_back(Law::name);
+        if (Law::name.empty() || (wanted != Law::name && wanted != "all")) return;
+        found = true;
+        describeLaw<Law>();
+    };
+    NormalLaws::forEach(tryLaw);
+    FrictionLaws::forEach(tryLaw);
+    AdhesionLaws::forEach(tryLaw);
+    forEachSpecies([&]<class S>() {
+        known.push_back(S::name);
+        if (wanted != S::name) return;
+        found = true;
+        fmt::print("# {}\n\nAlso: density, kg/m^3, greater than 0; it must be set.\n\n", S::name);
+        describeLaw<typename S::Normal>();
+        if (S::Friction::acts) describeLaw<typename S::Friction>();
+        if (S::Adhesion::acts) describeLaw<typename S::Adhesion>();
+    });
+    if (!found) unknownName("law or species", name, known);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("The laws and species of Pendular and their parameters.");
+    bool listed = false;
+    std::string described;
+    app.add_flag("--list", listed, "name all laws and species, a line each");
+    app.add_option("--describe", described,
+                   "table of the parameters of a law or a species (all: of every law)");
+    CLI11_PARSE(app, argc, argv);
+    return runProgram([&] {
+        if (!described.empty()) describe(described);
+        else if (listed) list();
+        else fmt::print("{}", app.help());
+        return 0;
+    });
+}
