@@ -13,15 +13,6 @@ using namespace pendular;
 
 namespace {
 
-template <class Function>
-void forEachSpecies(Function&& function) {
-    NormalLaws::forEach([&]<class N>() {
-        FrictionLaws::forEach([&]<class F>() {
-            AdhesionLaws::forEach([&]<class A>() { function.template operator()<Species<N, F, A>>(); });
-        });
-    });
-}
-
 template <class Law>
 std::string_view shownName() {
     return Law::name.empty() ? std::string_view("none") : Law::name;

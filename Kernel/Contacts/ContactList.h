@@ -28,7 +28,7 @@ public:
     void rebuild(Grains& grains, ContactStore<S>& store) {
         const RememberedContacts<S> old(store, grains.identity);
         for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
-        grains.reorder(spatialOrder(grains.translation, 2 * smallestRadius(grains) + skin));
+        grains.reorder(spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin));
         findPairs(grains, old);
         findWallContacts(grains, old);
         fill(grains, store);
@@ -47,12 +47,6 @@ private:
         Bucket bucket;
         std::vector<Listed> contacts;
     };
-
-    static double smallestRadius(const Grains& grains) {
-        double smallest = infinity;
-        for (const TranslationRecord& grain : grains.translation) smallest = std::min(smallest, grain.radius);
-        return smallest;
-    }
 
     double rangeOf(int a, int b, const Bodies& bodies) const { return species.mixture(a, b).range(bodies); }
 
@@ -208,7 +202,7 @@ private:
 
     /// Copies the memory of contacts that were touching or joined before.
     static void recall(const RememberedContacts<S>& old, const Grains& grains, ContactStore<S>& store) {
-        forEachListed(store, [&](const Bucket& bucket, std::uint32_t c) {
+        store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
             const ContactBlock& block = store.blocks[c / Pack::lanes];
             const std::uint32_t first = grains.identity[block.first[c % Pack::lanes]];
             const std::uint32_t second = block.second[c % Pack::lanes];
@@ -221,18 +215,11 @@ private:
         });
     }
 
-    template <class Function>
-    static void forEachListed(const ContactStore<S>& store, Function&& function) {
-        for (const Bucket& bucket : store.buckets)
-            for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
-                if ((store.states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0) function(bucket, c);
-    }
-
     static void listSides(std::size_t grainCount, ContactStore<S>& store) {
         std::vector<std::uint32_t>& begins = store.sidesBegin;
         begins.assign(grainCount + 1, 0);
         const auto forEachSide = [&](auto&& function) {
-            forEachListed(store, [&](const Bucket& bucket, std::uint32_t c) {
+            store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
                 function(store.blocks[c / Pack::lanes].first[c % Pack::lanes], 2 * c);
                 if (bucket.wall < 0)
                     function(store.blocks[c / Pack::lanes].second[c % Pack::lanes], 2 * c + 1);

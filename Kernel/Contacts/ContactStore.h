@@ -171,6 +171,13 @@ public:
         const BlockState& state = states[contact / Pack::lanes];
         return ((state.touching | state.bridged) >> (contact % Pack::lanes) & 1) != 0;
     }
+    /// Calls function(bucket, contact) for each listed contact.
+    template <class Function>
+    void forEachListed(Function&& function) const {
+        for (const Bucket& bucket : buckets)
+            for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
+                if ((states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0) function(bucket, c);
+    }
     [[nodiscard]] std::size_t firstWallBlock() const { return blocks.size() - wallPoints.size(); }
 
     /// Bytes that one listed contact takes, without the ledger.

@@ -19,8 +19,10 @@ struct ContactEnergies {
 
 /// One contact as an observer sees it after a step.
 struct ObservedContact {
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
     std::uint32_t particle1;
-    std::uint32_t particle2;  // meaningless at a wall
+    std::uint32_t particle2;  // `none` at a wall
     int wall;                 // -1: grain with grain
     double separation;        // m, of the surfaces; negative where they overlap
     double normalForce;       // N, elastic and damping, repulsion positive
@@ -73,19 +75,10 @@ public:
     [[nodiscard]] const ContactStore<S>& store() const { return contacts; }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
 
-    /// Calls function(bucket, contact) for each listed contact.
-    template <class Function>
-    void forEachListed(Function&& function) const {
-        for (const Bucket& bucket : contacts.buckets)
-            for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
-                if ((contacts.states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0)
-                    function(bucket, c);
-    }
-
     [[nodiscard]] ContactEnergies energies() const {
         ContactEnergies sum;
         if (!ledger) return sum;
-        forEachListed([&](const Bucket&, std::uint32_t c) {
+        contacts.forEachListed([&](const Bucket&, std::uint32_t c) {
             const EnergyRecord& e = contacts.energies[c];
             sum.elastic += e.elastic;
             sum.damping += e.damping;
@@ -101,15 +94,16 @@ public:
         const BlockState& state = contacts.states[contact / Pack::lanes];
         const std::size_t lane = contact % Pack::lanes;
         const TranslationRecord& first = grains.translation[block.first[lane]];
-        const TranslationRecord& second = grains.translation[block.second[lane]];
         ObservedContact seen{grains.identity[block.first[lane]],
-                             grains.identity[block.second[lane]],
+                             ObservedContact::none,
                              bucket.wall,
                              0,
                              contacts.records[contact].normalForce,
                              0,
                              (state.bridged >> lane & 1) != 0};
         if (bucket.wall < 0) {
+            const TranslationRecord& second = grains.translation[block.second[lane]];
+            seen.particle2 = grains.identity[block.second[lane]];
             seen.separation =
                 norm(periodic.nearest(second.position - first.position)) - (first.radius + second.radius);
         } else {

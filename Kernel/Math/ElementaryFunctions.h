@@ -30,7 +30,6 @@ template <Number T>
     const T w = w0 + r4 * (w4 + r4 * w8);
     const T result = scaleByPowerOfTwo(1.0 + (0x1.62e42fefa39efp-1 * r + r2 * w), n);
 
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     return select(x < 1024.0, select(x >= -1022.0, result, T(0.0)), x + infinity);
 }
 
@@ -69,7 +68,6 @@ template <Number T>
     const T error = (e - sum) + product;
     const T result = sum + (error + ((leading + rest) * inverseLog2Rest + rest * inverseLog2));
 
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
     const T special = select(x == 0.0, T(-infinity), T(notANumber));
     return select(x > 0.0, select(x < infinity, result, x), special);

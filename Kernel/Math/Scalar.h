@@ -12,6 +12,8 @@
 
 namespace pendular {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 // Templates, because ::sqrt and ::abs take a double as well: for a caller with `using namespace pendular` the
 // plain function then wins without ambiguity, and it gives the same bits.
 template <class T>

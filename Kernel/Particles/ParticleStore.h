@@ -41,6 +41,13 @@ public:
 
     [[nodiscard]] std::size_t size() const { return translation.size(); }
 
+    /// m; infinite without grains.
+    [[nodiscard]] double smallestRadius() const {
+        double smallest = infinity;
+        for (const TranslationRecord& grain : translation) smallest = std::min(smallest, grain.radius);
+        return smallest;
+    }
+
     /// Adds a grain; returns its identity.
     std::uint32_t add(const TranslationRecord& grain, const Vector<double>& spin,
                       std::uint16_t speciesIndex) {

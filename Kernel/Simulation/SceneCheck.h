@@ -33,13 +33,6 @@ std::vector<SizeRange> sizeRanges(const ParticleStore<hasSpin>& grains, std::siz
     return ranges;
 }
 
-template <bool hasSpin>
-double sceneSmallestRadius(const ParticleStore<hasSpin>& grains) {
-    double smallest = infinity;
-    for (const TranslationRecord& grain : grains.translation) smallest = std::min(smallest, grain.radius);
-    return smallest;
-}
-
 /// Calls function(laws, bodies, effective mass) for the extreme pairs of bodies of a scene: the smallest and
 /// the largest grains of each two species, and of each species with each wall. (A grain that is held in place
 /// counts as free.)

@@ -105,7 +105,7 @@ public:
         checkValue("Simulation", "time step", timeStep, "s", positive);
         speciesHandler.mixAll();
         checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
-        smallestRadius = sceneSmallestRadius(particleHandler.store());
+        smallestRadius = particleHandler.store().smallestRadius();
         contactSystem.prepare(speciesHandler, wallHandler, periodic, skinShare * smallestRadius, ledgerKept);
         checkOverlaps();
         advance(0);  // a step of no length: forces and accelerations at the start
@@ -140,7 +140,7 @@ private:
     void checkOverlaps() {
         auto& grains = particleHandler.store();
         contactSystem.refresh(grains, 0, 0);
-        contactSystem.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
             refuseOverlap(contactSystem.observe(grains, bucket, contact), smallerRadius(bucket, contact));
         });
     }

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "Kernel/Math/Scalar.h"
+
 namespace pendular {
 
 /// The value of a parameter that the user has not given (NaN, which fails every check).
@@ -27,7 +29,6 @@ struct Range {
     [[nodiscard]] std::string text(std::string_view unit) const;
 };
 
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr Range positive{0, infinity, false, false};
 inline constexpr Range notNegative{0, infinity, true, false};
 inline constexpr Range positiveUpTo(double highest) { return {0, highest, false, true}; }

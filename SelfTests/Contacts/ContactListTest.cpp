@@ -107,7 +107,7 @@ struct Listing {
         system.prepare(scene.speciesHandler, scene.wallHandler, box, skin, false);
         system.refresh(grains(), 0, 0);
         std::set<ContactKey> result;
-        system.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+        system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
             const auto& g = grains();
             const ContactBlock& block = system.store().blocks[c / Pack::lanes];
             const int s1 = g.species[block.first[c % Pack::lanes]];
@@ -123,7 +123,7 @@ struct Listing {
     void checkSides() {
         const auto& store = system.store();
         std::multiset<std::pair<std::uint32_t, std::uint32_t>> expected, found;
-        system.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+        system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
             expected.emplace(store.blocks[c / Pack::lanes].first[c % Pack::lanes], 2 * c);
             if (bucket.wall < 0)
                 expected.emplace(store.blocks[c / Pack::lanes].second[c % Pack::lanes], 2 * c + 1);

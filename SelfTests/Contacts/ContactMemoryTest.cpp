@@ -54,7 +54,7 @@ TEST(ContactMemory, makesTrajectoriesIndependentOfTheSkin) {
     EXPECT_LT(rarely.system.rebuildCount(), 100u);
     EXPECT_GT(rarely.system.rebuildCount(), 5u);
     int stretched = 0;
-    always.system.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+    always.system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
         const ObservedContact seen = always.system.observe(always.scene.particleHandler.store(), bucket, c);
         stretched += seen.bridged && seen.separation > 0 ? 1 : 0;
     });
@@ -81,7 +81,7 @@ std::map<ContactKey, Memory> memories(Settling<Wet>& run, int& exchanged) {
     const auto& store = run.system.store();
     const auto& identity = run.scene.particleHandler.store().identity;
     exchanged = 0;
-    run.system.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+    run.system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
         const BlockState& state = store.states[c / Pack::lanes];
         const auto bit = [&](std::uint8_t bits) { return (bits >> (c % Pack::lanes) & 1) != 0; };
         if (!bit(state.touching) && !bit(state.bridged)) return;
@@ -146,7 +146,7 @@ TEST(ContactMemory, forgetsContactsThatHaveEnded) {
     run.system.refresh(grains, 1, 0);
     run.system.computeForces(grains, 1e-6);
     EXPECT_TRUE(memories(run, exchanged).empty());
-    run.system.forEachListed([&](const Bucket&, std::uint32_t c) {
+    run.system.store().forEachListed([&](const Bucket&, std::uint32_t c) {
         EXPECT_EQ(squaredNorm(run.system.store().records[c].force), 0);
     });
 }

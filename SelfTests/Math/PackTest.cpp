@@ -8,7 +8,6 @@
 namespace pendular {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 using Lanes = std::array<double, Pack::lanes>;

@@ -15,8 +15,8 @@ namespace pendular {
 namespace {
 
 using support::contains;
+using forEachSpecies;
 using support::forEveryLaw;
-using support::forEverySpecies;
 using support::isOneSentence;
 using support::refusal;
 
@@ -190,7 +190,7 @@ TEST(Field, everySetterChecksItsFieldAndItsGetterReturnsIt) {
 }
 
 TEST(Field, densityIsCheckedBySetterAndByCheck) {
-    forEverySpecies([]<class S>() {
+    forEachSpecies([]<class S>() {
         for (const double value : valuesOutside(positive)) {
             S species;
             const std::string message = refusal([&] { species.setDensity(value); });

@@ -40,7 +40,7 @@ static_assert(std::is_same_v<LinearViscoelasticLiquidBridgeWilletSpecies,
                              Species<LinearViscoelastic, NoFriction, LiquidBridgeWillett>>);
 
 TEST(SpeciesName, isTheConcatenationOfTheLawsNames) {
-    support::forEverySpecies([]<class S>() {
+    forEachSpecies([]<class S>() {
         const std::string expected = std::string(S::Normal::name) + std::string(S::Friction::name) +
                                      std::string(S::Adhesion::name) + "Species";
         EXPECT_EQ(S::name, expected);

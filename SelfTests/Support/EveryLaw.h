@@ -12,16 +12,6 @@ void forEveryLaw(Function&& function) {
     AdhesionLaws::forEach(function);
 }
 
-/// Calls function.template operator()<S>() for the species of every combination of the kernel's laws.
-template <class Function>
-void forEverySpecies(Function&& function) {
-    NormalLaws::forEach([&]<class N>() {
-        FrictionLaws::forEach([&]<class F>() {
-            AdhesionLaws::forEach([&]<class A>() { function.template operator()<Species<N, F, A>>(); });
-        });
-    });
-}
-
 /// Every adhesion law that is a liquid bridge of constant volume.
 template <class Function>
 void forEveryBridge(Function&& function) {

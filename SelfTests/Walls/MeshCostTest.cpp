@@ -41,7 +41,8 @@ void measure(const char* name, AddWall&& addWall) {
     scene.initialise();
     scene.steps(1000);
     std::size_t listed = 0;
-    scene.contacts().forEachListed([&](const Bucket& bucket, std::uint32_t) { listed += bucket.wall >= 0; });
+    scene.contacts().store().forEachListed(
+        [&](const Bucket& bucket, std::uint32_t) { listed += bucket.wall >= 0; });
     const std::size_t rebuilds = scene.contacts().rebuildCount();
     const auto start = std::chrono::steady_clock::now();
     constexpr int steps = 1000;

@@ -67,6 +67,16 @@ function(pendular_generate_laws header)
 namespace pendular {
 
 @lists@
+/// Calls function.template operator()<S>() for the species of every combination of the laws.
+template <class Function>
+void forEachSpecies(Function&& function) {
+    NormalLaws::forEach([&]<class N>() {
+        FrictionLaws::forEach([&]<class F>() {
+            AdhesionLaws::forEach([&]<class A>() { function.template operator()<Species<N, F, A>>(); });
+        });
+    });
+}
+
 @aliases@
 }  // namespace pendular
 ]])
