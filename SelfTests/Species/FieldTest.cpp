@@ -15,7 +15,6 @@ namespace pendular {
 namespace {
 
 using support::contains;
-using forEachSpecies;
 using support::forEveryLaw;
 using support::isOneSentence;
 using support::refusal;
