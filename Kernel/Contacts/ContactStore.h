@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Kernel/Math/Pack.h"
+#include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Species/Species.h"
 #include "Kernel/Walls/Wall.h"
 
@@ -166,10 +167,18 @@ public:
     std::vector<std::uint32_t> sides;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks.size(); }
+    [[nodiscard]] bool touches(std::uint32_t contact) const {
+        return (states[contact / Pack::lanes].touching >> (contact % Pack::lanes) & 1) != 0;
+    }
     /// Whether the contact has a force: it touches or is bridged.
     [[nodiscard]] bool acts(std::uint32_t contact) const {
         const BlockState& state = states[contact / Pack::lanes];
         return ((state.touching | state.bridged) >> (contact % Pack::lanes) & 1) != 0;
+    }
+    /// Of memory that the contacts take.
+    [[nodiscard]] std::size_t bytes() const {
+        return bytesOf(buckets, blocks, states, history.columns, interaction.columns, records, wallPoints,
+                       energies, sidesBegin, sides);
     }
     /// Calls function(bucket, contact) for each listed contact.
     template <class Function>

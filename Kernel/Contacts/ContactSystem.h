@@ -73,6 +73,8 @@ public:
     }
 
     [[nodiscard]] const ContactStore<S>& store() const { return contacts; }
+    /// Of memory that the contacts take.
+    [[nodiscard]] std::size_t bytes() const { return contacts.bytes(); }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
 
     [[nodiscard]] ContactEnergies energies() const {
