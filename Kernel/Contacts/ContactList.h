@@ -7,6 +7,7 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/RememberedContacts.h"
+#include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Species/SpeciesHandler.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -21,8 +22,8 @@ public:
     using Grains = ParticleStore<S::hasTorque>;
 
     ContactList(const SpeciesHandler<S>& speciesHandler, const WallHandler& wallHandler,
-                const PeriodicBox& box, double skinWidth)
-        : species(speciesHandler), walls(wallHandler), periodic(box), skin(skinWidth) {}
+                const PeriodicBox& box, double skinWidth, bool withLedger)
+        : species(speciesHandler), walls(wallHandler), periodic(box), skin(skinWidth), ledger(withLedger) {}
 
     /// Sorts the grains in space and lists their contacts.
     void rebuild(Grains& grains, ContactStore<S>& store) {
@@ -153,9 +154,10 @@ private:
         }
     }
 
-    /// Turns the groups into blocks and prepares the adhesion of each contact.
+    /// Turns the groups into blocks.
     void fill(const Grains& grains, ContactStore<S>& store) {
         std::size_t blocks = 0, wallBlocks = 0;
+        store.buckets.clear();
         for (Group& g : groups) {
             if (g.contacts.empty()) continue;
             if (g.bucket.wall < 0) putTouchingFirst(g, grains);
@@ -166,12 +168,11 @@ private:
             g.bucket.end = static_cast<std::uint32_t>(blocks);
             store.buckets.push_back(g.bucket);
         }
-        store.blocks.resize(blocks);
-        store.states.resize(blocks);
-        store.history.resize(blocks);
-        store.interaction.resize(blocks);
-        store.records.assign(blocks * Pack::lanes, {});
-        store.wallPoints.resize(wallBlocks);
+        store.blocks.assign(blocks, {});
+        store.states.assign(blocks, {});
+        store.slots.assign(blocks, ContactStore<S>::asleep);
+        store.memory.clear(ledger);
+        store.wallPoints.assign(wallBlocks, {});
         for (const Group& g : groups) {
             for (std::size_t k = 0; k < g.contacts.size(); ++k) {
                 const std::size_t block = g.bucket.begin + k / Pack::lanes, lane = k % Pack::lanes;
@@ -179,29 +180,12 @@ private:
                 store.blocks[block].second[lane] = g.contacts[k].second;
                 store.states[block].listed |= static_cast<std::uint8_t>(1u << lane);
             }
-            if constexpr (S::Adhesion::acts) prepareAdhesion(g, grains, store);
         }
         groups.clear();
     }
 
-    void prepareAdhesion(const Group& g, const Grains& grains, ContactStore<S>& store) const {
-        const typename S::Adhesion& law = species.mixture(g.bucket.species1, g.bucket.species2);
-        Bodies last{-1, -1};
-        typename S::Adhesion::template Interaction<double> prepared{};
-        for (std::size_t k = 0; k < g.contacts.size(); ++k) {
-            const double r1 = grains.translation[g.contacts[k].first].radius;
-            const double r2 = g.bucket.wall >= 0 ? infinity : grains.translation[g.contacts[k].second].radius;
-            const Bodies bodies{std::min(r1, r2), std::max(r1, r2)};
-            if (bodies.radius1 != last.radius1 || bodies.radius2 != last.radius2) {
-                last = bodies;
-                prepared = law.prepare(bodies);
-            }
-            store.interaction.set(g.bucket.begin * Pack::lanes + k, prepared);
-        }
-    }
-
     /// Copies the memory of contacts that were touching or joined before.
-    static void recall(const RememberedContacts<S>& old, const Grains& grains, ContactStore<S>& store) {
+    void recall(const RememberedContacts<S>& old, const Grains& grains, ContactStore<S>& store) const {
         store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
             const ContactBlock& block = store.blocks[c / Pack::lanes];
             const std::uint32_t first = grains.identity[block.first[c % Pack::lanes]];
@@ -211,7 +195,11 @@ private:
             const auto* entry = exchanged
                                     ? old.find(other, 0, first)
                                     : old.find(first, static_cast<std::uint32_t>(bucket.wall + 1), other);
-            if (entry) old.copy(*entry, exchanged, store, c);
+            if (!entry) return;
+            if (store.slots[c / Pack::lanes] == ContactStore<S>::asleep)
+                wakeBlock(store, c / Pack::lanes, bucket, species.mixture(bucket.species1, bucket.species2),
+                          grains);
+            RememberedContacts<S>::recall(*entry, exchanged, store, c);
         });
     }
 
@@ -236,6 +224,7 @@ private:
     const WallHandler& walls;
     const PeriodicBox& periodic;
     double skin;
+    bool ledger;
     std::vector<Group> groups;
 };
 

@@ -96,7 +96,8 @@ struct MemoryColumns {
     static constexpr std::size_t count = columnsOf<Memory>;
     std::vector<LaneColumn> columns;
 
-    void resize(std::size_t blocks) { columns.assign(blocks * count, {}); }
+    void resize(std::size_t blocks) { columns.resize(blocks * count); }
+    void reserve(std::size_t blocks) { columns.reserve(blocks * count); }
 
     [[nodiscard]] Memory<Pack> load(std::size_t block) const {
         if constexpr (count == 0) {
@@ -142,9 +143,10 @@ struct Bucket {
     int wall = -1;  // -1: grains with grains
 };
 
-/// All listed contacts of a scene, as columns in blocks of eight.
+/// What contacts remember, and the forces that the kernel writes for them, in blocks of eight. Block 0 is
+/// that of all contacts that have no memory: it stays zero.
 template <class S>
-class ContactStore {
+class ContactMemory {
 public:
     template <class T>
     using History = typename S::Friction::template History<T>;
@@ -152,14 +154,60 @@ public:
     using Interaction = typename S::Adhesion::template Interaction<T>;
     using Record = std::conditional_t<S::hasTorque, ForceTorqueRecord, ForceRecord>;
 
-    std::vector<Bucket> buckets;
-    std::vector<ContactBlock> blocks;
-    std::vector<BlockState> states;
     MemoryColumns<History> history;
     MemoryColumns<Interaction> interaction;
     std::vector<Record> records;
+    std::vector<EnergyRecord> energies;  // empty unless a ledger is kept
+
+    /// Forgets everything, but keeps the room.
+    void clear(bool withLedger) {
+        resize(0);
+        if (withLedger) energies.assign(Pack::lanes, {});
+        else energies.clear();
+        resize(1);
+    }
+    /// Room for so many blocks in all.
+    void reserve(std::size_t blocks) {
+        history.reserve(blocks);
+        interaction.reserve(blocks);
+        records.reserve(blocks * Pack::lanes);
+        if (!energies.empty()) energies.reserve(blocks * Pack::lanes);
+    }
+    /// Adds a block of zeros; returns its number.
+    std::uint32_t add() {
+        const std::size_t count = records.size() / Pack::lanes;
+        // A vector's own growth would take up to twice the memory.
+        if (records.size() == records.capacity()) reserve(count + count / 8 + 64);
+        resize(count + 1);
+        return static_cast<std::uint32_t>(count);
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        return bytesOf(history.columns, interaction.columns, records, energies);
+    }
+
+private:
+    void resize(std::size_t blocks) {
+        history.resize(blocks);
+        interaction.resize(blocks);
+        records.resize(blocks * Pack::lanes);
+        if (!energies.empty()) energies.resize(blocks * Pack::lanes);
+    }
+};
+
+/// All listed contacts of a scene, in blocks of eight. Only blocks in which something has touched since they
+/// were listed have memory.
+template <class S>
+class ContactStore {
+public:
+    static constexpr std::uint32_t asleep = 0;                  // no memory: nothing acts in this block
+    static constexpr std::uint32_t waking = ~std::uint32_t{0};  // asleep, and needs memory in this step
+
+    std::vector<Bucket> buckets;
+    std::vector<ContactBlock> blocks;
+    std::vector<BlockState> states;
+    std::vector<std::uint32_t> slots;  // of each block: its block of memory
+    ContactMemory<S> memory;
     std::vector<WallPointColumns> wallPoints;  // of the wall blocks, which come last
-    std::vector<EnergyRecord> energies;        // empty unless a ledger is asked for
 
     /// The contacts of each grain: 2 x contact + (0: as body 1, 1: as body 2), of the grain at place i in
     /// sides[sidesBegin[i]] ... sides[sidesBegin[i + 1] - 1].
@@ -167,32 +215,46 @@ public:
     std::vector<std::uint32_t> sides;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks.size(); }
-    [[nodiscard]] bool touches(std::uint32_t contact) const {
-        return (states[contact / Pack::lanes].touching >> (contact % Pack::lanes) & 1) != 0;
+    [[nodiscard]] bool touches(std::size_t contact) const {
+        return bitOf(states[contact / Pack::lanes].touching, contact);
     }
     /// Whether the contact has a force: it touches or is bridged.
-    [[nodiscard]] bool acts(std::uint32_t contact) const {
+    [[nodiscard]] bool acts(std::size_t contact) const {
         const BlockState& state = states[contact / Pack::lanes];
-        return ((state.touching | state.bridged) >> (contact % Pack::lanes) & 1) != 0;
+        return bitOf(state.touching | state.bridged, contact);
     }
-    /// Of memory that the contacts take.
-    [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(buckets, blocks, states, history.columns, interaction.columns, records, wallPoints,
-                       energies, sidesBegin, sides);
+    /// Where the memory holds a contact.
+    [[nodiscard]] std::size_t slotOf(std::size_t contact) const {
+        return slots[contact / Pack::lanes] * std::size_t{Pack::lanes} + contact % Pack::lanes;
     }
+    [[nodiscard]] const typename ContactMemory<S>::Record& recordOf(std::size_t contact) const {
+        return memory.records[slotOf(contact)];
+    }
+    [[nodiscard]] std::size_t firstWallBlock() const { return blocks.size() - wallPoints.size(); }
+
     /// Calls function(bucket, contact) for each listed contact.
     template <class Function>
     void forEachListed(Function&& function) const {
         for (const Bucket& bucket : buckets)
             for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
-                if ((states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0) function(bucket, c);
+                if (bitOf(states[c / Pack::lanes].listed, c)) function(bucket, c);
     }
-    [[nodiscard]] std::size_t firstWallBlock() const { return blocks.size() - wallPoints.size(); }
 
-    /// Bytes that one listed contact takes, without the ledger.
+    /// Bytes of memory that the contacts take.
+    [[nodiscard]] std::size_t bytes() const {
+        return bytesOf(buckets, blocks, states, slots, wallPoints, sidesBegin, sides) + memory.bytes();
+    }
+    /// Bytes that one contact with memory takes, without the ledger.
     static constexpr std::size_t bytesPerContact() {
-        return (sizeof(ContactBlock) + sizeof(BlockState)) / Pack::lanes + sizeof(Record) +
-               2 * sizeof(std::uint32_t) + sizeof(double) * (columnsOf<History> + columnsOf<Interaction>);
+        return (sizeof(ContactBlock) + sizeof(BlockState) + sizeof(std::uint32_t)) / Pack::lanes +
+               sizeof(typename ContactMemory<S>::Record) + 2 * sizeof(std::uint32_t) +
+               sizeof(double) * (columnsOf<ContactMemory<S>::template History> +
+                                 columnsOf<ContactMemory<S>::template Interaction>);
+    }
+
+    /// The bit of a contact's lane.
+    static bool bitOf(unsigned bits, std::size_t contact) {
+        return (bits >> (contact % Pack::lanes) & 1u) != 0;
     }
 };
 
