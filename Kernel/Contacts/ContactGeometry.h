@@ -53,12 +53,12 @@ struct PairGeometry {
         const auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
         g.velocity = {vx1 - vx2, vy1 - vy2, vz1 - vz2};
         g.inverseMass = im1 + im2;
-        // Three reciprocals for one division.
-        const Pack product = distance * sum;
+        // Three reciprocals for one division, which need not wait for the square root.
+        const Pack product = distance2 * sum;
         const Pack reciprocal = Pack(1) / (product * g.inverseMass);
         g.effectiveMass = product * reciprocal;
-        g.inverseDistance = sum * g.inverseMass * reciprocal;
-        g.effectiveRadius = radius1 * radius2 * (distance * g.inverseMass * reciprocal);
+        g.inverseDistance = distance * (sum * g.inverseMass * reciprocal);
+        g.effectiveRadius = radius1 * radius2 * (distance2 * g.inverseMass * reciprocal);
         g.normal = shift * g.inverseDistance;
         g.overlap = sum - distance;
         if constexpr (S::hasTorque) {

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "Kernel/Contacts/ContactSides.h"
 #include "Kernel/Math/Pack.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Species/Species.h"
@@ -158,6 +159,7 @@ public:
     MemoryColumns<Interaction> interaction;
     std::vector<Record> records;
     std::vector<EnergyRecord> energies;  // empty unless a ledger is kept
+    std::vector<std::uint32_t> blockOf;  // the block of contacts that has this block of memory
 
     /// Forgets everything, but keeps the room.
     void clear(bool withLedger) {
@@ -171,18 +173,20 @@ public:
         history.reserve(blocks);
         interaction.reserve(blocks);
         records.reserve(blocks * Pack::lanes);
+        blockOf.reserve(blocks);
         if (!energies.empty()) energies.reserve(blocks * Pack::lanes);
     }
-    /// Adds a block of zeros; returns its number.
-    std::uint32_t add() {
+    /// Adds a block of zeros for this block of contacts; returns its number.
+    std::uint32_t add(std::size_t block) {
         const std::size_t count = records.size() / Pack::lanes;
         // A vector's own growth would take up to twice the memory.
         if (records.size() == records.capacity()) reserve(count + count / 8 + 64);
         resize(count + 1);
+        blockOf.back() = static_cast<std::uint32_t>(block);
         return static_cast<std::uint32_t>(count);
     }
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(history.columns, interaction.columns, records, energies);
+        return bytesOf(history.columns, interaction.columns, records, energies, blockOf);
     }
 
 private:
@@ -190,6 +194,7 @@ private:
         history.resize(blocks);
         interaction.resize(blocks);
         records.resize(blocks * Pack::lanes);
+        blockOf.resize(blocks);
         if (!energies.empty()) energies.resize(blocks * Pack::lanes);
     }
 };
@@ -209,10 +214,10 @@ public:
     ContactMemory<S> memory;
     std::vector<WallPointColumns> wallPoints;  // of the wall blocks, which come last
 
-    /// The contacts of each grain: 2 x contact + (0: as body 1, 1: as body 2), of the grain at place i in
-    /// sides[sidesBegin[i]] ... sides[sidesBegin[i + 1] - 1].
-    std::vector<std::uint32_t> sidesBegin;
-    std::vector<std::uint32_t> sides;
+    ContactSides sides;
+    /// Of each block, m: while no two bodies have approached by this since they were listed, nothing in it
+    /// can begin to touch. Of no meaning for blocks with memory.
+    std::vector<double> gaps;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks.size(); }
     [[nodiscard]] bool touches(std::size_t contact) const {
@@ -226,6 +231,10 @@ public:
     /// Where the memory holds a contact.
     [[nodiscard]] std::size_t slotOf(std::size_t contact) const {
         return slots[contact / Pack::lanes] * std::size_t{Pack::lanes} + contact % Pack::lanes;
+    }
+    /// The contact that the memory holds at a place.
+    [[nodiscard]] std::uint32_t contactAt(std::uint32_t slot) const {
+        return memory.blockOf[slot / Pack::lanes] * Pack::lanes + slot % Pack::lanes;
     }
     [[nodiscard]] const typename ContactMemory<S>::Record& recordOf(std::size_t contact) const {
         return memory.records[slotOf(contact)];
@@ -242,11 +251,12 @@ public:
 
     /// Bytes of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(buckets, blocks, states, slots, wallPoints, sidesBegin, sides) + memory.bytes();
+        return bytesOf(buckets, blocks, states, slots, wallPoints, gaps) + memory.bytes() + sides.bytes();
     }
     /// Bytes that one contact with memory takes, without the ledger.
     static constexpr std::size_t bytesPerContact() {
-        return (sizeof(ContactBlock) + sizeof(BlockState) + sizeof(std::uint32_t)) / Pack::lanes +
+        return (sizeof(ContactBlock) + sizeof(BlockState) + sizeof(std::uint32_t) + sizeof(double)) /
+                   Pack::lanes +
                sizeof(typename ContactMemory<S>::Record) + 2 * sizeof(std::uint32_t) +
                sizeof(double) * (columnsOf<ContactMemory<S>::template History> +
                                  columnsOf<ContactMemory<S>::template Interaction>);

@@ -135,13 +135,15 @@ private:
             ContactKernel<S, withLedger> kernel(laws[k], step, contacts);
             const auto forEachBlock = [&](auto geometryOf) {
                 std::atomic<bool> allHaveMemory = true;
-                inParts(bucket.end - bucket.begin, threads,
-                        [&, kernel](int, std::size_t begin, std::size_t end) mutable {
-                            bool all = true;
-                            for (std::size_t b = bucket.begin + begin; b < bucket.begin + end; ++b)
+                inParts(
+                    bucket.end - bucket.begin, threads,
+                    [&, kernel](int, std::size_t begin, std::size_t end) mutable {
+                        bool all = true;
+                        for (std::size_t b = bucket.begin + begin; b < bucket.begin + end; ++b)
+                            if (contacts.slots[b] != ContactStore<S>::asleep || unlisted > contacts.gaps[b])
                                 all &= kernel.computeBlock(b, geometryOf(b));
-                            if (!all) allHaveMemory = false;
-                        });
+                        if (!all) allHaveMemory = false;
+                    });
                 if (allHaveMemory) return;
                 for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
                     if (contacts.slots[b] != ContactStore<S>::waking) continue;
@@ -169,6 +171,15 @@ private:
 
     void wake(std::size_t block, const Bucket& bucket, const Grains& grains) {
         wakeBlock(contacts, block, bucket, species->mixture(bucket.species1, bucket.species2), grains);
+        const auto contactOf = [&](std::uint32_t slot) { return contacts.contactAt(slot); };
+        for (std::uint32_t lane = 0; lane < Pack::lanes; ++lane) {
+            if (!contacts.bitOf(contacts.states[block].listed, lane)) continue;
+            const auto contact = static_cast<std::uint32_t>(block * Pack::lanes + lane);
+            const auto slot = static_cast<std::uint32_t>(contacts.slotOf(contact));
+            contacts.sides.wake(contacts.blocks[block].first[lane], contact, 0, slot, contactOf);
+            if (bucket.wall < 0)
+                contacts.sides.wake(contacts.blocks[block].second[lane], contact, 1, slot, contactOf);
+        }
     }
 
     void sumWallForces(const Grains& grains) {

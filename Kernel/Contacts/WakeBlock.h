@@ -10,7 +10,7 @@ template <class S>
 void wakeBlock(ContactStore<S>& store, std::size_t block, const Bucket& bucket,
                [[maybe_unused]] const typename S::Mixed& laws,
                [[maybe_unused]] const ParticleStore<S::hasTorque>& grains) {
-    const std::uint32_t slot = store.memory.add();
+    const std::uint32_t slot = store.memory.add(block);
     store.slots[block] = slot;
     if constexpr (S::Adhesion::acts) {
         const ContactBlock& places = store.blocks[block];

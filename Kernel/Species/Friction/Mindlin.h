@@ -69,6 +69,8 @@ struct Mindlin {
                 slidingDissipation = std::sqrt(2.0 / 3.0) * normal.getDissipation();
     }
 
+    static constexpr double smallest = 1e-300;  // N/m or N^2: what is less is taken for it in divisions
+
     template <class T>
     using History = TangentialSpring<T>;
 
@@ -96,19 +98,20 @@ struct Mindlin {
         const T springStiffness = p.springFactor * stiffness;
         const T damping = p.dashpotFactor * contact.massRoot;
         const T resistance = springStiffness * slip.timeBefore + damping;  // N per m/s
-        const T share = T(-1) / (T(1) + slip.response * resistance);
+        const T denominator = T(1) + slip.response * resistance;
+        // Two reciprocals for one division. Square roots and divisions wait for each other as little as can
+        // be, and nothing branches: this is the end of a long chain of operations.
+        const T reciprocal = T(1) / (denominator * max(springStiffness, T(smallest)));
+        const T share = -springStiffness * reciprocal, flexibility = denominator * reciprocal;
         Vector<T> force = share * (springStiffness * spring.displacement + resistance * slip.velocity);
 
         const T limit = p.coefficient * max(normalForce, T(0));
         const T size2 = squaredNorm(force);
         const auto sliding = size2 > limit * limit;
-        // Without branches, which no processor could foresee; limit / size and 1 / stiffness in one division.
-        const T size = sqrt(size2);
-        const T reciprocal = T(1) / (size * springStiffness);
-        force = select(sliding, limit * springStiffness * reciprocal, T(1)) * force;
+        force = select(sliding, limit * (sqrt(size2) * (T(1) / max(size2, T(smallest)))), T(1)) * force;
         const Vector<T> velocity = slip.velocity + slip.response * force;
         const Vector<T> sticking = spring.displacement + slip.timeBefore * velocity;
-        spring.displacement = select(sliding, (-size * reciprocal) * force, sticking) + slip.timeAfter * velocity;
+        spring.displacement = select(sliding, -flexibility * force, sticking) + slip.timeAfter * velocity;
         return force;
     }
     static double stiffness(const Prepared& p, const Contact<double>& contact) {
