@@ -3,106 +3,17 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <string>
 #include <string_view>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Input/TextFile.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {
 
 namespace {
-
-constexpr std::uintmax_t largestFile = std::uintmax_t{1} << 32;  // bytes
-constexpr double largestCoordinate = 1e9;                        // m
-
-struct File {
-    std::string name;
-    std::string text;
-    double scale;
-
-    template <class Place>
-    [[noreturn]] void refuse(std::string_view place, Place where, std::string_view reason) const {
-        throw InputError(fmt::format("The triangle file {}, {} {}: {}.", name, place, where, reason));
-    }
-    [[noreturn]] void refuse(std::string_view reason) const {
-        throw InputError(fmt::format("The triangle file {} {}.", name, reason));
-    }
-};
-
-File load(const std::filesystem::path& path, double scale) {
-    File file{path.string(), {}, scale};
-    std::error_code problem;
-    if (!std::filesystem::exists(path, problem)) file.refuse("does not exist");
-    if (!std::filesystem::is_regular_file(path, problem)) file.refuse("is not a regular file");
-    const std::uintmax_t size = std::filesystem::file_size(path, problem);
-    if (problem) file.refuse("cannot be read");
-    if (size > largestFile) file.refuse("is larger than 4 GiB");
-    std::ifstream stream(path, std::ios::binary);
-    file.text.resize(size);
-    if (!stream.read(file.text.data(), static_cast<std::streamsize>(size))) file.refuse("cannot be read");
-    return file;
-}
-
-/// Takes the words of a text one by one and counts its lines.
-class Words {
-public:
-    explicit Words(std::string_view source) : text(source) {}
-
-    /// The next word; empty at the end.
-    std::string_view next() {
-        skipSpace();
-        const std::size_t begin = at;
-        while (at < text.size() && !isSpace(text[at])) ++at;
-        return text.substr(begin, at - begin);
-    }
-    void skipLine() {
-        while (at < text.size() && text[at] != '\n') ++at;
-    }
-    [[nodiscard]] std::size_t line() const { return lineNumber; }
-
-    static bool isSpace(char c) {
-        return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
-    }
-
-private:
-    void skipSpace() {
-        for (; at < text.size() && isSpace(text[at]); ++at)
-            if (text[at] == '\n') ++lineNumber;
-    }
-
-    std::string_view text;
-    std::size_t at = 0;
-    std::size_t lineNumber = 1;
-};
-
-/// A word in a message: short, and printable whatever the file holds.
-std::string shown(std::string_view word) {
-    std::string result;
-    for (const char c : word.substr(0, 24)) result += c > ' ' && c < 127 ? c : '?';
-    return result;
-}
-
-bool parse(std::string_view word, double& value) {
-    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return problem == std::errc{} && end == word.data() + word.size();
-}
-
-/// A coordinate in m; empty, or why it is refused.
-std::string toCoordinate(std::string_view word, double scale, double& value) {
-    if (word.empty()) return "the file ends where a number is expected";
-    if (!parse(word, value)) return fmt::format("'{}' is not a number", shown(word));
-    value *= scale;
-    if (!(std::abs(value) <= largestCoordinate))
-        return fmt::format("the coordinate {} is not finite or above {:g} m", shown(word), largestCoordinate);
-    return {};
-}
 
 bool isWord(std::string_view word, std::string_view expected) {
     if (word.size() != expected.size()) return false;
@@ -111,7 +22,7 @@ bool isWord(std::string_view word, std::string_view expected) {
     return true;
 }
 
-std::vector<Triangle> readAscii(const File& file) {
+std::vector<Triangle> readAscii(const InputFile& file, double scale) {
     Words words(file.text);
     std::vector<Triangle> triangles;
     const auto expect = [&](std::string_view expected) {
@@ -124,7 +35,7 @@ std::vector<Triangle> readAscii(const File& file) {
     const auto readVector = [&] {
         Vector<double> v;
         for (double* x : {&v.x, &v.y, &v.z})
-            if (const std::string reason = toCoordinate(words.next(), file.scale, *x); !reason.empty())
+            if (const std::string reason = parseLength(words.next(), scale, *x); !reason.empty())
                 file.refuse("line", words.line(), reason);
         return v;
     };
@@ -143,7 +54,7 @@ std::vector<Triangle> readAscii(const File& file) {
         for (int k = 0; k < 3;
              ++k) {  // not used: it follows from the vertices, and many programs write zeros or nan
             double ignored;
-            if (!parse(words.next(), ignored))
+            if (!parseNumber(words.next(), ignored))
                 file.refuse("line", words.line(), "the facet's normal is not three numbers");
         }
         expect("outer");
@@ -182,7 +93,7 @@ bool looksBinary(const std::string& text) {
     return !isWord(std::string_view(text).substr(begin, 5), "solid");
 }
 
-std::vector<Triangle> readBinary(const File& file) {
+std::vector<Triangle> readBinary(const InputFile& file, double scale) {
     if (file.text.size() < binaryHeader)
         file.refuse(fmt::format(
             "has {} bytes; a binary STL file has at least {}, and an ASCII one begins with 'solid'",
@@ -198,45 +109,26 @@ std::vector<Triangle> readBinary(const File& file) {
         for (Vector<double>& vertex : triangles[k])
             for (double* x : {&vertex.x, &vertex.y, &vertex.z}) {
                 const float number = littleEndian<float>(file.text.data() + offset);
-                *x = file.scale * static_cast<double>(number);
-                if (!(std::abs(*x) <= largestCoordinate))
+                *x = scale * static_cast<double>(number);
+                if (!(std::abs(*x) <= largestLength))
                     file.refuse("offset", offset,
                                 fmt::format("the coordinate {} of facet {} is not finite or above {:g} m",
-                                            number, k, largestCoordinate));
+                                            number, k, largestLength));
                 offset += 4;
             }
     }
     return triangles;
 }
 
-std::vector<Triangle> readRows(const File& file) {
+std::vector<Triangle> readRows(const InputFile& file, double scale) {
     std::vector<Triangle> triangles;
-    std::string_view rest = file.text;
-    bool mayBeHeader = true;
-    for (std::size_t line = 1; !rest.empty(); ++line) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
-        Words words(rest.substr(0, end));
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-        std::string_view word = words.next();
-        if (word.empty() || word.front() == '#') continue;
-        double number;
-        const bool isHeader = mayBeHeader && !parse(word, number);
-        mayBeHeader = false;
-        if (isHeader) continue;
-        Triangle triangle;
-        int count = 0;
-        for (Vector<double>& vertex : triangle)
-            for (double* x : {&vertex.x, &vertex.y, &vertex.z}) {
-                if (word.empty())
-                    file.refuse("line", line, fmt::format("{} numbers; a triangle has 9", count));
-                if (const std::string reason = toCoordinate(word, file.scale, *x); !reason.empty())
-                    file.refuse("line", line, reason);
-                word = words.next();
-                ++count;
-            }
-        if (!word.empty()) file.refuse("line", line, "more than the 9 numbers of a triangle");
-        triangles.push_back(triangle);
-    }
+    forEachRow(file, scale, [&](std::size_t line, const std::vector<double>& row) {
+        if (row.size() < 9)
+            file.refuse("line", line, fmt::format("{} numbers; a triangle has 9", row.size()));
+        if (row.size() > 9) file.refuse("line", line, "more than the 9 numbers of a triangle");
+        const auto vertex = [&](std::size_t k) { return Vector<double>{row[k], row[k + 1], row[k + 2]}; };
+        triangles.push_back({vertex(0), vertex(3), vertex(6)});
+    });
     return triangles;
 }
 
@@ -244,11 +136,11 @@ std::vector<Triangle> readRows(const File& file) {
 
 std::vector<Triangle> readTriangles(const std::filesystem::path& path, double scale) {
     checkValue("TriangleWall", "scale", scale, "m", positive);
-    const File file = load(path, scale);
+    const InputFile file = loadInputFile("triangle file", path);
     const bool isStl = isWord(path.extension().string(), ".stl");
-    std::vector<Triangle> triangles = !isStl                   ? readRows(file)
-                                      : looksBinary(file.text) ? readBinary(file)
-                                                               : readAscii(file);
+    std::vector<Triangle> triangles = !isStl                   ? readRows(file, scale)
+                                      : looksBinary(file.text) ? readBinary(file, scale)
+                                                               : readAscii(file, scale);
     if (triangles.empty()) file.refuse("holds no triangles");
     return triangles;
 }

@@ -3,11 +3,11 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "Kernel/Walls/TriangleReader.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TemporaryFile.h"
 
 namespace pendular {
 namespace {
@@ -16,21 +16,7 @@ using support::contains;
 using support::isOneSentence;
 using support::Random;
 using support::refusal;
-
-/// A file that lives as long as the test.
-class TemporaryFile {
-public:
-    TemporaryFile(const std::string& ending, const std::string& text) {
-        static int count = 0;
-        path =
-            std::filesystem::temp_directory_path() /
-            ("pendular-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
-             std::to_string(reinterpret_cast<std::uintptr_t>(this)) + "-" + std::to_string(count++) + ending);
-        std::ofstream(path, std::ios::binary) << text;
-    }
-    ~TemporaryFile() { std::filesystem::remove(path); }
-    std::filesystem::path path;
-};
+using support::TemporaryFile;
 
 std::vector<Triangle> read(const std::string& ending, const std::string& text, double scale = 1) {
     return readTriangles(TemporaryFile(ending, text).path, scale);

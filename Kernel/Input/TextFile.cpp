@@ -1,0 +1,76 @@
+#include "Kernel/Input/TextFile.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+
+namespace pendular {
+
+namespace {
+
+constexpr std::uintmax_t largestFile = std::uintmax_t{1} << 32;  // bytes
+
+}  // namespace
+
+InputFile loadInputFile(std::string_view kind, const std::filesystem::path& path) {
+    InputFile file{std::string(kind), path.string(), {}};
+    std::error_code problem;
+    if (!std::filesystem::exists(path, problem)) file.refuse("does not exist");
+    if (!std::filesystem::is_regular_file(path, problem)) file.refuse("is not a regular file");
+    const std::uintmax_t size = std::filesystem::file_size(path, problem);
+    if (problem) file.refuse("cannot be read");
+    if (size > largestFile) file.refuse("is larger than 4 GiB");
+    std::ifstream stream(path, std::ios::binary);
+    file.text.resize(size);
+    if (!stream.read(file.text.data(), static_cast<std::streamsize>(size))) file.refuse("cannot be read");
+    return file;
+}
+
+std::string shown(std::string_view word) {
+    std::string result;
+    for (const char c : word.substr(0, 24)) result += c > ' ' && c < 127 ? c : '?';
+    return result;
+}
+
+bool parseNumber(std::string_view word, double& value) {
+    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return problem == std::errc{} && end == word.data() + word.size();
+}
+
+std::string parseLength(std::string_view word, double scale, double& value) {
+    if (word.empty()) return "the file ends where a number is expected";
+    if (!parseNumber(word, value)) return fmt::format("'{}' is not a number", shown(word));
+    value *= scale;
+    if (!(std::abs(value) <= largestLength))
+        return fmt::format("the length {} is not finite or above {:g} m", shown(word), largestLength);
+    return {};
+}
+
+void forEachRow(const InputFile& file, double scale,
+                const std::function<void(std::size_t line, const std::vector<double>& row)>& use) {
+    std::string_view rest = file.text;
+    std::vector<double> row;
+    bool mayBeHeader = true;
+    for (std::size_t line = 1; !rest.empty(); ++line) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        Words words(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        std::string_view word = words.next();
+        if (word.empty() || word.front() == '#') continue;
+        double number;
+        const bool isHeader = mayBeHeader && !parseNumber(word, number);
+        mayBeHeader = false;
+        if (isHeader) continue;
+        row.clear();
+        for (; !word.empty(); word = words.next()) {
+            if (const std::string reason = parseLength(word, scale, number); !reason.empty())
+                file.refuse("line", line, reason);
+            row.push_back(number);
+        }
+        use(line, row);
+    }
+}
+
+}  // namespace pendular

@@ -1,0 +1,26 @@
+#include "Kernel/Particles/GrainFile.h"
+
+#include "Kernel/Input/TextFile.h"
+
+namespace pendular {
+
+std::vector<GrainRow> readGrainFile(const std::filesystem::path& path) {
+    const InputFile file = loadInputFile("grain file", path);
+    std::vector<GrainRow> grains;
+    forEachRow(file, 1, [&](std::size_t line, const std::vector<double>& row) {
+        if (row.size() != 4 && row.size() != 6)
+            file.refuse("line", line,
+                        fmt::format("{} numbers; a grain has 4, radius x y z in m", row.size()));
+        if (row.size() == 6 && row[1] != row[2])
+            file.refuse("line", line,
+                        fmt::format("the radius {} m and the contact radius {} m differ", row[1], row[2]));
+        const double radius = row.size() == 6 ? row[1] : row[0];
+        if (!(radius > 0))
+            file.refuse("line", line, fmt::format("the radius {} m is not greater than 0", radius));
+        grains.push_back({radius, Vec3D(row[row.size() - 3], row[row.size() - 2], row[row.size() - 1])});
+    });
+    if (grains.empty()) file.refuse("holds no grains");
+    return grains;
+}
+
+}  // namespace pendular

@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "Kernel/Particles/GrainFile.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TemporaryFile.h"
+
+namespace pendular {
+namespace {
+
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+using support::TemporaryFile;
+
+std::vector<GrainRow> read(const std::string& text) {
+    return readGrainFile(TemporaryFile(".txt", text).path);
+}
+
+TEST(GrainFile, readsRowsOfRadiusAndPosition) {
+    const auto grains =
+        read("Radius[m]\tPosX[m] PosY[m] PosZ[m]\r\n 0.001 -0.5 0.25 3e-2\r\n\r\n# end\r\n2 1 2 3");
+    ASSERT_EQ(grains.size(), 2u);
+    EXPECT_EQ(grains[0].radius, 0.001);
+    EXPECT_EQ(grains[0].position, Vec3D(-0.5, 0.25, 3e-2));
+    EXPECT_EQ(grains[1].radius, 2);
+    EXPECT_EQ(grains[1].position, Vec3D(1, 2, 3));
+}
+
+TEST(GrainFile, readsTheSixNumbersOfASingleSphere) {
+    const auto grains = read("0.001 0 0 0\n5 0.01 0.01 1 2 0.06\n");
+    ASSERT_EQ(grains.size(), 2u);
+    EXPECT_EQ(grains[1].radius, 0.01);
+    EXPECT_EQ(grains[1].position, Vec3D(1, 2, 0.06));
+}
+
+TEST(GrainFile, refusesWithFilePlaceAndReason) {
+    struct Case {
+        std::string text, place, reason;
+    };
+    const std::vector<Case> cases{
+        {"", "", "holds no grains"},
+        {"radius x y z\n", "", "holds no grains"},
+        {"1e-3 0 0\n", "line 1", "3 numbers; a grain has 4"},
+        {"r x y z\n1e-3 0 0 0\n1e-3 0 0 0 0\n", "line 3", "5 numbers"},
+        {"1e-3 0 0 0\n1e-3 0 up 0\n", "line 2", "'up' is not a number"},
+        {"1e-3 0 0 nan\n", "line 1", "not finite"},
+        {"1e-3 0 0 1e10\n", "line 1", "above 1e+09 m"},
+        {"0 0 0 0\n", "line 1", "the radius 0 m is not greater than 0"},
+        {"-1e-3 0 0 0\n", "line 1", "the radius -0.001 m"},
+        {"5 0.01 0.02 0 0 0\n", "line 1", "contact radius 0.02 m differ"},
+    };
+    for (const Case& c : cases) {
+        const std::string text = refusal([&] { read(c.text); });
+        EXPECT_TRUE(isOneSentence(text));
+        EXPECT_TRUE(contains(text, "The grain file "));
+        EXPECT_TRUE(contains(text, "pendular-")) << "the file's name";
+        EXPECT_TRUE(contains(text, c.place));
+        EXPECT_TRUE(contains(text, c.reason));
+    }
+    EXPECT_TRUE(contains(refusal([] { readGrainFile("/no/such/file.txt"); }), "does not exist"));
+}
+
+/// Counts, sizes and places as the description of the benchmark gives them.
+TEST(GrainFile, readsPublishedStates) {
+    const std::filesystem::path data = std::filesystem::path(PENDULAR_SHARED_DIR) / "data";
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no reference data";
+    const auto count = [](const std::vector<GrainRow>& grains, double radius) {
+        return std::count_if(grains.begin(), grains.end(),
+                             [&](const GrainRow& g) { return g.radius == radius; });
+    };
+    const auto drum = readGrainFile(data / "drum38k.txt");
+    EXPECT_EQ(count(drum, 0.001), 30000);
+    EXPECT_EQ(count(drum, 0.002), 8000);
+    EXPECT_EQ(drum.size(), 38000u);
+    const auto bed = readGrainFile(data / "penetration25k.txt");
+    EXPECT_EQ(count(bed, 0.001), 25000);
+    ASSERT_EQ(bed.size(), 25001u);
+    EXPECT_EQ(bed.back().radius, 0.01);
+    EXPECT_EQ(bed.back().position, Vec3D(0, 0, 0.06));
+    EXPECT_EQ(readGrainFile(data / "bed25k.txt").size(), 25000u);
+}
+
+}  // namespace
+}  // namespace pendular
