@@ -77,5 +77,13 @@ int main(int argc, char** argv) {
     Options options;
     describe(app, options);
     CLI11_PARSE(app, argc, argv);
-    return runProgram([&] { return run(options); });
+    return runProgram([&] {
+        checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval, 1);
+        checkValue("HopperDischarge", "begin of the steady part", options.begin, "s",
+                   {0, options.endTime, true, false});
+        for (const double orifice : options.orifices)
+            checkValue("HopperDischarge", "orifice diameter", orifice, "m",
+                       {0, options.hopper.diameter, false, false});
+        return run(options);
+    });
 }

@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "Drivers/Shared/Interval.h"
 #include "Drivers/Shared/PenetrationScene.h"
+#include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Output/CsvFile.h"
 
 using namespace pendular;
@@ -28,7 +28,6 @@ public:
     template <class Walls>
     Penetration(const Options& given, const PenetrationGrains& grains, const Walls& walls)
         : PenetrationScene(grains, walls, given.speed, given.softening), options(given) {
-        checkValue("Penetration", "speed", options.speed, "m/s", positive);
         setTimeMax(options.endTime);
         setSaveCount(stepsOf(options.interval, getTimeStep()));
         setNumberOfThreads(options.threads);
@@ -99,6 +98,8 @@ int main(int argc, char** argv) {
     describe(app, options);
     CLI11_PARSE(app, argc, argv);
     return runProgram([&] {
+        checkRun("Penetration", options.number, options.endTime, options.interval, options.threads);
+        checkValue("Penetration", "speed", options.speed, "m/s", positive);
         if (options.grains.empty()) {
             const BedBox box = bedBoxFor(options.number);
             run(options, settledBed(options.number, box, options.softening), box);

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "Drivers/Shared/DrumScene.h"
-#include "Drivers/Shared/Interval.h"
+#include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Output/CsvFile.h"
 
 using namespace pendular;
@@ -94,6 +94,7 @@ int main(int argc, char** argv) {
     describe(app, options);
     CLI11_PARSE(app, argc, argv);
     return runProgram([&] {
+        checkRun("RotatingDrum", options.number, options.endTime, options.interval, options.threads);
         if (options.grains.empty()) {
             const DrumShape shape = drumFor(options.number);
             run(options, settledDrumGrains(options.number, shape, options.softening), shape);

@@ -59,6 +59,8 @@ inline BeverlooLaw fitBeverloo(std::span<const CurvePoint> flows, double bulkDen
     std::vector<CurvePoint> straight;
     for (const CurvePoint& p : flows) straight.push_back({p.x, std::pow(p.y, 0.4)});
     const Line line = fitLine(straight);
+    if (!(line.slope > 0))
+        throw InputError("Beverloo's law cannot be fitted: the flows do not grow with the orifice.");
     return {std::pow(line.slope, 2.5) / (bulkDensity * std::sqrt(gravity)),
             -line.intercept / (line.slope * grainDiameter), bulkDensity, gravity, grainDiameter};
 }

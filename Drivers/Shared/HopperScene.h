@@ -4,7 +4,7 @@
 
 #include "Drivers/Shared/Beverloo.h"
 #include "Drivers/Shared/GrainLattice.h"
-#include "Drivers/Shared/Interval.h"
+#include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
@@ -169,9 +169,9 @@ struct Discharge {
 /// @param begin s, of the steady part; @param end s, of the run; @param interval s, between points
 inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grains, double orifice,
                            double begin, double end, double interval) {
-    checkValue("HopperScene", "begin of the steady part", begin, "s", {0, end, true, false});
     HopperScene scene(hopper, grains, orifice);
     Discharge result{orifice, scene.bulkDensity(), {}, 0, 0};
+    checkValue("HopperScene", "bulk density", result.bulkDensity, "kg/m^3", positive);
     scene.keepCurve(&result.curve);
     scene.setTimeMax(end);
     scene.setSaveCount(stepsOf(interval, scene.getTimeStep()));
@@ -183,7 +183,8 @@ inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grain
     };
     const auto first = after(begin), middle = after(0.5 * (begin + end)), last = result.curve.end();
     result.flow = fitLine({first, last}).slope;
-    result.change = (fitLine({middle, last}).slope - fitLine({first, middle}).slope) / result.flow;
+    const double change = fitLine({middle, last}).slope - fitLine({first, middle}).slope;
+    result.change = change == 0 ? 0 : change / result.flow;
     return result;
 }
 

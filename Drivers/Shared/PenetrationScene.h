@@ -105,7 +105,7 @@ inline std::vector<GrainRow> looseBed(std::size_t number, const BedBox& box) {
     if (!(perLayer >= 1))
         throw InputError(
             fmt::format("The number of grains of the bed is {}, and their box of {:.3g} m x "
-                        "{:.3g} m has no room for one; take at least 50.",
+                        "{:.3g} m has no room for one; take more, for which the box is larger.",
                         number, box.width, box.depth));
     const double height = edge * (std::ceil(static_cast<double>(number) / perLayer) + 0.5);
     const Vec3D corner(0.5 * box.width, 0.5 * box.depth, 0);
