@@ -44,9 +44,9 @@ public:
     void complete() {
         zones->close();
         CsvFile last(folder + "/grains.csv", "x_m,y_m,z_m,radius_m,material");
-        for (const GrainRow& grain : grainRows())
+        for (const GrainRow& grain : grainRows(particleHandler))
             last.row(grain.position.x(), grain.position.y(), grain.position.z(), grain.radius,
-                     grain.radius < 0.5 * (smallRadius + largeRadius) ? "M1" : "M2");
+                     materialOf(grain) == M1 ? "M1" : "M2");
         last.close();
         fmt::print("{} grains, {:.4g} s in {} steps; wrote {}/zones.csv and {}/grains.csv\n",
                    particleHandler.getSize(), getTime(), getNumberOfTimeSteps(), folder, folder);

@@ -29,6 +29,10 @@ public:
     static constexpr double publishedSpeed = 2;                      // rad/s
     static constexpr double publishedStep = 0.8e-6;                  // s
 
+    static PublishedMaterial materialOf(const GrainRow& grain) {
+        return grain.radius < 0.5 * (smallRadius + largeRadius) ? M1 : M2;
+    }
+
     /// Grains and walls of files; the wall's surface may have any shape.
     DrumScene(std::span<const GrainRow> grains, std::span<const Triangle> triangles, double softening = 1)
         : PublishedScene(publishedStep, softening) {
@@ -66,8 +70,7 @@ public:
 
 private:
     void addGrains(std::span<const GrainRow> grains) {
-        for (const GrainRow& grain : grains)
-            addGrain(grain, grain.radius < 0.5 * (smallRadius + largeRadius) ? M1 : M2);
+        for (const GrainRow& grain : grains) addGrain(grain, materialOf(grain));
     }
 
     RigidWall* drum = nullptr;
@@ -109,7 +112,7 @@ inline std::vector<GrainRow> settledDrumGrains(std::size_t number, const DrumSha
     DrumScene scene(looseDrumGrains(number, drum), drum, softening);
     scene.setTimeMax(3 * std::sqrt(4 * drum.radius / 9.8));
     scene.solve();
-    return scene.grainRows();
+    return grainRows(scene.particleHandler);
 }
 
 }  // namespace pendular

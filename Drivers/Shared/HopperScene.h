@@ -4,6 +4,7 @@
 
 #include "Drivers/Shared/Beverloo.h"
 #include "Drivers/Shared/GrainLattice.h"
+#include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
@@ -79,14 +80,6 @@ public:
             if (std::abs(grain.position.z - 0.5 * height) < 0.25 * height) sum += 1 / grain.inverseMass;
         return sum / (0.25 * std::numbers::pi * hopper.diameter * hopper.diameter * 0.5 * height);
     }
-    [[nodiscard]] std::vector<GrainRow> grainRows() {
-        std::vector<GrainRow> rows;
-        for (std::size_t k = 0; k < particleHandler.getSize(); ++k) {
-            const auto grain = particleHandler.getObject(k);
-            rows.push_back({grain.getRadius(), grain.getPosition()});
-        }
-        return rows;
-    }
 
 private:
     using Material = HertzianViscoelasticMindlinSpecies;
@@ -153,7 +146,7 @@ inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper) {
     HopperScene scene(hopper, loose, 0);
     scene.setTimeMax(3 * std::sqrt(2 * height / Hopper::gravity));
     scene.solve();
-    return scene.grainRows();
+    return grainRows(scene.particleHandler);
 }
 
 /// How a hopper was emptied through one orifice.

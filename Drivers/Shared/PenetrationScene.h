@@ -124,7 +124,7 @@ inline PenetrationGrains settledBed(std::size_t number, const BedBox& box, doubl
     PenetrationScene scene({looseBed(number, box), {}}, box, 0, softening);
     scene.setTimeMax(3 * std::sqrt(2 * scene.surface() / 9.8));
     scene.solve();
-    PenetrationGrains grains{scene.grainRows(), {}};
+    PenetrationGrains grains{grainRows(scene.particleHandler), {}};
     double top = 0;
     for (const GrainRow& grain : grains.bed) top = std::max(top, grain.position.z() + grain.radius);
     grains.intruder = {box.intruderRadius, Vec3D(0, 0, top + 2 * box.intruderRadius)};

@@ -2,8 +2,8 @@
 
 #include <span>
 
+#include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/PublishedMaterials.h"
-#include "Kernel/Particles/GrainFile.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 
@@ -15,15 +15,6 @@ class PublishedScene : public Simulation<HertzianViscoelasticMindlinSpecies> {
 public:
     using Material = HertzianViscoelasticMindlinSpecies;
 
-    /// Positions and radii now, in the order of adding.
-    [[nodiscard]] std::vector<GrainRow> grainRows() {
-        std::vector<GrainRow> rows;
-        for (std::size_t k = 0; k < particleHandler.getSize(); ++k) {
-            const auto grain = particleHandler.getObject(k);
-            rows.push_back({grain.getRadius(), grain.getPosition()});
-        }
-        return rows;
-    }
     /// J, of the motion of all centres.
     [[nodiscard]] double kineticEnergy() const {
         double sum = 0;

@@ -60,7 +60,7 @@ TEST(Hopper, losesNoGrain) {
     HopperScene scene(smallHopper, settled(), 0.012);
     scene.setTimeMax(0.1);
     scene.solve();
-    const auto grains = scene.grainRows();
+    const auto grains = grainRows(scene.particleHandler);
     std::vector<GrainRow> out;
     double mass = 0;
     for (std::size_t k = 0; k < grains.size(); ++k) {
