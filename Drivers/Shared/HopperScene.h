@@ -176,8 +176,12 @@ inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grain
     };
     const auto first = after(begin), middle = after(0.5 * (begin + end)), last = result.curve.end();
     result.flow = fitLine({first, last}).slope;
-    const double change = fitLine({middle, last}).slope - fitLine({first, middle}).slope;
-    result.change = change == 0 ? 0 : change / result.flow;
+    if (!(result.flow > 0))
+        throw InputError(fmt::format(
+            "HopperScene: no grain left the orifice of {:g} m from {:g} s to {:g} s; take one that is wider "
+            "than five grain diameters, or a later end.",
+            orifice, begin, end));
+    result.change = (fitLine({middle, last}).slope - fitLine({first, middle}).slope) / result.flow;
     return result;
 }
 

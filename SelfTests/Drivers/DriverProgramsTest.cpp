@@ -1,6 +1,7 @@
 // The three drivers as a user runs them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -94,6 +95,19 @@ TEST(Penetration, writesTheDepthUntilTheIntruderStops) {
     EXPECT_GE(rows.back()[2], 0);
 }
 
+TEST(Penetration, goesOnAfterTheStopIfAsked) {
+    const Folder folder("penetration-whole");
+    const auto result =
+        run(bed + "--number 200 --softening 1000 --whole-time --end-time-s 0.03 " + folder.option());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    const auto rows = rowsOf(folder.path / "depth.csv");
+    EXPECT_NEAR(rows.back()[0], 0.03, 16e-6);  // a step of 0.5 us x sqrt(1000) at most beyond it
+    EXPECT_LT(rows.back()[3], std::max_element(rows.begin(), rows.end(),
+                                               [](const auto& a, const auto& b) { return a[3] < b[3]; })
+                                  ->at(3))
+        << "it comes back from its deepest point";
+}
+
 TEST(HopperDischarge, writesCurvesAndFlows) {
     const Folder folder("hopper-discharge");
     const auto result = run(hopper +
@@ -141,6 +155,9 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
     expectOneSentence(run(hopper + "--number 60 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.01 "
                                    "--end-time-s 0.001 --begin-s 0"),
                       "two points");
+    expectOneSentence(run(hopper + "--number 60 --hopper-diameter-m 0.016 --orifice-m 0.0005 --orifice-m "
+                                   "0.001 --end-time-s 0.02 --begin-s 0"),
+                      "no grain left the orifice of 0.0005 m");
     EXPECT_NE(run(drum + "--grains " + grains.path.string()).exitCode, 0) << "grains need walls";
 }
 
