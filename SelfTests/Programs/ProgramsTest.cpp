@@ -1,50 +1,26 @@
 // The programs as a user runs them: exit codes, one sentence for wrong input, files with the promised
 // columns.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 
+#include "SelfTests/Support/RunProgram.h"
+
+namespace pendular {
 namespace {
 
-struct Result {
-    int exitCode;
-    std::string output;  // standard output, and standard error behind it
-};
-
-Result run(const std::string& command) {
-    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    Result result{-1, {}};
-    std::array<char, 4096> buffer{};
-    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-        result.output.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
-    return result;
-}
-
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::stringstream content;
-    content << file.rdbuf();
-    return content.str();
-}
+using support::contentOf;
+using support::expectOneSentence;
+using support::run;
+using Result = support::ProgramResult;
 
 const std::string tools = PENDULAR_TOOLS_DIR;
 const std::string drivers = PENDULAR_DRIVERS_DIR;
 const std::filesystem::path source = PENDULAR_SOURCE_DIR;
-
-void expectOneSentence(const Result& result, const std::string& part) {
-    EXPECT_EQ(result.exitCode, 1) << result.output;
-    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
-    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
-}
 
 TEST(Documentation, referencePageIsWhatTheToolPrints) {
     EXPECT_EQ(contentOf(source / "Kernel/Species/REFERENCE.md"),
@@ -122,3 +98,4 @@ TEST(TwoParticleCollision, writesItsTwoTables) {
 TEST(UserDefinedLaw, runs) { EXPECT_EQ(run(drivers + "/UserDefinedLaw/UserDefinedLaw").exitCode, 0); }
 
 }  // namespace
+}  // namespace pendular

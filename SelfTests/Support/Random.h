@@ -2,22 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <random>
+
+#include "Kernel/Math/Random.h"
 
 namespace pendular::support {
 
-/// Random numbers that are the same on every machine and standard library (the engine's integers are fixed by
-/// the standard, its distributions are not).
-class Random {
+/// Random places and directions besides numbers.
+class Random : public UniformRandom {
 public:
-    explicit Random(std::uint64_t seed) : engine(seed) {}
+    using UniformRandom::UniformRandom;
 
-    /// Evenly in [low, high).
-    double uniform(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
-    }
     Eigen::Vector3d inCube(double halfEdge) {
         const double x = uniform(-halfEdge, halfEdge), y = uniform(-halfEdge, halfEdge);
         return {x, y, uniform(-halfEdge, halfEdge)};
@@ -30,9 +25,6 @@ public:
     Eigen::Matrix3d rotation() {
         return Eigen::AngleAxisd(uniform(0, 2 * std::numbers::pi), direction()).toRotationMatrix();
     }
-
-private:
-    std::mt19937_64 engine;
 };
 
 }  // namespace pendular::support

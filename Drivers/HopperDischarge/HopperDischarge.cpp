@@ -1,0 +1,89 @@
+/// Grains leave a hopper through circular orifices; their flow is compared with Beverloo's law.
+
+#include <CLI/CLI.hpp>
+
+#include "Drivers/Shared/HopperScene.h"
+#include "Kernel/Output/CsvFile.h"
+
+using namespace pendular;
+
+namespace {
+
+struct Options {
+    Hopper hopper;
+    std::vector<double> orifices{0.012, 0.015, 0.018};  // m, diameters
+    double begin = 0.1;                                 // s, of the steady part
+    double endTime = 0.4;                               // s
+    double interval = 0.002;                            // s
+    std::string output = "HopperDischarge";
+};
+
+void describe(CLI::App& app, Options& o) {
+    app.option_defaults()->always_capture_default();
+    app.add_option("--orifice-m", o.orifices, "diameters of the orifices, m, one run for each; two at least")
+        ->expected(2, 100);
+    app.add_option("--hopper-diameter-m", o.hopper.diameter, "diameter of the hopper, m");
+    app.add_option("--grain-diameter-m", o.hopper.grainDiameter,
+                   "mean diameter of the grains, m; they spread by 10 % to either side");
+    app.add_option("--number", o.hopper.number, "grains in the hopper");
+    app.add_option("--elastic-modulus-Pa", o.hopper.youngModulus, "Young's modulus, Pa");
+    app.add_option("--friction", o.hopper.friction, "coefficient of sliding friction of grains and walls");
+    app.add_option("--begin-s", o.begin, "begin of the steady part, s after the orifice is opened");
+    app.add_option("--end-time-s", o.endTime, "end of each run, s after the orifice is opened");
+    app.add_option("--interval-s", o.interval, "time between two rows of discharge.csv, s");
+    app.add_option("--output", o.output, "folder for discharge.csv and flow.csv");
+}
+
+void writeTables(const Options& options, const std::vector<Discharge>& runs, const BeverlooLaw& law) {
+    CsvFile curves(options.output + "/discharge.csv", "orifice_m,time_s,mass_kg");
+    for (const Discharge& run : runs)
+        for (const CurvePoint& p : run.curve) curves.row(run.orifice, p.x, p.y);
+    curves.close();
+    CsvFile flows(options.output + "/flow.csv", "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s");
+    for (const Discharge& run : runs) flows.row(run.orifice, run.flow, run.change, law.flow(run.orifice));
+    flows.close();
+}
+
+int run(const Options& options) {
+    const std::vector<GrainRow> grains = settledHopperGrains(options.hopper);
+    std::vector<Discharge> runs;
+    std::vector<CurvePoint> flows;
+    for (const double orifice : options.orifices) {
+        runs.push_back(
+            discharge(options.hopper, grains, orifice, options.begin, options.endTime, options.interval));
+        flows.push_back({orifice, runs.back().flow});
+    }
+    const BeverlooLaw law =
+        fitBeverloo(flows, runs.front().bulkDensity, Hopper::gravity, options.hopper.grainDiameter);
+    writeTables(options, runs, law);
+    for (const Discharge& run : runs)
+        fmt::print(
+            "orifice {:.4g} m: {:.4g} kg/s ({:+.1f} % from the first half to the second); the law "
+            "gives {:.4g} kg/s\n",
+            run.orifice, run.flow, 100 * run.change, law.flow(run.orifice));
+    fmt::print(
+        "Beverloo's law: C = {:.3f}, k = {:.2f}, with a bulk density of {:.0f} kg/m^3; wrote "
+        "{}/discharge.csv and {}/flow.csv\n",
+        law.coefficient, law.emptyAnnulus, law.bulkDensity, options.output, options.output);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Grains leave a flat-bottomed hopper through circular orifices: mass over time, and "
+        "Beverloo's law.");
+    Options options;
+    describe(app, options);
+    CLI11_PARSE(app, argc, argv);
+    return runProgram([&] {
+        checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval, 1);
+        checkValue("HopperDischarge", "begin of the steady part", options.begin, "s",
+                   {0, options.endTime, true, false});
+        for (const double orifice : options.orifices)
+            checkValue("HopperDischarge", "orifice diameter", orifice, "m",
+                       {0, options.hopper.diameter, false, false});
+        return run(options);
+    });
+}

@@ -1,0 +1,111 @@
+/// A steel sphere hits a bed of grains: case 3 of Dosta et al., "Comparing open-source DEM frameworks for
+/// simulations of common bulk processes", Comput. Phys. Commun. 296 (2024) 109066.
+
+#include <CLI/CLI.hpp>
+
+#include "Drivers/Shared/PenetrationScene.h"
+#include "Drivers/Shared/RunOptions.h"
+#include "Kernel/Output/CsvFile.h"
+
+using namespace pendular;
+
+namespace {
+
+struct Options {
+    std::string grains, walls;  // files; both empty: a generated state
+    std::size_t number = 5000;  // of a generated state
+    double softening = 1;
+    double speed = PenetrationScene::publishedSpeed;  // m/s
+    double endTime = 0.1;                             // s
+    double interval = 5e-4;                           // s
+    bool wholeTime = false;
+    int threads = 1;
+    std::string output = "Penetration";
+};
+
+class Penetration : public PenetrationScene {
+public:
+    template <class Walls>
+    Penetration(const Options& given, const PenetrationGrains& grains, const Walls& walls)
+        : PenetrationScene(grains, walls, given.speed, given.softening), options(given) {
+        setTimeMax(options.endTime);
+        setSaveCount(stepsOf(options.interval, getTimeStep()));
+        setNumberOfThreads(options.threads);
+    }
+
+    void writeOutput() override {
+        if (!depths) openTables();  // once the scene has passed its checks
+        depths->row(getTime(), intruder().getPosition().z(), intruder().getVelocity().z(), penetration(),
+                    intruder().getForce().z());
+    }
+    void actionsAfterTimeStep() override {
+        deepest = std::max(deepest, penetration());
+        stopped = penetration() > 0 && intruder().getVelocity().z() >= 0;
+    }
+    [[nodiscard]] bool continueSolve() const override { return options.wholeTime || !stopped; }
+
+    void complete() {
+        depths->close();
+        fmt::print(
+            "{} grains, {:.4g} s in {} steps: deepest point {:.4g} m below the surface{}; wrote "
+            "{}/depth.csv\n",
+            particleHandler.getSize(), getTime(), getNumberOfTimeSteps(), deepest,
+            stopped || options.wholeTime ? "" : ", still moving", options.output);
+    }
+
+private:
+    void openTables() {
+        depths.emplace(options.output + "/depth.csv", "time_s,height_m,velocity_m/s,depth_m,force_N");
+    }
+
+    Options options;
+    std::optional<CsvFile> depths;
+    double deepest = -infinity;  // m
+    bool stopped = false;
+};
+
+void describe(CLI::App& app, Options& o) {
+    app.option_defaults()->always_capture_default();
+    auto* grains = app.add_option("--grains", o.grains,
+                                  "file of the initial state: rows radius x y z, in m; the largest grain is "
+                                  "the intruder");
+    auto* walls = app.add_option("--walls", o.walls, "file of the box: rows of nine numbers, in m, or STL");
+    grains->needs(walls), walls->needs(grains);
+    app.add_option("--number", o.number, "grains of the generated bed, taken where no files are given")
+        ->excludes(grains);
+    app.add_option("--softening", o.softening,
+                   "divides Young's moduli; the time step grows with its square root");
+    app.add_option("--speed-m/s", o.speed, "of the intruder, downwards, m/s");
+    app.add_option("--end-time-s", o.endTime, "end of the run, s, if the intruder has not stopped before");
+    app.add_flag("--whole-time", o.wholeTime, "go on to the end time after the intruder has stopped");
+    app.add_option("--interval-s", o.interval, "time between two rows of depth.csv, s");
+    app.add_option("--threads", o.threads, "OpenMP threads; the results do not depend on their number");
+    app.add_option("--output", o.output, "folder for depth.csv");
+}
+
+template <class Walls>
+void run(const Options& options, const PenetrationGrains& grains, const Walls& walls) {
+    Penetration penetration(options, grains, walls);
+    penetration.solve();
+    penetration.complete();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("A steel sphere hits a bed of grains; gives its depth over time.");
+    Options options;
+    describe(app, options);
+    CLI11_PARSE(app, argc, argv);
+    return runProgram([&] {
+        checkRun("Penetration", options.number, options.endTime, options.interval, options.threads);
+        checkValue("Penetration", "speed", options.speed, "m/s", positive);
+        if (options.grains.empty()) {
+            const BedBox box = bedBoxFor(options.number);
+            run(options, settledBed(options.number, box, options.softening), box);
+        } else {
+            run(options, separateIntruder(readGrainFile(options.grains)), readTriangles(options.walls));
+        }
+        return 0;
+    });
+}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace pendular {
+
+/// Random numbers that are the same on every machine and standard library (the engine's integers are fixed by
+/// the standard, its distributions are not).
+class UniformRandom {
+public:
+    explicit UniformRandom(std::uint64_t seed) : engine(seed) {}
+
+    /// Evenly in [low, high).
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
+    }
+
+private:
+    std::mt19937_64 engine;
+};
+
+}  // namespace pendular

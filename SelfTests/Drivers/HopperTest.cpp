@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include "Drivers/Shared/HopperScene.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular {
+namespace {
+
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+
+TEST(Beverloo, lineOfLeastSquaresIsThatOfTheNormalEquations) {
+    // By hand: (0, 1), (1, 2), (2, 6): mean (1, 3), slope (2 + 3) / 2 = 5/2, intercept 1/2.
+    const std::vector<CurvePoint> points{{0, 1}, {1, 2}, {2, 6}};
+    EXPECT_DOUBLE_EQ(fitLine(points).slope, 2.5);
+    EXPECT_DOUBLE_EQ(fitLine(points).intercept, 0.5);
+    EXPECT_TRUE(isOneSentence(refusal([] { fitLine(std::vector<CurvePoint>{{1, 1}, {1, 2}}); })));
+    EXPECT_TRUE(isOneSentence(refusal([] { fitLine({}); })));
+}
+
+TEST(Beverloo, isFoundAgainFromItsOwnFlows) {
+    const BeverlooLaw law{0.58, 1.4, 1500, 9.8, 2e-3};
+    // 0.58 x 1500 x sqrt(9.8) x 0.0072^(5/2), by hand: 2723.5 x 4.3987e-6
+    EXPECT_NEAR(law.flow(0.01), 0.011980, 1e-6);
+    EXPECT_EQ(law.flow(2.8e-3), 0);
+    std::vector<CurvePoint> flows;
+    for (const double orifice : {0.008, 0.012, 0.02}) flows.push_back({orifice, law.flow(orifice)});
+    const BeverlooLaw found = fitBeverloo(flows, 1500, 9.8, 2e-3);
+    EXPECT_NEAR(found.coefficient, 0.58, 1e-13);
+    EXPECT_NEAR(found.emptyAnnulus, 1.4, 1e-12);
+}
+
+constexpr Hopper smallHopper{.diameter = 0.02, .number = 500};
+
+const std::vector<GrainRow>& settled() {
+    static const std::vector<GrainRow> grains = settledHopperGrains(smallHopper);
+    return grains;
+}
+
+TEST(Hopper, isFilledAtTheDensityOfARandomPacking) {
+    const double tolerance = largestSoundOverlap * 1e-3;  // m
+    for (const GrainRow& grain : settled()) {
+        EXPECT_GT(grain.position.z(), grain.radius - tolerance);
+        EXPECT_LT(std::hypot(grain.position.x(), grain.position.y()), 0.01 - grain.radius + tolerance);
+    }
+    HopperScene scene(smallHopper, settled(), 0);
+    // Solid fractions: 0.55 (random loose) to 0.64 (random dense) in bulk; within 10 diameters of width the
+    // walls take up to a tenth of it.
+    EXPECT_GT(scene.bulkDensity(), 0.9 * 0.55 * Hopper::density);
+    EXPECT_LT(scene.bulkDensity(), 0.64 * Hopper::density);
+    scene.setTimeMax(0.05);
+    scene.solve();
+    EXPECT_EQ(scene.dischargedNumber(), 0u);
+}
+
+/// Grains that have left are counted once each with their mass, rest where they are put without touching,
+/// and all others are still in the hopper or within the fall below it.
+TEST(Hopper, losesNoGrain) {
+    HopperScene scene(smallHopper, settled(), 0.012);
+    scene.setTimeMax(0.1);
+    scene.solve();
+    const auto grains = grainRows(scene.particleHandler);
+    std::vector<GrainRow> out;
+    double mass = 0;
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        if (grains[k].position.z() > -2 * smallHopper.grainDiameter) {
+            EXPECT_LT(std::hypot(grains[k].position.x(), grains[k].position.y()), 0.01);
+            continue;
+        }
+        out.push_back(grains[k]);
+        mass += sphereMass(grains[k].radius, Hopper::density);
+        EXPECT_EQ(scene.particleHandler.getObject(k).getVelocity(), Vec3D::Zero());
+        EXPECT_LT(grains[k].position.z() + grains[k].radius, -2 * smallHopper.grainDiameter);
+    }
+    EXPECT_GT(out.size(), 20u);
+    EXPECT_EQ(out.size(), scene.dischargedNumber());
+    EXPECT_NEAR(mass / scene.dischargedMass(), 1, 1e-12);
+    for (std::size_t a = 0; a < out.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+            EXPECT_GT((out[a].position - out[b].position).norm(), out[a].radius + out[b].radius);
+}
+
+/// Free fall from rest just above an open bottom: a lone grain reaches the counting plane, two diameters
+/// below, after sqrt(2 h / g).
+TEST(Hopper, countsALoneGrainWhenItHasFallenTwoDiameters) {
+    const std::vector<GrainRow> grains{{1e-3, Vec3D(0, 0, 5e-3)}};
+    HopperScene scene(smallHopper, grains, 0.012);
+    scene.initialise();
+    while (scene.dischargedNumber() == 0 && scene.getTime() < 1) scene.step();
+    EXPECT_NEAR(scene.getTime(), std::sqrt(2 * 9e-3 / Hopper::gravity), scene.getTimeStep());
+    EXPECT_NEAR(scene.dischargedMass(), sphereMass(1e-3, Hopper::density), 1e-20);
+}
+
+TEST(Hopper, refusesAnOrificeAsWideAsItself) {
+    const std::string text = refusal([] { HopperScene(smallHopper, settled(), 0.02); });
+    EXPECT_TRUE(isOneSentence(text));
+    EXPECT_TRUE(contains(text, "orifice diameter = 0.02 m"));
+    EXPECT_TRUE(contains(refusal([] { settledHopperGrains({.diameter = 0.004}); }), "hopper diameter"));
+}
+
+/// Three orifices, 6, 7.5 and 9 grain diameters wide. For round grains C is 0.58 and k 1.4 to 1.5 (Beverloo
+/// et al. 1961); values of C from 0.5 to 0.7 and of k from 1 to 2 are found with friction and packing
+/// (Nedderman 1992, section 10.3), so these are the limits. If grains left independently of each other, n of
+/// them would scatter by sqrt(n): the flow is steady within three of these standard deviations, and it
+/// follows the fitted law, W^(2/5) linear in D, within the smallest orifice's one, 4 to 5 %.
+TEST(LongHopper, followsBeverloosLaw) {
+    const Hopper hopper;
+    const auto grains = settledHopperGrains(hopper);
+    std::vector<CurvePoint> flows;
+    double bulkDensity = 0;
+    for (const double orifice : {0.012, 0.015, 0.018}) {
+        const Discharge run = discharge(hopper, grains, orifice, 0.1, 0.4, 0.002);
+        flows.push_back({orifice, run.flow});
+        bulkDensity = run.bulkDensity;
+        const double inHalf = 0.15 * run.flow / sphereMass(0.5 * hopper.grainDiameter, Hopper::density);
+        EXPECT_LT(std::abs(run.change), 3 * std::sqrt(2 / inHalf)) << "a steady flow, orifice " << orifice;
+    }
+    const BeverlooLaw law = fitBeverloo(flows, bulkDensity, Hopper::gravity, hopper.grainDiameter);
+    EXPECT_GT(law.coefficient, 0.5);
+    EXPECT_LT(law.coefficient, 0.7);
+    EXPECT_GT(law.emptyAnnulus, 1);
+    EXPECT_LT(law.emptyAnnulus, 2);
+    for (const CurvePoint& flow : flows) EXPECT_NEAR(flow.y / law.flow(flow.x), 1, 0.05);
+}
+
+}  // namespace
+}  // namespace pendular
