@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/ContactSystem.h"
@@ -88,6 +90,27 @@ void checkScene(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorq
             "Simulation: time step = {:.6g} s is above the stability limit of the stiffest contact; it "
             "must be at most {:.6g} s (advice: {:.2g} s), unless acceptUnstableTimeStep() is called.",
             timeStep, limit, 0.2 * limit));
+}
+
+/// Throws InputError if the scene repeats itself so soon that a grain could meet two images of another: a
+/// contact knows the nearest image only.
+template <class S>
+void checkPeriodicLengths(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
+                          const WallHandler& walls, const PeriodicBox& box) {
+    double reach = 0;  // m, of two centres that act on each other
+    forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double) {
+        if (bodies.radius2 < infinity)
+            reach = std::max(reach, bodies.radius1 + bodies.radius2 + laws.range(bodies));
+    });
+    const std::array<std::pair<char, double>, 3> lengths{
+        {{'x', box.length.x}, {'y', box.length.y}, {'z', box.length.z}}};
+    for (const auto& [axis, length] : lengths)
+        if (length > 0 && length < 2 * reach)
+            throw InputError(fmt::format(
+                "Simulation: periodic length along {} = {:.6g} m is too short; it must be at "
+                "least {:.6g} m, twice the largest distance at which two grains of this scene act "
+                "on each other.",
+                axis, length, 2 * reach));
 }
 
 /// Throws InputError if two bodies overlap by more than a sound share of the smaller radius (m).

@@ -50,8 +50,12 @@ public:
     /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
     void setSaveCount(std::size_t steps) { saveCount = steps; }
     /// @param acceleration m/s^2
-    void setGravity(const Vec3D& acceleration) { gravity = toVector(acceleration); }
-    /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m).
+    void setGravity(const Vec3D& acceleration) {
+        for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
+        gravity = toVector(acceleration);
+    }
+    /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m). The length must
+    /// be at least twice the largest distance of two centres at which grains act on each other.
     void setPeriodic(int axis, double lowest, double highest) {
         checkValue("Simulation", "periodic axis", axis, "", fromZeroTo(2));
         checkValue("Simulation", "periodic length", highest - lowest, "m", positive);
@@ -105,6 +109,7 @@ public:
         checkValue("Simulation", "time step", timeStep, "s", positive);
         speciesHandler.mixAll();
         checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
+        checkPeriodicLengths<S>(speciesHandler, particleHandler.store(), wallHandler, periodic);
         smallestRadius = particleHandler.store().smallestRadius();
         contactSystem.prepare(speciesHandler, wallHandler, periodic, skinShare * smallestRadius, ledgerKept);
         checkOverlaps();
