@@ -34,6 +34,16 @@ public:
         return largest;
     }
 
+    /// Undoes begin, up to round-off.
+    static void takeBack(Grains& grains, double step) {
+        for (std::size_t k = 0; k < grains.size(); ++k) {
+            TranslationRecord& grain = grains.translation[k];
+            grain.velocity -= step * grains.acceleration[k];
+            grain.position -= step * (grain.velocity + (0.5 * step) * grains.acceleration[k]);
+            if constexpr (hasSpin) grains.rotation[k].spin -= step * grains.rotation[k].angularAcceleration;
+        }
+    }
+
     /// The new accelerations, and with them the velocities at the end of the step.
     template <class S>
     static void finish(Grains& grains, const ContactStore<S>& store, const Vector<double>& gravity,

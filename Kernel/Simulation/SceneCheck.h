@@ -9,6 +9,7 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/InputError.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Species/TimeStepAdvice.h"
 
 namespace pendular {
@@ -125,20 +126,33 @@ inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) 
         contact.particle1, other, -contact.separation, 100 * share, 100 * largestSoundOverlap));
 }
 
+/// Ends a run in which two grains have come closer than any contact law is made for: by half the smaller
+/// radius (m). Looked at when contacts are listed anew, nothing that lasts until then goes deeper unseen by
+/// more than the skin.
+inline void refuseDeepOverlap(const ObservedContact& contact, double smallerRadius, double time) {
+    constexpr double largestShare = 0.5;
+    const double share = -contact.separation / smallerRadius;
+    if (!(share > largestShare)) return;
+    throw RunError(fmt::format(
+        "At time {:.6g} s particles {} and {} overlap by {:.4g} m, {:.3g} % of the smaller radius and more "
+        "than {:g} %: "
+        "take stiffer grains, a smaller time step, or lower speeds and loads.",
+        time, contact.particle1, contact.particle2, -contact.separation, 100 * share, 100 * largestShare));
+}
+
 /// The error that ends a run in which a grain has moved farther in a step than the smallest radius (m).
 template <bool hasSpin>
-std::runtime_error runawayError(const ParticleStore<hasSpin>& grains, double smallestRadius, double time,
-                                double step) {
+RunError runawayError(const ParticleStore<hasSpin>& grains, double smallestRadius, double time, double step) {
     for (std::size_t k = 0; k < grains.size(); ++k) {
         const double speed = norm(grains.translation[k].velocity);
         if (speed * step <= smallestRadius) continue;
-        return std::runtime_error(
+        return RunError(
             fmt::format("At time {:.6g} s particle {} moves at {:.4g} m/s, farther in a step of {:.4g} s "
                         "than the smallest radius, {:.4g} m: "
                         "take a smaller time step, stiffer grains, or lower speeds.",
                         time, grains.identity[k], speed, step, smallestRadius));
     }
-    return std::runtime_error(
+    return RunError(
         fmt::format("At time {:.6g} s a particle moved farther in a step than the smallest radius, {:.4g} m.",
                     time, smallestRadius));
 }
