@@ -103,7 +103,7 @@ void expectNoDrift(Chain& chain, int steps) {
     EXPECT_GT(before, 0);
     EXPECT_LT(worst, tolerance);
     EXPECT_LT(tolerance, 0.01 * before);  // over all steps together
-    RecordProperty("drift", fmt::format("{:.2g} of the energy", worst / before));
+    testing::Test::RecordProperty("drift", fmt::format("{:.2g} of the energy", worst / before));
     EXPECT_LT(shift, 0.5 * overlap);  // it stayed a chain of linear springs
 }
 
