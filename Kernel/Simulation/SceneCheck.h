@@ -126,18 +126,25 @@ inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) 
         contact.particle1, other, -contact.separation, 100 * share, 100 * largestSoundOverlap));
 }
 
-/// Ends a run in which two grains have come closer than any contact law is made for: by half the smaller
-/// radius (m). Looked at when contacts are listed anew, nothing that lasts until then goes deeper unseen by
-/// more than the skin.
-inline void refuseDeepOverlap(const ObservedContact& contact, double smallerRadius, double time) {
+/// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
+/// made for: by half the smaller radius. Looked at when contacts are listed anew, nothing that lasts until
+/// then goes deeper unseen by more than the skin.
+template <bool hasSpin>
+void refuseDeepOverlap(const ParticleStore<hasSpin>& grains, std::uint32_t first, std::uint32_t second,
+                       const PeriodicBox& box, double time) {
     constexpr double largestShare = 0.5;
-    const double share = -contact.separation / smallerRadius;
-    if (!(share > largestShare)) return;
-    throw RunError(fmt::format(
-        "At time {:.6g} s particles {} and {} overlap by {:.4g} m, {:.3g} % of the smaller radius and more "
-        "than {:g} %: "
-        "take stiffer grains, a smaller time step, or lower speeds and loads.",
-        time, contact.particle1, contact.particle2, -contact.separation, 100 * share, 100 * largestShare));
+    const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
+    const double smaller = std::min(a.radius, b.radius),
+                 nearest = a.radius + b.radius - largestShare * smaller;
+    const double distance2 = squaredNorm(box.nearest(b.position - a.position));
+    if (!(distance2 < nearest * nearest)) return;
+    const double overlap = a.radius + b.radius - std::sqrt(distance2);
+    throw RunError(
+        fmt::format("At time {:.6g} s particles {} and {} overlap by {:.4g} m, {:.3g} % of the smaller "
+                    "radius and more than {:g} %: "
+                    "take stiffer grains, a smaller time step, or lower speeds and loads.",
+                    time, grains.identity[first], grains.identity[second], overlap, 100 * overlap / smaller,
+                    100 * largestShare));
 }
 
 /// The error that ends a run in which a grain has moved farther in a step than the smallest radius (m).

@@ -192,10 +192,12 @@ private:
     }
     /// At walls, a grain that has gone half its way is followed until its centre crosses the surface.
     void refuseDeepOverlaps() const {
-        contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            if (bucket.wall < 0)
-                refuseDeepOverlap(contactSystem.observe(particleHandler.store(), bucket, contact),
-                                  smallerRadius(bucket, contact), getTime());
+        const auto& store = contactSystem.store();
+        store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+            if (bucket.wall >= 0) return;
+            const ContactBlock& block = store.blocks[contact / Pack::lanes];
+            refuseDeepOverlap(particleHandler.store(), block.first[contact % Pack::lanes],
+                              block.second[contact % Pack::lanes], periodic, getTime());
         });
     }
     double smallerRadius(const Bucket& bucket, std::uint32_t contact) const {
