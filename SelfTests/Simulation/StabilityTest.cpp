@@ -6,8 +6,12 @@
 #include <numbers>
 #include <vector>
 
+#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
@@ -143,6 +147,47 @@ TEST(Stability, justAboveTheExactLimitTheRunStopsAndLeavesItsLastState) {
             EXPECT_TRUE(std::filesystem::remove(name + file)) << share;
         for (int k = 0; k < count; ++k) EXPECT_TRUE(chain.motion(k).position.allFinite());
     }
+}
+
+template <class S>
+class StabilityOfABed : public testing::Test {
+protected:
+    /// Lets grains fall into a box with a step that is a share of the limit; what stopped the run, or
+    /// nothing.
+    std::string settle(double share) {
+        scene.setName(name);
+        scene.setTimeStep(share * scene.stabilityLimit());
+        scene.acceptUnstableTimeStep();
+        scene.setTimeMax(0.5);
+        try {
+            scene.solve();
+        } catch (const RunError& stop) {
+            return stop.what();
+        }
+        return {};
+    }
+    scenes::SettlingBox<S> scene{6};
+    const std::string name = testing::TempDir() + "pendular-unstable-bed";
+};
+using SpeciesOfBeds = testing::Types<Elastic, Species<HertzianViscoelastic, Mindlin>,
+                                     Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>>;
+TYPED_TEST_SUITE(StabilityOfABed, SpeciesOfBeds);
+
+TYPED_TEST(StabilityOfABed, comesToRestBelowTheLimit) {
+    ASSERT_EQ(this->settle(0.9), "");
+    const double slow = std::sqrt(2 * 9.81 * 0.01 * r);  // m/s: not enough to rise by a hundredth of a radius
+    for (const TranslationRecord& grain : this->scene.particleHandler.store().translation)
+        EXPECT_LT(norm(grain.velocity), slow);
+}
+
+TYPED_TEST(StabilityOfABed, stopsFarAboveIt) {
+    // A pair stands twice the limit that is given, and no step stands four times it.
+    const std::string text = this->settle(4);
+    EXPECT_TRUE(support::isOneSentence(text));
+    EXPECT_TRUE(support::contains(text, "smaller time step"));
+    EXPECT_LT(this->scene.getNumberOfTimeSteps(), 100u);
+    for (const char* file : {"-last-state.csv", "-last-contacts.csv"})
+        EXPECT_TRUE(std::filesystem::remove(this->name + file));
 }
 
 }  // namespace
