@@ -172,7 +172,12 @@ private:
         const double grainShift = std::sqrt(Motion::begin(grains, length, threads));
         refuseRunaway(grainShift);
         const double wallShift = wallHandler.moveTo(getTime() + length);
-        if (contactSystem.refresh(grains, grainShift, wallShift)) refuseDeepOverlaps();
+        const bool goesRound = ledgerKept && periodic.any();
+        const double before = goesRound ? potentialEnergy(grains, gravity) : 0;
+        if (contactSystem.refresh(grains, grainShift, wallShift)) {
+            if (goesRound) ledger.goRound(before - potentialEnergy(grains, gravity));
+            refuseDeepOverlaps();
+        }
         contactSystem.computeForces(grains, length);
         Motion::finish(grains, contactSystem.store(), gravity, length, threads);
         if (ledgerKept) account(length);
