@@ -51,16 +51,17 @@ public:
     }
 
     /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
-    /// contacts anew where it is time.
-    void refresh(Grains& grains, double grainShift, double wallShift) {
+    /// contacts anew where it is time; says whether it did.
+    bool refresh(Grains& grains, double grainShift, double wallShift) {
         unlisted += grainShift + std::max(grainShift, wallShift);
-        if (unlisted < skin) return;
+        if (unlisted < skin) return false;
         ContactList<S>(*species, *walls, periodic, skin, ledger).rebuild(grains, contacts);
         laws.clear();
         for (const Bucket& bucket : contacts.buckets)
             laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
         unlisted = 0;
         ++rebuilds;
+        return true;
     }
 
     /// Threads for the forces; the results do not depend on it.

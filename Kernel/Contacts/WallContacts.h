@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/RunError.h"
 
 namespace pendular {
 
@@ -67,7 +66,7 @@ inline void refuseCrossing(const Wall& wall, int number, const TranslationRecord
     const Vector<double> way = step * (grain.velocity - point.velocity);
     if (point.distance * std::abs(point.distance) > squaredNorm(way)) return;
     if (!wall.isCrossed(grain.position - way, grain.position)) return;
-    throw std::runtime_error(
+    throw RunError(
         fmt::format("Particle {} went through wall {} within a step of {:.4g} s, at {:.4g} m/s against it: "
                     "take a smaller time step, "
                     "stiffer contacts, or lower speeds.",

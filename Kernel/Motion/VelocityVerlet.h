@@ -36,6 +36,16 @@ public:
         });
     }
 
+    /// Undoes begin, up to round-off.
+    static void takeBack(Grains& grains, double step) {
+        for (std::size_t k = 0; k < grains.size(); ++k) {
+            TranslationRecord& grain = grains.translation[k];
+            grain.velocity -= step * grains.acceleration[k];
+            grain.position -= step * (grain.velocity + (0.5 * step) * grains.acceleration[k]);
+            if constexpr (hasSpin) grains.rotation[k].spin -= step * grains.rotation[k].angularAcceleration;
+        }
+    }
+
 private:
     static double move(Grains& grains, double step, std::size_t first, std::size_t end) {
         double largest = 0;
