@@ -21,6 +21,11 @@ public:
         return {sides.data() + begins[grain], sides.data() + ends[grain]};
     }
 
+    /// Those of the contacts without memory, 2 x contact + (0 or 1).
+    [[nodiscard]] std::span<const std::uint32_t> asleepOf(std::size_t grain) const {
+        return {sides.data() + ends[grain], sides.data() + begins[grain + 1]};
+    }
+
     /// Lists all sides anew.
     /// @param forEachSide calls its argument with (grain, contact, 0 or 1) for all sides, in the order of the
     /// contacts

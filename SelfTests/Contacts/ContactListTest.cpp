@@ -128,9 +128,11 @@ struct Listing {
             if (bucket.wall < 0)
                 expected.emplace(store.blocks[c / Pack::lanes].second[c % Pack::lanes], 2 * c + 1);
         });
-        for (std::uint32_t k = 0; k < grains().size(); ++k)
-            for (std::uint32_t s = store.sidesBegin[k]; s < store.sidesBegin[k + 1]; ++s)
-                found.emplace(k, store.sides[s]);
+        for (std::uint32_t k = 0; k < grains().size(); ++k) {
+            for (const std::uint32_t side : store.sides.of(k))
+                found.emplace(k, 2 * store.contactAt(side / 2) + side % 2);
+            for (const std::uint32_t side : store.sides.asleepOf(k)) found.emplace(k, side);
+        }
         EXPECT_EQ(found, expected);
     }
 
