@@ -92,8 +92,9 @@ int main(int argc, char** argv) {
     app.add_option("--steps", o.steps, "steps that are timed")->capture_default_str();
     app.add_option("--warm", o.warm, "steps before those")->capture_default_str();
     app.add_option("--positions", o.choice.positions,
-                   "file of rows `radius x y z` (m): the bed of Dosta et al. (2024) and its walls, repeated "
-                   "along x to the number of --particles");
+                   "file of rows `radius x y z` (m): the bed of Dosta et al. (2024), repeated along x to the "
+                   "number of --particles, or their drum or penetration");
+    app.add_option("--walls", o.choice.walls, "file of triangles, for the positions of drum and penetration");
     app.add_option("--states", o.choice.states, "folder of initial states")->capture_default_str();
     app.add_flag("--header", o.header, "print the names of the columns first");
     CLI11_PARSE(app, argc, argv);

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "Drivers/Shared/DrumScene.h"
+#include "Drivers/Shared/PenetrationScene.h"
 #include "Drivers/Shared/SettledGrains.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/Laws.h"
@@ -13,7 +15,8 @@ struct BenchmarkChoice {
     std::string scene = "bed";
     std::size_t particles = 0;        // about; 0: the scene's own number
     std::string species;              // empty: the scene's own
-    std::filesystem::path positions;  // of the bed; empty: made by the program
+    std::filesystem::path positions;  // of the grains; empty: made by the program
+    std::filesystem::path walls;      // of the drum and the penetration, with their positions
     std::filesystem::path states = PENDULAR_STATES_DIR;
 
     [[nodiscard]] std::size_t particlesOr(std::size_t standard) const {
@@ -21,7 +24,8 @@ struct BenchmarkChoice {
     }
 };
 
-inline constexpr double benchmarkStep = 5e-7;  // s
+inline constexpr double benchmarkStep = 5e-7;   // s
+inline constexpr double settlingSoftness = 30;  // divides the stiffness while a drum or a bed is filled
 
 using BenchmarkSpecies = TypeList<HertzianViscoelasticMindlinSpecies, LinearViscoelasticSpecies,
                                   HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies,
@@ -47,8 +51,8 @@ public:
         const double spacing = std::cbrt(4.0 / 3 * std::numbers::pi / 0.05) * radius;
         for (int axis = 0; axis < 3; ++axis)
             this->setPeriodic(axis, 0, spacing * static_cast<double>(perSide));
-        std::mt19937_64 random(1);
-        const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+        UniformRandom random(1);
+        const auto speed = [&] { return random.uniform(-1, 1); };
         this->particleHandler.reserve(grains);
         for (std::size_t k = 0; k < grains; ++k) {
             SphericalParticle grain;
@@ -57,8 +61,8 @@ public:
             grain.setPosition(spacing * Vec3D(static_cast<double>(k % perSide) + 0.5,
                                               static_cast<double>(k / perSide % perSide) + 0.5,
                                               static_cast<double>(k / perSide / perSide) + 0.5));
-            const double x = uniform(), y = uniform();
-            grain.setVelocity({x, y, uniform()});
+            const double x = speed(), y = speed();
+            grain.setVelocity({x, y, speed()});
             this->particleHandler.copyAndAddObject(grain);
         }
         this->setTimeStep(benchmarkStep);
@@ -82,17 +86,68 @@ void withSceneOf(const BenchmarkChoice& choice, int threads, Function&& function
     function(scene);
 }
 
-/// Calls function(scene) with the scene chosen, whatever its type.
+/// Calls function(scene) with the published drum, or one of its proportions that the program fills itself.
 template <class Function>
-void withBenchmarkScene(const BenchmarkChoice& choice, int threads, Function&& function) {
-    static const std::vector<std::string_view> known{"bed", "wet-bed", "gas", "polydisperse"};
+void withDrum(const BenchmarkChoice& choice, Function&& function) {
+    const auto turning = [&](auto&&... walls) {
+        DrumScene scene(walls...);
+        scene.turn(DrumScene::publishedSpeed);
+        function(scene);
+    };
+    if (!choice.positions.empty())
+        return turning(readGrainFile(choice.positions), readTriangles(choice.walls));
+    const std::size_t number = choice.particlesOr(10000);
+    const DrumShape shape = drumFor(number);
+    turning(kept(choice.states, fmt::format("drum-{}", number),
+                 [&] { return settledDrumGrains(number, shape, settlingSoftness); }),
+            shape);
+}
+
+/// Calls function(scene) with the published bed and intruder, or with those of its proportions.
+template <class Function>
+void withPenetration(const BenchmarkChoice& choice, Function&& function) {
+    if (!choice.positions.empty()) {
+        PenetrationScene scene(separateIntruder(readGrainFile(choice.positions)),
+                               readTriangles(choice.walls));
+        return function(scene);
+    }
+    const std::size_t number = choice.particlesOr(10000);
+    const BedBox box = bedBoxFor(number);
+    PenetrationScene scene(separateIntruder(kept(choice.states, fmt::format("penetration-{}", number),
+                                                 [&] {
+                                                     auto grains = settledBed(number, box, settlingSoftness);
+                                                     grains.bed.push_back(*grains.intruder);
+                                                     return grains.bed;
+                                                 })),
+                           box);
+    function(scene);
+}
+
+/// Refuses what does not fit together.
+inline void check(const BenchmarkChoice& choice) {
+    static const std::vector<std::string_view> known{"bed",         "wet-bed", "drum",
+                                                     "penetration", "gas",     "polydisperse"};
     if (std::find(known.begin(), known.end(), choice.scene) == known.end())
         unknownName("scene", choice.scene, known);
     const bool isBed = choice.scene == "bed" || choice.scene == "wet-bed";
-    if (!choice.positions.empty() && !isBed)
+    const bool hasMesh = choice.scene == "drum" || choice.scene == "penetration";
+    if (!choice.positions.empty() && !isBed && !hasMesh)
+        throw InputError(fmt::format("benchmark-scenes: the scene {} takes no positions.", choice.scene));
+    if (hasMesh && choice.positions.empty() != choice.walls.empty())
         throw InputError(fmt::format(
-            "benchmark-scenes: positions are given for the scene {}; only bed and wet-bed take them.",
-            choice.scene));
+            "benchmark-scenes: the scene {} needs both positions and walls, or neither.", choice.scene));
+    if (!choice.walls.empty() && !hasMesh)
+        throw InputError(fmt::format("benchmark-scenes: the scene {} takes no walls.", choice.scene));
+    if (hasMesh && !choice.species.empty())
+        throw InputError(fmt::format("benchmark-scenes: the scene {} has its own species.", choice.scene));
+}
+
+/// Calls function(scene) with the scene chosen, whatever its type.
+template <class Function>
+void withBenchmarkScene(const BenchmarkChoice& choice, int threads, Function&& function) {
+    check(choice);
+    if (choice.scene == "drum") return withDrum(choice, function);
+    if (choice.scene == "penetration") return withPenetration(choice, function);
     const std::string standard = choice.scene == "wet-bed"
                                      ? "HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies"
                                      : "HertzianViscoelasticMindlinSpecies";

@@ -10,11 +10,6 @@ namespace pendular::scenes {
 /// A box along the axes, m. It has a lid only where highest.z is finite.
 struct Box {
     Vec3D lowest, highest;
-
-    [[nodiscard]] Box grownBy(double margin) const {
-        const Vec3D by = Vec3D::Constant(margin);
-        return {lowest - by, highest + by};
-    }
 };
 
 /// Grains of one species in a box of plane walls, under gravity.
@@ -42,16 +37,6 @@ public:
         grain.setPosition(row.position);
         grain.setVelocity(velocity);
         this->particleHandler.copyAndAddObject(grain);
-    }
-
-    /// All grains where they are now, in the order in which they were added.
-    [[nodiscard]] std::vector<GrainRow> rows() {
-        std::vector<GrainRow> result;
-        for (std::size_t k = 0; k < this->particleHandler.getSize(); ++k) {
-            const auto grain = this->particleHandler.getObject(k);
-            result.push_back({grain.getRadius(), grain.getPosition()});
-        }
-        return result;
     }
 
 private:

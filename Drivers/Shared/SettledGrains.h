@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <random>
+#include <span>
 #include <vector>
 
 #include "Drivers/Shared/BedMaterial.h"
 #include "Drivers/Shared/BoxScene.h"
+#include "Drivers/Shared/GrainLattice.h"
+#include "Drivers/Shared/GrainRows.h"
 #include "Kernel/Species/Adhesion/NoAdhesion.h"
 
 namespace pendular::scenes {
@@ -19,33 +21,30 @@ struct Settled {
     std::vector<GrainRow> grains;
 };
 
-/// Grains of one radius on a cubic lattice in a box, row by row from its floor, slightly out of place.
-class Lattice {
-public:
-    Lattice(const Box& box, double radius) : inside(box.grownBy(-0.52 * spacingOf(radius))), size(radius) {
-        for (int axis = 0; axis < 2; ++axis)
-            count[axis] =
-                static_cast<std::size_t>((inside.highest - inside.lowest)[axis] / spacingOf(size) + 1);
+/// So many grains of one radius on a loose lattice, layer by layer from the floor of a box without lid, where
+/// they meet none of the grains that are there.
+inline std::vector<GrainRow> looseGrains(const Box& box, std::size_t count, double radius,
+                                         std::span<const GrainRow> there) {
+    const double edge = 2 * latticeLooseness * radius;
+    const auto isFree = [&](const Vec3D& centre) {
+        return std::none_of(there.begin(), there.end(), [&](const GrainRow& g) {
+            return (g.position - centre).norm() < g.radius + 1.1 * radius;
+        });
+    };
+    // As high as if the other grains took as much room again as their own lattice would.
+    double room = static_cast<double>(count) * std::pow(edge, 3);
+    for (const GrainRow& g : there) room += std::pow(2 * latticeLooseness * g.radius, 3);
+    const Vec3D base = box.highest - box.lowest;
+    const double height = 2 * room / (base.x() * base.y()) + 4 * edge;
+    const Vec3D top(box.highest.x(), box.highest.y(), box.lowest.z() + height);
+    UniformRandom random(1);
+    std::vector<GrainRow> grains;
+    for (const Vec3D& cell : latticeCells(box.lowest, top, edge, isFree)) {
+        if (grains.size() == count) break;
+        grains.push_back(jittered(radius, cell, random));
     }
-
-    [[nodiscard]] std::size_t perLayer() const { return count[0] * count[1]; }
-    [[nodiscard]] GrainRow grain(std::size_t k) {
-        const Vec3D place(static_cast<double>(k % count[0]), static_cast<double>(k / count[0] % count[1]),
-                          static_cast<double>(k / perLayer()));
-        const Vec3D shift(uniform(), uniform(), uniform());
-        return {size, inside.lowest + spacingOf(size) * place + 0.02 * size * shift};
-    }
-
-private:
-    static double spacingOf(double radius) { return 2.06 * radius; }
-    /// From -1 to 1, the same on every machine.
-    double uniform() { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
-
-    Box inside;
-    double size;
-    std::array<std::size_t, 2> count{};
-    std::mt19937_64 random{1};
-};
+    return grains;
+}
 
 /// Runs a box of loose grains until the kinetic energy of a grain is below a thousandth of what it would gain
 /// by falling through its radius, on average: first with soft grains, then with those of the bed.
@@ -72,7 +71,7 @@ inline Settled settle(Settled loose, int threads) {
             scene.step();
         } while (scene.getNumberOfTimeSteps() < first || scene.getNumberOfTimeSteps() % 200 != 0 ||
                  !atRest());
-        loose.grains = scene.rows();
+        loose.grains = grainRows(scene.particleHandler);
     }
     return loose;
 }
@@ -112,8 +111,7 @@ inline Settled settledBed(std::size_t grains, const std::filesystem::path& folde
     const double length = std::max(0.1 * static_cast<double>(own) / most, 0.01);
     Settled bed{{{0, 0, 0}, {length, 0.06, infinity}}, {}};
     bed.grains = kept(folder, fmt::format("bed-{}", own), [&] {
-        Lattice lattice(bed.box, 1e-3);
-        for (std::size_t k = 0; k < own; ++k) bed.grains.push_back(lattice.grain(k));
+        bed.grains = looseGrains(bed.box, own, 1e-3, {});
         return settle(bed, threads).grains;
     });
     return repeated(bed, std::max<std::size_t>(1, (grains + most / 2) / most));
@@ -132,15 +130,9 @@ inline Settled settledMixture(std::size_t grains, double ratio, const std::files
     const double width = std::max(std::cbrt(volume), 3 * 2 * largeRadius);
     Settled bed{{{0, 0, 0}, {width, width, infinity}}, {}};
     bed.grains = kept(folder, fmt::format("mixture-{}-1to{:g}", grains, ratio), [&] {
-        Lattice coarse(bed.box, largeRadius), fine(bed.box, smallRadius);
-        for (std::size_t k = 0; k < large; ++k) bed.grains.push_back(coarse.grain(k));
-        for (std::size_t k = 0; bed.grains.size() < grains; ++k) {
-            const GrainRow row = fine.grain(k);
-            const bool isFree = std::none_of(
-                bed.grains.begin(), bed.grains.begin() + large,
-                [&](const auto& g) { return (g.position - row.position).norm() < g.radius + row.radius; });
-            if (isFree) bed.grains.push_back(row);
-        }
+        bed.grains = looseGrains(bed.box, large, largeRadius, {});
+        const std::vector<GrainRow> among = looseGrains(bed.box, small, smallRadius, bed.grains);
+        bed.grains.insert(bed.grains.end(), among.begin(), among.end());
         return settle(bed, threads).grains;
     });
     return bed;

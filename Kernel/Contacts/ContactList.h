@@ -9,6 +9,7 @@
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/RememberedContacts.h"
 #include "Kernel/Contacts/WakeBlock.h"
+#include "Kernel/Parallel.h"
 #include "Kernel/Species/SpeciesHandler.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -23,8 +24,13 @@ public:
     using Grains = ParticleStore<S::hasTorque>;
 
     ContactList(const SpeciesHandler<S>& speciesHandler, const WallHandler& wallHandler,
-                const PeriodicBox& box, double skinWidth, bool withLedger)
-        : species(speciesHandler), walls(wallHandler), periodic(box), skin(skinWidth), ledger(withLedger) {}
+                const PeriodicBox& box, double skinWidth, bool withLedger, int threadCount)
+        : species(speciesHandler),
+          walls(wallHandler),
+          periodic(box),
+          skin(skinWidth),
+          ledger(withLedger),
+          threads(threadCount) {}
 
     /// Sorts the grains in space and lists their contacts.
     void rebuild(Grains& grains, ContactStore<S>& store) {
@@ -49,6 +55,7 @@ private:
         Bucket bucket;
         std::vector<Listed> contacts;
     };
+    using Groups = std::vector<Group>;
 
     double rangeOf(int a, int b, const Bodies& bodies) const { return species.mixture(a, b).range(bodies); }
 
@@ -72,30 +79,53 @@ private:
         return largest;
     }
 
-    std::size_t groupOf(int species1, int species2, int wall) {
-        for (std::size_t g = 0; g < groups.size(); ++g) {
-            const Bucket& bucket = groups[g].bucket;
-            if (bucket.species1 == species1 && bucket.species2 == species2 && bucket.wall == wall) return g;
+    static Group& groupOf(Groups& all, int species1, int species2, int wall) {
+        for (Group& group : all) {
+            const Bucket& bucket = group.bucket;
+            if (bucket.species1 == species1 && bucket.species2 == species2 && bucket.wall == wall)
+                return group;
         }
-        groups.push_back({{0, 0, species1, species2, wall}, {}});
-        return groups.size() - 1;
+        all.push_back({{0, 0, species1, species2, wall}, {}});
+        return all.back();
+    }
+
+    /// Calls function(groups, begin, end) for ranges of all grains, each with groups of its own, and adds
+    /// these up in the order of the ranges.
+    template <class Function>
+    void listInParts(std::size_t grainCount, Function&& function) {
+        std::vector<Groups> parts(static_cast<std::size_t>(threads));
+        inParts(grainCount, threads, [&](int part, std::size_t begin, std::size_t end) {
+            function(parts[static_cast<std::size_t>(part)], begin, end);
+        });
+        for (Groups& part : parts)
+            for (Group& found : part) {
+                Group& group =
+                    groupOf(groups, found.bucket.species1, found.bucket.species2, found.bucket.wall);
+                if (group.contacts.empty()) group.contacts.swap(found.contacts);
+                else
+                    group.contacts.insert(group.contacts.end(), found.contacts.begin(), found.contacts.end());
+                found.contacts = {};
+            }
     }
 
     void findPairs(const Grains& grains, const RememberedContacts<S>& old) {
         const NeighbourSearch search(grains.translation, skin + (actsApart ? largestRange(grains) : 0),
                                      periodic);
-        for (std::size_t a = 0; a < species.getSize(); ++a)
-            for (std::size_t b = a; b < species.getSize(); ++b)
-                groupOf(static_cast<int>(a), static_cast<int>(b), -1);
-        for (std::uint32_t i = 0; i < grains.size(); ++i) {
-            search.forEachPartner(i, [&](std::uint32_t j) {
-                if (nearEnough(grains, i, j)) addPair(grains, i, j);
-            });
-            if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
-                for (const auto& entry : old.of(grains.identity[i]))
-                    if (entry.wall == 0 && entry.bridged && !nearEnough(grains, i, grains.place[entry.other]))
-                        addPair(grains, i, grains.place[entry.other]);
-        }
+        listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
+            for (std::size_t a = 0; a < species.getSize(); ++a)
+                for (std::size_t b = a; b < species.getSize(); ++b)
+                    own.push_back({{0, 0, static_cast<int>(a), static_cast<int>(b), -1}, {}});
+            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+                search.forEachPartner(i, [&](std::uint32_t j) {
+                    if (!actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j);
+                });
+                if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
+                    for (const auto& entry : old.of(grains.identity[i]))
+                        if (entry.wall == 0 && entry.bridged &&
+                            !nearEnough(grains, i, grains.place[entry.other]))
+                            addPair(own, grains, i, grains.place[entry.other]);
+            }
+        });
     }
 
     bool nearEnough(const Grains& grains, std::uint32_t i, std::uint32_t j) const {
@@ -106,35 +136,40 @@ private:
         return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
     }
 
-    void addPair(const Grains& grains, std::uint32_t i, std::uint32_t j) {
+    void addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const {
         if (grains.translation[i].inverseMass == 0 && grains.translation[j].inverseMass == 0) return;
         const std::size_t low = std::min(grains.species[i], grains.species[j]);
         const std::size_t high = std::max(grains.species[i], grains.species[j]);
         // The groups of pairs stand first, in the order of a triangle of species.
         const std::size_t group = low * species.getSize() - low * (low + 1) / 2 + high;
-        groups[group].contacts.push_back({std::min(i, j), std::max(i, j)});
+        all[group].contacts.push_back({std::min(i, j), std::max(i, j)});
     }
 
     void findWallContacts(const Grains& grains, const RememberedContacts<S>& old) {
-        std::vector<std::uint32_t> parts;
-        for (std::size_t w = 0; w < walls.getSize(); ++w) {
-            const Wall& wall = walls.getObject(w);
-            for (std::uint32_t i = 0; i < grains.size(); ++i) {
-                const TranslationRecord& grain = grains.translation[i];
-                if (grain.inverseMass == 0) continue;
-                parts.clear();
-                // A bridge may pass on to the next part of the wall: then all within its range are listed.
-                bool far = actsApart;
-                if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
-                    for (const auto& entry : old.of(grains.identity[i]))
-                        far |= entry.wall == w + 1 && entry.bridged;
-                const double apart = far ? rangeOf(grains.species[i], wall.species, {grain.radius}) : 0;
-                wall.listParts(grain.position, grain.radius + apart + skin, parts);
-                if (parts.empty()) continue;
-                Group& group = groups[groupOf(grains.species[i], wall.species, static_cast<int>(w))];
-                for (const std::uint32_t part : parts) group.contacts.push_back({i, part});
-            }
-        }
+        for (std::size_t w = 0; w < walls.getSize(); ++w)
+            listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
+                std::vector<std::uint32_t> parts;
+                for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+                    findWallContacts(grains, old, w, i, own, parts);
+            });
+    }
+
+    void findWallContacts(const Grains& grains, [[maybe_unused]] const RememberedContacts<S>& old,
+                          std::size_t w, std::uint32_t i, Groups& all,
+                          std::vector<std::uint32_t>& parts) const {
+        const Wall& wall = walls.getObject(w);
+        const TranslationRecord& grain = grains.translation[i];
+        if (grain.inverseMass == 0) return;
+        // A bridge may pass on to the next part of the wall: then all within its range are listed.
+        bool far = actsApart;
+        if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
+            for (const auto& entry : old.of(grains.identity[i])) far |= entry.wall == w + 1 && entry.bridged;
+        const double apart = far ? rangeOf(grains.species[i], wall.species, {grain.radius}) : 0;
+        parts.clear();
+        wall.listParts(grain.position, grain.radius + apart + skin, parts);
+        if (parts.empty()) return;
+        Group& group = groupOf(all, grains.species[i], wall.species, static_cast<int>(w));
+        for (const std::uint32_t part : parts) group.contacts.push_back({i, part});
     }
 
     /// Within each stretch of the list, puts the pairs that touch before those that do not, and these in the
@@ -143,18 +178,23 @@ private:
     /// cache.
     void sortByGap(Group& g, const Grains& grains) const {
         constexpr std::size_t stretch = 2048;
-        std::vector<std::pair<double, Listed>> pairs;
-        for (std::size_t begin = 0; begin < g.contacts.size(); begin += stretch) {
-            const std::size_t end = std::min(begin + stretch, g.contacts.size());
-            pairs.clear();
-            for (std::size_t k = begin; k < end; ++k)
-                pairs.emplace_back(gapOf(grains, g.contacts[k]), g.contacts[k]);
-            const auto apart =
-                std::stable_partition(pairs.begin(), pairs.end(), [](const auto& p) { return p.first <= 0; });
-            std::stable_sort(apart, pairs.end(),
-                             [](const auto& p, const auto& q) { return p.first < q.first; });
-            for (std::size_t k = begin; k < end; ++k) g.contacts[k] = pairs[k - begin].second;
-        }
+        inParts((g.contacts.size() + stretch - 1) / stretch, threads,
+                [&](int, std::size_t first, std::size_t last) {
+                    std::vector<std::pair<double, Listed>> pairs;
+                    for (std::size_t begin = first * stretch;
+                         begin < std::min(last * stretch, g.contacts.size()); begin += stretch)
+                        sortByGap({g.contacts.data() + begin, std::min(stretch, g.contacts.size() - begin)},
+                                  grains, pairs);
+                });
+    }
+    void sortByGap(std::span<Listed> contacts, const Grains& grains,
+                   std::vector<std::pair<double, Listed>>& pairs) const {
+        pairs.clear();
+        for (const Listed& pair : contacts) pairs.emplace_back(gapOf(grains, pair), pair);
+        const auto apart =
+            std::stable_partition(pairs.begin(), pairs.end(), [](const auto& p) { return p.first <= 0; });
+        std::stable_sort(apart, pairs.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+        for (std::size_t k = 0; k < contacts.size(); ++k) contacts[k] = pairs[k].second;
     }
 
     /// How far two grains must approach (m) before the pair acts.
@@ -184,40 +224,67 @@ private:
         store.blocks.assign(blocks, {});
         store.states.assign(blocks, {});
         store.slots.assign(blocks, ContactStore<S>::asleep);
-        store.gaps.assign(blocks, 0);
+        store.gaps.assign(blocks, -infinity);  // of walls none is known: they are always looked at
         store.memory.clear(ledger);
         store.wallPoints.assign(wallBlocks, {});
-        for (const Group& g : groups) {
-            for (std::size_t k = 0; k < g.contacts.size(); ++k) {
-                const std::size_t block = g.bucket.begin + k / Pack::lanes, lane = k % Pack::lanes;
-                store.blocks[block].first[lane] = g.contacts[k].first;
-                store.blocks[block].second[lane] = g.contacts[k].second;
-                store.states[block].listed |= static_cast<std::uint8_t>(1u << lane);
-                // The first of a block has the smallest gap. Of walls none is known.
-                if (lane == 0 && g.bucket.wall < 0)
-                    store.gaps[block] = gapOf(grains, g.contacts[k]) - 1e-9 * skin;
-            }
-        }
+        for (const Group& g : groups)
+            inParts(g.bucket.end - g.bucket.begin, threads, [&](int, std::size_t begin, std::size_t end) {
+                for (std::size_t b = begin; b < end; ++b) fillBlock(g, b, grains, store);
+            });
         groups.clear();
     }
 
-    /// Copies the memory of contacts that were touching or joined before.
+    /// @param b of the group
+    void fillBlock(const Group& g, std::size_t b, const Grains& grains, ContactStore<S>& store) const {
+        const std::size_t block = g.bucket.begin + b;
+        const std::size_t count = std::min<std::size_t>(g.contacts.size() - b * Pack::lanes, Pack::lanes);
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const Listed& contact = g.contacts[b * Pack::lanes + lane];
+            store.blocks[block].first[lane] = contact.first;
+            store.blocks[block].second[lane] = contact.second;
+        }
+        store.states[block].listed = static_cast<std::uint8_t>((1u << count) - 1);
+        // The first of a block has the smallest gap.
+        if (g.bucket.wall < 0) store.gaps[block] = gapOf(grains, g.contacts[b * Pack::lanes]) - 1e-9 * skin;
+    }
+
+    /// Gives the contacts that were touching or joined before their memory again.
     void recall(const RememberedContacts<S>& old, const Grains& grains, ContactStore<S>& store) const {
-        store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-            const ContactBlock& block = store.blocks[c / Pack::lanes];
-            const std::uint32_t first = grains.identity[block.first[c % Pack::lanes]];
-            const std::uint32_t second = block.second[c % Pack::lanes];
-            const std::uint32_t other = bucket.wall >= 0 ? second : grains.identity[second];
-            const bool exchanged = bucket.wall < 0 && other < first;
-            const auto* entry = exchanged
-                                    ? old.find(other, 0, first)
-                                    : old.find(first, static_cast<std::uint32_t>(bucket.wall + 1), other);
-            if (!entry) return;
-            if (store.slots[c / Pack::lanes] == ContactStore<S>::asleep)
-                wakeBlock(store, c / Pack::lanes, bucket, species.mixture(bucket.species1, bucket.species2),
-                          grains);
-            RememberedContacts<S>::recall(*entry, exchanged, store, c);
-        });
+        using Entry = typename RememberedContacts<S>::Entry;
+        std::vector<const Entry*> entries(store.blocks.size() * Pack::lanes);
+        const auto forEachRecalled = [&](const Bucket& bucket, auto&& function) {
+            inParts(bucket.end - bucket.begin, threads, [&](int, std::size_t begin, std::size_t end) {
+                for (std::size_t c = (bucket.begin + begin) * Pack::lanes;
+                     c < (bucket.begin + end) * Pack::lanes; ++c)
+                    if (store.bitOf(store.states[c / Pack::lanes].listed, c)) function(c);
+            });
+        };
+        for (const Bucket& bucket : store.buckets) {
+            forEachRecalled(bucket,
+                            [&](std::size_t c) { entries[c] = entryOf(old, bucket, c, grains, store); });
+            for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
+                if (entries[c] && store.slots[c / Pack::lanes] == ContactStore<S>::asleep)
+                    wakeBlock(store, c / Pack::lanes, bucket,
+                              species.mixture(bucket.species1, bucket.species2), grains);
+            forEachRecalled(bucket, [&](std::size_t c) {
+                if (!entries[c]) return;
+                const std::uint32_t first =
+                    grains.identity[store.blocks[c / Pack::lanes].first[c % Pack::lanes]];
+                RememberedContacts<S>::recall(*entries[c], entries[c]->owner != first, store, c);
+            });
+        }
+    }
+
+    static const typename RememberedContacts<S>::Entry* entryOf(const RememberedContacts<S>& old,
+                                                                const Bucket& bucket, std::size_t c,
+                                                                const Grains& grains,
+                                                                const ContactStore<S>& store) {
+        const ContactBlock& block = store.blocks[c / Pack::lanes];
+        const std::uint32_t first = grains.identity[block.first[c % Pack::lanes]];
+        const std::uint32_t second = block.second[c % Pack::lanes];
+        if (bucket.wall >= 0) return old.find(first, static_cast<std::uint32_t>(bucket.wall + 1), second);
+        const std::uint32_t other = grains.identity[second];
+        return old.find(std::min(first, other), 0, std::max(first, other));
     }
 
     static void listSides(std::size_t grainCount, ContactStore<S>& store) {
@@ -235,7 +302,8 @@ private:
     const PeriodicBox& periodic;
     double skin;
     bool ledger;
-    std::vector<Group> groups;
+    int threads;
+    Groups groups;
 };
 
 }  // namespace pendular

@@ -55,7 +55,7 @@ public:
     bool refresh(Grains& grains, double grainShift, double wallShift) {
         unlisted += grainShift + std::max(grainShift, wallShift);
         if (unlisted < skin) return false;
-        ContactList<S>(*species, *walls, periodic, skin, ledger).rebuild(grains, contacts);
+        ContactList<S>(*species, *walls, periodic, skin, ledger, threads).rebuild(grains, contacts);
         laws.clear();
         for (const Bucket& bucket : contacts.buckets)
             laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
@@ -194,55 +194,71 @@ private:
         }
     }
 
+    struct HandOver {
+        std::size_t from, to;  // contacts
+        Vector<double> oldNormal, newNormal;
+    };
+
     /// Where the grains of a wall's bucket are nearest to it; the contacts of one grain follow each other.
     void findWallPoints(const Grains& grains, const Bucket& bucket, double step) {
-        const Wall& wall = walls->getObject(static_cast<std::size_t>(bucket.wall));
+        const std::size_t first = bucket.begin * Pack::lanes;
+        std::size_t end = bucket.end * Pack::lanes;
+        while (!contacts.bitOf(contacts.states[(end - 1) / Pack::lanes].listed, end - 1)) --end;
         const auto grainOf = [&](std::size_t c) {
             return contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
         };
-        const auto listed = [&](std::size_t c) {
-            return (contacts.states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0;
+        const auto atNextGrain = [&](std::size_t c) {
+            while (c > first && c < end && grainOf(c) == grainOf(c - 1)) ++c;
+            return c;
         };
-        const std::size_t end = bucket.end * Pack::lanes;
+        handOvers.resize(static_cast<std::size_t>(threads));
+        inParts(end - first, threads, [&](int part, std::size_t from, std::size_t to) {
+            std::vector<HandOver>& own = handOvers[static_cast<std::size_t>(part)];
+            own.clear();
+            findWallPoints(grains, bucket, step, atNextGrain(first + from), atNextGrain(first + to), own);
+        });
+        for (const auto& part : handOvers)
+            for (const HandOver& h : part) {
+                if (!contacts.acts(h.from)) continue;
+                if (contacts.slots[h.to / Pack::lanes] == ContactStore<S>::asleep)
+                    wake(h.to / Pack::lanes, bucket, grains);
+                handOver(contacts, h.from, h.to, h.oldNormal, h.newNormal);
+            }
+    }
+    /// The same for the contacts [c, end), which begin with a grain's first.
+    void findWallPoints(const Grains& grains, const Bucket& bucket, double step, std::size_t c,
+                        std::size_t end, std::vector<HandOver>& found) {
+        const Wall& wall = walls->getObject(static_cast<std::size_t>(bucket.wall));
+        std::vector<std::uint32_t> parts;
+        std::vector<WallPoint> points;
         Bodies last{-1};
         double range = 0;
-        handOvers.clear();
-        for (std::size_t c = bucket.begin * Pack::lanes; c < end && listed(c);) {
-            const std::uint32_t grain = grainOf(c);
-            partsOfGrain.clear();
+        while (c < end) {
+            const std::uint32_t grain = contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
             const std::size_t begin = c;
-            for (; c < end && listed(c) && grainOf(c) == grain; ++c)
-                partsOfGrain.push_back(contacts.blocks[c / Pack::lanes].second[c % Pack::lanes]);
-            pointsOfGrain.resize(partsOfGrain.size());
+            parts.clear();
+            for (; c < end && contacts.blocks[c / Pack::lanes].first[c % Pack::lanes] == grain; ++c)
+                parts.push_back(contacts.blocks[c / Pack::lanes].second[c % Pack::lanes]);
+            points.resize(parts.size());
             const TranslationRecord& record = grains.translation[grain];
             if constexpr (S::Adhesion::acts)
                 if (record.radius != last.radius1) {
                     last = {record.radius};
                     range = species->mixture(bucket.species1, bucket.species2).range(last);
                 }
-            wall.findPoints(record.position, record.radius + range, partsOfGrain, pointsOfGrain);
-            for (std::size_t k = 0; k < pointsOfGrain.size(); ++k) {
-                const WallPoint& point = pointsOfGrain[k];
+            wall.findPoints(record.position, record.radius + range, parts, points);
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                const WallPoint& point = points[k];
                 contacts.wallPoints[(begin + k) / Pack::lanes - contacts.firstWallBlock()].set(
                     (begin + k) % Pack::lanes, point);
-                if (point.coveredBy >= 0)
-                    handOvers.push_back({begin + k, begin + static_cast<std::size_t>(point.coveredBy),
-                                         point.normal,
-                                         pointsOfGrain[static_cast<std::size_t>(point.coveredBy)].normal});
+                if (point.coveredBy >= 0) {
+                    const auto other = static_cast<std::size_t>(point.coveredBy);
+                    found.push_back({begin + k, begin + other, point.normal, points[other].normal});
+                }
                 refuseCrossing(wall, bucket.wall, record, grains.identity[grain], point, step);
             }
         }
-        for (const HandOver& h : handOvers) {
-            if (!contacts.acts(h.from)) continue;
-            if (contacts.slots[h.to / Pack::lanes] == ContactStore<S>::asleep)
-                wake(h.to / Pack::lanes, bucket, grains);
-            handOver(contacts, h.from, h.to, h.oldNormal, h.newNormal);
-        }
     }
-    struct HandOver {
-        std::size_t from, to;  // contacts
-        Vector<double> oldNormal, newNormal;
-    };
 
     const SpeciesHandler<S>* species = nullptr;
     const WallHandler* walls = nullptr;
@@ -254,9 +270,7 @@ private:
     bool ledger = false;
     int threads = 1;
     std::size_t rebuilds = 0;
-    std::vector<std::uint32_t> partsOfGrain;
-    std::vector<WallPoint> pointsOfGrain;
-    std::vector<HandOver> handOvers;
+    std::vector<std::vector<HandOver>> handOvers;  // of each thread
 };
 
 }  // namespace pendular
