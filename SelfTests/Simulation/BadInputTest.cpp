@@ -9,6 +9,7 @@
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -248,7 +249,8 @@ TEST(BadInput, runawayGrainEndsTheRun) {
     const std::vector<GrainMotion> grains{
         {.position = {1, 0, 0}}, {}, {.radius = 0.5e-3, .position = {0, 1, 0}, .velocity = {0, 0, 600}}};
     FewGrains<Dry> scene(material(), grains, soundStep);
-    scene.setName(testing::TempDir() + "pendular-runaway");
+    const support::TestFolder folder;
+    scene.setName(folder.name());
     scene.setTimeMax(1e-4);
     // 0.6 mm a step, and 0.5 mm the smallest radius.
     expectRefused<std::runtime_error>([&] { scene.solve(); },
@@ -268,7 +270,8 @@ TEST(BadInput, motionThatIsNotANumberEndsTheRun) {
     for (double broken : {nan, infinity}) {
         Breaking scene(material(), {{.position = {1, 0, 0}}, {}, {.position = {0, 1, 0}}}, soundStep);
         scene.broken = broken;
-        scene.setName(testing::TempDir() + "pendular-broken");
+        const support::TestFolder folder;
+        scene.setName(folder.name());
         scene.setTimeMax(20 * soundStep);
         expectRefused<std::runtime_error>([&] { scene.solve(); },
                                           {"5e-06 s", "particle 1", fmt::format("{}", broken)});

@@ -14,6 +14,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -127,12 +128,12 @@ TEST(HeavyStability, justBelowTheExactLimitThereIsNoDriftEither) {
 }
 
 TEST(Stability, justAboveTheExactLimitTheRunStopsAndLeavesItsLastState) {
-    const std::string name = testing::TempDir() + "pendular-unstable-chain";
+    const support::TestFolder folder;
     for (double share : {1.01, 1.1, 1.5, 3.0}) {
         const double step = share * exactLimit();
         Chain chain(3e-4 * overlap / step, step);
         chain.acceptUnstableTimeStep();
-        chain.setName(name);
+        chain.setName(folder.name());
         chain.setTimeMax(20000 * step);
         std::string text;
         try {
@@ -141,10 +142,10 @@ TEST(Stability, justAboveTheExactLimitTheRunStopsAndLeavesItsLastState) {
             text = stop.what();
         }
         EXPECT_TRUE(support::isOneSentence(text)) << share;
-        for (const char* part : {"take", "smaller time step", "pendular-unstable-chain-last-state.csv"})
+        for (const char* part : {"take", "smaller time step", "run-last-state.csv"})
             EXPECT_TRUE(support::contains(text, part)) << share;
         for (const char* file : {"-last-state.csv", "-last-contacts.csv"})
-            EXPECT_TRUE(std::filesystem::remove(name + file)) << share;
+            EXPECT_TRUE(std::filesystem::remove(folder.name() + file)) << share;
         for (int k = 0; k < count; ++k) EXPECT_TRUE(chain.motion(k).position.allFinite());
     }
 }
@@ -155,7 +156,7 @@ protected:
     /// Lets grains fall into a box with a step that is a share of the limit; what stopped the run, or
     /// nothing.
     std::string settle(double share) {
-        scene.setName(name);
+        scene.setName(folder.name());
         scene.setTimeStep(share * scene.stabilityLimit());
         scene.acceptUnstableTimeStep();
         scene.setTimeMax(0.5);
@@ -167,7 +168,7 @@ protected:
         return {};
     }
     scenes::SettlingBox<S> scene{6};
-    const std::string name = testing::TempDir() + "pendular-unstable-bed";
+    const support::TestFolder folder;
 };
 using SpeciesOfBeds = testing::Types<Elastic, Species<HertzianViscoelastic, Mindlin>,
                                      Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>>;
@@ -187,7 +188,7 @@ TYPED_TEST(StabilityOfABed, stopsFarAboveIt) {
     EXPECT_TRUE(support::contains(text, "smaller time step"));
     EXPECT_LT(this->scene.getNumberOfTimeSteps(), 100u);
     for (const char* file : {"-last-state.csv", "-last-contacts.csv"})
-        EXPECT_TRUE(std::filesystem::remove(this->name + file));
+        EXPECT_TRUE(std::filesystem::exists(this->folder.name() + file));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -19,25 +20,12 @@ using scenes::FewGrains;
 using scenes::GrainMotion;
 using support::contains;
 using support::isOneSentence;
+using support::TestFolder;
 
 using Smooth = Species<LinearViscoelastic>;
 using Rough = Species<HertzianViscoelastic, Mindlin>;
 
 constexpr double r = 1e-3;  // m
-
-/// A folder of this test's own, gone when it ends.
-struct Folder {
-    Folder()
-        : path(std::filesystem::path(testing::TempDir()) /
-               fmt::format("pendular-{}-{}", testing::UnitTest::GetInstance()->current_test_info()->name(),
-                           testing::UnitTest::GetInstance()->random_seed())) {
-        std::filesystem::remove_all(path);
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
-    [[nodiscard]] std::string name() const { return (path / "run").string(); }
-
-    std::filesystem::path path;
-};
 
 /// The sentence with which a run ends; empty if it comes to its end.
 template <class S>
@@ -100,7 +88,7 @@ std::vector<GrainMotion> headOn(double share) {
 }
 
 TEST(DeepOverlap, endsTheRunBeforeItIsDeeperThanTheSkinAllows) {
-    const Folder folder;
+    const TestFolder folder;
     Head scene(soft(softStiffness), headOn(0.9), softStep);
     scene.setName(folder.name());
     scene.setTimeMax(0.1);
@@ -129,7 +117,7 @@ TEST(DeepOverlap, thatStaysBelowHalfTheRadiusDoesNotEndTheRun) {
 /// Two grains that no force keeps apart, at any speed that the time step allows: they never change sides
 /// unnoticed.
 TEST(Tunnelling, ofGrainsThroughGrainsEndsTheRun) {
-    const Folder folder;
+    const TestFolder folder;
     int stopped = 0;
     for (double small : {0.05, 0.3, 1.0})                                   // radii of the one, of the other
         for (double share : {0.003, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.999})  // of the smaller radius a step
@@ -153,7 +141,7 @@ TEST(Tunnelling, ofGrainsThroughGrainsEndsTheRun) {
 }
 
 TEST(LastState, isThatOfTheLastWholeStep) {
-    const Folder folder;
+    const TestFolder folder;
     // A twin takes the same steps and is looked at after each of them.
     Head scene(soft(softStiffness), headOn(0.9), softStep), twin(soft(softStiffness), headOn(0.9), softStep);
     for (Head* each : {&scene, &twin}) each->setName(folder.name()), each->setTimeMax(0.1);
@@ -183,10 +171,7 @@ TEST(LastState, isThatOfTheLastWholeStep) {
 }
 
 TEST(LastState, hasSpinsAndWalls) {
-    const Folder folder;
-    scenes::SettlingBox<Rough> box(3);
-    box.setName(folder.name());
-    box.setTimeMax(0.05);
+    const TestFolder folder;
     struct Kick : scenes::SettlingBox<Rough> {
         using SettlingBox::SettlingBox;
         void actionsAfterTimeStep() override {
@@ -221,7 +206,7 @@ TEST(LastState, thatCannotBeWrittenIsSaidAfterTheReason) {
     for (const char* part : {"particles 0 and 1 overlap", "writing the last state failed", "/dev/null/run"})
         EXPECT_TRUE(contains(text, part));
 
-    const Folder folder;
+    const TestFolder folder;
     Head failing(soft(softStiffness), headOn(0.9), softStep);
     failing.setName(folder.name());
     failing.setTimeMax(0.1);
@@ -234,12 +219,12 @@ TEST(LastState, thatCannotBeWrittenIsSaidAfterTheReason) {
 }
 
 TEST(LastState, isNotWrittenByARunThatEnds) {
-    const Folder folder;
+    const TestFolder folder;
     Head scene(soft(softStiffness), headOn(0.3), softStep);
     scene.setName(folder.name());
     scene.setTimeMax(0.01);
     EXPECT_EQ(stopOf(scene), "");
-    EXPECT_FALSE(std::filesystem::exists(folder.path));
+    EXPECT_FALSE(std::filesystem::exists(folder.path()));
     EXPECT_TRUE(contains(support::refusal([&] { scene.setName(""); }), "name is empty"));
 }
 
