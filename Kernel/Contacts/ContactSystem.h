@@ -6,6 +6,7 @@
 
 #include "Kernel/Contacts/ContactKernel.h"
 #include "Kernel/Contacts/ContactList.h"
+#include "Kernel/Contacts/SkinChoice.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Parallel.h"
 
@@ -39,13 +40,13 @@ public:
     using Grains = ParticleStore<S::hasTorque>;
 
     /// To be called when species, walls and grains are known.
-    /// @param skin m: contacts are listed anew when some grain has moved half of it
+    /// @param skinChoice contacts are listed anew when some grain has moved half of the skin
     void prepare(const SpeciesHandler<S>& speciesHandler, const WallHandler& wallHandler,
-                 const PeriodicBox& box, double skinWidth, bool withLedger) {
+                 const PeriodicBox& box, const SkinChoice& skinChoice, bool withLedger) {
         periodic = box;
         species = &speciesHandler;
         walls = &wallHandler;
-        skin = skinWidth;
+        skin = skinChoice;
         ledger = withLedger;
         unlisted = infinity;
     }
@@ -54,8 +55,12 @@ public:
     /// contacts anew where it is time; says whether it did.
     bool refresh(Grains& grains, double grainShift, double wallShift) {
         unlisted += grainShift + std::max(grainShift, wallShift);
-        if (unlisted < skin) return false;
-        ContactList<S>(*species, *walls, periodic, skin, ledger, threads).rebuild(grains, contacts);
+        ++stepsListed;
+        if (unlisted < skin.width()) return false;
+        if (rebuilds > 0) skin.choose(unlisted, stepsListed);
+        ContactList<S>(*species, *walls, periodic, skin.width(), ledger, threads).rebuild(grains, contacts);
+        skin.listed(contacts, grains.size());
+        stepsListed = 0;
         laws.clear();
         for (const Bucket& bucket : contacts.buckets)
             laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
@@ -265,8 +270,9 @@ private:
     PeriodicBox periodic;
     ContactStore<S> contacts;
     std::vector<PreparedLaws<S>> laws;  // of each bucket
-    double skin = 0;
-    double unlisted = infinity;  // m, that two bodies can have approached since contacts were listed
+    SkinChoice skin;
+    std::size_t stepsListed = 0;  // since the contacts were listed
+    double unlisted = infinity;   // m, that two bodies can have approached since contacts were listed
     bool ledger = false;
     int threads = 1;
     std::size_t rebuilds = 0;

@@ -118,7 +118,7 @@ public:
         checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
         checkPeriodicLengths<S>(speciesHandler, particleHandler.store(), wallHandler, periodic);
         smallestRadius = particleHandler.store().smallestRadius();
-        contactSystem.prepare(speciesHandler, wallHandler, periodic, skinShare * smallestRadius, ledgerKept);
+        contactSystem.prepare(speciesHandler, wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept);
         checkOverlaps();
         advance(0);  // a step of no length: forces and accelerations at the start
     }
@@ -218,9 +218,6 @@ private:
         if (!(shift <= smallestRadius))
             throw runawayError(particleHandler.store(), smallestRadius, getTime(), timeStep);
     }
-
-    /// Width of the list's skin against the smallest radius.
-    static constexpr double skinShare = 0.15;
 
     std::string name = "pendular";
     ContactSystem<S> contactSystem;

@@ -28,7 +28,7 @@ public:
     explicit Bridges(const PeriodicBox& periodic) : scene(6), box(periodic) {
         scene.speciesHandler.mixAll();
         if (box.any()) scene.wallHandler.clear(), scene.planes.clear();
-        system.prepare(scene.speciesHandler, scene.wallHandler, box, skin, false);
+        system.prepare(scene.speciesHandler, scene.wallHandler, box, SkinChoice::fixed(skin), false);
     }
 
     void advance() {

@@ -104,7 +104,7 @@ struct Listing {
 
     std::set<ContactKey> listed() {
         scene.speciesHandler.mixAll();
-        system.prepare(scene.speciesHandler, scene.wallHandler, box, skin, false);
+        system.prepare(scene.speciesHandler, scene.wallHandler, box, SkinChoice::fixed(skin), false);
         system.refresh(grains(), 0, 0);
         std::set<ContactKey> result;
         system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {

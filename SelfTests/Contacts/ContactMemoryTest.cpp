@@ -27,7 +27,7 @@ template <class S>
 struct Settling {
     explicit Settling(double skin) : scene(6) {
         scene.speciesHandler.mixAll();
-        system.prepare(scene.speciesHandler, scene.wallHandler, {}, skin, false);
+        system.prepare(scene.speciesHandler, scene.wallHandler, {}, SkinChoice::fixed(skin), false);
         step(0);
     }
     void step(double length) {
