@@ -14,6 +14,7 @@ struct ContactGeometry {
     T inverseDistance;    // 1/m, of the centres; 0 at a plane wall
     T effectiveRadius;    // m
     T effectiveMass;      // kg
+    T inverseMass;        // 1/kg, of the effective mass
     Vector<T> velocity;   // m/s, of body 1 against body 2 (their centres)
     Vector<T> spinLever;  // m/s, sum of spin x lever arm over the bodies; zero without torque
     Vector<T> spinSum;    // rad/s, of both bodies
@@ -30,8 +31,8 @@ struct PairGeometry {
     Pack distance2;      // m^2
     Pack radius1, radius2;
 
-    PairGeometry(const TranslationRecord* t, const RotationRecord* r, const ContactBlock& b,
-                 [[maybe_unused]] const PeriodicBox& box)
+    [[gnu::always_inline]] PairGeometry(const TranslationRecord* t, const RotationRecord* r,
+                                        const ContactBlock& b, [[maybe_unused]] const PeriodicBox& box)
         : translation(t), rotation(r), block(b) {
         const auto [x1, y1, z1, r1] = loadRecords<4>(numbers(t), 8, b.first.data());
         const auto [x2, y2, z2, r2] = loadRecords<4>(numbers(t), 8, b.second.data());
@@ -48,14 +49,18 @@ struct PairGeometry {
         ContactGeometry<Pack> g;
         const Pack distance = sqrt(distance2);
         const Pack sum = radius1 + radius2;
-        g.inverseDistance = Pack(1) / distance;
-        g.normal = shift * g.inverseDistance;
-        g.overlap = sum - distance;
-        g.effectiveRadius = radius1 * radius2 / sum;
         const auto [vx1, vy1, vz1, im1] = loadRecords<4>(numbers(translation) + 4, 8, block.first.data());
         const auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
         g.velocity = {vx1 - vx2, vy1 - vy2, vz1 - vz2};
-        g.effectiveMass = Pack(1) / (im1 + im2);
+        g.inverseMass = im1 + im2;
+        // Three reciprocals for one division, which need not wait for the square root.
+        const Pack product = distance2 * sum;
+        const Pack reciprocal = Pack(1) / (product * g.inverseMass);
+        g.effectiveMass = product * reciprocal;
+        g.inverseDistance = distance * (sum * g.inverseMass * reciprocal);
+        g.effectiveRadius = radius1 * radius2 * (distance2 * g.inverseMass * reciprocal);
+        g.normal = shift * g.inverseDistance;
+        g.overlap = sum - distance;
         if constexpr (S::hasTorque) {
             const auto [wx1, wy1, wz1] = loadRecords<3>(numbers(rotation), 8, block.first.data());
             const auto [wx2, wy2, wz2] = loadRecords<3>(numbers(rotation), 8, block.second.data());
@@ -104,6 +109,7 @@ struct WallGeometry {
             loadRecords<4>(reinterpret_cast<const double*>(translation) + 4, 8, block.first.data());
         g.velocity = Vector<Pack>{vx, vy, vz} - load(points.velocity);
         g.effectiveMass = Pack(1) / im;
+        g.inverseMass = im;
         if constexpr (S::hasTorque) {
             const auto [wx, wy, wz] =
                 loadRecords<3>(reinterpret_cast<const double*>(rotation), 8, block.first.data());

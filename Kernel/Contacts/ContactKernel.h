@@ -31,17 +31,25 @@ public:
     using Adhesion = typename S::Adhesion;
 
     ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactStore<S>& contactStore)
-        : laws(preparedLaws), timeStep(step), store(contactStore) {}
+        : laws(preparedLaws), timeStep(step), store(contactStore), memory(contactStore.memory) {}
 
+    /// @return false if the block needs memory first; it is marked then
     template <class Geometry>
-    [[gnu::flatten]] void computeBlock(std::size_t block, const Geometry& geometry) {
-        BlockState& state = store.states[block];
+    [[gnu::flatten]] bool computeBlock(std::size_t number, const Geometry& geometry) {
+        BlockState& state = store.states[number];
+        const std::uint32_t block = store.slots[number];  // of the memory
         const Mask listed = maskFromBits(state.listed);
         Mask touching = geometry.overlapping() & listed;
-        const auto interaction = store.interaction.load(block);
         Mask joined = touching | maskFromBits(state.bridged);
         if constexpr (Adhesion::acts && !Adhesion::formsAtContact) joined = listed;
-        if (none(joined)) return clear(block, state);
+        if (none(joined)) {
+            clear(block, state);
+            return true;
+        }
+        if (block == ContactStore<S>::asleep) {
+            store.slots[number] = ContactStore<S>::waking;
+            return false;
+        }
 
         const ContactGeometry<Pack> g = geometry.complete();
         // A step of no length, at the start of a scene, finds overlaps that did not begin in it.
@@ -50,15 +58,17 @@ public:
         Pack adhesive = 0;
         Mask bridged = touching & !touching;
         if constexpr (Adhesion::acts) {
+            const auto interaction = memory.interaction.load(block);
             const Pack separation = max(-g.overlap, Pack(0));
             bridged = joined & (separation < interaction.range());
             adhesive = select(bridged, interaction.force(separation), Pack(0));
         }
-        const NormalPart normal = computeNormal(block, state, g, touching, begins, adhesive);
+        const LastForces last = loadLastForces(block);
+        const NormalPart normal = computeNormal(state, g, last, touching, begins, adhesive);
         Vector<Pack> tangential = zero;
         Pack slipPower = 0;
         if constexpr (Friction::acts)
-            tangential = computeFriction(block, g, touching, begins, normal, slipPower);
+            tangential = computeFriction(block, g, last, touching, begins, normal, slipPower);
 
         const Pack normalForce = normal.repulsion - adhesive;
         writeRecords(block, g.normal, normal.contact.overlap, normalForce, tangential);
@@ -66,9 +76,16 @@ public:
         state.touching = bits(touching);
         state.bridged = bits(bridged);
         state.closing = bits(normal.closing);
+        return true;
     }
 
 private:
+    /// The forces of the last step on eight contacts. The tangential force in today's tangential plane is
+    /// (n x F) x n.
+    struct LastForces {
+        Vector<Pack> leverless;  // N, n x F; zero without friction
+        Pack normalForce;        // N
+    };
     struct NormalPart {
         Pack repulsion;  // N, elastic and damping
         Pack damping;    // kg/s
@@ -82,29 +99,24 @@ private:
     /// + a dt, with the acceleration a of the last step; here it gets the change of this contact's own force,
     /// (F - F_last) dt / (2 m*), in which the dashpot is implicit. For two grains that makes the step exactly
     /// the trapezoidal rule.
-    NormalPart computeNormal(std::size_t block, const BlockState& state, const ContactGeometry<Pack>& g,
+    NormalPart computeNormal(const BlockState& state, const ContactGeometry<Pack>& g, const LastForces& last,
                              Mask touching, Mask begins, Pack adhesive) const {
         NormalPart part;
-        part.contact = {.overlap = max(g.overlap, Pack(0)),
-                        .effectiveRadius = g.effectiveRadius,
-                        .effectiveMass = g.effectiveMass,
-                        .contactRadius = {}};
-        part.contact.contactRadius = sqrt(part.contact.effectiveRadius * part.contact.overlap);
+        part.contact = {max(g.overlap, Pack(0)), g.effectiveRadius, g.effectiveMass};
         NormalForce<Pack> force = Normal::force(laws.normal, part.contact);
         force.damping = select(touching, force.damping, Pack(0));
 
-        const Pack halfStep = Pack(0.5 * timeStep) / g.effectiveMass;
+        const Pack halfStep = Pack(0.5 * timeStep) * g.inverseMass;
         const Pack predicted = dot(g.velocity, g.normal);
-        const Pack lastForce = gatherColumn(&store.records[block * Pack::lanes].normalForce, recordStride);
         const auto approachWith = [&](Pack damping) {
-            return (predicted - halfStep * (force.elastic - adhesive - lastForce)) /
+            return (predicted - halfStep * (force.elastic - adhesive - last.normalForce)) /
                    (Pack(1) + halfStep * damping);
         };
 
         part.damping = force.damping;
         part.approach = approachWith(part.damping);
         part.timing = {Pack(0.5), Pack(0.5)};
-        const Pack acceleration = Pack(-timeStep * timeStep) / g.effectiveMass *
+        const Pack acceleration = Pack(-timeStep * timeStep) * g.inverseMass *
                                   (force.elastic + part.damping * part.approach - adhesive);  // m/step^2
         const Pack approachInStep = part.approach * timeStep;
         const Pack nextOverlap = g.overlap + approachInStep + Pack(0.5) * acceleration;
@@ -126,26 +138,26 @@ private:
         return part;
     }
 
-    Vector<Pack> computeFriction(std::size_t block, const ContactGeometry<Pack>& g, Mask touching,
-                                 Mask begins, const NormalPart& normal, Pack& slipPower) {
+    Vector<Pack> computeFriction(std::size_t block, const ContactGeometry<Pack>& g, const LastForces& last,
+                                 Mask touching, Mask begins, const NormalPart& normal, Pack& slipPower) {
         const Pack approach = dot(g.velocity, g.normal);
         const Vector<Pack> sideways = g.velocity - approach * g.normal;
         // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
         // last step; 1/m + r^2/I of a solid sphere is 7/2 of 1/m.
-        const Pack response = Pack(3.5 * 0.5 * timeStep) / g.effectiveMass;
+        const Pack response = Pack(3.5 * 0.5 * timeStep) * g.inverseMass;
         const Vector<Pack> predicted = sideways + cross(g.spinLever, g.normal);
-        const Slip<Pack> slip{.velocity = predicted - response * lastTangential(block, g.normal),
+        const Slip<Pack> slip{.velocity = predicted - response * cross(last.leverless, g.normal),
                               .timeBefore = timeStep * select(begins, normal.timing.before, Pack(0.5)),
                               .timeAfter = Pack(0.5 * timeStep),
                               .response = response};
-        auto history = store.history.load(block);
+        auto history = memory.history.load(block);
         if constexpr (requires { history.turn(FrameRotation<Pack>{}); })
             history.turn({.normal = g.normal,
                           .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
                           .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
         const Vector<Pack> force =
             Friction::force(laws.friction, normal.contact, max(normal.repulsion, Pack(0)), slip, history);
-        store.history.store(block, selectColumns(touching, history));
+        memory.history.store(block, selectColumns(touching, history));
         const Vector<Pack> tangential = select(touching, force, zero);
         const Vector<Pack> velocity = slip.velocity + response * tangential;
         slipPower =
@@ -153,18 +165,20 @@ private:
         return tangential;
     }
 
-    /// The tangential force on body 1 at the last step, turned into today's tangential plane: (n x F) x n.
-    [[nodiscard]] Vector<Pack> lastTangential(std::size_t block, const Vector<Pack>& normal) const {
-        const ForceTorqueRecord* records = &store.records[block * Pack::lanes];
-        const Vector<Pack> torque{gatherColumn(&records->leverless.x, recordStride),
-                                  gatherColumn(&records->leverless.y, recordStride),
-                                  gatherColumn(&records->leverless.z, recordStride)};
-        return cross(torque, normal);
+    [[nodiscard]] LastForces loadLastForces(std::size_t block) const {
+        static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
+        const auto* base = reinterpret_cast<const double*>(&memory.records[block * Pack::lanes]);
+        if constexpr (S::hasTorque) {
+            const auto [x, y, z, normal] = loadRecords<4>(base + 4, 8, each.data());
+            return {{x, y, z}, normal};
+        } else {
+            return {{}, gatherColumn(base + 3, 4)};
+        }
     }
 
     void writeRecords(std::size_t block, const Vector<Pack>& direction, Pack overlap, Pack normalForce,
                       const Vector<Pack>& tangential) {
-        auto* base = reinterpret_cast<double*>(&store.records[block * Pack::lanes]);
+        auto* base = reinterpret_cast<double*>(&memory.records[block * Pack::lanes]);
         const Vector<Pack> along = -normalForce * direction;
         if constexpr (S::hasTorque) {
             const Vector<Pack> force = along + tangential;
@@ -182,8 +196,8 @@ private:
         const Pack adhesion = -adhesive * normal.approach;
         for (int k = 0; k < Pack::lanes; ++k) {
             const Contact<double> contact{normal.contact.overlap[k], normal.contact.effectiveRadius[k],
-                                          normal.contact.effectiveMass[k], normal.contact.contactRadius[k]};
-            store.energies[block * Pack::lanes + k] = {
+                                          normal.contact.effectiveMass[k]};
+            memory.energies[block * Pack::lanes + k] = {
                 g.overlap[k] > 0 ? Normal::elasticEnergy(laws.normal, contact) : 0, damping[k], adhesion[k],
                 slipPower[k]};
         }
@@ -192,20 +206,20 @@ private:
     /// A block in which nothing touches or joins any more: its memory and its forces become zero, once.
     void clear(std::size_t block, BlockState& state) {
         if ((state.touching | state.bridged) == 0) return;
-        store.history.store(block, {});
+        memory.history.store(block, {});
         for (int k = 0; k < Pack::lanes; ++k) {
-            store.records[block * Pack::lanes + k] = {};
-            if constexpr (withLedger) store.energies[block * Pack::lanes + k] = {};
+            memory.records[block * Pack::lanes + k] = {};
+            if constexpr (withLedger) memory.energies[block * Pack::lanes + k] = {};
         }
         state.touching = state.bridged = state.closing = 0;
     }
 
-    static constexpr std::size_t recordStride = sizeof(typename ContactStore<S>::Record) / sizeof(double);
     const Vector<Pack> zero{Pack(0), Pack(0), Pack(0)};
 
     const PreparedLaws<S>& laws;
     double timeStep;
     ContactStore<S>& store;
+    ContactMemory<S>& memory;
 };
 
 }  // namespace pendular

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/RememberedContacts.h"
+#include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Species/SpeciesHandler.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -21,8 +23,8 @@ public:
     using Grains = ParticleStore<S::hasTorque>;
 
     ContactList(const SpeciesHandler<S>& speciesHandler, const WallHandler& wallHandler,
-                const PeriodicBox& box, double skinWidth)
-        : species(speciesHandler), walls(wallHandler), periodic(box), skin(skinWidth) {}
+                const PeriodicBox& box, double skinWidth, bool withLedger)
+        : species(speciesHandler), walls(wallHandler), periodic(box), skin(skinWidth), ledger(withLedger) {}
 
     /// Sorts the grains in space and lists their contacts.
     void rebuild(Grains& grains, ContactStore<S>& store) {
@@ -135,30 +137,43 @@ private:
         }
     }
 
-    /// Within each stretch of the list, puts the pairs that touch before those that do not: the blocks of the
-    /// latter cost next to nothing, and those of the former are full. Stretches are short enough for the
-    /// grains to stay in the cache.
-    void putTouchingFirst(Group& g, const Grains& grains) const {
-        constexpr std::ptrdiff_t stretch = 2048;
-        const auto touching = [&](const Listed& pair) {
-            const TranslationRecord& a = grains.translation[pair.first];
-            const TranslationRecord& b = grains.translation[pair.second];
-            const double reach = a.radius + b.radius;
-            return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
-        };
-        for (auto begin = g.contacts.begin(); begin != g.contacts.end();) {
-            const auto end = begin + std::min(stretch, g.contacts.end() - begin);
-            std::stable_partition(begin, end, touching);
-            begin = end;
+    /// Within each stretch of the list, puts the pairs that touch before those that do not, and these in the
+    /// order of their gaps: the blocks of the former are full, and those of the latter cost nothing until
+    /// bodies have approached by their smallest gap. Stretches are short enough for the grains to stay in the
+    /// cache.
+    void sortByGap(Group& g, const Grains& grains) const {
+        constexpr std::size_t stretch = 2048;
+        std::vector<std::pair<double, Listed>> pairs;
+        for (std::size_t begin = 0; begin < g.contacts.size(); begin += stretch) {
+            const std::size_t end = std::min(begin + stretch, g.contacts.size());
+            pairs.clear();
+            for (std::size_t k = begin; k < end; ++k)
+                pairs.emplace_back(gapOf(grains, g.contacts[k]), g.contacts[k]);
+            const auto apart =
+                std::stable_partition(pairs.begin(), pairs.end(), [](const auto& p) { return p.first <= 0; });
+            std::stable_sort(apart, pairs.end(),
+                             [](const auto& p, const auto& q) { return p.first < q.first; });
+            for (std::size_t k = begin; k < end; ++k) g.contacts[k] = pairs[k - begin].second;
         }
     }
 
-    /// Turns the groups into blocks and prepares the adhesion of each contact.
+    /// How far two grains must approach (m) before the pair acts.
+    double gapOf(const Grains& grains, const Listed& pair) const {
+        const TranslationRecord& a = grains.translation[pair.first];
+        const TranslationRecord& b = grains.translation[pair.second];
+        double reach = a.radius + b.radius;
+        if constexpr (actsApart)
+            reach += rangeOf(grains.species[pair.first], grains.species[pair.second], {a.radius, b.radius});
+        return norm(periodic.nearest(b.position - a.position)) - reach;
+    }
+
+    /// Turns the groups into blocks.
     void fill(const Grains& grains, ContactStore<S>& store) {
         std::size_t blocks = 0, wallBlocks = 0;
+        store.buckets.clear();
         for (Group& g : groups) {
             if (g.contacts.empty()) continue;
-            if (g.bucket.wall < 0) putTouchingFirst(g, grains);
+            if (g.bucket.wall < 0) sortByGap(g, grains);
             g.bucket.begin = static_cast<std::uint32_t>(blocks);
             const std::size_t own = (g.contacts.size() + Pack::lanes - 1) / Pack::lanes;
             blocks += own;
@@ -166,42 +181,28 @@ private:
             g.bucket.end = static_cast<std::uint32_t>(blocks);
             store.buckets.push_back(g.bucket);
         }
-        store.blocks.resize(blocks);
-        store.states.resize(blocks);
-        store.history.resize(blocks);
-        store.interaction.resize(blocks);
-        store.records.assign(blocks * Pack::lanes, {});
-        store.wallPoints.resize(wallBlocks);
+        store.blocks.assign(blocks, {});
+        store.states.assign(blocks, {});
+        store.slots.assign(blocks, ContactStore<S>::asleep);
+        store.gaps.assign(blocks, 0);
+        store.memory.clear(ledger);
+        store.wallPoints.assign(wallBlocks, {});
         for (const Group& g : groups) {
             for (std::size_t k = 0; k < g.contacts.size(); ++k) {
                 const std::size_t block = g.bucket.begin + k / Pack::lanes, lane = k % Pack::lanes;
                 store.blocks[block].first[lane] = g.contacts[k].first;
                 store.blocks[block].second[lane] = g.contacts[k].second;
                 store.states[block].listed |= static_cast<std::uint8_t>(1u << lane);
+                // The first of a block has the smallest gap. Of walls none is known.
+                if (lane == 0 && g.bucket.wall < 0)
+                    store.gaps[block] = gapOf(grains, g.contacts[k]) - 1e-9 * skin;
             }
-            if constexpr (S::Adhesion::acts) prepareAdhesion(g, grains, store);
         }
         groups.clear();
     }
 
-    void prepareAdhesion(const Group& g, const Grains& grains, ContactStore<S>& store) const {
-        const typename S::Adhesion& law = species.mixture(g.bucket.species1, g.bucket.species2);
-        Bodies last{-1, -1};
-        typename S::Adhesion::template Interaction<double> prepared{};
-        for (std::size_t k = 0; k < g.contacts.size(); ++k) {
-            const double r1 = grains.translation[g.contacts[k].first].radius;
-            const double r2 = g.bucket.wall >= 0 ? infinity : grains.translation[g.contacts[k].second].radius;
-            const Bodies bodies{std::min(r1, r2), std::max(r1, r2)};
-            if (bodies.radius1 != last.radius1 || bodies.radius2 != last.radius2) {
-                last = bodies;
-                prepared = law.prepare(bodies);
-            }
-            store.interaction.set(g.bucket.begin * Pack::lanes + k, prepared);
-        }
-    }
-
     /// Copies the memory of contacts that were touching or joined before.
-    static void recall(const RememberedContacts<S>& old, const Grains& grains, ContactStore<S>& store) {
+    void recall(const RememberedContacts<S>& old, const Grains& grains, ContactStore<S>& store) const {
         store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
             const ContactBlock& block = store.blocks[c / Pack::lanes];
             const std::uint32_t first = grains.identity[block.first[c % Pack::lanes]];
@@ -211,31 +212,29 @@ private:
             const auto* entry = exchanged
                                     ? old.find(other, 0, first)
                                     : old.find(first, static_cast<std::uint32_t>(bucket.wall + 1), other);
-            if (entry) old.copy(*entry, exchanged, store, c);
+            if (!entry) return;
+            if (store.slots[c / Pack::lanes] == ContactStore<S>::asleep)
+                wakeBlock(store, c / Pack::lanes, bucket, species.mixture(bucket.species1, bucket.species2),
+                          grains);
+            RememberedContacts<S>::recall(*entry, exchanged, store, c);
         });
     }
 
     static void listSides(std::size_t grainCount, ContactStore<S>& store) {
-        std::vector<std::uint32_t>& begins = store.sidesBegin;
-        begins.assign(grainCount + 1, 0);
         const auto forEachSide = [&](auto&& function) {
             store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-                function(store.blocks[c / Pack::lanes].first[c % Pack::lanes], 2 * c);
-                if (bucket.wall < 0)
-                    function(store.blocks[c / Pack::lanes].second[c % Pack::lanes], 2 * c + 1);
+                function(store.blocks[c / Pack::lanes].first[c % Pack::lanes], c, 0u);
+                if (bucket.wall < 0) function(store.blocks[c / Pack::lanes].second[c % Pack::lanes], c, 1u);
             });
         };
-        forEachSide([&](std::uint32_t grain, std::uint32_t) { ++begins[grain + 1]; });
-        for (std::size_t k = 0; k < grainCount; ++k) begins[k + 1] += begins[k];
-        store.sides.resize(begins.back());
-        std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
-        forEachSide([&](std::uint32_t grain, std::uint32_t side) { store.sides[next[grain]++] = side; });
+        store.sides.list(grainCount, forEachSide, [&](std::uint32_t c) { return store.slotOf(c); });
     }
 
     const SpeciesHandler<S>& species;
     const WallHandler& walls;
     const PeriodicBox& periodic;
     double skin;
+    bool ledger;
     std::vector<Group> groups;
 };
 

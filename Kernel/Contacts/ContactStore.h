@@ -7,7 +7,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "Kernel/Contacts/ContactSides.h"
 #include "Kernel/Math/Pack.h"
+#include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Species/Species.h"
 #include "Kernel/Walls/Wall.h"
 
@@ -95,7 +97,8 @@ struct MemoryColumns {
     static constexpr std::size_t count = columnsOf<Memory>;
     std::vector<LaneColumn> columns;
 
-    void resize(std::size_t blocks) { columns.assign(blocks * count, {}); }
+    void resize(std::size_t blocks) { columns.resize(blocks * count); }
+    void reserve(std::size_t blocks) { columns.reserve(blocks * count); }
 
     [[nodiscard]] Memory<Pack> load(std::size_t block) const {
         if constexpr (count == 0) {
@@ -141,9 +144,10 @@ struct Bucket {
     int wall = -1;  // -1: grains with grains
 };
 
-/// All listed contacts of a scene, as columns in blocks of eight.
+/// What contacts remember, and the forces that the kernel writes for them, in blocks of eight. Block 0 is
+/// that of all contacts that have no memory: it stays zero.
 template <class S>
-class ContactStore {
+class ContactMemory {
 public:
     template <class T>
     using History = typename S::Friction::template History<T>;
@@ -151,39 +155,116 @@ public:
     using Interaction = typename S::Adhesion::template Interaction<T>;
     using Record = std::conditional_t<S::hasTorque, ForceTorqueRecord, ForceRecord>;
 
-    std::vector<Bucket> buckets;
-    std::vector<ContactBlock> blocks;
-    std::vector<BlockState> states;
     MemoryColumns<History> history;
     MemoryColumns<Interaction> interaction;
     std::vector<Record> records;
-    std::vector<WallPointColumns> wallPoints;  // of the wall blocks, which come last
-    std::vector<EnergyRecord> energies;        // empty unless a ledger is asked for
+    std::vector<EnergyRecord> energies;  // empty unless a ledger is kept
+    std::vector<std::uint32_t> blockOf;  // the block of contacts that has this block of memory
 
-    /// The contacts of each grain: 2 x contact + (0: as body 1, 1: as body 2), of the grain at place i in
-    /// sides[sidesBegin[i]] ... sides[sidesBegin[i + 1] - 1].
-    std::vector<std::uint32_t> sidesBegin;
-    std::vector<std::uint32_t> sides;
+    /// Forgets everything, but keeps the room.
+    void clear(bool withLedger) {
+        resize(0);
+        if (withLedger) energies.assign(Pack::lanes, {});
+        else energies.clear();
+        resize(1);
+    }
+    /// Room for so many blocks in all.
+    void reserve(std::size_t blocks) {
+        history.reserve(blocks);
+        interaction.reserve(blocks);
+        records.reserve(blocks * Pack::lanes);
+        blockOf.reserve(blocks);
+        if (!energies.empty()) energies.reserve(blocks * Pack::lanes);
+    }
+    /// Adds a block of zeros for this block of contacts; returns its number.
+    std::uint32_t add(std::size_t block) {
+        const std::size_t count = records.size() / Pack::lanes;
+        // A vector's own growth would take up to twice the memory.
+        if (records.size() == records.capacity()) reserve(count + count / 8 + 64);
+        resize(count + 1);
+        blockOf.back() = static_cast<std::uint32_t>(block);
+        return static_cast<std::uint32_t>(count);
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        return bytesOf(history.columns, interaction.columns, records, energies, blockOf);
+    }
+
+private:
+    void resize(std::size_t blocks) {
+        history.resize(blocks);
+        interaction.resize(blocks);
+        records.resize(blocks * Pack::lanes);
+        blockOf.resize(blocks);
+        if (!energies.empty()) energies.resize(blocks * Pack::lanes);
+    }
+};
+
+/// All listed contacts of a scene, in blocks of eight. Only blocks in which something has touched since they
+/// were listed have memory.
+template <class S>
+class ContactStore {
+public:
+    static constexpr std::uint32_t asleep = 0;                  // no memory: nothing acts in this block
+    static constexpr std::uint32_t waking = ~std::uint32_t{0};  // asleep, and needs memory in this step
+
+    std::vector<Bucket> buckets;
+    std::vector<ContactBlock> blocks;
+    std::vector<BlockState> states;
+    std::vector<std::uint32_t> slots;  // of each block: its block of memory
+    ContactMemory<S> memory;
+    std::vector<WallPointColumns> wallPoints;  // of the wall blocks, which come last
+
+    ContactSides sides;
+    /// Of each block, m: while no two bodies have approached by this since they were listed, nothing in it
+    /// can begin to touch. Of no meaning for blocks with memory.
+    std::vector<double> gaps;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks.size(); }
-    /// Whether the contact has a force: it touches or is bridged.
-    [[nodiscard]] bool acts(std::uint32_t contact) const {
-        const BlockState& state = states[contact / Pack::lanes];
-        return ((state.touching | state.bridged) >> (contact % Pack::lanes) & 1) != 0;
+    [[nodiscard]] bool touches(std::size_t contact) const {
+        return bitOf(states[contact / Pack::lanes].touching, contact);
     }
+    /// Whether the contact has a force: it touches or is bridged.
+    [[nodiscard]] bool acts(std::size_t contact) const {
+        const BlockState& state = states[contact / Pack::lanes];
+        return bitOf(state.touching | state.bridged, contact);
+    }
+    /// Where the memory holds a contact.
+    [[nodiscard]] std::size_t slotOf(std::size_t contact) const {
+        return slots[contact / Pack::lanes] * std::size_t{Pack::lanes} + contact % Pack::lanes;
+    }
+    /// The contact that the memory holds at a place.
+    [[nodiscard]] std::uint32_t contactAt(std::uint32_t slot) const {
+        return memory.blockOf[slot / Pack::lanes] * Pack::lanes + slot % Pack::lanes;
+    }
+    [[nodiscard]] const typename ContactMemory<S>::Record& recordOf(std::size_t contact) const {
+        return memory.records[slotOf(contact)];
+    }
+    [[nodiscard]] std::size_t firstWallBlock() const { return blocks.size() - wallPoints.size(); }
+
     /// Calls function(bucket, contact) for each listed contact.
     template <class Function>
     void forEachListed(Function&& function) const {
         for (const Bucket& bucket : buckets)
             for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
-                if ((states[c / Pack::lanes].listed >> (c % Pack::lanes) & 1) != 0) function(bucket, c);
+                if (bitOf(states[c / Pack::lanes].listed, c)) function(bucket, c);
     }
-    [[nodiscard]] std::size_t firstWallBlock() const { return blocks.size() - wallPoints.size(); }
 
-    /// Bytes that one listed contact takes, without the ledger.
+    /// Bytes of memory that the contacts take.
+    [[nodiscard]] std::size_t bytes() const {
+        return bytesOf(buckets, blocks, states, slots, wallPoints, gaps) + memory.bytes() + sides.bytes();
+    }
+    /// Bytes that one contact with memory takes, without the ledger.
     static constexpr std::size_t bytesPerContact() {
-        return (sizeof(ContactBlock) + sizeof(BlockState)) / Pack::lanes + sizeof(Record) +
-               2 * sizeof(std::uint32_t) + sizeof(double) * (columnsOf<History> + columnsOf<Interaction>);
+        return (sizeof(ContactBlock) + sizeof(BlockState) + sizeof(std::uint32_t) + sizeof(double)) /
+                   Pack::lanes +
+               sizeof(typename ContactMemory<S>::Record) + 2 * sizeof(std::uint32_t) +
+               sizeof(double) * (columnsOf<ContactMemory<S>::template History> +
+                                 columnsOf<ContactMemory<S>::template Interaction>);
+    }
+
+    /// The bit of a contact's lane.
+    static bool bitOf(unsigned bits, std::size_t contact) {
+        return (bits >> (contact % Pack::lanes) & 1u) != 0;
     }
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
 #include "Kernel/Contacts/ContactKernel.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/WallContacts.h"
+#include "Kernel/Parallel.h"
 
 namespace pendular {
 
@@ -49,17 +51,17 @@ public:
     }
 
     /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
-    /// contacts anew where it is time.
-    void refresh(Grains& grains, double grainShift, double wallShift) {
+    /// contacts anew where it is time; says whether it did.
+    bool refresh(Grains& grains, double grainShift, double wallShift) {
         unlisted += grainShift + std::max(grainShift, wallShift);
-        if (unlisted < skin) return;
-        ContactList<S>(*species, *walls, periodic, skin).rebuild(grains, contacts);
+        if (unlisted < skin) return false;
+        ContactList<S>(*species, *walls, periodic, skin, ledger).rebuild(grains, contacts);
         laws.clear();
         for (const Bucket& bucket : contacts.buckets)
             laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
-        contacts.energies.assign(ledger ? contacts.records.size() : 0, {});
         unlisted = 0;
         ++rebuilds;
+        return true;
     }
 
     /// Threads for the forces; the results do not depend on it.
@@ -73,13 +75,15 @@ public:
     }
 
     [[nodiscard]] const ContactStore<S>& store() const { return contacts; }
+    /// Of memory that the contacts take.
+    [[nodiscard]] std::size_t bytes() const { return contacts.bytes(); }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
 
     [[nodiscard]] ContactEnergies energies() const {
         ContactEnergies sum;
         if (!ledger) return sum;
         contacts.forEachListed([&](const Bucket&, std::uint32_t c) {
-            const EnergyRecord& e = contacts.energies[c];
+            const EnergyRecord& e = contacts.memory.energies[contacts.slotOf(c)];
             sum.elastic += e.elastic;
             sum.damping += e.damping;
             sum.adhesion += e.adhesion;
@@ -98,7 +102,7 @@ public:
                              ObservedContact::none,
                              bucket.wall,
                              0,
-                             contacts.records[contact].normalForce,
+                             contacts.recordOf(contact).normalForce,
                              0,
                              (state.bridged >> lane & 1) != 0};
         if (bucket.wall < 0) {
@@ -115,7 +119,8 @@ public:
         }
         if constexpr (S::Adhesion::acts)
             if (seen.bridged)
-                seen.adhesiveForce = contacts.interaction.get(contact).force(std::max(seen.separation, 0.0));
+                seen.adhesiveForce = contacts.memory.interaction.get(contacts.slotOf(contact))
+                                         .force(std::max(seen.separation, 0.0));
         seen.normalForce += seen.adhesiveForce;
         return seen;
     }
@@ -130,26 +135,52 @@ private:
             const Bucket& bucket = contacts.buckets[k];
             ContactKernel<S, withLedger> kernel(laws[k], step, contacts);
             const auto forEachBlock = [&](auto geometryOf) {
-#pragma omp parallel for schedule(static) firstprivate(kernel) num_threads(threads) if (threads > 1)
-                for (std::uint32_t b = bucket.begin; b < bucket.end; ++b)
+                std::atomic<bool> allHaveMemory = true;
+                inParts(
+                    bucket.end - bucket.begin, threads,
+                    [&, kernel](int, std::size_t begin, std::size_t end) mutable {
+                        bool all = true;
+                        for (std::size_t b = bucket.begin + begin; b < bucket.begin + end; ++b)
+                            if (contacts.slots[b] != ContactStore<S>::asleep || unlisted > contacts.gaps[b])
+                                all &= kernel.computeBlock(b, geometryOf(b));
+                        if (!all) allHaveMemory = false;
+                    });
+                if (allHaveMemory) return;
+                for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
+                    if (contacts.slots[b] != ContactStore<S>::waking) continue;
+                    wake(b, bucket, grains);
                     kernel.computeBlock(b, geometryOf(b));
+                }
             };
-            const auto pairOf = [&]<bool isPeriodic>(std::uint32_t b) {
+            const auto pairOf = [&]<bool isPeriodic>(std::size_t b) {
                 return PairGeometry<S, isPeriodic>(translation, rotation, contacts.blocks[b], periodic);
             };
             if (bucket.wall >= 0) {
                 findWallPoints(grains, bucket, step);
-                forEachBlock([&, first = contacts.firstWallBlock()](std::uint32_t b) {
+                forEachBlock([&, first = contacts.firstWallBlock()](std::size_t b) {
                     return WallGeometry<S>(translation, rotation, contacts.blocks[b],
                                            contacts.wallPoints[b - first]);
                 });
             } else if (periodic.any()) {
-                forEachBlock([&](std::uint32_t b) { return pairOf.template operator()<true>(b); });
+                forEachBlock([&](std::size_t b) { return pairOf.template operator()<true>(b); });
             } else {
-                forEachBlock([&](std::uint32_t b) { return pairOf.template operator()<false>(b); });
+                forEachBlock([&](std::size_t b) { return pairOf.template operator()<false>(b); });
             }
         }
         sumWallForces(grains);
+    }
+
+    void wake(std::size_t block, const Bucket& bucket, const Grains& grains) {
+        wakeBlock(contacts, block, bucket, species->mixture(bucket.species1, bucket.species2), grains);
+        const auto contactOf = [&](std::uint32_t slot) { return contacts.contactAt(slot); };
+        for (std::uint32_t lane = 0; lane < Pack::lanes; ++lane) {
+            if (!contacts.bitOf(contacts.states[block].listed, lane)) continue;
+            const auto contact = static_cast<std::uint32_t>(block * Pack::lanes + lane);
+            const auto slot = static_cast<std::uint32_t>(contacts.slotOf(contact));
+            contacts.sides.wake(contacts.blocks[block].first[lane], contact, 0, slot, contactOf);
+            if (bucket.wall < 0)
+                contacts.sides.wake(contacts.blocks[block].second[lane], contact, 1, slot, contactOf);
+        }
     }
 
     void sumWallForces(const Grains& grains) {
@@ -201,7 +232,12 @@ private:
                 refuseCrossing(wall, bucket.wall, record, grains.identity[grain], point, step);
             }
         }
-        for (const HandOver& h : handOvers) handOver(contacts, h.from, h.to, h.oldNormal, h.newNormal);
+        for (const HandOver& h : handOvers) {
+            if (!contacts.acts(h.from)) continue;
+            if (contacts.slots[h.to / Pack::lanes] == ContactStore<S>::asleep)
+                wake(h.to / Pack::lanes, bucket, grains);
+            handOver(contacts, h.from, h.to, h.oldNormal, h.newNormal);
+        }
     }
     struct HandOver {
         std::size_t from, to;  // contacts

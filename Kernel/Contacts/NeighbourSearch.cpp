@@ -27,9 +27,12 @@ Extent extentOf(const Items& items, Position position) {
     return e;
 }
 
+/// A few cells for each item.
+double mostCells(std::size_t items) { return 4.0 * static_cast<double>(items) + 64; }
+
 /// The factor by which to enlarge cells so that there are no more than a few of them for each item.
 double enlargement(const std::array<double, 3>& lengths, double cellSize, std::size_t items) {
-    const double most = 4.0 * static_cast<double>(items) + 64;
+    const double most = mostCells(items);
     double factor = 1;
     const auto cells = [&] {
         double product = 1;
@@ -94,10 +97,25 @@ NeighbourSearch::NeighbourSearch(std::span<const TranslationRecord> grains, doub
     }
     levels.resize(members.size());
     for (std::size_t l = 0; l < members.size(); ++l)
-        if (!members[l].empty()) levels[l].build(std::move(members[l]), box);
+        if (!members[l].empty()) levels[l].build(members[l], box);
 }
 
-void NeighbourSearch::Level::build(std::vector<Point> members, const PeriodicBox& box) {
+double NeighbourSearch::crowding() const {
+    double largest = 0;
+    for (const Level& level : levels) largest = std::max(largest, level.crowding());
+    return largest;
+}
+
+double NeighbourSearch::Level::crowding() const {
+    double pairs = 0;
+    for (std::size_t c = 1; c < begins.size(); ++c) {
+        const double grains = begins[c] - begins[c - 1];
+        pairs += grains * grains;
+    }
+    return points.empty() ? 0 : pairs / static_cast<double>(points.size());
+}
+
+void NeighbourSearch::Level::build(const std::vector<Point>& members, const PeriodicBox& box) {
     for (const Point& p : members) largest = std::max(largest, p.size);
     const Extent e = extentOf(members, [](const Point& p) { return p.position; });
     std::array<double, 3> lengths{};
@@ -108,7 +126,17 @@ void NeighbourSearch::Level::build(std::vector<Point> members, const PeriodicBox
         lengths[axis] = wraps[axis] ? along(box.length, axis) : e.highest[axis] - e.lowest[axis];
     }
     lowest = {low[0], low[1], low[2]};
-    const double size = 2 * largest * enlargement(lengths, 2 * largest, members.size());
+    const double factor = enlargement(lengths, 2 * largest, members.size());
+    divide(lengths, 2 * largest * factor);
+    sort(members);
+    // Of the smallest grains of a level some ten fit into a cell.
+    constexpr double crowded = 40;
+    if (factor == 1 || crowding() < crowded) return;
+    divideRepeatedly(lengths, 2 * largest, members.size());
+    sort(members);
+}
+
+void NeighbourSearch::Level::divide(const std::array<double, 3>& lengths, double size) {
     for (int axis = 0; axis < 3; ++axis) {
         // An axis that wraps is divided evenly, so that its last cell is whole.
         cells[axis] = wraps[axis] ? std::max(1, static_cast<int>(lengths[axis] / size))
@@ -116,6 +144,27 @@ void NeighbourSearch::Level::build(std::vector<Point> members, const PeriodicBox
         cellSize[axis] = wraps[axis] ? lengths[axis] / cells[axis] : size;
         inverseSize[axis] = 1 / cellSize[axis];
     }
+}
+
+void NeighbourSearch::Level::divideRepeatedly(const std::array<double, 3>& lengths, double size,
+                                              std::size_t members) {
+    std::array<double, 3> count{}, repetitions{1, 1, 1};
+    for (int axis = 0; axis < 3; ++axis) count[axis] = std::max(1.0, std::floor(lengths[axis] / size));
+    while (count[0] * count[1] * count[2] > mostCells(members)) {
+        const auto longest = std::max_element(count.begin(), count.end()) - count.begin();
+        count[longest] = std::floor(0.5 * count[longest]);
+        repetitions[longest] *= 2;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        repeats[axis] = repetitions[axis] > 1;
+        cells[axis] = static_cast<int>(count[axis]);
+        // A periodic length holds a whole number of grids.
+        cellSize[axis] = wraps[axis] ? lengths[axis] / (count[axis] * repetitions[axis]) : size;
+        inverseSize[axis] = 1 / cellSize[axis];
+    }
+}
+
+void NeighbourSearch::Level::sort(const std::vector<Point>& members) {
     std::vector<std::uint32_t> cell(members.size());
     for (std::size_t k = 0; k < members.size(); ++k) {
         const auto [x, y, z] = cellOf(members[k].position);
@@ -126,8 +175,18 @@ void NeighbourSearch::Level::build(std::vector<Point> members, const PeriodicBox
     for (std::size_t k = 0; k < order.size(); ++k) points[k] = members[order[k]];
 }
 
+double NeighbourSearch::Level::endlessCell(int axis, double x) const {
+    return std::floor((x - along(lowest, axis)) * inverseSize[axis]);
+}
+
+int NeighbourSearch::Level::repeatedCell(int axis, double endless) const {
+    const double cell = std::fmod(endless, cells[axis]);  // exact, however large
+    return static_cast<int>(cell < 0 ? cell + cells[axis] : cell);
+}
+
 int NeighbourSearch::Level::cellAlong(int axis, double x) const {
-    const double cell = std::floor((x - along(lowest, axis)) * inverseSize[axis]);
+    const double cell = endlessCell(axis, x);
+    if (repeats[axis]) return repeatedCell(axis, cell);
     return static_cast<int>(std::clamp(cell, 0.0, cells[axis] - 1.0));
 }
 
@@ -136,13 +195,12 @@ std::array<int, 3> NeighbourSearch::Level::cellOf(const Vector<double>& p) const
 }
 
 std::array<int, 2> NeighbourSearch::Level::cellRange(int axis, double x, double reach) const {
-    if (!wraps[axis]) return {cellAlong(axis, x - reach), cellAlong(axis, x + reach)};
-    const double origin = along(lowest, axis);
-    const int first = static_cast<int>(std::floor((x - reach - origin) * inverseSize[axis]));
-    const int last = static_cast<int>(std::floor((x + reach - origin) * inverseSize[axis]));
+    if (!wraps[axis] && !repeats[axis]) return {cellAlong(axis, x - reach), cellAlong(axis, x + reach)};
+    const double first = endlessCell(axis, x - reach), last = endlessCell(axis, x + reach);
     // Never a cell twice; with so few cells all of them are looked at.
     if (last - first + 1 >= cells[axis]) return {0, cells[axis] - 1};
-    return {first, last};
+    const int begin = repeats[axis] ? repeatedCell(axis, first) : static_cast<int>(first);
+    return {begin, begin + static_cast<int>(last - first)};
 }
 
 }  // namespace pendular

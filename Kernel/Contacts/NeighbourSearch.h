@@ -17,13 +17,19 @@ std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grain
 /// Finds all pairs of grains whose surfaces are nearer than a margin, for any distribution of sizes: a
 /// hierarchy of cell grids, one for each factor of two of the size, as of Ogarko and Luding (2012), Comput.
 /// Phys. Commun. 183, 932. A grain looks for its equals in its own grid and for larger grains in theirs, so
-/// that its cost does not depend on the sizes.
+/// that its cost does not depend on the sizes. A grid has a few cells for each grain at most. Where grains
+/// are far apart its cells are larger; where that crowds many grains into one cell, because some are far from
+/// all others, the cells stay small and the grid repeats itself: one cell stands for all places that lie a
+/// whole number of grids apart.
 class NeighbourSearch {
 public:
     /// @param margin m, of the surfaces, at least 0
     NeighbourSearch(std::span<const TranslationRecord> grains, double margin, const PeriodicBox& box);
 
     [[nodiscard]] std::size_t grainCount() const { return levelOf.size(); }
+    /// How many grains of its own level a grain finds in its own cell, itself included: the mean, of the
+    /// level where it is largest. The cost of a search grows with it.
+    [[nodiscard]] double crowding() const;
 
     /// Calls function(other) for each grain that forms a pair with this one, and is not less than it in the
     /// order of (level, place); so each pair is found once. The order of the calls depends on the grains
@@ -54,12 +60,24 @@ private:
         std::array<double, 3> cellSize{};
         std::array<double, 3> inverseSize{};
         std::array<int, 3> cells{1, 1, 1};
-        std::array<bool, 3> wraps{};
-        double largest = 0;  // m, size of the largest member
+        std::array<bool, 3> wraps{};    // the axis is periodic
+        std::array<bool, 3> repeats{};  // the grid is shorter than the scene
+        double largest = 0;             // m, size of the largest member
         std::vector<std::uint32_t> begins;
         std::vector<Point> points;  // in the order of cells
 
-        void build(std::vector<Point> members, const PeriodicBox& box);
+        void build(const std::vector<Point>& members, const PeriodicBox& box);
+        [[nodiscard]] double crowding() const;
+        /// Divides the scene's lengths (m) into cells of this size (m), or a little more where an axis is
+        /// periodic.
+        void divide(const std::array<double, 3>& lengths, double size);
+        /// The same with so few cells that a few are there for each member, by making the grid shorter.
+        void divideRepeatedly(const std::array<double, 3>& lengths, double size, std::size_t members);
+        void sort(const std::vector<Point>& members);
+        /// The number of a place's cell along an axis of endless cells.
+        [[nodiscard]] double endlessCell(int axis, double x) const;
+        /// The cell of the grid that stands for it.
+        [[nodiscard]] int repeatedCell(int axis, double endless) const;
         [[nodiscard]] int cellAlong(int axis, double x) const;
         [[nodiscard]] std::size_t index(int x, int y, int z) const {
             return (static_cast<std::size_t>(z) * cells[1] + y) * cells[0] + x;
@@ -82,7 +100,8 @@ private:
                         for (std::uint32_t k = begins[cell]; k < begins[cell + 1]; ++k) function(points[k]);
                     }
         }
-        /// First and last cell along an axis within reach; beyond the ends where the axis wraps.
+        /// First and last cell along an axis within reach; beyond the ends where the axis wraps or
+        /// repeats.
         [[nodiscard]] std::array<int, 2> cellRange(int axis, double x, double reach) const;
         [[nodiscard]] int wrapped(int axis, int cell) const {
             if (cell < 0) return cell + cells[axis];

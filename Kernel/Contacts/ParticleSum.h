@@ -16,32 +16,27 @@ struct ForceAndTorque<false> {
 };
 
 /// The sum over the contacts of the grain at a place, always in the order of the list: no scatter, no
-/// atomics, and the same bits for any number of threads. A record with torque is one Pack, weighted by the
-/// side's sign for the force and by the grain's lever arm for the torque. Contacts without force are not
-/// read.
+/// atomics, and the same bits for any number of threads. Contacts with memory that do not act at the moment
+/// add zeros, which is cheaper than to ask. A record with torque is one Pack, weighted by the side's sign for
+/// the force and by the grain's lever arm for the torque.
 /// @param radius of the grain, m
 template <class S>
 ForceAndTorque<S::hasTorque> sumContacts(const ContactStore<S>& store, std::size_t grain, double radius) {
-    const std::uint32_t end = store.sidesBegin[grain + 1];
+    static constexpr std::array<double, 2> signs{1, -1};  // on body 1, on body 2
     if constexpr (S::hasTorque) {
         const Mask torquePart = maskFromBits(0b01110000);
         Pack sum = 0;
-        for (std::uint32_t k = store.sidesBegin[grain]; k < end; ++k) {
-            const std::uint32_t side = store.sides[k];
-            if (!store.acts(side / 2)) continue;
-            const ForceTorqueRecord& record = store.records[side / 2];
-            const Pack sign = (side & 1) == 0 ? 1.0 : -1.0;
-            sum += Pack::load(&record.force.x) * select(torquePart, Pack(radius - record.halfOverlap), sign);
+        for (const std::uint32_t side : store.sides.of(grain)) {
+            const ForceTorqueRecord& record = store.memory.records[side / 2];
+            sum += Pack::load(&record.force.x) *
+                   select(torquePart, Pack(radius - record.halfOverlap), Pack(signs[side & 1]));
         }
         const auto lanes = sum.toLanes();
         return {{lanes[0], lanes[1], lanes[2]}, {lanes[4], lanes[5], lanes[6]}};
     } else {
         ForceAndTorque<false> sum;
-        for (std::uint32_t k = store.sidesBegin[grain]; k < end; ++k) {
-            const std::uint32_t side = store.sides[k];
-            if (!store.acts(side / 2)) continue;
-            sum.force += ((side & 1) == 0 ? 1.0 : -1.0) * store.records[side / 2].force;
-        }
+        for (const std::uint32_t side : store.sides.of(grain))
+            sum.force += signs[side & 1] * store.memory.records[side / 2].force;
         return sum;
     }
 }

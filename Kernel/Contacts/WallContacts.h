@@ -2,34 +2,32 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/RunError.h"
 
 namespace pendular {
 
 /// Gives the memory of a wall's contact to another one of the same grain that stands for it from now on (the
 /// next face of a mesh), unless that one has its own: the spring goes on, turned with the normal, and so does
-/// the bridge.
+/// the bridge. The block of the other one has memory.
 template <class S>
 void handOver(ContactStore<S>& store, std::size_t from, std::size_t to, const Vector<double>& oldNormal,
               const Vector<double>& newNormal) {
-    const auto has = [](std::uint8_t bits, std::size_t contact) {
-        return (bits >> (contact % Pack::lanes) & 1) != 0;
-    };
     BlockState& source = store.states[from / Pack::lanes];
     BlockState& target = store.states[to / Pack::lanes];
-    if (!has(source.touching | source.bridged, from) || has(target.touching | target.bridged, to)) return;
-    auto history = store.history.get(from);
+    if (!store.acts(from) || store.acts(to)) return;
+    ContactMemory<S>& memory = store.memory;
+    const std::size_t old = store.slotOf(from), next = store.slotOf(to);
+    auto history = memory.history.get(old);
     if constexpr (requires { history.turn(FrameRotation<double>{}); })
         history.turn({.normal = newNormal, .normalShift = newNormal - oldNormal, .twist = 0});
-    store.history.set(to, history);
-    store.history.set(from, {});
-    store.interaction.set(to, store.interaction.get(from));
-    store.records[to] = store.records[from];  // the kernel reads the forces of the last step
-    store.records[from] = {};
-    if (!store.energies.empty()) store.energies[from] = {};
+    memory.history.set(next, history);
+    memory.history.set(old, {});
+    memory.interaction.set(next, memory.interaction.get(old));
+    memory.records[next] = memory.records[old];  // the kernel reads the forces of the last step
+    memory.records[old] = {};
+    if (!memory.energies.empty()) memory.energies[old] = {};
     const auto moveBit = [&](std::uint8_t& bitsFrom, std::uint8_t& bitsTo) {
         const unsigned bit = bitsFrom >> (from % Pack::lanes) & 1u;
         bitsFrom = static_cast<std::uint8_t>(bitsFrom & ~(bit << (from % Pack::lanes)));
@@ -47,9 +45,9 @@ template <class S, class Grains>
 void addWallForces(const ContactStore<S>& store, const Bucket& bucket, const Grains& grains, WallForce& sum) {
     for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
         const std::size_t b = c / Pack::lanes, lane = c % Pack::lanes;
-        if (((store.states[b].touching | store.states[b].bridged) >> lane & 1) == 0) continue;
+        if (!store.acts(c)) continue;
         const TranslationRecord& grain = grains.translation[store.blocks[b].first[lane]];
-        const auto& record = store.records[c];
+        const auto& record = store.recordOf(c);
         Vector<double> point = grain.position - sum.about;
         if constexpr (S::hasTorque) {
             const auto& n = store.wallPoints[b - store.firstWallBlock()].normal;
@@ -68,7 +66,7 @@ inline void refuseCrossing(const Wall& wall, int number, const TranslationRecord
     const Vector<double> way = step * (grain.velocity - point.velocity);
     if (point.distance * std::abs(point.distance) > squaredNorm(way)) return;
     if (!wall.isCrossed(grain.position - way, grain.position)) return;
-    throw std::runtime_error(
+    throw RunError(
         fmt::format("Particle {} went through wall {} within a step of {:.4g} s, at {:.4g} m/s against it: "
                     "take a smaller time step, "
                     "stiffer contacts, or lower speeds.",

@@ -27,6 +27,8 @@ public:
         line.back() = '\n';
         write(line);
     }
+    /// A line as it is.
+    void line(std::string_view text) { write(fmt::format("{}\n", text)); }
     /// A line of its own, for comments that begin with '#'.
     void comment(std::string_view text) { write(fmt::format("# {}\n", text)); }
 

@@ -1,6 +1,7 @@
 #include "Kernel/Particles/GrainFile.h"
 
 #include "Kernel/Input/TextFile.h"
+#include "Kernel/Output/CsvFile.h"
 
 namespace pendular {
 
@@ -21,6 +22,13 @@ std::vector<GrainRow> readGrainFile(const std::filesystem::path& path) {
     });
     if (grains.empty()) file.refuse("holds no grains");
     return grains;
+}
+
+void writeGrainFile(const std::filesystem::path& path, const std::vector<GrainRow>& grains) {
+    CsvFile file(path, "radius_m x_m y_m z_m");
+    for (const GrainRow& g : grains)
+        file.line(fmt::format("{} {} {} {}", g.radius, g.position.x(), g.position.y(), g.position.z()));
+    file.close();
 }
 
 }  // namespace pendular

@@ -19,4 +19,7 @@ struct GrainRow {
 /// 109066; the two radii must be equal. Throws InputError with the file, the line and the reason.
 std::vector<GrainRow> readGrainFile(const std::filesystem::path& path);
 
+/// Writes what readGrainFile() reads, with all digits. Throws InputError if the file cannot be written.
+void writeGrainFile(const std::filesystem::path& path, const std::vector<GrainRow>& grains);
+
 }  // namespace pendular

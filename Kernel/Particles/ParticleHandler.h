@@ -49,6 +49,9 @@ public:
 
     explicit ParticleHandler(const SpeciesHandler<S>& speciesHandler) : species(speciesHandler) {}
 
+    /// Takes the memory for so many grains at once, instead of bit by bit.
+    void reserve(std::size_t count) { grains.reserve(count); }
+
     /// Adds a copy of the grain. Its mass is that of a solid sphere of its species' density.
     GrainReference<S::hasTorque> copyAndAddObject(const SphericalParticle& grain) {
         const std::string owner = fmt::format("particle {}", grains.size());

@@ -27,6 +27,12 @@ struct alignas(64) RotationRecord {
 };
 static_assert(sizeof(RotationRecord) == 64);
 
+/// Bytes of memory that vectors have taken.
+template <class... Values>
+std::size_t bytesOf(const std::vector<Values>&... columns) {
+    return (... + (columns.capacity() * sizeof(Values)));
+}
+
 /// The grains of a scene, as columns. Their order is that of space, and changes when neighbours are searched
 /// anew; the identity (the number in the order of adding) stays. Without spin there is no rotation column.
 template <bool hasSpin>
@@ -40,12 +46,25 @@ public:
     std::vector<std::uint32_t> place;     // of the grain with an identity
 
     [[nodiscard]] std::size_t size() const { return translation.size(); }
+    /// Of memory that the grains take.
+    [[nodiscard]] std::size_t bytes() const {
+        return bytesOf(translation, rotation, acceleration, species, identity, place);
+    }
 
     /// m; infinite without grains.
     [[nodiscard]] double smallestRadius() const {
         double smallest = infinity;
         for (const TranslationRecord& grain : translation) smallest = std::min(smallest, grain.radius);
         return smallest;
+    }
+
+    void reserve(std::size_t count) {
+        translation.reserve(count);
+        if constexpr (hasSpin) rotation.reserve(count);
+        acceleration.reserve(count);
+        species.reserve(count);
+        identity.reserve(count);
+        place.reserve(count);
     }
 
     /// Adds a grain; returns its identity.

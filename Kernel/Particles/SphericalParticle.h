@@ -44,7 +44,7 @@ public:
 private:
     static Vec3D finite(const char* field, const Vec3D& value, const char* unit) {
         for (int axis = 0; axis < 3; ++axis)
-            checkValue("SphericalParticle", field, value[axis], unit, {-infinity, infinity, false, false});
+            checkValue("SphericalParticle", field, value[axis], unit, anyFinite);
         return value;
     }
 

@@ -4,6 +4,15 @@
 
 namespace pendular {
 
+/// Of the grains' places in a field of gravity, J.
+template <bool hasSpin>
+double potentialEnergy(const ParticleStore<hasSpin>& grains, const Vector<double>& gravity) {
+    double sum = 0;
+    for (const TranslationRecord& grain : grains.translation)
+        if (grain.inverseMass > 0) sum -= dot(gravity, grain.position) / grain.inverseMass;
+    return sum;
+}
+
 /// The energy of a scene by kind, in J. total() stays constant but for the error of the time steps.
 struct EnergyLedger {
     double kinetic = 0;
@@ -27,14 +36,18 @@ struct EnergyLedger {
         last = now;
     }
 
+    /// Takes note that grains have gone round a periodic scene, to places where their potential energy is
+    /// lower by this (J): what the field gave them on their way stays in the account.
+    void goRound(double lower) { carried += lower; }
+
     template <bool hasSpin>
     void measureGrains(const ParticleStore<hasSpin>& grains, const Vector<double>& gravity) {
-        kinetic = potential = 0;
+        kinetic = 0;
+        potential = carried + potentialEnergy(grains, gravity);
         for (std::size_t k = 0; k < grains.size(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
             if (grain.inverseMass == 0) continue;
             kinetic += 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
-            potential -= dot(gravity, grain.position) / grain.inverseMass;
             if constexpr (hasSpin)
                 kinetic += 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
         }
@@ -42,6 +55,7 @@ struct EnergyLedger {
 
 private:
     ContactEnergies last;
+    double carried = 0;  // J
 };
 
 }  // namespace pendular

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/InputError.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Species/TimeStepAdvice.h"
 
 namespace pendular {
@@ -90,6 +93,27 @@ void checkScene(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorq
             timeStep, limit, 0.2 * limit));
 }
 
+/// Throws InputError if the scene repeats itself so soon that a grain could meet two images of another: a
+/// contact knows the nearest image only.
+template <class S>
+void checkPeriodicLengths(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
+                          const WallHandler& walls, const PeriodicBox& box) {
+    double reach = 0;  // m, of two centres that act on each other
+    forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double) {
+        if (bodies.radius2 < infinity)
+            reach = std::max(reach, bodies.radius1 + bodies.radius2 + laws.range(bodies));
+    });
+    const std::array<std::pair<char, double>, 3> lengths{
+        {{'x', box.length.x}, {'y', box.length.y}, {'z', box.length.z}}};
+    for (const auto& [axis, length] : lengths)
+        if (length > 0 && length < 2 * reach)
+            throw InputError(fmt::format(
+                "Simulation: periodic length along {} = {:.6g} m is too short; it must be at "
+                "least {:.6g} m, twice the largest distance at which two grains of this scene act "
+                "on each other.",
+                axis, length, 2 * reach));
+}
+
 /// Throws InputError if two bodies overlap by more than a sound share of the smaller radius (m).
 inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) {
     const double share = -contact.separation / smallerRadius;
@@ -102,20 +126,40 @@ inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) 
         contact.particle1, other, -contact.separation, 100 * share, 100 * largestSoundOverlap));
 }
 
+/// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
+/// made for: by half the smaller radius. Looked at when contacts are listed anew, nothing that lasts until
+/// then goes deeper unseen by more than the skin.
+template <bool hasSpin>
+void refuseDeepOverlap(const ParticleStore<hasSpin>& grains, std::uint32_t first, std::uint32_t second,
+                       const PeriodicBox& box, double time) {
+    constexpr double largestShare = 0.5;
+    const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
+    const double smaller = std::min(a.radius, b.radius),
+                 nearest = a.radius + b.radius - largestShare * smaller;
+    const double distance2 = squaredNorm(box.nearest(b.position - a.position));
+    if (!(distance2 < nearest * nearest)) return;
+    const double overlap = a.radius + b.radius - std::sqrt(distance2);
+    throw RunError(
+        fmt::format("At time {:.6g} s particles {} and {} overlap by {:.4g} m, {:.3g} % of the smaller "
+                    "radius and more than {:g} %: "
+                    "take stiffer grains, a smaller time step, or lower speeds and loads.",
+                    time, grains.identity[first], grains.identity[second], overlap, 100 * overlap / smaller,
+                    100 * largestShare));
+}
+
 /// The error that ends a run in which a grain has moved farther in a step than the smallest radius (m).
 template <bool hasSpin>
-std::runtime_error runawayError(const ParticleStore<hasSpin>& grains, double smallestRadius, double time,
-                                double step) {
+RunError runawayError(const ParticleStore<hasSpin>& grains, double smallestRadius, double time, double step) {
     for (std::size_t k = 0; k < grains.size(); ++k) {
         const double speed = norm(grains.translation[k].velocity);
         if (speed * step <= smallestRadius) continue;
-        return std::runtime_error(
+        return RunError(
             fmt::format("At time {:.6g} s particle {} moves at {:.4g} m/s, farther in a step of {:.4g} s "
                         "than the smallest radius, {:.4g} m: "
                         "take a smaller time step, stiffer grains, or lower speeds.",
                         time, grains.identity[k], speed, step, smallestRadius));
     }
-    return std::runtime_error(
+    return RunError(
         fmt::format("At time {:.6g} s a particle moved farther in a step than the smallest radius, {:.4g} m.",
                     time, smallestRadius));
 }

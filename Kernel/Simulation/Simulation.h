@@ -5,6 +5,7 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Output/LastState.h"
 #include "Kernel/Output/Progress.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/EnergyLedger.h"
@@ -37,6 +38,12 @@ public:
     ParticleHandler<S> particleHandler{speciesHandler};
     WallHandler wallHandler;
 
+    /// What the names of files begin with that a run writes by itself; a folder may be in it.
+    void setName(std::string beginning) {
+        if (beginning.empty())
+            throw InputError("Simulation: name is empty; it must have at least one character.");
+        name = std::move(beginning);
+    }
     /// @param step s
     void setTimeStep(double step) {
         checkValue("Simulation", "time step", step, "s", positive);
@@ -50,8 +57,12 @@ public:
     /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
     void setSaveCount(std::size_t steps) { saveCount = steps; }
     /// @param acceleration m/s^2
-    void setGravity(const Vec3D& acceleration) { gravity = toVector(acceleration); }
-    /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m).
+    void setGravity(const Vec3D& acceleration) {
+        for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
+        gravity = toVector(acceleration);
+    }
+    /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m). The length must
+    /// be at least twice the largest distance of two centres at which grains act on each other.
     void setPeriodic(int axis, double lowest, double highest) {
         checkValue("Simulation", "periodic axis", axis, "", fromZeroTo(2));
         checkValue("Simulation", "periodic length", highest - lowest, "m", positive);
@@ -70,6 +81,7 @@ public:
     /// Keeps account of the energy; costs time, and is off by default.
     void keepEnergyLedger(bool keep = true) { ledgerKept = keep; }
 
+    [[nodiscard]] const std::string& getName() const { return name; }
     [[nodiscard]] double getTime() const { return static_cast<double>(steps) * timeStep; }
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
@@ -84,10 +96,49 @@ public:
         return sceneStabilityLimit<S>(speciesHandler, particleHandler.store(), wallHandler);
     }
 
-    /// Sets up, and steps until the maximum time.
+    /// Sets up, and steps until the maximum time. A run that cannot go on ends with a RunError; the grains
+    /// and contacts at the end of the last whole step are then in NAME-last-state.csv and
+    /// NAME-last-contacts.csv, and writeOutput() was called once more.
     void solve() {
         initialise();
         writeOutput();
+        try {
+            stepToTheEnd();
+        } catch (const RunError& stop) {
+            throw RunError(withLastState(stop.what()));
+        }
+    }
+
+    /// Checks the scene and computes the forces at its start. solve() calls it; a driver that steps by itself
+    /// does.
+    void initialise() {
+        setupInitialConditions();
+        checkValue("Simulation", "time step", timeStep, "s", positive);
+        speciesHandler.mixAll();
+        checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
+        checkPeriodicLengths<S>(speciesHandler, particleHandler.store(), wallHandler, periodic);
+        smallestRadius = particleHandler.store().smallestRadius();
+        contactSystem.prepare(speciesHandler, wallHandler, periodic, skinShare * smallestRadius, ledgerKept);
+        checkOverlaps();
+        advance(0);  // a step of no length: forces and accelerations at the start
+    }
+
+    void step() {
+        actionsBeforeTimeStep();
+        try {
+            advance(timeStep);
+        } catch (const RunError&) {
+            Motion::takeBack(particleHandler.store(), timeStep);
+            throw;
+        }
+        ++steps;
+        actionsAfterTimeStep();
+    }
+
+private:
+    using Motion = VelocityVerlet<S::hasTorque>;
+
+    void stepToTheEnd() {
         Progress progress(timeMax);
         const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
         while (steps < last && continueSolve()) {
@@ -98,35 +149,35 @@ public:
         if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeOutput();
     }
 
-    /// Checks the scene and computes the forces at its start. solve() calls it; a driver that steps by itself
-    /// does.
-    void initialise() {
-        setupInitialConditions();
-        checkValue("Simulation", "time step", timeStep, "s", positive);
-        speciesHandler.mixAll();
-        checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
-        smallestRadius = particleHandler.store().smallestRadius();
-        contactSystem.prepare(speciesHandler, wallHandler, periodic, skinShare * smallestRadius, ledgerKept);
-        checkOverlaps();
-        advance(0);  // a step of no length: forces and accelerations at the start
+    /// Writes the state as it is, and adds to a sentence where it is.
+    std::string withLastState(std::string sentence) {
+        const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
+        try {
+            writeGrains(grains, particleHandler.store(), sentence);
+            writeContacts(contacts, contactSystem, particleHandler.store(), sentence);
+            writeOutput();
+        } catch (const std::exception& problem) {
+            return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
+                               problem.what());
+        }
+        return fmt::format("{}; the last whole step is in {} and {}.", withoutFullStop(sentence), grains,
+                           contacts);
     }
-
-    void step() {
-        actionsBeforeTimeStep();
-        advance(timeStep);
-        ++steps;
-        actionsAfterTimeStep();
+    static std::string_view withoutFullStop(std::string_view sentence) {
+        return sentence.substr(0, sentence.size() - (sentence.ends_with('.') ? 1 : 0));
     }
-
-private:
-    using Motion = VelocityVerlet<S::hasTorque>;
 
     void advance(double length) {
         auto& grains = particleHandler.store();
         const double grainShift = std::sqrt(Motion::begin(grains, length, threads));
         refuseRunaway(grainShift);
         const double wallShift = wallHandler.moveTo(getTime() + length);
-        contactSystem.refresh(grains, grainShift, wallShift);
+        const bool goesRound = ledgerKept && periodic.any();
+        const double before = goesRound ? potentialEnergy(grains, gravity) : 0;
+        if (contactSystem.refresh(grains, grainShift, wallShift)) {
+            if (goesRound) ledger.goRound(before - potentialEnergy(grains, gravity));
+            refuseDeepOverlaps();
+        }
         contactSystem.computeForces(grains, length);
         Motion::finish(grains, contactSystem.store(), gravity, length, threads);
         if (ledgerKept) account(length);
@@ -142,6 +193,16 @@ private:
         contactSystem.refresh(grains, 0, 0);
         contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
             refuseOverlap(contactSystem.observe(grains, bucket, contact), smallerRadius(bucket, contact));
+        });
+    }
+    /// At walls, a grain that has gone half its way is followed until its centre crosses the surface.
+    void refuseDeepOverlaps() const {
+        const auto& store = contactSystem.store();
+        store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+            if (bucket.wall >= 0) return;
+            const ContactBlock& block = store.blocks[contact / Pack::lanes];
+            refuseDeepOverlap(particleHandler.store(), block.first[contact % Pack::lanes],
+                              block.second[contact % Pack::lanes], periodic, getTime());
         });
     }
     double smallerRadius(const Bucket& bucket, std::uint32_t contact) const {
@@ -161,6 +222,7 @@ private:
     /// Width of the list's skin against the smallest radius.
     static constexpr double skinShare = 0.15;
 
+    std::string name = "pendular";
     ContactSystem<S> contactSystem;
     EnergyLedger ledger;
     PeriodicBox periodic;

@@ -31,6 +31,7 @@ struct Range {
 
 inline constexpr Range positive{0, infinity, false, false};
 inline constexpr Range notNegative{0, infinity, true, false};
+inline constexpr Range anyFinite{-infinity, infinity, false, false};
 inline constexpr Range positiveUpTo(double highest) { return {0, highest, false, true}; }
 inline constexpr Range fromZeroTo(double highest) { return {0, highest, true, true}; }
 

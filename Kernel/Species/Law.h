@@ -28,7 +28,16 @@ struct Contact {
     T overlap;          // m, greater than 0
     T effectiveRadius;  // m, r1 r2 / (r1 + r2)
     T effectiveMass;    // kg, m1 m2 / (m1 + m2)
-    T contactRadius;    // m, sqrt(effective radius x overlap): Hertz
+    T contactRadius;    // a, m, sqrt(effective radius x overlap): Hertz
+    T massRoot;  // sqrt(effective mass x a), kg^(1/2) m^(1/2): Hertzian dashpots are proportional to it
+
+    Contact() = default;
+    Contact(T touchOverlap, T radius, T mass)
+        : overlap(touchOverlap),
+          effectiveRadius(radius),
+          effectiveMass(mass),
+          contactRadius(sqrt(radius * touchOverlap)),
+          massRoot(sqrt(mass * contactRadius)) {}
 };
 
 /// The normal force of a contact is elastic - damping x (speed of separation).

@@ -48,7 +48,7 @@ double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveM
     using Friction = typename Mixed::Friction;
     const double overlap = largestSoundOverlap * std::min(bodies.radius1, bodies.radius2);
     const double radius = bodies.effectiveRadius();
-    const Contact<double> contact{overlap, radius, effectiveMass, std::sqrt(radius * overlap)};
+    const Contact<double> contact{overlap, radius, effectiveMass};
     const auto& normal = static_cast<const Normal&>(laws);
     double stiffness = Normal::stiffness(normal.prepare(), contact);
     if constexpr (Friction::acts)

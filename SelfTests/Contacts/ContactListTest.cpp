@@ -128,9 +128,11 @@ struct Listing {
             if (bucket.wall < 0)
                 expected.emplace(store.blocks[c / Pack::lanes].second[c % Pack::lanes], 2 * c + 1);
         });
-        for (std::uint32_t k = 0; k < grains().size(); ++k)
-            for (std::uint32_t s = store.sidesBegin[k]; s < store.sidesBegin[k + 1]; ++s)
-                found.emplace(k, store.sides[s]);
+        for (std::uint32_t k = 0; k < grains().size(); ++k) {
+            for (const std::uint32_t side : store.sides.of(k))
+                found.emplace(k, 2 * store.contactAt(side / 2) + side % 2);
+            for (const std::uint32_t side : store.sides.asleepOf(k)) found.emplace(k, side);
+        }
         EXPECT_EQ(found, expected);
     }
 
@@ -172,6 +174,10 @@ constexpr double r = 1e-3;  // m
 
 TYPED_TEST(ContactListOf, findsThePairsOfEqualGrains) { this->compare(800, r, r, 18 * r, 0.15 * r); }
 TYPED_TEST(ContactListOf, findsThePairsOfSizesOneToTen) { this->compare(800, r, 10 * r, 60 * r, 0.15 * r); }
+TYPED_TEST(ContactListOf, findsThePairsOfSizesOneToFifty) {
+    this->compare(1500, r, 50 * r, 250 * r, 0.15 * r);   // dense
+    this->compare(1500, r, 50 * r, 3000 * r, 0.15 * r);  // dilute
+}
 TYPED_TEST(ContactListOf, findsThePairsOfSizesOneToThousand) {
     this->compare(400, r, 1000 * r, 3000 * r, 0.15 * r);
 }
@@ -189,7 +195,17 @@ TYPED_TEST(ContactListOf, findsTheNearestImages) {
         this->compare(300, r, 2 * r, length * r, 0.2 * r, all);
         const PeriodicBox one{{0, -0.5 * length * r, 0}, {0, length * r, 0}};
         this->compare(300, r, 2 * r, length * r, 0.2 * r, one);
+        const PeriodicBox two{{-0.3 * length * r, 0, -0.5 * length * r}, {length * r, 0, length * r}};
+        this->compare(300, r, 2 * r, length * r, 0.2 * r, two);
     }
+    for (double largest : {10.0, 50.0}) {  // sizes in a scene of twice the largest distance of two centres
+        const double length = 4.7 * largest * r;
+        const PeriodicBox all{{-0.5 * length, -0.5 * length, -0.5 * length}, {length, length, length}};
+        this->compare(600, r, largest * r, length, 0.15 * r, all);
+    }
+    const PeriodicBox wide{{-0.5, -0.5, -0.5}, {1, 1, 1}};
+    this->compare(60, r, r, 0.5 * r, 0.15 * r, wide);       // in one cell
+    this->compare(1500, r, 2 * r, 400 * r, 0.5 * r, wide);  // dilute
 }
 
 TYPED_TEST(ContactListOf, findsThePairsOfALattice) {
@@ -203,6 +219,20 @@ TYPED_TEST(ContactListOf, findsThePairsOfALattice) {
         listing.addFloor(-radius);
         listing.scene.speciesHandler.mixAll();
         const auto expected = listing.bruteForce();
+        EXPECT_EQ(listing.listed(), expected);
+    }
+}
+
+TYPED_TEST(ContactListOf, findsThePairsOfALatticeThatRepeatsItself) {
+    // Centres on the faces of cells and of the scene.
+    const double radius = 0x1p-10, length = 16 * radius;
+    for (double origin : {0.0, -length, 0.5 * length}) {
+        Listing<TypeParam> listing(0.125 * radius);
+        listing.box = {{origin, origin, origin}, {length, length, length}};
+        for (int k = 0; k < 512; ++k) listing.add(radius, 2 * radius * Vec3D(k % 8, k / 8 % 8, k / 64));
+        listing.scene.speciesHandler.mixAll();
+        const auto expected = listing.bruteForce();
+        EXPECT_EQ(expected.size(), 3u * 512);
         EXPECT_EQ(listing.listed(), expected);
     }
 }

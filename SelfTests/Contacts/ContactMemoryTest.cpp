@@ -89,10 +89,10 @@ std::map<ContactKey, Memory> memories(Settling<Wet>& run, int& exchanged) {
         const bool reversed = bucket.wall < 0 && identity[block.first[c % Pack::lanes]] >
                                                      identity[block.second[c % Pack::lanes]];
         exchanged += reversed ? 1 : 0;
-        const Vector<double> spring = store.history.get(c).displacement;
+        const Vector<double> spring = store.memory.history.get(store.slotOf(c)).displacement;
         result[keyOf(store, identity, bucket, c)] = {
-            reversed ? -spring : spring,  store.interaction.get(c).contactForce,
-            store.records[c].normalForce, bit(state.touching),
+            reversed ? -spring : spring,  store.memory.interaction.get(store.slotOf(c)).contactForce,
+            store.recordOf(c).normalForce, bit(state.touching),
             bit(state.bridged),           bit(state.closing)};
     });
     return result;
@@ -147,7 +147,7 @@ TEST(ContactMemory, forgetsContactsThatHaveEnded) {
     run.system.computeForces(grains, 1e-6);
     EXPECT_TRUE(memories(run, exchanged).empty());
     run.system.store().forEachListed([&](const Bucket&, std::uint32_t c) {
-        EXPECT_EQ(squaredNorm(run.system.store().records[c].force), 0);
+        EXPECT_EQ(squaredNorm(run.system.store().recordOf(c).force), 0);
     });
 }
 

@@ -248,6 +248,7 @@ TEST(BadInput, runawayGrainEndsTheRun) {
     const std::vector<GrainMotion> grains{
         {.position = {1, 0, 0}}, {}, {.radius = 0.5e-3, .position = {0, 1, 0}, .velocity = {0, 0, 600}}};
     FewGrains<Dry> scene(material(), grains, soundStep);
+    scene.setName(testing::TempDir() + "pendular-runaway");
     scene.setTimeMax(1e-4);
     // 0.6 mm a step, and 0.5 mm the smallest radius.
     expectRefused<std::runtime_error>([&] { scene.solve(); },
@@ -267,6 +268,7 @@ TEST(BadInput, motionThatIsNotANumberEndsTheRun) {
     for (double broken : {nan, infinity}) {
         Breaking scene(material(), {{.position = {1, 0, 0}}, {}, {.position = {0, 1, 0}}}, soundStep);
         scene.broken = broken;
+        scene.setName(testing::TempDir() + "pendular-broken");
         scene.setTimeMax(20 * soundStep);
         expectRefused<std::runtime_error>([&] { scene.solve(); },
                                           {"5e-06 s", "particle 1", fmt::format("{}", broken)});

@@ -58,7 +58,7 @@ struct One {
 Contact<double> randomContact(Draw& draw) {
     const double overlap = draw.oneIn(16) ? 0 : draw.logarithmic(1e-12, 1e-3);
     const double radius = draw.logarithmic(1e-6, 1);
-    return {overlap, radius, draw.logarithmic(1e-15, 1), std::sqrt(overlap * radius)};
+    return {overlap, radius, draw.logarithmic(1e-15, 1)};
 }
 
 template <class Law>

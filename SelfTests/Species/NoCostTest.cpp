@@ -61,19 +61,21 @@ static_assert(std::is_trivially_copyable_v<TangentialSpring<Pack>>);
 static_assert(std::is_trivially_copyable_v<LiquidBridgeBagheri::Interaction<Pack>>);
 static_assert(sizeof(LiquidBridgeBagheri::Interaction<Pack>) == 6 * sizeof(Pack));
 
-// Bytes: places and state 8.5, rounded up to 9; record 32 or 64; two sides 8; memory 8 for each number.
-static_assert(ContactStore<Dry>::bytesPerContact() <= 9 + 32 + 8);
-static_assert(ContactStore<Rough>::bytesPerContact() <= 9 + 64 + 8 + 3 * 8);
-static_assert(ContactStore<Wet>::bytesPerContact() <= 9 + 32 + 8 + 6 * 8);
+// Bytes: places 8, state, slot and gap 16 a block; record 32 or 64; two sides 8; memory 8 for each number.
+static_assert(ContactStore<Dry>::bytesPerContact() <= 10 + 32 + 8);
+static_assert(ContactStore<Rough>::bytesPerContact() <= 10 + 64 + 8 + 3 * 8);
+static_assert(ContactStore<Wet>::bytesPerContact() <= 10 + 32 + 8 + 6 * 8);
+// Without friction, half the memory of a contact with it.
+static_assert(2 * ContactStore<Dry>::bytesPerContact() <= ContactStore<Rough>::bytesPerContact());
 
 TEST(NoCost, absentLawsHaveNoColumns) {
-    ContactStore<Dry> dry;
+    ContactMemory<Dry> dry;
     dry.history.resize(100);
     dry.interaction.resize(100);
     EXPECT_TRUE(dry.history.columns.empty());
     EXPECT_TRUE(dry.interaction.columns.empty());
 
-    ContactStore<RoughAndWet> full;
+    ContactMemory<RoughAndWet> full;
     full.history.resize(100);
     full.interaction.resize(100);
     EXPECT_EQ(full.history.columns.size(), 300u);

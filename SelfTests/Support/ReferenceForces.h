@@ -141,8 +141,7 @@ private:
         }
 
         const double overlap = max(g.overlap, 0.0);
-        const Contact<double> c{overlap, g.effectiveRadius, g.effectiveMass,
-                                sqrt(g.effectiveRadius * overlap)};
+        const Contact<double> c{overlap, g.effectiveRadius, g.effectiveMass};
         NormalForce<double> law = Normal::force(normalLaw, c);
         if (!g.touching) law.damping = 0;
         const double halfStep = 0.5 * step / g.effectiveMass, predicted = dot(g.velocity, g.normal);

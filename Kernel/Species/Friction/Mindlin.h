@@ -69,18 +69,21 @@ struct Mindlin {
                 slidingDissipation = std::sqrt(2.0 / 3.0) * normal.getDissipation();
     }
 
+    static constexpr double smallest = 1e-300;  // N/m or N^2: what is less is taken for it in divisions
+
     template <class T>
     using History = TangentialSpring<T>;
 
     struct Prepared {
         double stiffnessFactor;  // 8 G*, Pa
         double springFactor;
-        double dampingFactor;  // beta_t
+        double dashpotFactor;  // beta_t sqrt(8 G*), Pa^(1/2)
         double coefficient;    // mu
     };
     template <class Normal>
     [[nodiscard]] Prepared prepare(const Normal&) const {
-        return {8 * effectiveShearModulus, springFactor, slidingDissipation, slidingFrictionCoefficient};
+        return {8 * effectiveShearModulus, springFactor,
+                slidingDissipation * std::sqrt(8 * effectiveShearModulus), slidingFrictionCoefficient};
     }
 
     /// k_t = 8 G* sqrt(R* d); F = -(2/3 k_t s + beta_t sqrt(m* k_t) v), at most mu x normal force (N), on
@@ -93,20 +96,22 @@ struct Mindlin {
                            TangentialSpring<T>& spring) {
         const T stiffness = p.stiffnessFactor * contact.contactRadius;
         const T springStiffness = p.springFactor * stiffness;
-        const T damping = p.dampingFactor * sqrt(contact.effectiveMass * stiffness);
+        const T damping = p.dashpotFactor * contact.massRoot;
         const T resistance = springStiffness * slip.timeBefore + damping;  // N per m/s
-        const T share = T(-1) / (T(1) + slip.response * resistance);
+        const T denominator = T(1) + slip.response * resistance;
+        // Two reciprocals for one division. Square roots and divisions wait for each other as little as can
+        // be, and nothing branches: this is the end of a long chain of operations.
+        const T reciprocal = T(1) / (denominator * max(springStiffness, T(smallest)));
+        const T share = -springStiffness * reciprocal, flexibility = denominator * reciprocal;
         Vector<T> force = share * (springStiffness * spring.displacement + resistance * slip.velocity);
 
         const T limit = p.coefficient * max(normalForce, T(0));
         const T size2 = squaredNorm(force);
         const auto sliding = size2 > limit * limit;
-        if (any(sliding)) force = select(sliding, limit / sqrt(size2), T(1)) * force;
+        force = select(sliding, limit * (sqrt(size2) * (T(1) / max(size2, T(smallest)))), T(1)) * force;
         const Vector<T> velocity = slip.velocity + slip.response * force;
-        spring.displacement += slip.timeBefore * velocity;
-        if (any(sliding))
-            spring.displacement = select(sliding, (T(-1) / springStiffness) * force, spring.displacement);
-        spring.displacement += slip.timeAfter * velocity;
+        const Vector<T> sticking = spring.displacement + slip.timeBefore * velocity;
+        spring.displacement = select(sliding, -flexibility * force, sticking) + slip.timeAfter * velocity;
         return force;
     }
     static double stiffness(const Prepared& p, const Contact<double>& contact) {

@@ -69,14 +69,18 @@ struct HertzianViscoelastic {
     struct Prepared {
         double stiffnessFactor;  // 4/3 E*, Pa
         double dampingFactor;    // beta
+        double dashpotFactor;    // beta sqrt(4/3 E*), Pa^(1/2)
     };
-    [[nodiscard]] Prepared prepare() const { return {4.0 / 3.0 * effectiveElasticModulus, dissipation}; }
+    [[nodiscard]] Prepared prepare() const {
+        const double factor = 4.0 / 3.0 * effectiveElasticModulus;
+        return {factor, dissipation, dissipation * std::sqrt(factor)};
+    }
 
     /// k_n = 4/3 E* sqrt(R* d); F = k_n d - beta sqrt(m* k_n) v (equations 4.1 to 4.3).
     template <class T>
     static NormalForce<T> force(const Prepared& p, const Contact<T>& contact) {
-        const T stiffness = p.stiffnessFactor * contact.contactRadius;
-        return {stiffness * contact.overlap, p.dampingFactor * sqrt(contact.effectiveMass * stiffness)};
+        return {p.stiffnessFactor * contact.contactRadius * contact.overlap,
+                p.dashpotFactor * contact.massRoot};
     }
     static double elasticEnergy(const Prepared& p, const Contact<double>& contact) {
         return 0.4 * p.stiffnessFactor * contact.contactRadius * contact.overlap * contact.overlap;

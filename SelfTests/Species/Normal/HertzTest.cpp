@@ -16,7 +16,7 @@ using support::Draw;
 constexpr double pi = std::numbers::pi;
 
 Contact<double> contactAt(double overlap, double radius, double mass) {
-    return {overlap, radius, mass, std::sqrt(radius * overlap)};
+    return {overlap, radius, mass};
 }
 
 template <class Law>

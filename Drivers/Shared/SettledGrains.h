@@ -1,0 +1,149 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <random>
+#include <vector>
+
+#include "Drivers/Shared/BedMaterial.h"
+#include "Drivers/Shared/BoxScene.h"
+#include "Kernel/Species/Adhesion/NoAdhesion.h"
+
+namespace pendular::scenes {
+
+/// Grains at rest in a box. The program makes them by itself, the same on every run, and keeps them in the
+/// folder given, if one is.
+struct Settled {
+    Box box;
+    std::vector<GrainRow> grains;
+};
+
+/// Grains of one radius on a cubic lattice in a box, row by row from its floor, slightly out of place.
+class Lattice {
+public:
+    Lattice(const Box& box, double radius) : inside(box.grownBy(-0.52 * spacingOf(radius))), size(radius) {
+        for (int axis = 0; axis < 2; ++axis)
+            count[axis] =
+                static_cast<std::size_t>((inside.highest - inside.lowest)[axis] / spacingOf(size) + 1);
+    }
+
+    [[nodiscard]] std::size_t perLayer() const { return count[0] * count[1]; }
+    [[nodiscard]] GrainRow grain(std::size_t k) {
+        const Vec3D place(static_cast<double>(k % count[0]), static_cast<double>(k / count[0] % count[1]),
+                          static_cast<double>(k / perLayer()));
+        const Vec3D shift(uniform(), uniform(), uniform());
+        return {size, inside.lowest + spacingOf(size) * place + 0.02 * size * shift};
+    }
+
+private:
+    static double spacingOf(double radius) { return 2.06 * radius; }
+    /// From -1 to 1, the same on every machine.
+    double uniform() { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
+
+    Box inside;
+    double size;
+    std::array<std::size_t, 2> count{};
+    std::mt19937_64 random{1};
+};
+
+/// Runs a box of loose grains until the kinetic energy of a grain is below a thousandth of what it would gain
+/// by falling through its radius, on average: first with soft grains, then with those of the bed.
+inline Settled settle(Settled loose, int threads) {
+    using Dry = Species<HertzianViscoelastic, Mindlin, NoAdhesion>;
+    for (const auto& [modulus, step] : {std::pair{1e8, 1.5e-6}, std::pair{1e9, 5e-7}}) {
+        BedMaterial material;
+        material.elasticModulus = modulus;
+        material.restitution = 0.2;
+        BoxScene<Dry> scene(material.species<Dry>(), loose.grains, loose.box, step);
+        scene.setNumberOfThreads(threads);
+        scene.initialise();
+        const auto atRest = [&] {
+            double kinetic = 0, fall = 0;
+            for (const TranslationRecord& grain : scene.particleHandler.store().translation) {
+                kinetic += 0.5 * squaredNorm(grain.velocity) / grain.inverseMass;
+                fall += 9.8 * grain.radius / grain.inverseMass;
+            }
+            return kinetic < 1e-3 * fall;
+        };
+        // Not before a grain can have fallen through its radius.
+        const auto first = static_cast<std::size_t>(std::sqrt(2 * 1e-3 / 9.8) / step);
+        do {
+            scene.step();
+        } while (scene.getNumberOfTimeSteps() < first || scene.getNumberOfTimeSteps() % 200 != 0 ||
+                 !atRest());
+        loose.grains = scene.rows();
+    }
+    return loose;
+}
+
+/// The grains kept in a file of the folder; where there is none, those that `make` makes, which are then
+/// kept. Without a folder nothing is read or kept.
+template <class Make>
+std::vector<GrainRow> kept(const std::filesystem::path& folder, const std::string& name, Make&& make) {
+    if (folder.empty()) return make();
+    const std::filesystem::path file = folder / (name + ".txt");
+    if (!std::filesystem::exists(file)) {
+        std::filesystem::create_directories(folder);
+        writeGrainFile(file, make());
+    }
+    return readGrainFile(file);
+}
+
+/// Copies of the grains side by side along x.
+inline Settled repeated(const Settled& one, std::size_t copies) {
+    Settled all{one.box, {}};
+    const double length = one.box.highest.x() - one.box.lowest.x();
+    all.grains.reserve(copies * one.grains.size());
+    for (std::size_t copy = 0; copy < copies; ++copy)
+        for (GrainRow row : one.grains) {
+            row.position.x() += length * static_cast<double>(copy);
+            all.grains.push_back(row);
+        }
+    all.box.highest.x() += length * static_cast<double>(copies - 1);
+    return all;
+}
+
+/// About so many grains of 1 mm radius in a box like that of Dosta et al. (2024): 60 mm wide, and 100 mm long
+/// for 25 000 grains, in proportion for fewer. More are copies of 25 000 side by side.
+inline Settled settledBed(std::size_t grains, const std::filesystem::path& folder, int threads) {
+    constexpr std::size_t most = 25000;
+    const std::size_t own = std::min(grains, most);
+    const double length = std::max(0.1 * static_cast<double>(own) / most, 0.01);
+    Settled bed{{{0, 0, 0}, {length, 0.06, infinity}}, {}};
+    bed.grains = kept(folder, fmt::format("bed-{}", own), [&] {
+        Lattice lattice(bed.box, 1e-3);
+        for (std::size_t k = 0; k < own; ++k) bed.grains.push_back(lattice.grain(k));
+        return settle(bed, threads).grains;
+    });
+    return repeated(bed, std::max<std::size_t>(1, (grains + most / 2) / most));
+}
+
+/// About so many grains in all: small ones of 1 mm and large ones of `ratio` mm radius, of equal volume in
+/// sum (one large grain for ratio^3 small ones), in a box about as high as it is wide, at least three large
+/// diameters.
+inline Settled settledMixture(std::size_t grains, double ratio, const std::filesystem::path& folder,
+                              int threads) {
+    const double smallRadius = 1e-3, largeRadius = ratio * smallRadius;
+    const auto large = std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::lround(static_cast<double>(grains) / (ratio * ratio * ratio + 1))));
+    const std::size_t small = grains - large;
+    const double volume = 2 * static_cast<double>(small) * std::pow(2 * smallRadius, 3);
+    const double width = std::max(std::cbrt(volume), 3 * 2 * largeRadius);
+    Settled bed{{{0, 0, 0}, {width, width, infinity}}, {}};
+    bed.grains = kept(folder, fmt::format("mixture-{}-1to{:g}", grains, ratio), [&] {
+        Lattice coarse(bed.box, largeRadius), fine(bed.box, smallRadius);
+        for (std::size_t k = 0; k < large; ++k) bed.grains.push_back(coarse.grain(k));
+        for (std::size_t k = 0; bed.grains.size() < grains; ++k) {
+            const GrainRow row = fine.grain(k);
+            const bool isFree = std::none_of(
+                bed.grains.begin(), bed.grains.begin() + large,
+                [&](const auto& g) { return (g.position - row.position).norm() < g.radius + row.radius; });
+            if (isFree) bed.grains.push_back(row);
+        }
+        return settle(bed, threads).grains;
+    });
+    return bed;
+}
+
+}  // namespace pendular::scenes

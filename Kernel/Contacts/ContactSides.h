@@ -1,0 +1,76 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "Kernel/Math/Pack.h"
+#include "Kernel/Particles/ParticleStore.h"
+
+namespace pendular {
+
+/// Which contacts each grain has, for the particle sum. A side is 2 x contact + (0: the grain is body 1, 1:
+/// it is body 2). Those of contacts with memory come first, written with the place in the memory instead of
+/// the contact, in the order of the contacts: so the sum reads records only, and its order is that of the
+/// list.
+class ContactSides {
+public:
+    /// The sides of the contacts with memory of the grain at a place, 2 x place in the memory + (0 or 1).
+    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t grain) const {
+        return {sides.data() + begins[grain], sides.data() + ends[grain]};
+    }
+
+    /// Those of the contacts without memory, 2 x contact + (0 or 1).
+    [[nodiscard]] std::span<const std::uint32_t> asleepOf(std::size_t grain) const {
+        return {sides.data() + ends[grain], sides.data() + begins[grain + 1]};
+    }
+
+    /// Lists all sides anew.
+    /// @param forEachSide calls its argument with (grain, contact, 0 or 1) for all sides, in the order of the
+    /// contacts
+    /// @param slotOf the place of a contact in the memory; less than a block's for contacts without
+    template <class ForEachSide, class SlotOf>
+    void list(std::size_t grainCount, ForEachSide&& forEachSide, SlotOf&& slotOf) {
+        begins.assign(grainCount + 1, 0);
+        forEachSide([&](std::uint32_t grain, std::uint32_t, std::uint32_t) { ++begins[grain + 1]; });
+        for (std::size_t k = 0; k < grainCount; ++k) begins[k + 1] += begins[k];
+        sides.resize(begins.back());
+        ends.assign(begins.begin(), begins.end() - 1);
+        const auto add = [&](std::vector<std::uint32_t>& next, bool withMemory) {
+            forEachSide([&](std::uint32_t grain, std::uint32_t contact, std::uint32_t which) {
+                const auto slot = static_cast<std::uint32_t>(slotOf(contact));
+                if (isMemory(slot) != withMemory) return;
+                sides[next[grain]++] = 2 * (withMemory ? slot : contact) + which;
+            });
+        };
+        add(ends, true);
+        std::vector<std::uint32_t> next = ends;
+        add(next, false);
+    }
+
+    /// The contact of a grain has got memory.
+    /// @param contactOf the contact at a place in the memory
+    template <class ContactOf>
+    void wake(std::uint32_t grain, std::uint32_t contact, std::uint32_t which, std::uint32_t slot,
+              ContactOf&& contactOf) {
+        const auto begin = sides.begin() + begins[grain], end = sides.begin() + ends[grain];
+        const auto self = std::find(end, sides.begin() + begins[grain + 1], 2 * contact + which);
+        const auto place =
+            std::find_if(begin, end, [&](std::uint32_t side) { return contactOf(side / 2) > contact; });
+        std::rotate(place, self, self + 1);
+        *place = 2 * slot + which;
+        ++ends[grain];
+    }
+
+    [[nodiscard]] std::size_t bytes() const { return bytesOf(begins, ends, sides); }
+
+private:
+    static bool isMemory(std::uint32_t slot) { return slot >= Pack::lanes; }
+
+    std::vector<std::uint32_t> begins;  // of each grain, and one more
+    std::vector<std::uint32_t> ends;    // of each grain's contacts with memory
+    std::vector<std::uint32_t> sides;
+};
+
+}  // namespace pendular

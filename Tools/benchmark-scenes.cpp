@@ -1,0 +1,101 @@
+/// Measures how fast a scene runs, and prints one row of CSV.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <CLI/CLI.hpp>
+
+#include "Drivers/Shared/BenchmarkScenes.h"
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Species/LawNames.h"
+
+using namespace pendular;
+
+namespace {
+
+struct Options {
+    scenes::BenchmarkChoice choice;
+    int threads = 1;
+    std::size_t steps = 2000, warm = 500;
+    bool header = false;
+};
+
+/// Bytes of memory that this process has taken at most so far.
+double peakMemory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Of the motion of the centres only, as other codes count it, J.
+template <class Grains>
+double translationalEnergy(const Grains& grains) {
+    double sum = 0;
+    for (const TranslationRecord& grain : grains.translation)
+        if (grain.inverseMass > 0) sum += 0.5 * squaredNorm(grain.velocity) / grain.inverseMass;
+    return sum;
+}
+
+template <class S>
+void measure(Simulation<S>& scene, const Options& options, double memoryBefore) {
+    scene.setNumberOfThreads(options.threads);
+    scene.initialise();
+    for (std::size_t k = 0; k < options.warm; ++k) scene.step();
+    const std::size_t rebuildsBefore = scene.contacts().rebuildCount();
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t k = 0; k < options.steps; ++k) scene.step();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+    const auto& grains = scene.particleHandler.store();
+    const auto count = static_cast<double>(grains.size());
+    std::size_t listed = 0, touching = 0;
+    scene.contacts().store().forEachListed([&](const Bucket&, std::uint32_t contact) {
+        ++listed;
+        touching += scene.contacts().store().touches(contact) ? 1 : 0;
+    });
+    if (options.header)
+        fmt::print(
+            "scene,species,particles,listed_pairs,touching,threads,steps,seconds,million_particle_steps_per_"
+            "second,bytes_per_particle,peak_bytes_per_particle,rebuilds,kinetic_energy_J,state_hash\n");
+    fmt::print("{},{},{},{},{},{},{},{:.4f},{:.4f},{:.1f},{:.1f},{},{:.6e},{:016x}\n", options.choice.scene,
+               S::name, grains.size(), listed, touching, options.threads, options.steps, seconds,
+               count * static_cast<double>(options.steps) / seconds * 1e-6,
+               static_cast<double>(grains.bytes() + scene.contacts().bytes()) / count,
+               (peakMemory() - memoryBefore) / count, scene.contacts().rebuildCount() - rebuildsBefore,
+               translationalEnergy(grains), stateHash(grains));
+}
+
+int run(const Options& options) {
+    checkValue("benchmark-scenes", "steps", static_cast<double>(options.steps), "", {1, 1e12});
+    const double memoryBefore = peakMemory();
+    scenes::withBenchmarkScene(options.choice, options.threads,
+                               [&](auto& scene) { measure(scene, options, memoryBefore); });
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Runs a scene of the benchmark and prints a row of CSV: how fast it ran, its memory, and a hash of "
+        "its state.\n"
+        "Initial states are made by the program itself when they are first asked for, which takes minutes "
+        "for "
+        "large scenes, and kept in the folder of --states.");
+    Options o;
+    app.add_option("--scene", o.choice.scene, "bed, wet-bed, drum, penetration, gas or polydisperse")
+        ->capture_default_str();
+    app.add_option("--particles", o.choice.particles,
+                   "number of grains, about; the scene's own if not given");
+    app.add_option("--species", o.choice.species, "species by name; the scene's own if not given");
+    app.add_option("--threads", o.threads, "OpenMP threads")->capture_default_str();
+    app.add_option("--steps", o.steps, "steps that are timed")->capture_default_str();
+    app.add_option("--warm", o.warm, "steps before those")->capture_default_str();
+    app.add_option("--positions", o.choice.positions,
+                   "file of rows `radius x y z` (m): the bed of Dosta et al. (2024) and its walls, repeated "
+                   "along x to the number of --particles");
+    app.add_option("--states", o.choice.states, "folder of initial states")->capture_default_str();
+    app.add_flag("--header", o.header, "print the names of the columns first");
+    CLI11_PARSE(app, argc, argv);
+    return runProgram([&] { return run(o); });
+}
