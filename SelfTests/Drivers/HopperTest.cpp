@@ -31,7 +31,7 @@ TEST(Beverloo, isFoundAgainFromItsOwnFlows) {
     EXPECT_NEAR(found.emptyAnnulus, 1.4, 1e-12);
 }
 
-constexpr Hopper smallHopper{.diameter = 0.02, .number = 500};
+constexpr Hopper smallHopper{.diameter = 0.016, .number = 200};
 
 const std::vector<GrainRow>& settled() {
     static const std::vector<GrainRow> grains = settledHopperGrains(smallHopper);
@@ -42,10 +42,10 @@ TEST(Hopper, isFilledAtTheDensityOfARandomPacking) {
     const double tolerance = largestSoundOverlap * 1e-3;  // m
     for (const GrainRow& grain : settled()) {
         EXPECT_GT(grain.position.z(), grain.radius - tolerance);
-        EXPECT_LT(std::hypot(grain.position.x(), grain.position.y()), 0.01 - grain.radius + tolerance);
+        EXPECT_LT(std::hypot(grain.position.x(), grain.position.y()), 0.008 - grain.radius + tolerance);
     }
     HopperScene scene(smallHopper, settled(), 0);
-    // Solid fractions: 0.55 (random loose) to 0.64 (random dense) in bulk; within 10 diameters of width the
+    // Solid fractions: 0.55 (random loose) to 0.64 (random dense) in bulk; within 8 diameters of width the
     // walls take up to a tenth of it.
     EXPECT_GT(scene.bulkDensity(), 0.9 * 0.55 * Hopper::density);
     EXPECT_LT(scene.bulkDensity(), 0.64 * Hopper::density);
@@ -57,7 +57,7 @@ TEST(Hopper, isFilledAtTheDensityOfARandomPacking) {
 /// Grains that have left are counted once each with their mass, rest where they are put without touching,
 /// and all others are still in the hopper or within the fall below it.
 TEST(Hopper, losesNoGrain) {
-    HopperScene scene(smallHopper, settled(), 0.012);
+    HopperScene scene(smallHopper, settled(), 0.01);
     scene.setTimeMax(0.1);
     scene.solve();
     const auto grains = grainRows(scene.particleHandler);
@@ -65,7 +65,7 @@ TEST(Hopper, losesNoGrain) {
     double mass = 0;
     for (std::size_t k = 0; k < grains.size(); ++k) {
         if (grains[k].position.z() > -2 * smallHopper.grainDiameter) {
-            EXPECT_LT(std::hypot(grains[k].position.x(), grains[k].position.y()), 0.01);
+            EXPECT_LT(std::hypot(grains[k].position.x(), grains[k].position.y()), 0.008);
             continue;
         }
         out.push_back(grains[k]);
@@ -85,7 +85,7 @@ TEST(Hopper, losesNoGrain) {
 /// below, after sqrt(2 h / g).
 TEST(Hopper, countsALoneGrainWhenItHasFallenTwoDiameters) {
     const std::vector<GrainRow> grains{{1e-3, Vec3D(0, 0, 5e-3)}};
-    HopperScene scene(smallHopper, grains, 0.012);
+    HopperScene scene(smallHopper, grains, 0.01);
     scene.initialise();
     while (scene.dischargedNumber() == 0 && scene.getTime() < 1) scene.step();
     EXPECT_NEAR(scene.getTime(), std::sqrt(2 * 9e-3 / Hopper::gravity), scene.getTimeStep());
@@ -93,9 +93,9 @@ TEST(Hopper, countsALoneGrainWhenItHasFallenTwoDiameters) {
 }
 
 TEST(Hopper, refusesAnOrificeAsWideAsItself) {
-    const std::string text = refusal([] { HopperScene(smallHopper, settled(), 0.02); });
+    const std::string text = refusal([] { HopperScene(smallHopper, settled(), 0.016); });
     EXPECT_TRUE(isOneSentence(text));
-    EXPECT_TRUE(contains(text, "orifice diameter = 0.02 m"));
+    EXPECT_TRUE(contains(text, "orifice diameter = 0.016 m"));
     EXPECT_TRUE(contains(refusal([] { settledHopperGrains({.diameter = 0.004}); }), "hopper diameter"));
 }
 

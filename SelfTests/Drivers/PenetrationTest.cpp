@@ -14,7 +14,7 @@ using support::refusal;
 
 constexpr double softening = 100;
 constexpr double g = 9.8;  // m/s^2
-constexpr std::size_t number = 300;
+constexpr std::size_t number = 150;
 
 /// A bed that all tests share; it takes longest to make.
 const PenetrationGrains& bed() {
