@@ -214,6 +214,12 @@ TEST(BridgeForce, atAWallIsTheLimitOfAHugeSphere) {
     });
 }
 
+/// The law has the rupture distance of Bagheri et al., Appendix A, and none of its own.
+template <class Law>
+constexpr bool rupturesAsInThePaper =
+    std::is_same_v<Law, LiquidBridgeWillett> || std::is_same_v<Law, LiquidBridgeClassicalWillett> ||
+    std::is_same_v<Law, LiquidBridgeBagheri>;
+
 // The neighbour search's range, the bridge's own and the paper's formula are one number. Its two powers are
 // computed in another way here: a few rounding errors of 1.1e-16.
 TEST(BridgeForce, searchRangeIsTheRuptureDistance) {
@@ -230,7 +236,9 @@ TEST(BridgeForce, searchRangeIsTheRuptureDistance) {
             const double rupture =
                 (1 + theta / 2) * (std::pow(volume, 1.0 / 3) + 0.1 * std::pow(volume, 2.0 / 3) / radius);
             EXPECT_EQ(law.range(bodies), law.prepare(bodies).range());
-            EXPECT_NEAR(law.range(bodies) / rupture, 1, 1e-14);
+            if (rupturesAsInThePaper<Law>) {
+                EXPECT_NEAR(law.range(bodies) / rupture, 1, 1e-14);
+            }
             Species<HertzianViscoelastic, NoFriction, Law> species;
             static_cast<Law&>(species) = law;
             EXPECT_EQ(species.range(bodies), law.range(bodies));
