@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "Kernel/Math/Pack.h"
 
@@ -34,46 +35,25 @@ struct RationalBridge {
     }
 };
 
+/// Values of F / D at the nodes of a curve.
+using CurveValues = std::array<double, RationalBridge<double>::terms>;
+
 /// Derjaguin's D(y), the force of a small bridge over that at contact.
 inline double derjaguinForce(double y) { return 1 / (std::sqrt(1 + y * y) * (std::sqrt(1 + y * y) + y)); }
 
 /// The eight reduced gaps y at which a curve is held. They are dense towards contact, and the last one is 95
-/// % of `reach`.
-inline std::array<double, RationalBridge<double>::terms> curveNodes(double reach) {
-    constexpr int count = RationalBridge<double>::terms;
-    std::array<double, count> nodes;
-    const double scale = std::asinh(0.95 * reach);
-    for (int i = 0; i < count; ++i)
-        nodes[static_cast<std::size_t>(i)] =
-            std::sinh(scale * 0.5 * (1 - std::cos(std::numbers::pi * i / (count - 1))));
-    return nodes;
-}
+/// % of `reach`, the (roughly known) rupture distance / L.
+CurveValues curveNodes(double reach);
 
-/// Where the pole beyond the rupture is put, for a (roughly known) rupture distance at y = reach.
-inline double endPole(double reach) { return 1.06 * reach; }
+/// The curve with the given values of F / (D x force scale) at its nodes; its pole beyond the rupture is
+/// at 1.06 reach.
+/// @param length L, m; @param forceScale N
+RationalBridge<double> curveThrough(const CurveValues& forceOverDerjaguin, double reach, double length,
+                                    double forceScale);
 
-/// The curve with the given values of F / (D 2 pi R gamma) at its nodes.
-/// @param reach (approximate) rupture distance / L; @param length L, m; @param forceScale 2 pi R gamma, N
-inline RationalBridge<double> curveThrough(
-    const std::array<double, RationalBridge<double>::terms>& forceOverDerjaguin, double reach, double length,
-    double forceScale) {
-    constexpr std::size_t count = RationalBridge<double>::terms;
-    const auto nodes = curveNodes(reach);
-    RationalBridge<double> curve{{}, 1 / length, endPole(reach)};
-    std::array<double, count> difference;  // Newton's divided differences of N
-    for (std::size_t i = 0; i < count; ++i)
-        difference[i] = forceScale * forceOverDerjaguin[i] * derjaguinForce(nodes[i]) *
-                        RationalBridge<double>::denominator(nodes[i], curve.end);
-    for (std::size_t k = 1; k < count; ++k)
-        for (std::size_t i = count - 1; i >= k; --i)
-            difference[i] = (difference[i] - difference[i - 1]) / (nodes[i] - nodes[i - k]);
-    auto& n = curve.numerator;
-    n = {difference[count - 1]};
-    for (std::size_t k = count - 1; k-- > 0;) {  // n(y) <- n(y) (y - node k) + difference k
-        for (std::size_t j = count - 1; j > 0; --j) n[j] = n[j - 1] - nodes[k] * n[j];
-        n[0] = difference[k] - nodes[k] * n[0];
-    }
-    return curve;
-}
+/// The values of the curve that fits a force best from contact to y = most: least squares, of the error
+/// relative to the force (or, where that is small beside D, to 1.5 % of D).
+/// @param force F(y) / force scale; called for growing y
+CurveValues fitCurve(const std::function<double(double)>& force, double most, double reach);
 
 }  // namespace pendular

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <stdexcept>
 #include <vector>
 
@@ -11,8 +10,6 @@
 namespace pendular {
 
 namespace {
-
-constexpr std::size_t terms = RationalBridge<double>::terms;
 
 /// Bridges of one shape at growing gaps (/ R), each solved from the one before.
 class GrowingGap {
@@ -72,32 +69,13 @@ double solveRupture(const BridgeShape& shape) {
 
 }  // namespace
 
-std::array<double, terms> fitCurve(const BridgeShape& shape, double rupture, double reach) {
-    constexpr int samples = 36;
-    constexpr double share = 0.97, leastForce = 0.015;  // of the rupture distance; of D
-    const double length = shape.length(), end = endPole(reach);
-    const auto nodes = curveNodes(reach);
-    const double scale = std::asinh(share * rupture / length);
+CurveValues fitCurve(const BridgeShape& shape, double rupture, double reach) {
+    constexpr double share = 0.97;  // of the rupture distance: the slope is infinite at its end
     GrowingGap bridges(shape);
-    Eigen::Matrix<double, samples, terms> basis;  // of N = Q D at one node and 0 at the others
-    Eigen::Matrix<double, samples, 1> wanted;
-    for (int i = 0; i < samples; ++i) {
-        const double y = std::sinh(scale * 0.5 * (1 - std::cos(std::numbers::pi * (i + 0.5) / samples)));
-        const double force = bridges.at(y * length).pinnedForce() / (2 * std::numbers::pi);
-        const double weight = 1 / std::hypot(force, leastForce * derjaguinForce(y));
-        for (std::size_t j = 0; j < terms; ++j) {
-            double value = derjaguinForce(nodes[j]) * RationalBridge<double>::denominator(nodes[j], end) /
-                           RationalBridge<double>::denominator(y, end);
-            for (std::size_t k = 0; k < terms; ++k)
-                if (k != j) value *= (y - nodes[k]) / (nodes[j] - nodes[k]);
-            basis(i, static_cast<Eigen::Index>(j)) = weight * value;
-        }
-        wanted[i] = weight * force;
-    }
-    const Eigen::Matrix<double, terms, 1> best = basis.householderQr().solve(wanted);
-    std::array<double, terms> values;
-    Eigen::Map<Eigen::Matrix<double, terms, 1>>(values.data()) = best;
-    return values;
+    const auto force = [&](double y) {
+        return bridges.at(y * shape.length()).pinnedForce() / (2 * std::numbers::pi);
+    };
+    return fitCurve(force, share * rupture / shape.length(), reach);
 }
 
 std::optional<SolvedCurve> solveCurve(const BridgeShape& shape, double radius, double forceScale) {

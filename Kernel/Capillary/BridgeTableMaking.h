@@ -9,12 +9,10 @@ namespace pendular {
 /// The bridge table, from the Young-Laplace solver alone; about a second.
 BridgeTable makeBridgeTable();
 
-/// The values of F / (D 2 pi R gamma) at the nodes of the rational function that fits the exact force best,
-/// from contact to 95 % of the rupture distance: least squares, of the error relative to the force (or, where
-/// that is small beside D, to a twentieth of D).
+/// The values of F / (D 2 pi R gamma) of the curve that fits the exact force best, up to 97 % of the rupture
+/// distance.
 /// @param rupture the rupture distance / R; @param reach what nodes and pole are laid out by, / L
-std::array<double, RationalBridge<double>::terms> fitCurve(const BridgeShape& shape, double rupture,
-                                                           double reach);
+CurveValues fitCurve(const BridgeShape& shape, double rupture, double reach);
 
 /// The curve of one bridge by the solver itself, for shapes that the table does not hold; nothing if no
 /// stable bridge is found. A fifth of a millisecond.
