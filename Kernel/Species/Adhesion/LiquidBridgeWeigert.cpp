@@ -15,13 +15,16 @@ PublishedBridge LiquidBridgeWeigert::published(double volume) const {
         const double sine = std::sqrt(std::sqrt(std::min(fourthPowerOfSine(gap), 1.0)));
         return Toroid{std::asin(sine), gap, theta};
     };
-    if (fourthPowerOfSine(0) > 1 || !(toroid(0).neck() > 0)) return {[](double) { return 0.0; }, 0};
+    const auto attracts = [&](double gap) {
+        return toroid(gap).neck() > 0 && toroid(gap).boundaryForce() > 0;
+    };
+    if (fourthPowerOfSine(0) > 1 || !attracts(0)) return {[](double) { return 0.0; }, 0};
     double rupture = lianRupture(volume, theta);
-    if (!(toroid(rupture).neck() > 0)) {  // its neck closes before
+    if (!attracts(rupture)) {
         double reached = 0;
         for (int k = 0; k < 50; ++k) {
             const double middle = 0.5 * (reached + rupture);
-            (toroid(middle).neck() > 0 ? reached : rupture) = middle;
+            (attracts(middle) ? reached : rupture) = middle;
         }
         rupture = reached;
     }

@@ -35,8 +35,8 @@ public:
     /// The toroid of this gap, found from the last one that was; nothing where there is none on the branch
     /// that begins at contact.
     [[nodiscard]] std::optional<Toroid> at(double gap);
-    /// The largest gap up to `most` at which there is a toroid; 0 if there is none at contact.
-    [[nodiscard]] double longest(double most) const;
+    /// The largest gap up to `most` to which toroids attract (by this force); 0 if none does at contact.
+    [[nodiscard]] double longest(double most, double (Toroid::*force)() const) const;
 
 private:
     double volume;
