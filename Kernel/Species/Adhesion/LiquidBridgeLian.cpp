@@ -5,7 +5,8 @@
 namespace pendular {
 
 PublishedBridge LiquidBridgeLian::published(double volume) const {
-    return toroidalBridge(volume, contactAngle, &Toroid::gorgeForce);
+    return attractiveBridge(ToroidsOfVolume(volume, contactAngle), &Toroid::gorgeForce,
+                            lianRupture(volume, contactAngle));
 }
 
 }  // namespace pendular

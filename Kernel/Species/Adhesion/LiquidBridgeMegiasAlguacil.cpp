@@ -5,7 +5,8 @@
 namespace pendular {
 
 PublishedBridge LiquidBridgeMegiasAlguacil::published(double volume) const {
-    return toroidalBridge(volume, contactAngle, &Toroid::boundaryForce);
+    return attractiveBridge(ToroidsOfVolume(volume, contactAngle), &Toroid::boundaryForce,
+                            lianRupture(volume, contactAngle));
 }
 
 }  // namespace pendular

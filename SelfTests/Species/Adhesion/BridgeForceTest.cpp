@@ -34,8 +34,8 @@ constexpr bool isOfThePaper =
 /// The law's published force is fitted for each bridge: rounding errors are enlarged by the condition of the
 /// fit.
 template <class Law>
-constexpr bool isFitted = requires(const Law law) {
-    law.published(0.01);
+constexpr bool isFitted = requires(const Law law, const Bodies bodies) {
+    law.publishedFor(bodies);
 };
 
 /// The law can be used at a wall.

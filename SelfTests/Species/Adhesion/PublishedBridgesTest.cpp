@@ -8,6 +8,7 @@
 
 #include "Kernel/Capillary/CapillaryBridge.h"
 #include "Kernel/Species/Adhesion/Shared/ToroidalBridge.h"
+#include "Kernel/Species/Adhesion/Shared/UnequalToroid.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Support/Refusal.h"
@@ -193,6 +194,81 @@ TEST(PublishedBridges, giveTheColumnOfTableNineThatIsWilletts) {
         }
 }
 
+// The column with the heading "Model C" is Chen's, and our sources do not print Chen's force. With the force
+// at the neck, at the volumes that Table VIII implies for Sun and Sakai, 9 of 15 entries agree to 2.5 %; 3
+// are nearly straight arcs, which the law refuses; 3 are up to 4.4 % off.
+TEST(PublishedBridges, giveTheColumnOfTableNineThatIsChens) {
+    constexpr std::array<double, 5> gaps{0.194, 0.364, 0.486, 0.68, 0.85};
+    constexpr std::array<double, 3> degrees{34.6, 48, 60};
+    constexpr double volumes[5][3] = {{0.091, 0.085, 0.074},
+                                      {0.098, 0.089, 0.081},
+                                      {0.112, 0.108, 0.099},
+                                      {0.128, 0.127, 0.118},
+                                      {0.130, 0.130, 0.121}};
+    constexpr double volumeErrors[5][3] = {
+        {4.9, 8.29, 1.14}, {-4.20, -13.9, -5.2}, {6.03, -1.2, 9.37}, {10.69, 4.53, -5.1}, {12.22, 0, 5.63}};
+    constexpr double forces[5][3] = {{2.631, 1.981, 1.371},
+                                     {2.205, 1.789, 1.36},
+                                     {1.99, 1.708, 1.367},
+                                     {1.755, 1.569, 1.345},
+                                     {1.494, 1.404, 1.202}};
+    constexpr double errors[5][3] = {{-3.4, -7.55, -14.82},
+                                     {-6.52, -11.35, -7.86},
+                                     {-3.06, -7.34, -4.41},
+                                     {2.8, -4.05, -6.11},
+                                     {5.38, -2.74, 3.6}};
+    int reached = 0, straight = 0;
+    for (std::size_t s = 0; s < 5; ++s)
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double volume = volumeOfTable(volumes[s][a]) / (1 + volumeErrors[s][a] / 100);
+            UnequalToroidsOfVolume toroids(volume, radians(degrees[a]), 20.0 / 160);
+            std::optional<UnequalToroid> toroid;
+            for (int step = 0; step <= 10; ++step) toroid = toroids.at(0.1 * step * gaps[s]);
+            if (!toroid) {
+                ++straight;
+                continue;
+            }
+            reached += std::abs(toroid->gorgeForce() * (1 + errors[s][a] / 100) / forces[s][a] - 1) < 0.025;
+        }
+    EXPECT_GE(reached, 9);
+    EXPECT_LE(straight, 3);
+}
+
+// Chen's arc between equal spheres is Lian's; its volume is the integral of its meridian, and it meets both
+// bodies at the contact angle, also a plane.
+TEST(PublishedBridges, chensArcIsRight) {
+    for (const double volume : {1e-6, 1e-3, 0.05})
+        for (const double theta : {0.0, 0.4})
+            for (const double share : {0.0, 0.3, 0.8}) {
+                const double gap = share * lianRupture(volume, theta);
+                EXPECT_NEAR(UnequalToroidsOfVolume(volume, theta, 0).at(gap).value().gorgeForce() /
+                                gorge(volume, theta, gap),
+                            1, 1e-6);
+                for (const double asymmetry : {0.3, 1.0}) {
+                    const auto toroid = UnequalToroidsOfVolume(volume, theta, asymmetry).at(gap);
+                    ASSERT_TRUE(toroid);
+                    const double rho = 1 / toroid->arcCurvature(), l = toroid->neck();
+                    double volumeOfArc = 0, volumeOfCaps = 0;
+                    for (const std::size_t k : {0, 1}) {
+                        const double a = toroid->contactRadius[k], sine = a * toroid->curvature[k];
+                        // From the neck the arc reaches the radius a at x, where it has turned by pi/2 - psi.
+                        const double x = std::sqrt(rho * rho - (l + rho - a) * (l + rho - a));
+                        EXPECT_NEAR(std::acos(x / rho), std::asin(sine) + theta, 1e-5);
+                        const double r = sine > 0 ? a / sine : 0, h = r * (1 - std::sqrt(1 - sine * sine));
+                        volumeOfCaps += pi * h * h * (3 * r - h) / 3;
+                        constexpr int count = 20000;
+                        for (int i = 0; i < count; ++i) {
+                            const double at = x * (i + 0.5) / count,
+                                         y = l + rho - std::sqrt(rho * rho - at * at);
+                            volumeOfArc += pi * y * y * x / count;
+                        }
+                    }
+                    // 1e-4: the midpoint rule at the end of almost a quarter of a circle (theta = 0).
+                    EXPECT_NEAR((volumeOfArc - volumeOfCaps) / volume, 1, 1e-4) << volume << " " << asymmetry;
+                }
+            }
+}
+
 // Megias-Alguacil and Gauckler's formulae (Yang, Sega and Harting, Tables I and II) in terms of the place of
 // the contact line, x_a = S/2 + 1 - cos(phi): the same rho, l, force and volume as Pietsch and Rumpf's. Their
 // volume is V/(2 pi) of one half and holds for a concave meridian.
@@ -256,20 +332,21 @@ int forRandomBridges(int count, double mostAngle, Function&& function) {
 // Eight terms follow each published curve to 2 % of the force, or of a hundredth of that at contact.
 TEST(PublishedBridges, fitsFollowThePublishedCurves) {
     support::forEveryBridge([]<class Law>() {
-        if constexpr (requires(const Law law) { law.published(0.01); }) {
-            const int used = forRandomBridges<Law>(60, 1.0, [](const Law& law, double volume) {
-                const auto bridge = law.prepare(equalSpheres);
-                EXPECT_EQ(bridge.range(), law.range(equalSpheres));
-                const auto published = law.published(volume);
-                EXPECT_EQ(published.ruptureDistance, bridge.range());
-                const double contact = published.force(0);
-                for (double share = 0; share <= 1; share += 0.05) {
-                    const double s = share * bridge.range(), wanted = published.force(s);
-                    EXPECT_NEAR(bridge.force(s), wanted, 0.02 * std::max(wanted, 0.01 * contact))
-                        << Law::name << " V* = " << volume << ", theta = " << law.getContactAngle()
-                        << ", share = " << share;
-                }
-            });
+        if constexpr (requires(const Law law) { law.publishedFor(equalSpheres); }) {
+            const int used =
+                forRandomBridges<Law>(60, 1.0, []([[maybe_unused]] const Law& law, double volume) {
+                    const auto bridge = law.prepare(equalSpheres);
+                    EXPECT_EQ(bridge.range(), law.range(equalSpheres));
+                    const auto published = law.publishedFor(equalSpheres);
+                    EXPECT_EQ(published.ruptureDistance, bridge.range());
+                    const double contact = published.force(0);
+                    for (double share = 0; share <= 1; share += 0.05) {
+                        const double s = share * bridge.range(), wanted = published.force(s);
+                        EXPECT_NEAR(bridge.force(s), wanted, 0.02 * std::max(wanted, 0.01 * contact))
+                            << Law::name << " V* = " << volume << ", theta = " << law.getContactAngle()
+                            << ", share = " << share;
+                    }
+                });
             EXPECT_GT(used, 20) << Law::name;
         }
     });
@@ -367,6 +444,7 @@ TEST(PublishedBridges, objectInOneSentenceWhereTheyCannotServe) {
     expectObjection(model<LiquidBridgeLian>(1e-12, 0.3), equalSpheres, "1e-09");
     expectObjection(model<LiquidBridgePietschRumpf>(0.01, radians(150)), equalSpheres,
                     "no attractive bridge");
+    expectObjection(model<LiquidBridgeChen>(0.5, 1), equalSpheres, "no attractive bridge");
     expectObjection(model<LiquidBridgeWeigert>(0.99, 0), equalSpheres, "no attractive bridge");
     expectObjection(model<LiquidBridgeRabinovich>(1e-6, radians(120)), equalSpheres, "does not attract");
     for (const double volume : {1e-6, 1e-4, 1e-2}) {

@@ -25,7 +25,8 @@ std::optional<std::string> objectionToFit(std::string_view law, const PublishedB
     if (!(scales.volume >= leastFittedVolume && scales.volume <= mostFittedVolume))
         return sentence(
             fmt::format("V* must be from {} to {}, which it is not", leastFittedVolume, mostFittedVolume));
-    if (!(bridge.ruptureDistance > 0)) return sentence("the model has no attractive bridge at contact");
+    if (!(bridge.ruptureDistance > 0))
+        return sentence("the model has no attractive bridge from contact to rupture");
     for (double share = 0; share <= 1; share += 0.0625)
         if (!(bridge.force(share * bridge.ruptureDistance) > 0))
             return sentence("the model does not attract");

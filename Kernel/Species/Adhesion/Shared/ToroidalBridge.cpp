@@ -88,35 +88,4 @@ std::optional<Toroid> ToroidsOfVolume::at(double gap) {
     return {};
 }
 
-double ToroidsOfVolume::longest(double most, double (Toroid::*force)() const) const {
-    ToroidsOfVolume toroids = *this;
-    const auto attracts = [&](double gap) {
-        ToroidsOfVolume trial = toroids;
-        const auto toroid = trial.at(gap);
-        if (!toroid || !(((*toroid).*force)() > 0)) return false;
-        toroids = trial;
-        return true;
-    };
-    if (!attracts(0)) return 0;
-    double reached = 0, step = most / 16;
-    while (reached < most && step > 1e-7 * most) {
-        const double next = std::min(reached + step, most);
-        if (attracts(next)) reached = next;
-        else step *= 0.5;
-    }
-    return reached;
-}
-
-PublishedBridge toroidalBridge(double volume, double contactAngle, double (Toroid::*force)() const) {
-    ToroidsOfVolume toroids(volume, contactAngle);
-    const double rupture = toroids.longest(lianRupture(volume, contactAngle), force);
-    const auto first = toroids.at(0);
-    if (!first || rupture == 0) return {[](double) { return 0.0; }, 0};
-    return {[toroids, force, last = *first](double gap) mutable {
-                last = toroids.at(gap).value_or(last);  // within a rounding error of the end
-                return (last.*force)();
-            },
-            rupture};
-}
-
 }  // namespace pendular

@@ -2,8 +2,6 @@
 
 #include <optional>
 
-#include "Kernel/Species/Adhesion/Shared/FittedBridge.h"
-
 namespace pendular {
 
 /// A liquid bridge between two spheres of radius 1 whose meridian is taken for an arc of a circle (a toroid).
@@ -35,17 +33,11 @@ public:
     /// The toroid of this gap, found from the last one that was; nothing where there is none on the branch
     /// that begins at contact.
     [[nodiscard]] std::optional<Toroid> at(double gap);
-    /// The largest gap up to `most` to which toroids attract (by this force); 0 if none does at contact.
-    [[nodiscard]] double longest(double most, double (Toroid::*force)() const) const;
 
 private:
     double volume;
     double contactAngle;
     double fillingAngle;  // of the last toroid; 0: none
 };
-
-/// A force of the toroids of one volume V*; the bridge ends at the distance of Lian et al., or where no
-/// toroid holds the volume.
-PublishedBridge toroidalBridge(double volume, double contactAngle, double (Toroid::*force)() const);
 
 }  // namespace pendular
