@@ -189,7 +189,7 @@ TEST(Field, everySetterChecksItsFieldAndItsGetterReturnsIt) {
 }
 
 TEST(Field, densityIsCheckedBySetterAndByCheck) {
-    forEachSpecies([]<class S>() {
+    support::forSpeciesWithEveryLaw([]<class S>() {
         for (const double value : valuesOutside(positive)) {
             S species;
             const std::string message = refusal([&] { species.setDensity(value); });

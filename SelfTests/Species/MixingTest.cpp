@@ -113,7 +113,7 @@ TEST(Mixing, contactForceOfTwoAnglesIsTheMeanOfTheTwo) {
 
 TEST(Mixing, ofEveryFieldOfEverySpeciesIsTheRuleOfItsTable) {
     Draw draw(2);
-    forEachSpecies([&]<class S>() {
+    support::forSpeciesWithEveryLaw([&]<class S>() {
         SpeciesHandler<S> handler;
         for (int k = 0; k < 3; ++k) {
             S species;
@@ -165,7 +165,7 @@ TEST(Mixing, aPairsOwnValuesStandAndAllOthersAreMixed) {
 }
 
 TEST(Mixing, aFieldThatIsNotSetIsRefusedByItsName) {
-    forEachSpecies([]<class S>() {
+    support::forSpeciesWithEveryLaw([]<class S>() {
         S complete;
         complete.setDensity(2000);
         complete.forEachLaw([]<class Law>(Law& law) {

@@ -98,7 +98,7 @@ TEST(NoCost, grainsWithoutSpinHaveNoRotation) {
 }
 
 TEST(NoCost, everySpeciesHasTheMemoryOfItsLawsAndNoMore) {
-    forEachSpecies([]<class S>() {
+    support::forSpeciesWithEveryLaw([]<class S>() {
         using F = typename S::Friction;
         using A = typename S::Adhesion;
         static_assert(S::hasTorque == F::acts);

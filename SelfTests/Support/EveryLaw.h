@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "Kernel/Species/Laws.h"
 
 namespace pendular::support {
@@ -18,6 +20,29 @@ void forEveryBridge(Function&& function) {
     AdhesionLaws::forEach([&]<class Law>() {
         if constexpr (requires(Law law) { law.setLiquidBridgeVolume(0.0); })
             function.template operator()<Law>();
+    });
+}
+
+/// Species that stand for all: the laws do not know of each other, so a test of what composes them needs each
+/// normal law with each friction law, dry and with one bridge. All combinations (forEachSpecies) would make
+/// the build of the tests grow with the number of bridge laws; each of these is tested by itself.
+template <class Function>
+void forRepresentativeSpecies(Function&& function) {
+    NormalLaws::forEach([&]<class N>() {
+        FrictionLaws::forEach([&]<class F>() {
+            function.template operator()<Species<N, F, NoAdhesion>>();
+            function.template operator()<Species<N, F, LiquidBridgeBagheri>>();
+        });
+    });
+}
+
+/// The same, and each other adhesion law once.
+template <class Function>
+void forSpeciesWithEveryLaw(Function&& function) {
+    forRepresentativeSpecies(function);
+    AdhesionLaws::forEach([&]<class A>() {
+        if constexpr (A::acts && !std::is_same_v<A, LiquidBridgeBagheri>)
+            function.template operator()<Species<HertzianViscoelastic, NoFriction, A>>();
     });
 }
 

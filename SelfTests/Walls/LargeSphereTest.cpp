@@ -37,7 +37,7 @@ S anyMaterial() {
 /// R* and the bridge's R of a contact with a sphere of 1000 R are smaller by 1/1000, and forces with them by
 /// half (Hertz) to the whole of it (bridge); so are the velocities that a bounce gives.
 TEST(LargeSphere, ofAThousandRadiiIsAlmostAWallForAllLaws) {
-    forEachSpecies([]<class S>() {
+    support::forRepresentativeSpecies([]<class S>() {
         SCOPED_TRACE(S::name);
         const S species = anyMaterial<S>();
         const GrainMotion grain{.radius = radius,

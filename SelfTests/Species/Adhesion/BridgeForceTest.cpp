@@ -25,6 +25,27 @@ Law bridge(double volume, double contactAngle, double surfaceTension) {
     return law;
 }
 
+/// The laws of Bagheri, Roy and Poeschel, with the rupture distance of their Appendix A.
+template <class Law>
+constexpr bool isOfThePaper =
+    std::is_same_v<Law, LiquidBridgeWillett> || std::is_same_v<Law, LiquidBridgeClassicalWillett> ||
+    std::is_same_v<Law, LiquidBridgeBagheri>;
+
+/// The law's published force is fitted for each bridge: rounding errors are enlarged by the condition of the
+/// fit.
+template <class Law>
+constexpr bool isFitted = requires(const Law law, const Bodies bodies) {
+    law.publishedFor(bodies);
+};
+
+/// The law can be used at a wall.
+template <class Law>
+bool servesWalls() {
+    const Law law = bridge<Law>(0.01, 0.3, 0.07);
+    if constexpr (requires { law.objection(Bodies{1}); }) return !law.objection(Bodies{1});
+    return true;
+}
+
 /// The figure of the independent table for a law; NaN where the table knows no such law.
 template <class Law>
 double independentForce(const independent::BridgeForce& row) {
@@ -123,6 +144,7 @@ TEST(BridgeForce, modelsDifferAsInThePapersFigures) {
         }
     const Bodies small{0.5e-3, 0.8e-3}, large{0.5e-3, 1.0e-3};
     forEveryBridge([&]<class Law>() {
+        if (!isOfThePaper<Law>) return;
         const Law law = bridge<Law>(1e-11, 0, 0.079);
         EXPECT_GT(law.prepare(large).force(1e-4), law.prepare(small).force(1e-4));
     });
@@ -141,13 +163,14 @@ Shape randomShape(Draw& draw) {
 }
 
 // The same dimensionless bridge at three sizes. 1e-12: what rounding the scaled radii, volumes and
-// separations does.
+// separations does; and what a fit makes of it.
 TEST(BridgeForce, isTheSameAtEveryScale) {
     Draw draw(3);
     forEveryBridge([&]<class Law>() {
         for (int k = 0; k < 200; ++k) {
             const Shape shape = randomShape(draw);
             const double share = draw.uniform(0, 1);
+            if (std::isinf(shape.ratio) && !servesWalls<Law>()) continue;
             const auto dimensionless = [&](double r, double tension) {
                 const Law law = bridge<Law>(shape.volume * r * r * r, shape.contactAngle, tension);
                 const auto interaction = law.prepare(Bodies{r, shape.ratio * r});
@@ -157,8 +180,9 @@ TEST(BridgeForce, isTheSameAtEveryScale) {
             const auto metre = dimensionless(1, 1), millimetre = dimensionless(1e-3, 0.07),
                        micron = dimensionless(1e-6, 0.02);
             for (std::size_t number = 0; number < metre.size(); ++number) {
-                EXPECT_NEAR(millimetre[number] / metre[number], 1, 1e-12) << Law::name;
-                EXPECT_NEAR(micron[number] / metre[number], 1, 1e-12) << Law::name;
+                const double tolerance = (isFitted<Law> ? 1e-9 : 1e-12) * std::abs(metre[number]) + 1e-300;
+                EXPECT_NEAR(millimetre[number], metre[number], tolerance) << Law::name;
+                EXPECT_NEAR(micron[number], metre[number], tolerance) << Law::name;
             }
         }
     });
@@ -196,6 +220,7 @@ TEST(BridgeForce, doesNotDependOnWhetherTheWallIsTheFirstBody) {
 TEST(BridgeForce, atAWallIsTheLimitOfAHugeSphere) {
     Draw draw(5);
     forEveryBridge([&]<class Law>() {
+        if (!servesWalls<Law>()) return;
         for (int k = 0; k < 100; ++k) {
             const Shape shape = randomShape(draw);
             const Law law = bridge<Law>(shape.volume, shape.contactAngle, 0.07);
@@ -230,7 +255,9 @@ TEST(BridgeForce, searchRangeIsTheRuptureDistance) {
             const double rupture =
                 (1 + theta / 2) * (std::pow(volume, 1.0 / 3) + 0.1 * std::pow(volume, 2.0 / 3) / radius);
             EXPECT_EQ(law.range(bodies), law.prepare(bodies).range());
-            EXPECT_NEAR(law.range(bodies) / rupture, 1, 1e-14);
+            if (isOfThePaper<Law>) {
+                EXPECT_NEAR(law.range(bodies) / rupture, 1, 1e-14);
+            }
             Species<HertzianViscoelastic, NoFriction, Law> species;
             static_cast<Law&>(species) = law;
             EXPECT_EQ(species.range(bodies), law.range(bodies));

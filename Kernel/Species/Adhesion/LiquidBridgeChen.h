@@ -1,0 +1,24 @@
+#pragma once
+
+#include "Kernel/Species/Adhesion/Shared/FittedBridge.h"
+
+namespace pendular {
+
+/// Chen, Zhao and Liu, Particuology 9 (2011) 374-380: between unequal spheres, or a sphere and a plane, the
+/// meridian is an arc of a circle; volume as in Yang, Sega and Harting, Table I (with the second cap's cosine
+/// cubed), where also Sun and Sakai (2018) agree for equal contact angles. Our sources do not print the
+/// force: it is taken at the neck, as Lian et al. do, with which their Table IX agrees. The bridge ends at
+/// the distance of Lian et al., or where there is no such arc. Refused where the arc is nearly straight: its
+/// neck then lies far outside of the bridge (a pole).
+struct LiquidBridgeChen : FittedBridge<LiquidBridgeChen> {
+    static constexpr std::string_view name = "LiquidBridgeChen";
+    static constexpr std::string_view summary =
+        "liquid bridge, toroid between unequal bodies, force at the neck (Chen et al., 2011)";
+    static constexpr std::string_view domain =
+        "V* from 1e-7 to about 0.5 and theta below about 50 degrees, wherever the arc is concave and "
+        "attracts";
+
+    [[nodiscard]] PublishedBridge published(const Bodies& bodies) const;
+};
+
+}  // namespace pendular

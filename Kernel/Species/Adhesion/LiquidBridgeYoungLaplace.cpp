@@ -1,0 +1,85 @@
+#include "Kernel/Species/Adhesion/LiquidBridgeYoungLaplace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "Kernel/Capillary/BridgeTableMaking.h"
+#include "Kernel/Capillary/CapillaryBridge.h"
+
+namespace pendular {
+
+namespace {
+
+/// The nearest shape that the table holds: set-up has refused all others, but the extremes of sizes alone are
+/// looked at there, and what is beyond by a rounding error must not fail.
+BridgeShape clamped(BridgeShape shape) {
+    shape.volume = std::clamp(shape.volume, BridgeTable::leastVolume, BridgeTable::mostVolume);
+    return shape;
+}
+
+}  // namespace
+
+BridgeShape LiquidBridgeYoungLaplace::shape(const Bodies& bodies) const {
+    const double smaller = std::min(bodies.radius1, bodies.radius2),
+                 larger = std::max(bodies.radius1, bodies.radius2);
+    return {contactAngle, scales(bodies).volume,
+            std::isinf(larger) ? 1 : (larger - smaller) / (larger + smaller)};
+}
+
+double LiquidBridgeYoungLaplace::range(const Bodies& bodies) const {
+    if (liquidBridgeVolume == 0) return 0;
+    const BridgeShape bridge = shape(bodies);
+    const double radius = scales(bodies).radius;
+    if (solveOutsideTable > 0 && !BridgeTable::contains(bridge)) {
+        const auto rupture = findRupture(bridge.conditions());
+        return rupture ? radius * rupture->last.gap() : 0;
+    }
+    return radius * bridgesAt(contactAngle).ruptureDistance(clamped(bridge));
+}
+
+LiquidBridgeYoungLaplace::Interaction<double> LiquidBridgeYoungLaplace::prepare(const Bodies& bodies) const {
+    const Interaction<double> none{{{}, 0, 1}, 0, 0};
+    if (liquidBridgeVolume == 0) return none;
+    const BridgeShape bridge = shape(bodies);
+    const auto [radius, volume, unused, forceScale] = scales(bodies);
+    const double leastForce = pinned > 0 ? -100 * forceScale : 0;
+    if (solveOutsideTable > 0 && !BridgeTable::contains(bridge)) {
+        const auto solved = solveCurve(bridge, radius, forceScale);
+        return solved ? Interaction<double>{solved->curve, leastForce, solved->ruptureDistance} : none;
+    }
+    return {bridgesAt(contactAngle).curve(clamped(bridge), radius, forceScale), leastForce, range(bodies)};
+}
+
+double LiquidBridgeYoungLaplace::lateralArea(const Bodies& bodies, double separation) const {
+    if (liquidBridgeVolume == 0) return 0;
+    const BridgeShape bridge = shape(bodies);
+    const double radius = scales(bodies).radius, gap = separation / radius;
+    if (solveOutsideTable > 0 && !BridgeTable::contains(bridge)) {
+        const auto solved = solveBridge(bridge.conditions(), gap);
+        return solved ? radius * radius * solved->lateralArea() : 0;
+    }
+    return radius * radius * bridgesAt(contactAngle).lateralArea(clamped(bridge), gap);
+}
+
+std::optional<std::string> LiquidBridgeYoungLaplace::objection(const Bodies& bodies) const {
+    if (liquidBridgeVolume == 0) return std::nullopt;
+    const BridgeScales bridge = scales(bodies);
+    const auto sentence = [&](std::string_view what) {
+        return fmt::format(
+            "{}: {} for contactAngle = {:.6g} rad and V* = liquidBridgeVolume/R^3 = {:.6g} "
+            "(liquidBridgeVolume = "
+            "{:.6g} m^3, R = {:.6g} m).",
+            name, what, contactAngle, bridge.volume, liquidBridgeVolume, bridge.radius);
+    };
+    if (BridgeTable::contains(shape(bodies))) return std::nullopt;
+    if (!(solveOutsideTable > 0))
+        return sentence(
+            fmt::format("the table holds V* from {} to {}, so take another volume or "
+                        "setSolveOutsideTable(true),",
+                        BridgeTable::leastVolume, BridgeTable::mostVolume));
+    if (range(bodies) > 0) return std::nullopt;
+    return sentence("there is no stable bridge");
+}
+
+}  // namespace pendular

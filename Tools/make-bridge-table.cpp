@@ -1,0 +1,51 @@
+/// Writes Kernel/Capillary/BridgeTableNumbers.cpp: the exact liquid bridge as a table, from the Young-Laplace
+/// solver.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+#include "Kernel/Capillary/BridgeTableMaking.h"
+#include "Kernel/Simulation/Program.h"
+
+using namespace pendular;
+
+namespace {
+
+void printProduct(const auto& product) {
+    std::string line = "    {{{";
+    for (const std::int32_t number : product.coefficients) {
+        const std::string text = fmt::format("{},", number);
+        if (line.size() + text.size() > 110) {
+            fmt::print("{}\n", line);
+            line = "       ";
+        }
+        line += text;
+    }
+    line.pop_back();
+    fmt::print("{}}}}}}},\n", line);
+}
+
+void printTable(const BridgeTable& table) {
+    fmt::print(
+        "// Written by Tools/make-bridge-table; not by hand.\n// clang-format off\n\n"
+        "#include \"Kernel/Capillary/BridgeTable.h\"\n\nnamespace pendular {{\n\n"
+        "const std::uint64_t bridgeTableChecksum = {:#x};\n\nconst BridgeTable bridgeTable{{\n",
+        checksum(table));
+    printProduct(table.rupture);
+    printProduct(table.force);
+    printProduct(table.area);
+    fmt::print("}};\n\n}}  // namespace pendular\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Prints the source file of the table of exact liquid bridges; takes some seconds.");
+    CLI11_PARSE(app, argc, argv);
+    return runProgram([&] {
+        printTable(makeBridgeTable());
+        return 0;
+    });
+}
