@@ -71,7 +71,8 @@ void describe(CLI::App& app, Options& o) {
                                   "the intruder");
     auto* walls = app.add_option("--walls", o.walls, "file of the box: rows of nine numbers, in m, or STL");
     grains->needs(walls), walls->needs(grains);
-    app.add_option("--number", o.number, "grains of the generated bed, taken where no files are given")
+    app.add_option("--number", o.number,
+                   "grains of the generated bed, taken where no files are given; at least 100")
         ->excludes(grains);
     app.add_option("--softening", o.softening,
                    "divides Young's moduli; the time step grows with its square root");

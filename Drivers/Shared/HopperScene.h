@@ -56,10 +56,12 @@ public:
 
     void actionsAfterTimeStep() override {
         auto& grains = particleHandler.store();
-        for (std::size_t k = 0; k < grains.size(); ++k)
-            if (grains.translation[k].inverseMass > 0 &&
-                grains.translation[k].position.z < -2 * hopper.grainDiameter)
-                takeOut(k);
+        for (std::size_t k = 0; k < grains.size(); ++k) {
+            const double z = grains.translation[k].position.z;
+            if (z >= -2 * hopper.grainDiameter) continue;
+            if (z > latticeTop()) takeOut(k);
+            holdStill(k);
+        }
     }
 
     void writeOutput() override {
@@ -95,24 +97,29 @@ private:
         return material;
     }
 
-    /// Holds the grain at a place k of the store in the next place of the lattice below.
+    [[nodiscard]] double latticeEdge() const { return 1.5 * hopper.grainDiameter; }
+    /// m, between the grains that fall and those that have been taken out.
+    [[nodiscard]] double latticeTop() const { return -3 * latticeEdge(); }
+
+    /// Moves the grain at a place k of the store to the next place of the lattice below.
     void takeOut(std::size_t k) {
-        auto& grains = particleHandler.store();
-        TranslationRecord& grain = grains.translation[k];
+        TranslationRecord& grain = particleHandler.store().translation[k];
         mass += 1 / grain.inverseMass;
-        const double edge = 1.5 * hopper.grainDiameter;
-        const auto side = static_cast<std::size_t>(std::ceil(hopper.diameter / edge));
+        const auto side = static_cast<std::size_t>(std::ceil(hopper.diameter / latticeEdge()));
         const auto along = [&](std::size_t n) {
-            return edge * (static_cast<double>(n) + 0.5) - 0.5 * hopper.diameter;
+            return latticeEdge() * (static_cast<double>(n) + 0.5) - 0.5 * hopper.diameter;
         };
-        grain = {{along(taken % side), along(taken / side % side),
-                  -edge * static_cast<double>(4 + taken / (side * side))},
-                 grain.radius,
-                 {0, 0, 0},
-                 0};
-        grains.acceleration[k] = {0, 0, 0};
-        grains.rotation[k] = {{0, 0, 0}, 0, {0, 0, 0}};
+        grain.position = {along(taken % side), along(taken / side % side),
+                          -latticeEdge() * static_cast<double>(4 + taken / (side * side))};
         ++taken;
+    }
+    /// The grain stays free, with its mass: the list may still hold a contact of two that were taken out,
+    /// and no contact is made for two that are fixed.
+    void holdStill(std::size_t k) {
+        auto& grains = particleHandler.store();
+        grains.translation[k].velocity = {0, 0, 0};
+        grains.acceleration[k] = {0, 0, 0};
+        grains.rotation[k].spin = grains.rotation[k].angularAcceleration = {0, 0, 0};
     }
 
     Hopper hopper;

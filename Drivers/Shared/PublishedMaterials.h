@@ -38,6 +38,7 @@ void addPublishedMaterials(SpeciesHandler<S>& species, double softening = 1) {
         material.setElasticModulusAndPoissonRatio(given.youngModulus / softening, poissonRatio);
         material.setEffectiveShearModulus(
             computeEffectiveShearModulus(given.youngModulus / softening, poissonRatio));
+        material.setSpringFactor(1);  // as the compared codes LIGGGHTS and YADE have it
         species.copyAndAddObject(material);
     }
     const auto setPair = [](auto& laws, double restitution, double friction) {
