@@ -52,7 +52,7 @@ struct PairGeometry {
         const auto [vx1, vy1, vz1, im1] = loadRecords<4>(numbers(translation) + 4, 8, block.first.data());
         const auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
         g.velocity = {vx1 - vx2, vy1 - vy2, vz1 - vz2};
-        g.inverseMass = im1 + im2;
+        g.inverseMass = max(im1 + im2, Pack(1e-200));  // of two grains that are held, instead of 0
         // Three reciprocals for one division, which need not wait for the square root.
         const Pack product = distance2 * sum;
         const Pack reciprocal = Pack(1) / (product * g.inverseMass);

@@ -81,7 +81,7 @@ ContactSums contactSums(const Simulation<S>& scene) {
     ContactSums sums;
     scene.contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const auto seen = scene.contacts().observe(scene.particleHandler.store(), bucket, contact);
-        const double force = norm(scene.contacts().store().records[contact].force);
+        const double force = norm(scene.contacts().store().recordOf(contact).force);
         sums.force += force;
         if (force > 0) sums.slopes += force / std::abs(seen.separation);
         (seen.separation < 0 ? sums.touching : sums.stretched) += seen.separation < 0 || seen.bridged ? 1 : 0;

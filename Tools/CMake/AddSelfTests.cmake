@@ -28,6 +28,7 @@ function(pendular_add_self_test folder)
         PENDULAR_DRIVERS_DIR="${PROJECT_BINARY_DIR}/Drivers"
         PENDULAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
         PENDULAR_BINARY_DIR="${PROJECT_BINARY_DIR}"
+        PENDULAR_STATES_DIR="${PROJECT_BINARY_DIR}/benchmark-states"
         PENDULAR_SHARED_DIR="${PENDULAR_SHARED_DIR}")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
     add_warnings(${name})

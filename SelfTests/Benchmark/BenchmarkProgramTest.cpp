@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/TemporaryFile.h"
+
+namespace pendular {
+namespace {
+
+support::ProgramResult benchmark(const std::string& arguments) {
+    return support::run(std::string(PENDULAR_TOOLS_DIR) + "/benchmark-scenes " + arguments);
+}
+
+std::vector<std::string> cells(const std::string& line) {
+    std::vector<std::string> result;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) result.push_back(cell);
+    return result;
+}
+
+TEST(BenchmarkProgram, printsARowOfItsColumns) {
+    const support::ProgramResult run = benchmark("--scene gas --particles 100 --steps 10 --warm 5 --header");
+    ASSERT_EQ(run.exitCode, 0) << run.output;
+    std::istringstream lines(run.output);
+    std::string names, values;
+    std::getline(lines, names), std::getline(lines, values);
+    const std::vector<std::string> name = cells(names), value = cells(values);
+    ASSERT_EQ(name.size(), value.size());
+    const auto of = [&](const std::string& wanted) {
+        return value.at(static_cast<std::size_t>(std::find(name.begin(), name.end(), wanted) - name.begin()));
+    };
+    EXPECT_EQ(of("scene"), "gas");
+    EXPECT_EQ(of("species"), "HertzianViscoelasticMindlinSpecies");
+    EXPECT_EQ(of("particles"), "100");
+    EXPECT_EQ(of("steps"), "10");
+    EXPECT_EQ(of("threads"), "1");
+    const double rate = 100 * 10 / std::stod(of("seconds")) * 1e-6;
+    EXPECT_NEAR(std::stod(of("million_particle_steps_per_second")), rate, 0.5 * rate);  // printed digits
+    // The records of a grain: 64 + 64 + 24 + 2 + 4 + 4.
+    EXPECT_GE(std::stod(of("bytes_per_particle")), 162);
+    // Nothing touches yet: 100 grains whose speeds are even from -1 to 1 m/s along each axis have m/2 each in
+    // the mean, m = 1.047e-5 kg; 0.35 is five times the deviation of a mean of 100, sqrt(4/45 * 3) / 10 * 2.
+    EXPECT_NEAR(std::stod(of("kinetic_energy_J")), 100 * 0.5 * 1.0472e-5, 0.35 * 100 * 0.5 * 1.0472e-5);
+    EXPECT_EQ(of("state_hash").size(), 16u);
+}
+
+TEST(BenchmarkProgram, refusesWithOneSentence) {
+    const auto expectRefusal = [](const std::string& arguments, const std::string& words) {
+        support::expectOneSentence(benchmark(arguments), words);
+    };
+    expectRefusal("--scene bde", "bed");
+    expectRefusal("--scene gas --species Hertz", "benchmark species");
+    expectRefusal("--scene gas --positions grains.txt", "takes no positions");
+    expectRefusal("--scene drum --positions grains.txt", "both positions and walls");
+    expectRefusal("--scene bed --walls walls.txt", "takes no walls");
+    expectRefusal("--scene drum --species LinearViscoelasticSpecies", "has its own species");
+    expectRefusal("--scene bed --positions /nowhere/grains.txt", "/nowhere/grains.txt");
+    expectRefusal("--scene gas --particles 10 --steps 0", "steps = 0");
+    expectRefusal("--scene gas --particles 10 --threads 0", "threads = 0");
+}
+
+TEST(BenchmarkProgram, hasHelp) {
+    const support::ProgramResult run = benchmark("--help");
+    EXPECT_EQ(run.exitCode, 0);
+    for (const char* option : {"--scene", "--particles", "--threads", "--steps", "--positions", "--warm"})
+        EXPECT_NE(run.output.find(option), std::string::npos) << option;
+}
+
+/// LIGGGHTS gives 4.52e-6 J and LAMMPS 4.56e-6 J after the same 2500 steps; ours must not be farther from
+/// them than they are from each other.
+TEST(HeavyBenchmarkProgram, publishedBedHasTheEnergyOfItsPeers) {
+    const std::string bed = std::string(PENDULAR_SHARED_DIR) + "/data/bed25k.txt";
+    if (!std::filesystem::exists(bed))
+        GTEST_SKIP() << bed << " is not there: the published bed is not compared";
+    const support::ProgramResult run =
+        benchmark("--scene bed --positions " + bed + " --warm 500 --steps 2000");
+    ASSERT_EQ(run.exitCode, 0) << run.output;
+    const double energy = std::stod(cells(run.output).at(12));
+    EXPECT_GT(energy, 4.52e-6 - 0.04e-6);
+    EXPECT_LT(energy, 4.56e-6 + 0.04e-6);
+}
+
+}  // namespace
+}  // namespace pendular
