@@ -28,6 +28,7 @@ public:
     template <class Walls>
     Penetration(const Options& given, const PenetrationGrains& grains, const Walls& walls)
         : PenetrationScene(grains, walls, given.speed, given.softening), options(given) {
+        setName(options.output + "/stopped");
         setTimeMax(options.endTime);
         setSaveCount(stepsOf(options.interval, getTimeStep()));
         setNumberOfThreads(options.threads);

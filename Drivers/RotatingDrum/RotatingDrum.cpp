@@ -29,6 +29,7 @@ public:
     template <class Walls>
     RotatingDrum(const Options& options, std::span<const GrainRow> grains, const Walls& walls)
         : DrumScene(grains, walls, options.softening), folder(options.output) {
+        setName(folder + "/stopped");
         turn(options.speed);
         setTimeMax(options.endTime);
         setSaveCount(stepsOf(options.interval, getTimeStep()));

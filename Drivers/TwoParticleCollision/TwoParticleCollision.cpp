@@ -42,6 +42,7 @@ public:
     explicit TwoParticleCollision(const Options& given) : options(given) {}
 
     void setupInitialConditions() override {
+        this->setName(options.output + "/stopped");
         const Material* material = this->speciesHandler.copyAndAddObject(makeMaterial());
         const double gap = 0.1 * std::min(options.radius1, options.radius2);
         addGrain(material, options.radius1, -options.radius1 - 0.5 * gap, options.speed);
@@ -69,11 +70,6 @@ public:
             capillary = 0.0 - seen.adhesiveForce;  // no negative zero
             bridged = seen.bridged;
         });
-        if (-separation > std::min(options.radius1, options.radius2))
-            throw InputError(
-                fmt::format("TwoParticleCollision: speed = {} m/s drives the grains into each other; take "
-                            "a lower speed or a higher elastic modulus.",
-                            options.speed));
         touched = touched || separation < 0;
         parted = touched && separation > 0 && !bridged;
         forces->row(time, separation, normal, capillary, bridged ? 1 : 0);

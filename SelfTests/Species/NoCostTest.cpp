@@ -18,9 +18,9 @@ using Wet = Species<HertzianViscoelastic, NoFriction, LiquidBridgeBagheri>;
 using RoughAndWet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
 template <class S>
-inline constexpr std::size_t historyColumns = columnsOf<ContactStore<S>::template History>;
+inline constexpr std::size_t historyColumns = columnsOf<ContactMemory<S>::template History>;
 template <class S>
-inline constexpr std::size_t interactionColumns = columnsOf<ContactStore<S>::template Interaction>;
+inline constexpr std::size_t interactionColumns = columnsOf<ContactMemory<S>::template Interaction>;
 template <class T>
 concept HasTorque = requires(T sum) {
     sum.torque;
@@ -35,9 +35,9 @@ static_assert(interactionColumns<Species<LinearViscoelastic, NoFriction, LiquidB
 
 // What a contact gives to its bodies.
 static_assert(!Dry::hasTorque && !Wet::hasTorque && Rough::hasTorque && RoughAndWet::hasTorque);
-static_assert(std::is_same_v<ContactStore<Dry>::Record, ForceRecord>);
-static_assert(std::is_same_v<ContactStore<Wet>::Record, ForceRecord>);
-static_assert(std::is_same_v<ContactStore<Rough>::Record, ForceTorqueRecord>);
+static_assert(std::is_same_v<ContactMemory<Dry>::Record, ForceRecord>);
+static_assert(std::is_same_v<ContactMemory<Wet>::Record, ForceRecord>);
+static_assert(std::is_same_v<ContactMemory<Rough>::Record, ForceTorqueRecord>);
 static_assert(sizeof(ForceRecord) == 32 && sizeof(ForceTorqueRecord) == 64);
 
 // What a grain sums.
