@@ -221,16 +221,20 @@ private:
             g.bucket.end = static_cast<std::uint32_t>(blocks);
             store.buckets.push_back(g.bucket);
         }
+        store.blocks.clear();
+        reserveLarge(store.blocks, blocks);
         store.blocks.assign(blocks, {});
         store.states.assign(blocks, {});
         store.slots.assign(blocks, ContactStore<S>::asleep);
         store.gaps.assign(blocks, -infinity);  // of walls none is known: they are always looked at
-        store.memory.clear(ledger);
         store.wallPoints.assign(wallBlocks, {});
         for (const Group& g : groups)
             inParts(g.bucket.end - g.bucket.begin, threads, [&](int, std::size_t begin, std::size_t end) {
                 for (std::size_t b = begin; b < end; ++b) fillBlock(g, b, grains, store);
             });
+        const auto touching =
+            std::count_if(store.gaps.begin(), store.gaps.end(), [](double g) { return g <= 0; });
+        store.memory.clear(ledger, static_cast<std::size_t>(touching));
         groups.clear();
     }
 

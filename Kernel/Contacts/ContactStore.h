@@ -98,7 +98,7 @@ struct MemoryColumns {
     std::vector<LaneColumn> columns;
 
     void resize(std::size_t blocks) { columns.resize(blocks * count); }
-    void reserve(std::size_t blocks) { columns.reserve(blocks * count); }
+    void reserve(std::size_t blocks) { reserveLarge(columns, blocks * count); }
 
     [[nodiscard]] Memory<Pack> load(std::size_t block) const {
         if constexpr (count == 0) {
@@ -161,9 +161,10 @@ public:
     std::vector<EnergyRecord> energies;  // empty unless a ledger is kept
     std::vector<std::uint32_t> blockOf;  // the block of contacts that has this block of memory
 
-    /// Forgets everything, but keeps the room.
-    void clear(bool withLedger) {
+    /// Forgets everything, and makes room for so many blocks and a few more.
+    void clear(bool withLedger, std::size_t blocks) {
         resize(0);
+        reserve(blocks + blocks / 16 + 64);
         if (withLedger) energies.assign(Pack::lanes, {});
         else energies.clear();
         resize(1);
@@ -172,7 +173,7 @@ public:
     void reserve(std::size_t blocks) {
         history.reserve(blocks);
         interaction.reserve(blocks);
-        records.reserve(blocks * Pack::lanes);
+        reserveLarge(records, blocks * Pack::lanes);
         blockOf.reserve(blocks);
         if (!energies.empty()) energies.reserve(blocks * Pack::lanes);
     }

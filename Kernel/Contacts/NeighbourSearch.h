@@ -11,7 +11,7 @@
 namespace pendular {
 
 /// An order of the grains in which neighbours in space are mostly neighbours in memory: order[k] is the place
-/// of the grain that comes k-th. Cells of the size (m) given, in tiles of 4 x 4 x 4.
+/// of the grain that comes k-th. Cells of the size (m) given, in tiles of 4 x 4 x 4 along Morton's curve.
 std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grains, double cellSize);
 
 /// Finds all pairs of grains whose surfaces are nearer than a margin, for any distribution of sizes: a

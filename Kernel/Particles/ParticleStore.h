@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "Kernel/LargePages.h"
 #include "Kernel/Math/Vector.h"
 
 namespace pendular {
@@ -59,12 +60,12 @@ public:
     }
 
     void reserve(std::size_t count) {
-        translation.reserve(count);
-        if constexpr (hasSpin) rotation.reserve(count);
-        acceleration.reserve(count);
-        species.reserve(count);
-        identity.reserve(count);
-        place.reserve(count);
+        reserveLarge(translation, count);
+        if constexpr (hasSpin) reserveLarge(rotation, count);
+        reserveLarge(acceleration, count);
+        reserveLarge(species, count);
+        reserveLarge(identity, count);
+        reserveLarge(place, count);
     }
 
     /// Adds a grain; returns its identity.
@@ -94,7 +95,9 @@ public:
 private:
     template <class Value>
     static void permute(std::vector<Value>& column, const std::vector<std::uint32_t>& order) {
-        std::vector<Value> sorted(column.size());
+        std::vector<Value> sorted;
+        reserveLarge(sorted, column.size());
+        sorted.resize(column.size());
         for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = column[order[k]];
         column.swap(sorted);
     }
