@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 #include <CLI/CLI.hpp>
 
+#include <chrono>
+
 #include "Drivers/Shared/BenchmarkScenes.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/StateHash.h"
@@ -56,13 +58,13 @@ void measure(Simulation<S>& scene, const Options& options, double memoryBefore) 
     if (options.header)
         fmt::print(
             "scene,species,particles,listed_pairs,touching,threads,steps,seconds,million_particle_steps_per_"
-            "second,bytes_per_particle,peak_bytes_per_particle,rebuilds,kinetic_energy_J,state_hash\n");
-    fmt::print("{},{},{},{},{},{},{},{:.4f},{:.4f},{:.1f},{:.1f},{},{:.6e},{:016x}\n", options.choice.scene,
+            "second,bytes_per_particle,rebuilds,kinetic_energy_J,state_hash,peak_bytes_per_particle\n");
+    fmt::print("{},{},{},{},{},{},{},{:.6g},{:.4f},{:.1f},{},{:.6e},{:016x},{:.1f}\n", options.choice.scene,
                S::name, grains.size(), listed, touching, options.threads, options.steps, seconds,
                count * static_cast<double>(options.steps) / seconds * 1e-6,
                static_cast<double>(grains.bytes() + scene.contacts().bytes()) / count,
-               (peakMemory() - memoryBefore) / count, scene.contacts().rebuildCount() - rebuildsBefore,
-               translationalEnergy(grains), stateHash(grains));
+               scene.contacts().rebuildCount() - rebuildsBefore, translationalEnergy(grains),
+               stateHash(grains), (peakMemory() - memoryBefore) / count);
 }
 
 int run(const Options& options) {
@@ -85,14 +87,18 @@ int main(int argc, char** argv) {
     Options o;
     app.add_option("--scene", o.choice.scene, "bed, wet-bed, drum, penetration, gas or polydisperse")
         ->capture_default_str();
-    app.add_option("--particles", o.choice.particles,
-                   "number of grains, about; the scene's own if not given");
+    app.add_option("--particles", o.choice.particles, "number of grains, about; the scene's own if not given")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--species", o.choice.species, "species by name; the scene's own if not given");
     app.add_option("--threads", o.threads, "OpenMP threads")->capture_default_str();
-    app.add_option("--steps", o.steps, "steps that are timed")->capture_default_str();
-    app.add_option("--warm", o.warm, "steps before those")->capture_default_str();
+    app.add_option("--steps", o.steps, "steps that are timed")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    app.add_option("--warm", o.warm, "steps before those")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     app.add_option("--positions", o.choice.positions,
-                   "file of rows `radius x y z` (m): the bed of Dosta et al. (2024), repeated along x to the "
+                   "file of rows radius x y z (m): the bed of Dosta et al. (2024), repeated along x to the "
                    "number of --particles, or their drum or penetration");
     app.add_option("--walls", o.choice.walls, "file of triangles, for the positions of drum and penetration");
     app.add_option("--states", o.choice.states, "folder of initial states")->capture_default_str();

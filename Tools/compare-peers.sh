@@ -58,7 +58,7 @@ run_peer() {  # scene, code, command...
     fi
 }
 parse_ours() {  # scene, row
-    echo "$2" | awk -F, -v scene="$1" '{ printf "%s,pendular,%d,%d,%s,%s\n", scene, $3, $7, $8, $13 }' >>"$raw"
+    echo "$2" | awk -F, -v scene="$1" '{ printf "%s,pendular,%d,%d,%s,%s\n", scene, $3, $7, $8, $12 }' >>"$raw"
 }
 say() { echo "$(date +%H:%M:%S) $*" >&2; }
 
@@ -95,7 +95,9 @@ run_bed() {  # particles
     local vars=(-var data "$work/bed.data" -var xlo "$xlo" -var xhi "$xhi" -var ylo "$ylo" -var yhi "$yhi" -var zlo "$zlo" -var warm "$warm" -var steps "$steps")
     for ((run = 1; run <= runs; ++run)); do
         say "bed of $1, run $run of $runs"
-        parse_ours "bed" "$("$ours" "${options[@]}")"
+        local row
+        row=$("$ours" "${options[@]}") || exit 1
+        parse_ours bed "$row"
         if command -v liggghts >/dev/null; then
             run_peer bed liggghts liggghts -in "$tools/Peers/bed.liggghts" "${vars[@]}"
         fi
@@ -104,7 +106,7 @@ run_bed() {  # particles
         fi
         if command -v yade >/dev/null && ((copies == 1)); then
             GRAINS=$work/bed.rows BOX=$box WARM=$((warm / 5)) STEPS=$((steps / 4)) yade -n -x -j1 "$tools/Peers/bed_yade.py" 2>/dev/null |
-                awk -v s=$((steps / 4)) -v n=25000 '/^result/ { printf "bed,yade,%d,%d,%s,%s\n", n, s, $2, $3 }' >>"$raw"
+                awk -v s=$((steps / 4)) -v n=25000 '/^result/ { printf "bed,yade,%d,%d,%s,\n", n, s, $2 }' >>"$raw"
         fi
     done
 }
@@ -117,7 +119,9 @@ run_drum() {
         END { print "endsolid drum" }' "$drum_walls" >"$work/drum.stl"
     for ((run = 1; run <= runs; ++run)); do
         say "drum, run $run of $runs"
-        parse_ours drum "$("$ours" --scene drum --positions "$drum" --walls "$drum_walls" --steps $steps --warm $warm)"
+        local row
+        row=$("$ours" --scene drum --positions "$drum" --walls "$drum_walls" --steps $steps --warm $warm) || exit 1
+        parse_ours drum "$row"
         if command -v liggghts >/dev/null; then
             run_peer drum liggghts liggghts -in "$tools/Peers/drum.liggghts" -var data drum.data -var mesh drum.stl \
                 -var warm $warm -var steps $steps

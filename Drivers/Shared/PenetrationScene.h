@@ -17,13 +17,14 @@ struct PenetrationGrains {
 
 /// The largest of the grains is the intruder. Throws InputError unless one is larger than all others.
 inline PenetrationGrains separateIntruder(std::vector<GrainRow> grains) {
-    std::sort(grains.begin(), grains.end(),
-              [](const GrainRow& a, const GrainRow& b) { return a.radius < b.radius; });
-    if (grains.size() < 2 || !(grains.back().radius > grains[grains.size() - 2].radius))
+    const auto isSmaller = [](const GrainRow& a, const GrainRow& b) { return a.radius < b.radius; };
+    const auto largest = std::max_element(grains.begin(), grains.end(), isSmaller);
+    const auto asLarge = [&](const GrainRow& g) { return g.radius == largest->radius; };
+    if (grains.size() < 2 || std::count_if(grains.begin(), grains.end(), asLarge) != 1)
         throw InputError(
             "The grains of the penetration have no intruder: one must be larger than all others.");
-    const GrainRow intruder = grains.back();
-    grains.pop_back();
+    const GrainRow intruder = *largest;
+    grains.erase(largest);
     return {grains, intruder};
 }
 

@@ -121,8 +121,7 @@ private:
                 });
                 if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
                     for (const auto& entry : old.of(grains.identity[i]))
-                        if (entry.wall == 0 && entry.bridged &&
-                            !nearEnough(grains, i, grains.place[entry.other]))
+                        if (entry.wall == 0 && entry.bridged && !search.reaches(i, grains.place[entry.other]))
                             addPair(own, grains, i, grains.place[entry.other]);
             }
         });

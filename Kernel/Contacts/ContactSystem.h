@@ -40,7 +40,8 @@ public:
     using Grains = ParticleStore<S::hasTorque>;
 
     /// To be called when species, walls and grains are known.
-    /// @param skinChoice contacts are listed anew when some grain has moved half of the skin
+    /// @param skinChoice contacts are listed anew when bodies can have approached by the skin: the sum over
+    /// the steps of the largest shifts of two bodies
     void prepare(const SpeciesHandler<S>& speciesHandler, const WallHandler& wallHandler,
                  const PeriodicBox& box, const SkinChoice& skinChoice, bool withLedger) {
         periodic = box;
@@ -56,11 +57,14 @@ public:
     bool refresh(Grains& grains, double grainShift, double wallShift) {
         unlisted += grainShift + std::max(grainShift, wallShift);
         ++stepsListed;
-        if (unlisted < skin.width()) return false;
+        const bool sameBodies = listedGrains == grains.size() && listedWalls == walls->getSize();
+        if (sameBodies && unlisted < skin.width()) return false;
         if (rebuilds > 0) skin.choose(unlisted, stepsListed);
         ContactList<S>(*species, *walls, periodic, skin.width(), ledger, threads).rebuild(grains, contacts);
         skin.listed(contacts, grains.size());
         stepsListed = 0;
+        listedGrains = grains.size();
+        listedWalls = walls->getSize();
         laws.clear();
         for (const Bucket& bucket : contacts.buckets)
             laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
@@ -272,7 +276,8 @@ private:
     std::vector<PreparedLaws<S>> laws;  // of each bucket
     SkinChoice skin;
     std::size_t stepsListed = 0;  // since the contacts were listed
-    double unlisted = infinity;   // m, that two bodies can have approached since contacts were listed
+    std::size_t listedGrains = 0, listedWalls = 0;
+    double unlisted = infinity;  // m, that two bodies can have approached since contacts were listed
     bool ledger = false;
     int threads = 1;
     std::size_t rebuilds = 0;

@@ -31,6 +31,9 @@ public:
     /// level where it is largest. The cost of a search grows with it.
     [[nodiscard]] double crowding() const;
 
+    /// Whether two grains form a pair.
+    [[nodiscard]] bool reaches(std::uint32_t a, std::uint32_t b) const { return reaches(self[a], self[b]); }
+
     /// Calls function(other) for each grain that forms a pair with this one, and is not less than it in the
     /// order of (level, place); so each pair is found once. The order of the calls depends on the grains
     /// only.
@@ -41,9 +44,7 @@ public:
             const bool own = l == levelOf[grain];
             levels[l].forEachNear(self, [&](const Point& other) {
                 if (own && other.grain <= grain) return;
-                const double reach = self.size + other.size;
-                if (squaredNorm(periodic.nearest(other.position - self.position)) < reach * reach)
-                    function(other.grain);
+                if (reaches(self, other)) function(other.grain);
             });
         }
     }
@@ -109,6 +110,10 @@ private:
         }
     };
 
+    [[nodiscard]] bool reaches(const Point& a, const Point& b) const {
+        const double reach = a.size + b.size;
+        return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
+    }
     [[nodiscard]] Point pointOf(std::uint32_t grain) const { return self[grain]; }
 
     PeriodicBox periodic;

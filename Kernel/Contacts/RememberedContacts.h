@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -63,15 +64,20 @@ public:
         std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
         entries.resize(begins.back());
         forEachActing([&](const Entry& entry, std::uint32_t) { entries[next[entry.owner]++] = entry; });
+        for (std::size_t k = 0; k < identity.size(); ++k)
+            std::sort(entries.begin() + begins[k], entries.begin() + begins[k + 1], isBefore);
     }
 
     [[nodiscard]] std::span<const Entry> of(std::uint32_t owner) const {
         return {entries.data() + begins[owner], entries.data() + begins[owner + 1]};
     }
     [[nodiscard]] const Entry* find(std::uint32_t owner, std::uint32_t wall, std::uint32_t other) const {
-        for (const Entry& entry : of(owner))
-            if (entry.other == other && entry.wall == wall) return &entry;
-        return nullptr;
+        const std::span<const Entry> own = of(owner);
+        Entry wanted{};
+        wanted.wall = wall;
+        wanted.other = other;
+        const auto found = std::lower_bound(own.begin(), own.end(), wanted, isBefore);
+        return found != own.end() && !isBefore(wanted, *found) ? &*found : nullptr;
     }
 
     /// Gives all that the contact remembered to a contact of a new store, whose block has memory.
@@ -94,6 +100,9 @@ public:
     }
 
 private:
+    static bool isBefore(const Entry& a, const Entry& b) {
+        return a.wall != b.wall ? a.wall < b.wall : a.other < b.other;
+    }
     static Entry entryOf(const ContactStore<S>& store, const Bucket& bucket, std::uint32_t c,
                          const std::vector<std::uint32_t>& identity) {
         const BlockState& state = store.states[c / Pack::lanes];

@@ -31,6 +31,9 @@ public:
         return getMass() * toEigen(store->acceleration[store->place[number]]);
     }
     void setVelocity(const Vec3D& velocity) {
+        if (!velocity.allFinite())
+            throw InputError(fmt::format("particle {}: velocity = ({}, {}, {}) m/s is not finite.", number,
+                                         velocity.x(), velocity.y(), velocity.z()));
         store->translation[store->place[number]].velocity = toVector(velocity);
     }
 

@@ -118,7 +118,8 @@ public:
         checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
         checkPeriodicLengths<S>(speciesHandler, particleHandler.store(), wallHandler, periodic);
         smallestRadius = particleHandler.store().smallestRadius();
-        contactSystem.prepare(speciesHandler, wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept);
+        contactSystem.prepare(speciesHandler, wallHandler, periodic, SkinChoice::byCost(smallestRadius),
+                              ledgerKept);
         checkOverlaps();
         advance(0);  // a step of no length: forces and accelerations at the start
     }
@@ -129,6 +130,7 @@ public:
             advance(timeStep);
         } catch (const RunError&) {
             Motion::takeBack(particleHandler.store(), timeStep);
+            wallHandler.moveTo(getTime());
             throw;
         }
         ++steps;

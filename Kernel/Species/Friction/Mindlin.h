@@ -86,7 +86,7 @@ struct Mindlin {
                 slidingDissipation * std::sqrt(8 * effectiveShearModulus), slidingFrictionCoefficient};
     }
 
-    /// k_t = 8 G* sqrt(R* d); F = -(2/3 k_t s + beta_t sqrt(m* k_t) v), at most mu x normal force (N), on
+    /// k_t = 8 G* sqrt(R* d); F = -(springFactor k_t s + beta_t sqrt(m* k_t) v), at most mu x normal force (N), on
     /// body 1. Spring and dashpot are implicit in the velocity at the end of the step: two grains follow the
     /// trapezoidal rule. A spring at the limit is shortened until it gives the limit by itself. (Other codes
     /// make spring and dashpot give it together; a fast slip then stretches the spring the wrong way, which
