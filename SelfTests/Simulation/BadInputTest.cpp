@@ -261,7 +261,8 @@ class Breaking : public FewGrains<Dry> {
 public:
     using FewGrains<Dry>::FewGrains;
     void actionsAfterTimeStep() override {
-        if (getNumberOfTimeSteps() == 5) particleHandler.getObject(1).setVelocity({0, broken, 0});
+        auto& grains = particleHandler.store();
+        if (getNumberOfTimeSteps() == 5) grains.translation[grains.place[1]].velocity.y = broken;
     }
     double broken = nan;
 };
@@ -276,6 +277,17 @@ TEST(BadInput, motionThatIsNotANumberEndsTheRun) {
         expectRefused<std::runtime_error>([&] { scene.solve(); },
                                           {"5e-06 s", "particle 1", fmt::format("{}", broken)});
     }
+}
+
+TEST(BadInput, aVelocityThatIsNotANumberIsNotTaken) {
+    FewGrains<Dry> scene(material(), {{}, {.position = {1, 0, 0}}}, soundStep);
+    for (double broken : {nan, infinity})
+        expectRefused<InputError>(
+            [&] {
+                scene.particleHandler.getObject(1).setVelocity({0, broken, 0});
+            },
+            {"particle 1", "velocity", "m/s", "not finite"});
+    EXPECT_EQ(scene.particleHandler.getObject(1).getVelocity(), Vec3D(0, 0, 0));
 }
 
 }  // namespace
