@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "Drivers/Shared/BenchmarkScenes.h"
+#include "Drivers/Shared/KineticEnergy.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/LawNames.h"
@@ -27,15 +28,6 @@ double peakMemory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
-/// Of the motion of the centres only, as other codes count it, J.
-template <class Grains>
-double translationalEnergy(const Grains& grains) {
-    double sum = 0;
-    for (const TranslationRecord& grain : grains.translation)
-        if (grain.inverseMass > 0) sum += 0.5 * squaredNorm(grain.velocity) / grain.inverseMass;
-    return sum;
 }
 
 template <class S>
@@ -81,8 +73,7 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Runs a scene of the benchmark and prints a row of CSV: how fast it ran, its memory, and a hash of "
         "its state.\n"
-        "Initial states are made by the program itself when they are first asked for, which takes minutes "
-        "for "
+        "Initial states are made by the program when they are first asked for, which takes minutes for "
         "large scenes, and kept in the folder of --states.");
     Options o;
     app.add_option("--scene", o.choice.scene, "bed, wet-bed, drum, penetration, gas or polydisperse")

@@ -133,7 +133,7 @@ for n in $particles; do run_bed "$n"; done
 if [[ -n $drum ]]; then run_drum; fi
 
 {
-    echo "# machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(getconf _NPROCESSORS_ONLN) cores; compiler: $(c++ --version | head -1); date: $(date +%F)"
+    "$tools/describe-machine.sh"
     echo "# command: $command_line; one thread each; medians of $runs runs in turn"
     echo "scene,code,particles,threads,steps,median_seconds,million_particle_steps_per_second,lowest,highest,kinetic_energy_J,ours_over_this"
     sort -t, -k1,1 -k3,3n -k2,2 "$raw" | awk -F, '

@@ -26,7 +26,7 @@ row() {  # purpose, options...
     shift
     "$ours" "$@" | sed "s/^/$purpose,/"
 }
-echo "# machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(getconf _NPROCESSORS_ONLN) cores; compiler: $(c++ --version | head -1); date: $(date +%F)"
+"$tools/describe-machine.sh"
 echo "# command: $command_line"
 "$ours" --scene gas --particles 10 --steps 1 --warm 0 --header | head -1 | sed 's/^/purpose,/'
 for ((run = 1; run <= runs; ++run)); do

@@ -55,15 +55,11 @@ public:
         const auto speed = [&] { return random.uniform(-1, 1); };
         this->particleHandler.reserve(grains);
         for (std::size_t k = 0; k < grains; ++k) {
-            SphericalParticle grain;
-            grain.setSpecies(species);
-            grain.setRadius(radius);
-            grain.setPosition(spacing * Vec3D(static_cast<double>(k % perSide) + 0.5,
-                                              static_cast<double>(k / perSide % perSide) + 0.5,
-                                              static_cast<double>(k / perSide / perSide) + 0.5));
+            const Vec3D position = spacing * Vec3D(static_cast<double>(k % perSide) + 0.5,
+                                                   static_cast<double>(k / perSide % perSide) + 0.5,
+                                                   static_cast<double>(k / perSide / perSide) + 0.5);
             const double x = speed(), y = speed();
-            grain.setVelocity({x, y, speed()});
-            this->particleHandler.copyAndAddObject(grain);
+            addGrainRow(this->particleHandler, species, {radius, position}, {x, y, speed()});
         }
         this->setTimeStep(benchmarkStep);
     }

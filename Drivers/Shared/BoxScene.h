@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "Kernel/Particles/GrainFile.h"
+#include "Drivers/Shared/GrainRows.h"
 #include "Kernel/Simulation/Simulation.h"
 
 namespace pendular::scenes {
@@ -19,7 +19,7 @@ public:
     BoxScene(const S& species, const std::vector<GrainRow>& grains, const Box& box, double step) {
         material = this->speciesHandler.copyAndAddObject(species);
         this->particleHandler.reserve(grains.size());
-        for (const GrainRow& row : grains) addGrain(row, Vec3D::Zero());
+        for (const GrainRow& row : grains) addGrainRow(this->particleHandler, material, row);
         for (int axis = 0; axis < 3; ++axis) {
             addWall(-Vec3D::Unit(axis), box.lowest[axis] * Vec3D::Unit(axis));
             if (std::isfinite(box.highest[axis]))
@@ -27,16 +27,6 @@ public:
         }
         this->setGravity({0, 0, -9.8});
         this->setTimeStep(step);
-    }
-
-    /// Adds a grain of the scene's species with this velocity (m/s).
-    void addGrain(const GrainRow& row, const Vec3D& velocity) {
-        SphericalParticle grain;
-        grain.setSpecies(material);
-        grain.setRadius(row.radius);
-        grain.setPosition(row.position);
-        grain.setVelocity(velocity);
-        this->particleHandler.copyAndAddObject(grain);
     }
 
 private:

@@ -7,6 +7,18 @@
 
 namespace pendular {
 
+/// Adds a grain of a species to a scene, with this velocity (m/s).
+template <class S>
+void addGrainRow(ParticleHandler<S>& particles, const S* species, const GrainRow& row,
+                 const Vec3D& velocity = Vec3D::Zero()) {
+    SphericalParticle grain;
+    grain.setSpecies(species);
+    grain.setRadius(row.radius);
+    grain.setPosition(row.position);
+    grain.setVelocity(velocity);
+    particles.copyAndAddObject(grain);
+}
+
 /// Radii and positions of all grains of a scene, in the order of adding: the initial state of another scene.
 template <class S>
 std::vector<GrainRow> grainRows(ParticleHandler<S>& particles) {

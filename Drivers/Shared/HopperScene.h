@@ -38,11 +38,7 @@ public:
         const Material* material = speciesHandler.copyAndAddObject(makeMaterial());
         double top = 0;
         for (const GrainRow& row : grains) {
-            SphericalParticle grain;
-            grain.setSpecies(material);
-            grain.setRadius(row.radius);
-            grain.setPosition(row.position);
-            particleHandler.copyAndAddObject(grain);
+            addGrainRow(particleHandler, material, row);
             top = std::max(top, row.position.z() + row.radius);
         }
         AxisymmetricWall wall;

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "Drivers/Shared/GrainRows.h"
+#include "Drivers/Shared/KineticEnergy.h"
 #include "Drivers/Shared/PublishedMaterials.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
@@ -16,12 +17,7 @@ public:
     using Material = HertzianViscoelasticMindlinSpecies;
 
     /// J, of the motion of all centres.
-    [[nodiscard]] double kineticEnergy() const {
-        double sum = 0;
-        for (const TranslationRecord& grain : particleHandler.store().translation)
-            if (grain.inverseMass > 0) sum += 0.5 * squaredNorm(grain.velocity) / grain.inverseMass;
-        return sum;
-    }
+    [[nodiscard]] double kineticEnergy() const { return translationalEnergy(particleHandler.store()); }
 
 protected:
     /// @param publishedStep s, at the published stiffness; with softer grains the step grows as their contact
@@ -32,12 +28,8 @@ protected:
         setTimeStep(publishedStep * std::sqrt(softening));
     }
     void addGrain(const GrainRow& row, PublishedMaterial material, const Vec3D& velocity = Vec3D::Zero()) {
-        SphericalParticle grain;
-        grain.setSpecies(speciesHandler.getObject(material));
-        grain.setRadius(row.radius);
-        grain.setPosition(row.position);
-        grain.setVelocity(velocity);
-        particleHandler.copyAndAddObject(grain);
+        addGrainRow(particleHandler, static_cast<const Material*>(speciesHandler.getObject(material)), row,
+                    velocity);
     }
     template <class Shape>
     Shape* addSteelWall(Shape wall) {

@@ -10,6 +10,7 @@
 #include "Drivers/Shared/BoxScene.h"
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/GrainRows.h"
+#include "Drivers/Shared/KineticEnergy.h"
 #include "Kernel/Species/Adhesion/NoAdhesion.h"
 
 namespace pendular::scenes {
@@ -58,12 +59,11 @@ inline Settled settle(Settled loose, int threads) {
         scene.setNumberOfThreads(threads);
         scene.initialise();
         const auto atRest = [&] {
-            double kinetic = 0, fall = 0;
-            for (const TranslationRecord& grain : scene.particleHandler.store().translation) {
-                kinetic += 0.5 * squaredNorm(grain.velocity) / grain.inverseMass;
+            const auto& grains = scene.particleHandler.store();
+            double fall = 0;  // J
+            for (const TranslationRecord& grain : grains.translation)
                 fall += 9.8 * grain.radius / grain.inverseMass;
-            }
-            return kinetic < 1e-3 * fall;
+            return translationalEnergy(grains) < 1e-3 * fall;
         };
         // Not before a grain can have fallen through its radius.
         const auto first = static_cast<std::size_t>(std::sqrt(2 * 1e-3 / 9.8) / step);
