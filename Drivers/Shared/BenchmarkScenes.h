@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "BuildFolders.h"
 #include "Drivers/Shared/DrumScene.h"
 #include "Drivers/Shared/PenetrationScene.h"
 #include "Drivers/Shared/SettledGrains.h"
@@ -17,7 +18,7 @@ struct BenchmarkChoice {
     std::string species;              // empty: the scene's own
     std::filesystem::path positions;  // of the grains; empty: made by the program
     std::filesystem::path walls;      // of the drum and the penetration, with their positions
-    std::filesystem::path states = PENDULAR_STATES_DIR;
+    std::filesystem::path states = folders::benchmarkStates;
 
     [[nodiscard]] std::size_t particlesOr(std::size_t standard) const {
         return particles > 0 ? particles : standard;

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "BuildFolders.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
@@ -12,7 +13,7 @@ namespace pendular {
 namespace {
 
 support::ProgramResult benchmark(const std::string& arguments) {
-    return support::run(std::string(PENDULAR_TOOLS_DIR) + "/benchmark-scenes " + arguments);
+    return support::run(folders::tools.string() + "/benchmark-scenes " + arguments);
 }
 
 std::vector<std::string> cells(const std::string& line) {
@@ -75,7 +76,7 @@ TEST(BenchmarkProgram, hasHelp) {
 /// LIGGGHTS gives 4.52e-6 J and LAMMPS 4.56e-6 J after the same 2500 steps; ours must not be farther from
 /// them than they are from each other.
 TEST(HeavyBenchmarkProgram, publishedBedHasTheEnergyOfItsPeers) {
-    const std::string bed = std::string(PENDULAR_SHARED_DIR) + "/data/bed25k.txt";
+    const std::string bed = folders::shared.string() + "/data/bed25k.txt";
     if (!std::filesystem::exists(bed))
         GTEST_SKIP() << bed << " is not there: the published bed is not compared";
     const support::ProgramResult run =

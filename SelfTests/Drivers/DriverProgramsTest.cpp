@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "BuildFolders.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
@@ -17,7 +18,7 @@ using support::expectOneSentence;
 using support::run;
 using support::TemporaryFile;
 
-const std::string drivers = PENDULAR_DRIVERS_DIR;
+const std::string drivers = folders::drivers;
 const std::string drum = drivers + "/RotatingDrum/RotatingDrum ";
 const std::string bed = drivers + "/Penetration/Penetration ";
 const std::string hopper = drivers + "/HopperDischarge/HopperDischarge ";

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "BuildFolders.h"
 #include "Drivers/Shared/DrumScene.h"
 #include "SelfTests/Support/Refusal.h"
 
@@ -119,7 +120,7 @@ TEST(Drum, countsAGrainInItsQuarter) {
 
 /// The published state is at rest, below the axis, and the mesh holds it.
 TEST(Drum, takesThePublishedState) {
-    const std::filesystem::path data = std::filesystem::path(PENDULAR_SHARED_DIR) / "data";
+    const std::filesystem::path data = folders::shared / "data";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no reference data";
     DrumScene scene(readGrainFile(data / "drum38k.txt"), readTriangles(data / "drum38k-walls.txt"));
     scene.turn(DrumScene::publishedSpeed);

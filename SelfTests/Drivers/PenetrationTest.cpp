@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "BuildFolders.h"
 #include "Drivers/Shared/PenetrationScene.h"
 #include "SelfTests/Support/Refusal.h"
 
@@ -116,7 +117,7 @@ TEST(HeavyPenetration, isDeeperForAMuchFasterIntruder) {
 }
 
 TEST(Penetration, takesThePublishedState) {
-    const std::filesystem::path data = std::filesystem::path(PENDULAR_SHARED_DIR) / "data";
+    const std::filesystem::path data = folders::shared / "data";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no reference data";
     PenetrationScene scene(separateIntruder(readGrainFile(data / "penetration25k.txt")),
                            readTriangles(data / "penetration25k-walls.txt"));

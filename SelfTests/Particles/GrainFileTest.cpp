@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "BuildFolders.h"
 #include "Kernel/Particles/GrainFile.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"
@@ -64,7 +65,7 @@ TEST(GrainFile, refusesWithFilePlaceAndReason) {
 
 /// Counts, sizes and places as the description of the benchmark gives them.
 TEST(GrainFile, readsPublishedStates) {
-    const std::filesystem::path data = std::filesystem::path(PENDULAR_SHARED_DIR) / "data";
+    const std::filesystem::path data = folders::shared / "data";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no reference data";
     const auto count = [](const std::vector<GrainRow>& grains, double radius) {
         return std::count_if(grains.begin(), grains.end(),

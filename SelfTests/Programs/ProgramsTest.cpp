@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "BuildFolders.h"
 #include "SelfTests/Support/RunProgram.h"
 
 namespace pendular {
@@ -18,9 +19,9 @@ using support::expectOneSentence;
 using support::run;
 using Result = support::ProgramResult;
 
-const std::string tools = PENDULAR_TOOLS_DIR;
-const std::string drivers = PENDULAR_DRIVERS_DIR;
-const std::filesystem::path source = PENDULAR_SOURCE_DIR;
+const std::string tools = folders::tools;
+const std::string drivers = folders::drivers;
+const std::filesystem::path source = folders::source;
 
 TEST(Documentation, referencePageIsWhatTheToolPrints) {
     EXPECT_EQ(contentOf(source / "Kernel/Species/REFERENCE.md"),

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "BuildFolders.h"
 #include "Kernel/Output/WallForceFile.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/InfiniteWall.h"
@@ -99,7 +100,7 @@ TEST(WallForcesFile, hasARowForEachWallThatKeepsThem) {
     InfiniteWall lid;
     lid.set({0, 0, 1}, {0, 0, 0.02});
     const InfiniteWall* unasked = scene.add(lid);
-    const auto path = std::filesystem::path(PENDULAR_BINARY_DIR) / "SelfTests/wall-forces.csv";
+    const auto path = folders::binary / "SelfTests/wall-forces.csv";
     scene.initialise();
     {
         WallForceFile file(path);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "BuildFolders.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
 #include "Kernel/Walls/InfiniteCylinder.h"
 #include "Kernel/Walls/InfiniteWall.h"
@@ -64,7 +65,7 @@ TEST(MeshParts, coplanarTrianglesMerge) {
 }
 
 TEST(MeshParts, ofAPublishedDrumAreItsFacets) {
-    const std::filesystem::path drum = std::filesystem::path(PENDULAR_SHARED_DIR) / "data/drum38k-walls.txt";
+    const std::filesystem::path drum = folders::shared / "data/drum38k-walls.txt";
     if (!std::filesystem::exists(drum)) GTEST_SKIP() << "no reference data";
     TriangleWall wall;
     wall.read(drum);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "BuildFolders.h"
 #include "Kernel/Walls/TriangleReader.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
@@ -83,7 +84,7 @@ TEST(RowReader, readsRowsWithAndWithoutHeader) {
 }
 
 TEST(RowReader, readsPublishedWalls) {
-    const std::filesystem::path drum = std::filesystem::path(PENDULAR_SHARED_DIR) / "data/drum38k-walls.txt";
+    const std::filesystem::path drum = folders::shared / "data/drum38k-walls.txt";
     if (!std::filesystem::exists(drum)) GTEST_SKIP() << "no reference data";
     EXPECT_EQ(readTriangles(drum).size(), 1200u);
 }

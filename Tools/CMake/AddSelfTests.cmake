@@ -24,13 +24,6 @@ function(pendular_add_self_test folder)
     file(GLOB sources CONFIGURE_DEPENDS "${selfTests}/${folder}/*.cpp")
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE Pendular::Kernel GTest::gtest_main)
-    target_compile_definitions(${name} PRIVATE
-        PENDULAR_TOOLS_DIR="${PROJECT_BINARY_DIR}/Tools"
-        PENDULAR_DRIVERS_DIR="${PROJECT_BINARY_DIR}/Drivers"
-        PENDULAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-        PENDULAR_BINARY_DIR="${PROJECT_BINARY_DIR}"
-        PENDULAR_STATES_DIR="${PROJECT_BINARY_DIR}/benchmark-states"
-        PENDULAR_SHARED_DIR="${PENDULAR_SHARED_DIR}")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
     add_warnings(${name})
 
