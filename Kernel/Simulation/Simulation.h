@@ -4,7 +4,7 @@
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Output/Progress.h"
 #include "Kernel/Particles/ParticleHandler.h"
@@ -76,6 +76,8 @@ public:
         threads = count;
         contactSystem.setThreads(count);
     }
+    /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
+    void setIntegrator(const Integrator& scheme) { integrator = scheme; }
     /// Runs also with a step above the stability limit. The results of such a run mean nothing.
     void acceptUnstableTimeStep(bool accept = true) { unstableAccepted = accept; }
     /// Keeps account of the energy; costs time, and is off by default.
@@ -121,7 +123,9 @@ public:
         contactSystem.prepare(speciesHandler, wallHandler, periodic, SkinChoice::byCost(smallestRadius),
                               ledgerKept);
         checkOverlaps();
+        Motion::start(particleHandler.store(), integrator);
         advance(0);  // a step of no length: forces and accelerations at the start
+        Motion::start(particleHandler.store(), integrator);
     }
 
     void step() {
@@ -129,7 +133,7 @@ public:
         try {
             advance(timeStep);
         } catch (const RunError&) {
-            Motion::takeBack(particleHandler.store(), timeStep);
+            Motion::takeBack(particleHandler.store(), timeStep, integrator);
             wallHandler.moveTo(getTime());
             throw;
         }
@@ -138,7 +142,7 @@ public:
     }
 
 private:
-    using Motion = VelocityVerlet<S::hasTorque>;
+    using Motion = TimeIntegration<S::hasTorque>;
 
     void stepToTheEnd() {
         Progress progress(timeMax);
@@ -171,7 +175,7 @@ private:
 
     void advance(double length) {
         auto& grains = particleHandler.store();
-        const double grainShift = std::sqrt(Motion::begin(grains, length, threads));
+        const double grainShift = std::sqrt(Motion::begin(grains, length, threads, integrator));
         refuseRunaway(grainShift);
         const double wallShift = wallHandler.moveTo(getTime() + length);
         const bool goesRound = ledgerKept && periodic.any();
@@ -180,8 +184,8 @@ private:
             if (goesRound) ledger.goRound(before - potentialEnergy(grains, gravity));
             refuseDeepOverlaps();
         }
-        contactSystem.computeForces(grains, length);
-        Motion::finish(grains, contactSystem.store(), gravity, length, threads);
+        contactSystem.computeForces(grains, length, integrator.contacts);
+        Motion::finish(grains, contactSystem.store(), gravity, length, threads, integrator);
         if (ledgerKept) account(length);
     }
 
@@ -226,6 +230,7 @@ private:
     EnergyLedger ledger;
     PeriodicBox periodic;
     Vector<double> gravity{0, 0, 0};
+    Integrator integrator = integrators::predictedVelocityVerlet;
     double timeStep = unset;
     double timeMax = 0;
     double smallestRadius = infinity;

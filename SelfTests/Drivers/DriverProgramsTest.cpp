@@ -1,4 +1,4 @@
-// The three drivers as a user runs them.
+// The drivers as a user runs them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
