@@ -35,9 +35,9 @@ public:
                        double step, int threads = 1,
                        const Integrator& scheme = integrators::predictedVelocityVerlet) {
         inParts(grains.size(), threads, [&](int, std::size_t first, std::size_t end) {
-            const auto all = [&]<bool remembers>() {
+            const auto all = [&, weight = gravity, h = step, coefficients = scheme]<bool remembers>() {
                 for (std::size_t k = first; k < end; ++k)
-                    accelerate<remembers>(grains, store, gravity, step, scheme, k);
+                    accelerate<remembers>(grains, store, weight, h, coefficients, k);
             };
             scheme.remembersEarlier() ? all.template operator()<true>() : all.template operator()<false>();
         });
