@@ -59,7 +59,7 @@ public:
         Mask bridged = touching & !touching;
         if constexpr (Adhesion::acts) {
             const auto interaction = memory.interaction.load(block);
-            const Pack separation = max(-g.overlap, Pack(0));
+            const Pack separation = separationFor<Adhesion>(g.overlap);
             bridged = joined & (separation < interaction.range());
             adhesive = select(bridged, interaction.force(separation), Pack(0));
         }

@@ -126,9 +126,17 @@ template <class Law, class T>
 concept HasAdhesionForce = requires(const typename Law::template Interaction<T> interaction, T separation) {
     {
         interaction.force(separation)
-        } -> std::same_as<T>;                    // N, attraction positive; separation in m, 0 in contact
+        } -> std::same_as<T>;                    // N, attraction positive; separation in m: separationFor
     { interaction.range() } -> std::same_as<T>;  // m
 };
+
+/// The separation (m) that an adhesion law is given at an overlap (m): 0 in contact, or negative for a law
+/// that says `readsOverlap`.
+template <class Law, class T>
+[[gnu::always_inline]] inline T separationFor(T overlap) {
+    if constexpr (requires { requires Law::readsOverlap; }) return -overlap;
+    else return max(-overlap, T(0));
+}
 
 /// `acts` is false for the law that does nothing. `formsAtContact` says that the force exists only from the
 /// first touch until the separation exceeds the range (a liquid bridge), not whenever bodies are within the

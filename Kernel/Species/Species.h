@@ -82,6 +82,8 @@ struct Species : MixedSpecies<N, F, A> {
     void deriveUnset() {
         if constexpr (requires(Species s) { s.F::deriveUnset(static_cast<const N&>(s)); })
             F::deriveUnset(static_cast<const N&>(*this));
+        if constexpr (requires(Species s) { s.A::deriveUnset(static_cast<const N&>(s)); })
+            A::deriveUnset(static_cast<const N&>(*this));
     }
     /// Throws InputError if the density or a field of a law is unset or out of its range.
     void check() const {

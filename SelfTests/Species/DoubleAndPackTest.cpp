@@ -8,6 +8,7 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
+#include "SelfTests/Support/RandomLaw.h"
 
 // A law gives the same bits on T = double and T = Pack: what is tested in double is what the kernel computes.
 
@@ -15,6 +16,7 @@ namespace pendular {
 namespace {
 
 using support::Draw;
+using support::randomLaw;
 
 constexpr int lanes = Pack::lanes;
 constexpr int rounds = 2000;
@@ -59,14 +61,6 @@ Contact<double> randomContact(Draw& draw) {
     const double overlap = draw.oneIn(16) ? 0 : draw.logarithmic(1e-12, 1e-3);
     const double radius = draw.logarithmic(1e-6, 1);
     return {overlap, radius, draw.logarithmic(1e-15, 1)};
-}
-
-template <class Law>
-Law randomLaw(Draw& draw) {
-    Law law;
-    for (const auto& field : Law::fields())
-        law.*field.member = field.unit == "Pa" ? draw.logarithmic(1e5, 1e11) : draw.uniform(0, 1);
-    return law;
 }
 
 TEST(DoubleAndPack, normalLawsGiveTheSameBits) {
@@ -159,6 +153,28 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
             }
             EXPECT_GT(slid, rounds) << "too few contacts slid";
             EXPECT_GT(stuck, rounds) << "too few contacts stuck";
+        }
+    });
+}
+
+TEST(DoubleAndPack, otherAdhesionLawsGiveTheSameBits) {
+    AdhesionLaws::forEach([]<class Law>() {
+        if constexpr (Law::acts && !requires(Law law) { law.setLiquidBridgeVolume(0.0); }) {
+            Draw draw(4);
+            for (int round = 0; round < rounds; ++round) {
+                std::array<typename Law::template Interaction<double>, lanes> contacts;
+                std::array<double, lanes> separations;
+                for (int k = 0; k < lanes; ++k) {
+                    contacts[k] = randomLaw<Law>(draw).prepare(
+                        Bodies{1, draw.oneIn(4) ? infinity : draw.uniform(0.1, 10)});
+                    separations[k] = separationFor<Law>(draw.uniform(-1, 3) * contacts[k].range());
+                }
+                const Pack force =
+                    packed<Law::template Interaction>(contacts).force(Pack::fromLanes(separations));
+                for (std::size_t k = 0; k < lanes; ++k)
+                    expectSameBits<One>({force}, k, {contacts[k].force(separations[k])}, Law::name);
+                if (::testing::Test::HasFailure()) return;
+            }
         }
     });
 }

@@ -138,6 +138,26 @@ std::vector<Setter<Law>> settersOf() {
                  [](const L& l) { return l.getEffectiveElasticModulus(); }},
                 {"dissipation", [](L& l, V v) { l.setDissipation(v); },
                  [](const L& l) { return l.getDissipation(); }}};
+    else if constexpr (std::is_same_v<L, HertzianBSHPViscoelastic>)
+        return {{"effectiveElasticModulus", [](L& l, V v) { l.setEffectiveElasticModulus(v); },
+                 [](const L& l) { return l.getEffectiveElasticModulus(); }},
+                {"dissipativeTime", [](L& l, V v) { l.setDissipativeTime(v); },
+                 [](const L& l) { return l.getDissipativeTime(); }}};
+    else if constexpr (requires(L l) { l.setAdhesionForceMax(0.0); })
+        return {{"adhesionForceMax", [](L& l, V v) { l.setAdhesionForceMax(v); },
+                 [](const L& l) { return l.getAdhesionForceMax(); }},
+                {"adhesionStiffness", [](L& l, V v) { l.setAdhesionStiffness(v); },
+                 [](const L& l) { return l.getAdhesionStiffness(); }}};
+    else if constexpr (std::is_same_v<L, DMT>)
+        return {{"workOfAdhesion", [](L& l, V v) { l.setWorkOfAdhesion(v); },
+                 [](const L& l) { return l.getWorkOfAdhesion(); }},
+                {"surfaceDistance", [](L& l, V v) { l.setSurfaceDistance(v); },
+                 [](const L& l) { return l.getSurfaceDistance(); }}};
+    else if constexpr (std::is_same_v<L, JKR>)
+        return {{"workOfAdhesion", [](L& l, V v) { l.setWorkOfAdhesion(v); },
+                 [](const L& l) { return l.getWorkOfAdhesion(); }},
+                {"adhesionModulus", [](L& l, V v) { l.setAdhesionModulus(v); },
+                 [](const L& l) { return l.getAdhesionModulus(); }}};
     else if constexpr (std::is_same_v<L, Mindlin>)
         return {{"effectiveShearModulus", [](L& l, V v) { l.setEffectiveShearModulus(v); },
                  [](const L& l) { return l.getEffectiveShearModulus(); }},
@@ -220,6 +240,7 @@ TEST(Field, hertzHelpersCheckWhatTheyAreGiven) {
            [&](double e) { law.setEffectiveElasticModulusAndRestitutionCoefficient(1e6, e); });
     expect("effectiveElasticModulus", "Pa", positive,
            [&](double modulus) { law.setEffectiveElasticModulusAndRestitutionCoefficient(modulus, 0.5); });
+    expect("Tsuji damping factor", "", notNegative, [&](double a) { law.setTsujiDampingFactor(a); });
     expect("elastic modulus", "Pa", positive,
            [&](double modulus) { law.setElasticModulusAndPoissonRatio(modulus, 0.3); });
     expect("Poisson's ratio", "", {-1, 0.5, false, true},
