@@ -71,6 +71,8 @@ struct Species : MixedSpecies<N, F, A> {
 
     /// Grains of this species have a spin and their contacts a torque.
     static constexpr bool hasTorque = F::acts;
+    /// Contacts give their bodies a torque of their own, besides that of the tangential force.
+    static constexpr bool hasContactTorque = HasContactTorque<F>;
 
     void setDensity(double value) {
         checkValue(name, "density", value, "kg/m^3", positive);

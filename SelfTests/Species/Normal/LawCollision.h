@@ -20,8 +20,10 @@ struct Rebound {
 template <class Law>
 Rebound collide(const Law& law, double radius, double mass, double speed, double contactTime) {
     const auto prepared = law.prepare();
+    typename NormalHistoryOf<Law>::template type<double> history{};
     const auto acceleration = [&](double overlap, double approach) {
-        const auto force = Law::force(prepared, contactAt(std::max(overlap, 0.0), radius, mass));
+        auto tried = history;  // the stages of a step do not count
+        const auto force = normalForce<Law>(prepared, contactAt(std::max(overlap, 0.0), radius, mass), tried);
         return -(force.elastic + force.damping * approach) / mass;
     };
     const double h = contactTime / 4000;
@@ -39,6 +41,7 @@ Rebound collide(const Law& law, double radius, double mass, double speed, double
             return {-(v + share * (nextV - v)), time + share * h, largest};
         }
         d = nextD, v = nextV, time += h;
+        normalForce<Law>(prepared, contactAt(d, radius, mass), history);
     }
 }
 
