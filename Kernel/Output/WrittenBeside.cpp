@@ -1,4 +1,6 @@
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Output/WrittenBeside.h"
+
+#include <fmt/format.h>
 
 #include <cerrno>
 #include <cstring>
@@ -8,25 +10,23 @@
 
 namespace pendular {
 
-CsvFile::CsvFile(std::filesystem::path path, std::string_view header)
+WrittenBeside::WrittenBeside(std::filesystem::path path)
     : target(std::move(path)), beside(target.string() + ".part") {
     std::error_code ignored;
     if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), ignored);
-    file = std::fopen(beside.c_str(), "w");
+    file = std::fopen(beside.c_str(), "wb");
     if (!file) fail("cannot be written");
-    write(fmt::format("{}\n", header));
 }
 
-CsvFile::~CsvFile() {
-    if (!file) return;
-    std::fclose(file);  // not completed: the part stays under its own name
+WrittenBeside::~WrittenBeside() {
+    if (file) std::fclose(file);
 }
 
-void CsvFile::write(std::string_view text) {
-    if (std::fwrite(text.data(), 1, text.size(), file) != text.size()) fail("cannot be written");
+void WrittenBeside::write(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) fail("cannot be written");
 }
 
-void CsvFile::close() {
+void WrittenBeside::close() {
     std::FILE* open = std::exchange(file, nullptr);
     if (!open) return;
     if (std::fclose(open) != 0) fail("cannot be completed");
@@ -35,7 +35,7 @@ void CsvFile::close() {
     if (problem) fail("cannot be renamed to its final name");
 }
 
-void CsvFile::fail(std::string_view what) const {
+void WrittenBeside::fail(std::string_view what) const {
     throw InputError(fmt::format("The file {} {}: {}.", target.string(), what, std::strerror(errno)));
 }
 

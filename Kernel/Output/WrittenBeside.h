@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+namespace pendular {
+
+/// A file that is written beside its name, as NAME.part, and renamed when it is complete, so that no reader
+/// meets half a file. Folders that are missing are made.
+class WrittenBeside {
+public:
+    /// Throws InputError if the file cannot be written.
+    explicit WrittenBeside(std::filesystem::path path);
+    WrittenBeside(const WrittenBeside&) = delete;
+    WrittenBeside& operator=(const WrittenBeside&) = delete;
+    /// A file that was not completed stays under the other name.
+    ~WrittenBeside();
+
+    void write(std::string_view bytes);
+    /// Completes the file under its name. Throws InputError if that fails (a full disk).
+    void close();
+
+private:
+    [[noreturn]] void fail(std::string_view what) const;
+
+    std::filesystem::path target;
+    std::filesystem::path beside;
+    std::FILE* file = nullptr;
+};
+
+}  // namespace pendular
