@@ -9,11 +9,14 @@
 #include <limits>
 #include <utility>
 
+#include "Kernel/Species/Field.h"
+
 namespace pendular {
 
 namespace {
 
 const auto programBegin = std::chrono::steady_clock::now();
+double wallTimeLimit = 0;  // s; 0: none
 
 // What signals have asked for; a handler may touch nothing but lock-free atomics.
 std::atomic<int> stopSignal{0};
@@ -42,9 +45,13 @@ double secondsBetween(std::chrono::steady_clock::time_point from, std::chrono::s
 
 }  // namespace
 
-RunControl::RunControl(const RunLimits& given) : limits(given) {
-    if (limits.wallTime == 0 && limits.restartInterval == 0)
-        nextLook = std::numeric_limits<std::size_t>::max();
+void setWallTimeLimit(double seconds) {
+    checkValue("Simulation", "wall time", seconds, "s", positive);
+    wallTimeLimit = seconds;
+}
+
+RunControl::RunControl(const RestartSchedule& given) : restarts(given) {
+    if (wallTimeLimit == 0 && restarts.interval == 0) nextLook = std::numeric_limits<std::size_t>::max();
     if (listening.runs++ > 0) return;
     struct sigaction action {};
     action.sa_handler = takeNote;
@@ -69,8 +76,8 @@ void RunControl::lookAtClock(std::size_t steps) {
     nextLook = steps + 1 + static_cast<std::size_t>(0.05 * rate);
     lastLook = steps;
     lastLooked = now;
-    outOfTime = limits.wallTime > 0 && secondsBetween(programBegin, now) >= limits.wallTime;
-    if (limits.restartInterval > 0 && secondsBetween(lastRestart, now) >= limits.restartInterval) {
+    outOfTime = wallTimeLimit > 0 && secondsBetween(programBegin, now) >= wallTimeLimit;
+    if (restarts.interval > 0 && secondsBetween(lastRestart, now) >= restarts.interval) {
         restartDue = true;
         lastRestart = now;
     }
@@ -83,10 +90,10 @@ RunControl::Request RunControl::request(std::size_t steps) {
     if (restartAsked.load(std::memory_order_relaxed)) {
         restartAsked = false;
         write = true;
-        if (!limits.restartKept) fmt::print(stderr, "SIGUSR1: this run keeps no restart file.\n");
+        if (!restarts.kept) fmt::print(stderr, "SIGUSR1: this run keeps no restart file.\n");
     }
-    if (limits.restartCount > 0 && steps % limits.restartCount == 0) write = true;
-    return write && limits.restartKept ? Request::WriteRestart : Request::None;
+    if (restarts.count > 0 && steps % restarts.count == 0) write = true;
+    return write && restarts.kept ? Request::WriteRestart : Request::None;
 }
 
 std::string RunControl::reason() const {
@@ -96,7 +103,7 @@ std::string RunControl::reason() const {
         case SIGTERM:
             return "SIGTERM";
         default:
-            return fmt::format("the limit of {:g} s of wall time", limits.wallTime);
+            return fmt::format("the limit of {:g} s of wall time", wallTimeLimit);
     }
 }
 

@@ -13,13 +13,16 @@ struct RunStopped : std::runtime_error {
     int exitCode;  // of the program, as shells give it: 128 + the number of the signal
 };
 
-/// When a run writes restart files, and when it has to end.
-struct RunLimits {
-    bool restartKept = false;
-    std::size_t restartCount = 0;  // steps from one restart file to the next; 0: none for the steps
-    double restartInterval = 0;    // s of the clock on the wall from one to the next; 0: none for the time
-    double wallTime = 0;  // s of that clock, since the program began, after which a run ends; 0: never
+/// When a run writes restart files.
+struct RestartSchedule {
+    bool kept = false;
+    std::size_t count = 0;  // steps from one restart file to the next; 0: none for the steps
+    double interval = 0;    // s of the clock on the wall from one to the next; 0: none for the time
 };
+
+/// Ends whatever run this program is in, as SIGTERM does, when the program has run for this time (s of the
+/// clock on the wall).
+void setWallTimeLimit(double seconds);
 
 /// Listens, for as long as it lives, to what is asked of a run from outside. SIGINT, SIGTERM and the limit of
 /// wall time end the run after the step, the first two at once when they come a second time; SIGUSR1 writes a
@@ -28,7 +31,7 @@ class RunControl {
 public:
     enum class Request { None, WriteRestart, Stop };
 
-    explicit RunControl(const RunLimits& given);
+    explicit RunControl(const RestartSchedule& given);
     ~RunControl();
     RunControl(const RunControl&) = delete;
     RunControl& operator=(const RunControl&) = delete;
@@ -46,7 +49,7 @@ private:
 
     void lookAtClock(std::size_t steps);
 
-    RunLimits limits;
+    RestartSchedule restarts;
     bool outOfTime = false, restartDue = false;
     std::size_t nextLook = 0, lastLook = 0;  // steps
     Clock::time_point lastLooked = Clock::now(), lastRestart = lastLooked;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
@@ -86,19 +87,14 @@ public:
     /// Throws InputError where this build of Pendular cannot write one.
     void keepRestartFile(bool keep = true) {
         if (keep) requireRestartFiles();
-        limits.restartKept = keep;
+        restarts.kept = keep;
     }
     /// Writes it also after so many steps; 0: does not.
-    void setRestartCount(std::size_t steps) { limits.restartCount = steps; }
+    void setRestartCount(std::size_t steps) { restarts.count = steps; }
     /// Writes it also whenever this time (s of the clock on the wall) has passed; 0: does not.
     void setRestartInterval(double seconds) {
         checkValue("Simulation", "restart interval", seconds, "s", notNegative);
-        limits.restartInterval = seconds;
-    }
-    /// Stops the run when the program has run for this time (s of the clock on the wall), as SIGTERM does.
-    void setWallTimeLimit(double seconds) {
-        checkValue("Simulation", "wall time", seconds, "s", positive);
-        limits.wallTime = seconds;
+        restarts.interval = seconds;
     }
     /// Goes on from a restart file instead of beginning: initialise() then takes the grains, and all else
     /// that changes in a run, from it. The scene is set up as it was, but for its grains, which are ignored;
@@ -113,6 +109,8 @@ public:
             visitContacts(archive);
         });
     }
+    /// Shows no progress.
+    void setQuiet(bool beQuiet = true) { quiet = beQuiet; }
     /// Runs also with a step above the stability limit. The results of such a run mean nothing.
     void acceptUnstableTimeStep(bool accept = true) { unstableAccepted = accept; }
     /// Keeps account of the energy; costs time, and is off by default.
@@ -138,7 +136,7 @@ public:
     /// NAME-last-contacts.csv, and writeOutput() was called once more. A run that SIGINT, SIGTERM or the
     /// limit of wall time asks to stop ends with RunStopped, its files complete and at one time.
     void solve() {
-        RunControl control(limits);
+        RunControl control(restarts);
         initialise();
         if (!isRestarted()) writeOutput();
         try {
@@ -179,26 +177,27 @@ private:
     using Request = RunControl::Request;
 
     void stepToTheEnd(RunControl& control) {
-        Progress progress(timeMax);
+        std::optional<Progress> progress;
+        if (!quiet) progress.emplace(timeMax);
         const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
         Request request = control.request(steps);
         while (request != Request::Stop && steps < last && continueSolve()) {
             step();
             if (saveCount > 0 && steps % saveCount == 0) writeOutput();
-            progress.update(getTime(), steps);
+            if (progress) progress->update(getTime(), steps);
             request = control.request(steps);
             if (request == Request::WriteRestart) writeRestart(restartFile());
         }
         // Before the last output: a run that goes on from here knows nothing of one that is not due.
-        if (limits.restartKept) writeRestart(restartFile());
+        if (restarts.kept) writeRestart(restartFile());
         if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeOutput();
         completeOutput();
         if (request == Request::Stop) throw stopped(control);
     }
 
     RunStopped stopped(const RunControl& control) const {
-        const std::string from = limits.restartKept ? fmt::format("restart from {}", restartFile().string())
-                                                    : std::string("it keeps no restart file");
+        const std::string from = restarts.kept ? fmt::format("restart from {}", restartFile().string())
+                                               : std::string("it keeps no restart file");
         return {fmt::format("{} has stopped the run at time {:.6g} s, after {} steps; {}.", control.reason(),
                             getTime(), steps, from),
                 control.exitCode()};
@@ -317,8 +316,9 @@ private:
     std::size_t saveCount = 0;
     std::size_t steps = 0;
     int threads = 1;
-    RunLimits limits;
+    RestartSchedule restarts;
     std::filesystem::path restartSource;  // empty: a run from its beginning
+    bool quiet = false;
     bool unstableAccepted = false;
     bool ledgerKept = false;
 };
