@@ -10,6 +10,7 @@
 
 #include "BuildFolders.h"
 #include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -31,7 +32,8 @@ TEST(Documentation, referencePageIsWhatTheToolPrints) {
 TEST(Documentation, driverOfTheReadmeIsThatOfTheFolder) {
     const std::string driver = contentOf(source / "Drivers/WetTower/WetTower.cpp");
     EXPECT_NE(contentOf(source / "README.md").find(driver), std::string::npos);
-    EXPECT_EQ(run(drivers + "/WetTower/WetTower").exitCode, 0);
+    const support::TestFolder folder;
+    EXPECT_EQ(run(drivers + "/WetTower/WetTower --output " + folder.path().string()).exitCode, 0);
 }
 
 TEST(BridgeForce, printsTheFiguresOfThePaper) {
@@ -127,7 +129,10 @@ TEST(TwoParticleCollision, writesItsTwoTables) {
     std::filesystem::remove_all(folder);
 }
 
-TEST(UserDefinedLaw, runs) { EXPECT_EQ(run(drivers + "/UserDefinedLaw/UserDefinedLaw").exitCode, 0); }
+TEST(UserDefinedLaw, runs) {
+    const support::TestFolder folder;
+    EXPECT_EQ(run(drivers + "/UserDefinedLaw/UserDefinedLaw --output " + folder.path().string()).exitCode, 0);
+}
 
 }  // namespace
 }  // namespace pendular
