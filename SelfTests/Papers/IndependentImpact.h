@@ -23,8 +23,8 @@ struct PlanarImpact {
     };
 
     /// The equations of Hertz's and Mindlin's laws (Thornton et al. (2023), equations 4.1 to 4.8), a spring
-    /// cut at Coulomb's limit, by steps so short that their first order does not matter. Solid spheres: I =
-    /// 2/5 m r^2.
+    /// cut at Coulomb's limit with its dashpot beside it, by steps so short that their first order does not
+    /// matter. Solid spheres: I = 2/5 m r^2.
     [[nodiscard]] End solve(int steps = 400000) const {
         const double contactTime =
             2.87 * std::pow(std::pow(1 / (inverseMass * modulus), 2) / (radius * approach), 0.2);
@@ -42,11 +42,10 @@ struct PlanarImpact {
             const double limit = friction * std::max(normal, 0.0);
             const double lever = 1 - 0.5 * overlap / sphereRadius, slip = along - lever * turning;
             spring += h * slip;
-            double force = springFactor * stiffness * spring + dashpot * slip;
-            if (std::abs(force) > limit) {
-                force = std::copysign(limit, force);
-                spring = stiffness > 0 ? force / (springFactor * stiffness) : 0;
-            }
+            const double longest = stiffness > 0 ? limit / (springFactor * stiffness) : 0;
+            spring = std::clamp(spring, -longest, longest);
+            const double force =
+                std::clamp(springFactor * stiffness * spring + dashpot * slip, -limit, limit);
             along -= h * inverseMass * force;
             turning += h * 2.5 * inverseMass * lever * force;
         } while (overlap > 0);

@@ -56,7 +56,7 @@ inline double hertzianTime(const Encounter& encounter) {
 
 inline CollisionCase<HertzianViscoelasticSpecies> hertz() {
     const Encounter encounter;
-    return {"Hertz, e = 0.5", hertzian<HertzianViscoelasticSpecies>(0.5), encounter, hertzianTime(encounter)};
+    return {"Hertz", hertzian<HertzianViscoelasticSpecies>(0.5), encounter, hertzianTime(encounter)};
 }
 
 inline CollisionCase<LinearViscoelasticSpecies> linear() {
@@ -64,7 +64,7 @@ inline CollisionCase<LinearViscoelasticSpecies> linear() {
     LinearViscoelasticSpecies species;
     species.setDensity(density);
     species.setStiffnessAndRestitutionCoefficient(1e4, 0.5, 2 * reducedMass(encounter.radius));
-    return {"linear, e = 0.5", species, encounter,
+    return {"linear", species, encounter,
             linearContactTime(1e4, species.getDissipation(), reducedMass(encounter.radius))};
 }
 
@@ -75,7 +75,7 @@ inline CollisionCase<HertzianViscoelasticMindlinSpecies> oblique() {
     species.setEffectiveShearModulus(computeEffectiveShearModulus(modulus, poissonRatio));
     species.setSlidingFrictionCoefficient(0.3);
     species.setSpringFactor(1);
-    return {"Mindlin, oblique", species, encounter, hertzianTime(encounter)};
+    return {"oblique", species, encounter, hertzianTime(encounter)};
 }
 
 /// A bridge that takes about half of the energy; it forms at the touch and ruptures.
@@ -85,7 +85,7 @@ inline CollisionCase<HertzianViscoelasticLiquidBridgeYoungLaplaceSpecies> wet() 
     species.setContactAngle(0.2);
     species.setSurfaceTension(0.07);
     const Encounter encounter{.reach = 1.01 * species.range(Bodies{1e-3, 1e-3})};
-    return {"wet, Young-Laplace", species, encounter, hertzianTime(encounter)};
+    return {"wet", species, encounter, hertzianTime(encounter)};
 }
 
 }  // namespace collisions
