@@ -30,6 +30,15 @@ struct Options {
     RunOptions run{.output = "TwoParticleCollision"};
 };
 
+/// What a driver of liquid bridges can do with: a bridge, or nothing.
+template <class Law>
+concept Bridge = requires(Law law) {
+    law.setLiquidBridgeVolume(0.0);
+};
+template <class Law>
+struct IsBridgeOrNothing : std::bool_constant<!Law::acts || Bridge<Law>> {};
+using Bridges = FilteredTypes<IsBridgeOrNothing, AdhesionLaws>::type;
+
 template <class Adhesion>
 class TwoParticleCollision : public Simulation<Species<HertzianViscoelastic, Mindlin, Adhesion>> {
 public:
@@ -144,7 +153,7 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--restitution", o.restitution, "restitution coefficient of the dry contact");
     app.add_option("--friction", o.friction, "coefficient of sliding friction");
     app.add_option("--adhesion", o.adhesion,
-                   fmt::format("adhesion model: {}", listOfNames(lawNames<AdhesionLaws>())));
+                   fmt::format("adhesion model: {}", listOfNames(lawNames<Bridges>())));
     app.add_option("--time-step-s", o.timeStep, "time step, s; 0 takes 1/50 of the Rayleigh time");
     app.add_option("--time-max-s", o.timeMax, "end of the run, s, if the grains have not parted before");
     addRunOptions(app, o.run, "force_separation.csv and energy.csv");
@@ -159,8 +168,7 @@ int main(int argc, char** argv) {
     describe(app, options);
     return runDriver(app, options.run, argc, argv, [&] {
         checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
-        withLawNamed<AdhesionLaws>("adhesion model", options.adhesion, [&]<class Adhesion>() {
-            TwoParticleCollision<Adhesion>(options).solve();
-        });
+        withLawNamed<Bridges>("adhesion model", options.adhesion,
+                              [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
     });
 }

@@ -139,7 +139,7 @@ public:
         if constexpr (S::Adhesion::acts)
             if (seen.bridged)
                 seen.adhesiveForce = contacts.memory.interaction.get(contacts.slotOf(contact))
-                                         .force(std::max(seen.separation, 0.0));
+                                         .force(separationFor<typename S::Adhesion>(-seen.separation));
         seen.normalForce += seen.adhesiveForce;
         return seen;
     }

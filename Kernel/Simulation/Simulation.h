@@ -270,7 +270,7 @@ private:
     }
 
     void account(double length) {
-        ledger.add(contactSystem.energies(), length);
+        ledger.add(contactSystem.energies(), length, HasNormalHistory<typename S::Normal>);
         ledger.measureGrains(particleHandler.store(), gravity);
     }
 

@@ -86,6 +86,7 @@ private:
                                          static_cast<std::ptrdiff_t>(index), all.size()));
         return index;
     }
+    static std::size_t indexOf(const S& species) { return static_cast<std::size_t>(species.getIndex()); }
     static Mixed nothingSet() {
         Mixed mixed;
         mixed.forEachLaw([](auto& law) { unsetFields(law); });
@@ -101,7 +102,10 @@ private:
         using A = typename S::Adhesion;
         static_cast<N&>(result) = mixLaws<N>(result, a, b);
         static_cast<F&>(result) = mixLaws<F>(result, a, b);
-        static_cast<A&>(result) = mixLaws<A>(result, a, b);
+        // What no user has set and an adhesion law takes from the normal law, it takes from that of the pair.
+        static_cast<A&>(result) = mixLaws<A>(result, all[indexOf(a)], all[indexOf(b)]);
+        if constexpr (requires { result.A::deriveUnset(static_cast<const N&>(result)); })
+            result.A::deriveUnset(static_cast<const N&>(result));
         result.check();
         return result;
     }
