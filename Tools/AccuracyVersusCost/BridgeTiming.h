@@ -111,7 +111,7 @@ inline std::vector<BridgeCost> measureBridgeCosts(int runs) {
         costs.push_back({Law::name, columnsOf<Law::template Interaction>});
     });
     std::map<std::type_index, double> forces;  // ns, of each kind of numbers that a contact stores
-    constexpr int runsOfTurn = 10;
+    const int runsOfTurn = std::min(runs, 10);
     const auto forceOf = [&]<class Law>() -> double& {
         return forces.emplace(typeid(typename Law::template Interaction<double>), infinity).first->second;
     };
