@@ -8,8 +8,8 @@ namespace pendular {
 /// meridian is an arc of a circle; volume as in Yang, Sega and Harting, Table I (with the second cap's cosine
 /// cubed), where also Sun and Sakai (2018) agree for equal contact angles. Our sources do not print the
 /// force: it is taken at the neck, as Lian et al. do, with which their Table IX agrees. The bridge ends at
-/// the distance of Lian et al., or where there is no such arc. Refused where the arc is nearly straight: its
-/// neck then lies far outside of the bridge (a pole).
+/// the distance of Lian et al., or where there is no such arc. Refused where the arc is nearly straight, with
+/// its neck far outside of the bridge (a pole), or convex at contact, beyond that pole.
 struct LiquidBridgeChen : FittedBridge<LiquidBridgeChen> {
     static constexpr std::string_view name = "LiquidBridgeChen";
     static constexpr std::string_view summary =
