@@ -20,7 +20,6 @@ namespace {
 
 using support::bridge;
 using support::findJump;
-using support::forEveryBridge;
 
 /// The force of a bridge as the contact kernel computes it, from columns of eight.
 template <class Law>
@@ -120,7 +119,7 @@ void forAllShapes(const std::vector<double>& volumes, Function&& function) {
 }
 
 TEST(BridgeEdges, everyLawIsSoundOrRefused) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         SCOPED_TRACE(Law::name);
         int taken = 0, refused = 0;
         forAllShapes(volumes(), [&](const Bodies& bodies, double volume, double degrees) {
@@ -179,7 +178,7 @@ TEST(BridgeEdges, aPoleIsFound) {
 }
 
 TEST(BridgeEdges, aDryContactHasNoForceAndNoObjection) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         for (const Bodies& bodies : {pairs[0], pairs[2]})
             for (const double degrees : angles) {
                 const Law law = bridge<Law>(0, degrees);
@@ -207,7 +206,7 @@ TEST(BridgeEdges, exactForceAtContactRepelsFromRightAngleOn) {
 }
 
 TEST(BridgeEdges, onlyTheExactLawServesAboveRightAngle) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         for (const double degrees : {90 + 1e-9, 120.0, 180.0}) {
             const auto objection = bridge<Law>(1e-3, degrees).objection(pairs[0]);
             if constexpr (std::is_same_v<Law, LiquidBridgeYoungLaplace>) {
@@ -260,7 +259,7 @@ TEST(BridgeEdges, chensBridgesAreNoIslands) {
 // Set-up looks at the smallest and the largest grains only: what it takes for them, it takes for all pairs
 // between.
 TEST(BridgeEdges, whatServesTheExtremesOfSizesServesAllBetween) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         support::Draw draw(4);
         int scenes = 0;
         for (int k = 0; k < 500; ++k) {

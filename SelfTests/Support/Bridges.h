@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "SelfTests/Support/EveryLaw.h"
+#include "Kernel/Species/BridgeLaws.h"
 
 namespace pendular::support {
 

@@ -331,7 +331,7 @@ int forRandomBridges(int count, double mostAngle, Function&& function) {
 
 // Eight terms follow each published curve to 2 % of the force, or of a hundredth of that at contact.
 TEST(PublishedBridges, fitsFollowThePublishedCurves) {
-    support::forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         if constexpr (requires(const Law law) { law.publishedFor(equalSpheres); }) {
             const int used =
                 forRandomBridges<Law>(60, 1.0, []([[maybe_unused]] const Law& law, double volume) {
