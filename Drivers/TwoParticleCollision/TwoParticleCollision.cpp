@@ -7,9 +7,10 @@
 #include <optional>
 
 #include "Kernel/Output/CsvFile.h"
+#include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/LawNames.h"
-#include "Kernel/Species/Laws.h"
 
 using namespace pendular;
 
@@ -29,8 +30,9 @@ struct Options {
     double restitution = 0.86;
     double friction = 0.5;
     std::string adhesion = "LiquidBridgeBagheri";
-    double timeStep = 0;    // s; 0: 1/50 of the Rayleigh time
-    double timeMax = 0.02;  // s
+    double timeStep = 0;         // s; 0: 1/50 of the Rayleigh time
+    double timeMax = 0.02;       // s
+    double adviceTolerance = 0;  // %; 0: no advice
     std::string output = "TwoParticleCollision";
 };
 
@@ -54,6 +56,9 @@ public:
         this->setTimeMax(options.timeMax);
         this->setSaveCount(1);
         this->keepEnergyLedger();
+        if constexpr (BridgeLaw<Adhesion>)
+            if (options.adviceTolerance > 0)
+                fmt::print("{}\n", bridgeAdvice(*this, 0.01 * options.adviceTolerance));
     }
 
     void writeOutput() override {
@@ -148,6 +153,9 @@ void describe(CLI::App& app, Options& o) {
                    fmt::format("adhesion model: {}", listOfNames(lawNames<AdhesionLaws>())));
     app.add_option("--time-step-s", o.timeStep, "time step, s; 0 takes 1/50 of the Rayleigh time");
     app.add_option("--time-max-s", o.timeMax, "end of the run, s, if the grains have not parted before");
+    app.add_option("--advise-within-percent", o.adviceTolerance,
+                   "say how far the bridge law is from the exact solution, and which law is the cheapest one "
+                   "within this error, %; 0: say nothing");
     app.add_option("--output", o.output, "folder for force_separation.csv and energy.csv");
 }
 
@@ -160,6 +168,8 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     return runProgram([&] {
         checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
+        checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%",
+                   notNegative);
         withLawNamed<AdhesionLaws>("adhesion model", options.adhesion, [&]<class Adhesion>() {
             TwoParticleCollision<Adhesion> collision(options);
             collision.solve();
