@@ -84,8 +84,9 @@ BridgeAdvice advise(const std::vector<BridgeChoice>& choices, double tolerance, 
 
 std::string bridgeAdviceText(const BridgeChoice& own, const BridgeAdvice& advice, double tolerance) {
     const auto other = [&](const BridgeChoice& choice) {
-        const std::string cost =
-            isSet(own.cost) ? fmt::format(", {:.2g} times the nominal cost", choice.cost / own.cost) : std::string();
+        const std::string cost = isSet(own.cost)
+                                     ? fmt::format(", {:.2g} times the nominal cost", choice.cost / own.cost)
+                                     : std::string();
         return fmt::format("{} ({:.2g} %{})", choice.law, 100 * choice.error(), cost);
     };
     const std::string wanted = fmt::format("{:.2g} %", 100 * tolerance);
