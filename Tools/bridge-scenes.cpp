@@ -24,11 +24,15 @@ int main(int argc, char** argv) {
     app.add_option("--seeds", o.seeds, "runs of the sheared cell")->capture_default_str();
     app.add_option("--strain", o.cell.strainMeasured, "of the cell, over which is averaged")
         ->capture_default_str();
+    app.add_option("--strain-before", o.cell.strainBefore,
+                   "of the cell, in the first half of which it is compressed")
+        ->capture_default_str();
     app.add_option("--dimensionless-volume", o.cell.dimensionlessVolume, "V* of the bridges in the cell")
         ->capture_default_str();
     app.add_option("--contact-angle-deg", degrees, "in the cell, degrees")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     return runProgram([&] {
+        checkValue("bridge-scenes", "contact-angle-deg", degrees, "degrees", fromZeroTo(180));
         o.cell.contactAngle = degrees * std::numbers::pi / 180;
         writeScenes(o);
         return 0;

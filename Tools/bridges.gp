@@ -33,7 +33,7 @@ panel = "plot \
     '' using 1:($4 == 1 ? $2 : NaN) with points pointtype 7 pointsize 1.5 linecolor rgb '#D55E00', \
     '' using (labels * 1.05):5:3:($4 == 1 ? 0xD55E00 : 0x000000) with labels left textcolor rgb variable"
 
-set terminal pngcairo size 1500,760 fontscale 1.15 linewidth 1.5
+set terminal pngcairo size 1300,680 fontscale 1 linewidth 1.5
 set output ARG2.".png"
 set multiplot layout 1,2 title "Liquid bridge laws: accuracy against cost; orange: the Pareto front"
 population = "wide"
@@ -53,7 +53,7 @@ set xlabel "time to prepare one bridge (ns)"
 @panel
 unset multiplot
 
-set terminal pngcairo size 1800,1300 fontscale 1.1 linewidth 1.5
+set terminal pngcairo size 1500,1080 fontscale 0.92 linewidth 1.3
 set output ARG2."-populations.png"
 set multiplot layout 2,3
 cost = "force_ns_per_bridge"

@@ -40,6 +40,9 @@ do for [i = 1:words(names)] {
     unset table
     unset contour
     set surface
+    set print $outline append
+    print "-99 -99"  # so that there is a line, outside of the panel, where there is no outline
+    unset print
     plot rows(law) using 1:2:3 with image, $outline using 1:2 with lines linewidth 1.2 linecolor rgb "black"
 }
 # The key takes the last place.

@@ -139,6 +139,9 @@ inline void writeScenes(const SceneComparisonOptions& options) {
     checkValue("bridge-scenes", "number of grains", static_cast<double>(options.bedGrains), "", {10, 1e7});
     checkValue("bridge-scenes", "rounds", options.rounds, "", {1, 1e6});
     checkValue("bridge-scenes", "seeds", options.seeds, "", {1, 1e6});
+    checkValue("bridge-scenes", "strain", options.cell.strainMeasured, "", positive);
+    checkValue("bridge-scenes", "strain-before", options.cell.strainBefore, "", positive);
+    checkValue("bridge-scenes", "dimensionless-volume", options.cell.dimensionlessVolume, "", positive);
     CsvFile file(
         options.file,
         "law,bed_time_over_Bagheri,shear_time_over_Bagheri,shear_stress_Pa,shear_stress_standard_error_Pa,"

@@ -15,7 +15,7 @@ namespace pendular::scenes {
 struct ShearCellOptions {
     double radius = 1e-3;  // m
     double elasticModulus =
-        1e6;  // Pa: soft, for long steps; a bridge presses grains together by a hundredth of R
+        1e6;  // Pa: soft, for long steps; a bridge of V* = 0.02 presses grains 0.009 R together
     double solidFraction = 0.57;  // of the sheared cell
     double rate = 10;             // 1/s
     double strainBefore = 1.5, strainMeasured = 3;
@@ -26,7 +26,8 @@ struct ShearCellOptions {
 
 /// Means over the time of measurement.
 struct ShearFigures {
-    double shearStress = 0;       // Pa
+    double shearStress = 0;       // Pa, - sum of f_x (z1 - z2) / V over the contacts, f the force on body 1
+    double wallStress = 0;        // Pa, the same from the force on the upper wall
     double capillaryTension = 0;  // Pa, sum of F_bridge x distance of centres / (3 V)
     double coordination = 0;      // bodies that touch a grain or are bridged with it
 };
@@ -53,7 +54,8 @@ public:
     ShearFigures run() {
         const double speed = options.rate * targetHeight();
         const auto stepsOf = [&](double strain) {
-            return static_cast<std::size_t>(strain / (options.rate * this->getTimeStep()));
+            return std::max<std::size_t>(
+                1, static_cast<std::size_t>(strain / (options.rate * this->getTimeStep())));
         };
         const std::size_t before = stepsOf(options.strainBefore), measured = stepsOf(options.strainMeasured);
         // The first half of the strain before is that of compression.
@@ -70,7 +72,8 @@ public:
             if (k % 25 == 0) add(sum), ++samples;
         }
         const double share = 1 / static_cast<double>(samples);
-        return {share * sum.shearStress, share * sum.capillaryTension, share * sum.coordination};
+        return {share * sum.shearStress, share * sum.wallStress, share * sum.capillaryTension,
+                share * sum.coordination};
     }
 
 private:
@@ -100,11 +103,12 @@ private:
         const double grain = 4.0 / 3 * std::numbers::pi * std::pow(options.radius, 3);
         return inside * grain / (options.solidFraction * width * width);
     }
+    [[nodiscard]] bool isOfUpperWall(const TranslationRecord& grain) const {
+        return grain.inverseMass == 0 && grain.position.z > 0.5 * height;
+    }
     void moveUpperWall(const Vec3D& velocity) {
         for (const std::uint32_t id : upperWall) this->particleHandler.getObject(id).setVelocity(velocity);
     }
-    [[nodiscard]] double nearest(double shift) const { return shift - width * std::round(shift / width); }
-
     void add(ShearFigures& sum) const {
         const auto& grains = this->particleHandler.store();
         const auto& contacts = this->contacts().store();
@@ -120,9 +124,10 @@ private:
             sum.coordination += static_cast<double>(free) / static_cast<double>(freeGrains);
             sum.capillaryTension +=
                 seen.adhesiveForce * (first.radius + second.radius + seen.separation) * perVolume / 3;
-            // A force that pushes body 1 against the flow where it is ahead of body 2 is a positive stress.
-            sum.shearStress -=
-                contacts.recordOf(contact).force.x * (first.position.z - second.position.z) * perVolume;
+            const double force = contacts.recordOf(contact).force.x;  // on the first
+            sum.shearStress -= force * (first.position.z - second.position.z) * perVolume;
+            if (isOfUpperWall(first)) sum.wallStress -= force / (width * width);
+            if (isOfUpperWall(second)) sum.wallStress += force / (width * width);
         });
     }
 
