@@ -6,11 +6,12 @@ namespace pendular {
 
 std::optional<std::string> LiquidBridgeLianSeville::objection(const Bodies& bodies) const {
     if (liquidBridgeVolume == 0) return std::nullopt;
+    if (auto angle = LiquidBridge::objection(bodies)) return angle;
     constexpr double rightAngle = 0.5 * std::numbers::pi;
     const BridgeScales bridge = scales(bodies);
     const double beta = fillingAngle(bridge.volume, contactAngle);
     const bool fills = beta > 0 && beta < rightAngle;
-    // Beyond 90 degrees tan(theta) is negative: the sign of the force means nothing there.
+    // At 90 degrees the tangent is infinite.
     if (fills && contactAngle < rightAngle && prepare(bodies).contactForce > 0) return std::nullopt;
     return fmt::format(
         "{}: the fit {} for contactAngle = {:.6g} rad and V* = liquidBridgeVolume/R^3 = {:.6g} "
