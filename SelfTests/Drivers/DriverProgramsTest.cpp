@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "BuildFolders.h"
+#include "Kernel/State/Hdf5File.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
@@ -189,6 +190,7 @@ void expectResumes(const std::string& command, const std::string& early, const s
 }
 
 TEST(Drivers, goOnWhereTheyWere) {
+    if (!Hdf5File::isAvailable()) GTEST_SKIP() << "This build has no HDF5 library: restart is not tested.";
     expectResumes(drum + "--number 300 --softening 1000 --interval-s 0.002", "--end-time-s 0.005",
                   "--end-time-s 0.013");
     expectResumes(bed + "--number 120 --softening 100", "--end-time-s 0.0012", "--end-time-s 0.1");
@@ -200,6 +202,7 @@ TEST(Drivers, goOnWhereTheyWere) {
 }
 
 TEST(Drivers, takeARestartFileByItsName) {
+    if (!Hdf5File::isAvailable()) GTEST_SKIP() << "This build has no HDF5 library: restart is not tested.";
     const Folder whole("restart-whole"), other("restart-other");
     const auto drumOf = [&](int number, int softening, const std::string& options) {
         return run(drum +

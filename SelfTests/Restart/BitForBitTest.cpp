@@ -10,8 +10,8 @@
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
-#include "Kernel/Species/Normal/HertzianPlasticViscoelastic.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearPlasticViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/TriangleWall.h"
@@ -30,7 +30,7 @@ using Smooth = Species<LinearViscoelastic>;
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
 /// A normal law and a friction law that remember, with a torque of the contact's own.
-using Remembering = Species<HertzianPlasticViscoelastic, MindlinRollingTorsion>;
+using Remembering = Species<LinearPlasticViscoelastic, MindlinRollingTorsion>;
 
 template <class Scene>
 void runTo(Scene& scene, std::size_t steps) {
