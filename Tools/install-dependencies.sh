@@ -18,6 +18,7 @@ libeigen3-dev||vectors and linear algebra
 libfmt-dev||text
 libcli11-dev||command lines of drivers and tools
 libgtest-dev||self-tests
+libhdf5-dev||restart files
 gnuplot-nox|gnuplot|charts'
 
 is_installed() {  # package, program

@@ -204,6 +204,15 @@ public:
                        energies, blockOf);
     }
 
+    void visitState(StateArchive& archive) {
+        auto& [h, i, r, e, b] = *this;  // a member that is added has to be added here
+        archive.column<double>("history", h.columns);
+        archive.column<double>("interaction", i.columns);
+        archive.column<double>("records", r);
+        archive.column<double>("energies", e);
+        archive.column<std::uint32_t>("blockOf", b);
+    }
+
 private:
     void resize(std::size_t blocks) {
         history.resize(blocks);
@@ -264,6 +273,18 @@ public:
         for (const Bucket& bucket : buckets)
             for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
                 if (bitOf(states[c / Pack::lanes].listed, c)) function(bucket, c);
+    }
+
+    void visitState(StateArchive& archive) {
+        auto& [list, pairs, bits, memoryOf, m, points, sidesOf, g] = *this;  // a member that is added as well
+        archive.column<std::int32_t>("buckets", list);
+        archive.column<std::uint32_t>("blocks", pairs);
+        archive.column<std::uint8_t>("states", bits);
+        archive.column<std::uint32_t>("slots", memoryOf);
+        archive.column<double>("wallPoints", points);
+        archive.column<double>("gaps", g);
+        archive.group("memory", [&] { m.visitState(archive); });
+        archive.group("sides", [&] { sidesOf.visitState(archive); });
     }
 
     /// Bytes of memory that the contacts take.

@@ -2,22 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "Kernel/Output/WrittenBeside.h"
 
 namespace pendular {
 
-/// A table of comma-separated values, written beside its name and renamed when it is complete, so that no
-/// reader meets half a file. The header names each column with its unit: "time_s,separation_m".
+/// A table of comma-separated values. The header names each column with its unit: "time_s,separation_m".
 class CsvFile {
 public:
     /// Throws InputError if the file cannot be written.
-    CsvFile(std::filesystem::path path, std::string_view header);
-    CsvFile(const CsvFile&) = delete;
-    CsvFile& operator=(const CsvFile&) = delete;
-    ~CsvFile();
+    CsvFile(std::filesystem::path path, std::string_view header) : file(std::move(path)) { line(header); }
+    /// Goes on with a table after its first bytes, as WrittenBeside says.
+    CsvFile(std::filesystem::path path, std::string_view header, std::uintmax_t bytes)
+        : file(std::move(path), bytes) {
+        if (file.flush() == 0) line(header);
+    }
 
     /// One line; numbers with all their digits.
     template <class... Values>
@@ -25,23 +28,20 @@ public:
         std::string line;
         (fmt::format_to(std::back_inserter(line), "{},", values), ...);
         line.back() = '\n';
-        write(line);
+        file.write(line);
     }
     /// A line as it is.
-    void line(std::string_view text) { write(fmt::format("{}\n", text)); }
+    void line(std::string_view text) { file.write(fmt::format("{}\n", text)); }
     /// A line of its own, for comments that begin with '#'.
-    void comment(std::string_view text) { write(fmt::format("# {}\n", text)); }
+    void comment(std::string_view text) { file.write(fmt::format("# {}\n", text)); }
 
+    /// Waits until all rows are on the disk; returns how many bytes there are.
+    std::uintmax_t flush() { return file.flush(); }
     /// Completes the file under its name. Throws InputError if that fails (a full disk).
-    void close();
+    void close() { file.close(); }
 
 private:
-    void write(std::string_view text);
-    [[noreturn]] void fail(std::string_view what) const;
-
-    std::filesystem::path target;
-    std::filesystem::path beside;
-    std::FILE* file = nullptr;
+    WrittenBeside file;
 };
 
 }  // namespace pendular

@@ -10,6 +10,7 @@
 
 #include "Kernel/InputError.h"
 #include "Kernel/Species/Species.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 
@@ -58,7 +59,27 @@ public:
         return mixtures[static_cast<std::size_t>(a) * all.size() + static_cast<std::size_t>(b)];
     }
 
+    /// A run goes on with the species that it began with: their fields and the pairs' own values.
+    void visitState(StateArchive& archive) {
+        archive.same("name", S::name);
+        archive.same("count", all.size());
+        for (const S& species : all)
+            archive.group(fmt::format("{}", species.getIndex()), [&] {
+                archive.same("density", species.getDensity(), "kg/m^3");
+                visitFields(archive, species);
+            });
+        archive.same("countOfPairsWithOwnValues", own.size());
+        for (const auto& [pair, laws] : own)
+            archive.group(fmt::format("{}-{}", pair.first, pair.second), [&] { visitFields(archive, laws); });
+    }
+
 private:
+    static void visitFields(StateArchive& archive, const Mixed& laws) {
+        laws.forEachLaw([&]<class Law>(const Law& law) {
+            for (const auto& field : Law::fields())
+                archive.group(Law::name, [&] { archive.same(field.name, law.*field.member, field.unit); });
+        });
+    }
     std::size_t checked(std::size_t index) const {
         if (index >= all.size())
             throw InputError(fmt::format("There is no species {}; the scene has {} (counted from 0).",

@@ -41,6 +41,14 @@ protected:
         return {SurfaceExtent::Symmetry::Cylinder, origin, infinity, axis};
     }
 
+    void visitShape(StateArchive& archive) const override {
+        archive.same("shape", "InfiniteCylinder");
+        archive.sameRecord<double>("axis", axis);
+        archive.sameRecord<double>("origin", origin);
+        archive.same("radius", cylinderRadius, "m");
+        archive.same("inside", inside);
+    }
+
 private:
     [[nodiscard]] Vector<double> across(const Vector<double>& centre) const {
         const Vector<double> relative = centre - origin;

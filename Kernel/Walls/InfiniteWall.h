@@ -30,6 +30,12 @@ protected:
         return {SurfaceExtent::Symmetry::Plane, offset * normal, infinity, normal};
     }
 
+    void visitShape(StateArchive& archive) const override {
+        archive.same("shape", "InfiniteWall");
+        archive.sameRecord<double>("normal", normal);
+        archive.same("offset", offset, "m");
+    }
+
 private:
     [[nodiscard]] double gap(const Vector<double>& centre) const { return offset - dot(normal, centre); }
 

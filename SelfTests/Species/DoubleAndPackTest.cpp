@@ -222,7 +222,7 @@ Law randomBridge(Draw& draw) {
 }
 
 TEST(DoubleAndPack, bridgesGiveTheSameBits) {
-    support::forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         Draw draw(3);
         for (int round = 0; round < rounds; ++round) {
             std::array<typename Law::template Interaction<double>, lanes> bridges;

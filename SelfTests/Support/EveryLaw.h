@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Species/BridgeLaws.h"
 
 namespace pendular::support {
 
@@ -12,15 +12,6 @@ void forEveryLaw(Function&& function) {
     NormalLaws::forEach(function);
     FrictionLaws::forEach(function);
     AdhesionLaws::forEach(function);
-}
-
-/// Every adhesion law that is a liquid bridge of constant volume.
-template <class Function>
-void forEveryBridge(Function&& function) {
-    AdhesionLaws::forEach([&]<class Law>() {
-        if constexpr (requires(Law law) { law.setLiquidBridgeVolume(0.0); })
-            function.template operator()<Law>();
-    });
 }
 
 /// Species that stand for all: the laws do not know of each other, so a test of what composes them needs each
