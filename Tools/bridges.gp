@@ -20,7 +20,7 @@ rows(population, cost, front) = sprintf("< awk -F, -v population='%s' -v cost=%s
         name = $1; sub(\"LiquidBridge\", \"\", name); \
         print $column[cost] \",\" $column[\"force_percentile95_percent\"] \",\" name \",\" $column[front] }' '%s' \
     | sort -t, -k2g | awk -F, '{ line[NR] = $0 } \
-        END { for (k = 1; k <= NR; ++k) print line[k] \",\" 0.012 * exp((k - 1) / 12 * log(9000 / 0.012)) }'", \
+        END { for (k = 1; k <= NR; ++k) print line[k] \",\" 0.012 * exp((k - 1) / (NR > 13 ? NR - 1 : 12) * log(9000 / 0.012)) }'", \
     population, cost, front, ARG1)
 
 frontRows(population, cost, front) = rows(population, cost, front)." | awk -F, '$4 == 1' | sort -t, -k1g"
