@@ -44,10 +44,10 @@ constexpr std::array<Bodies, 4> pairs{{{1, 1}, {0.625, 2.5}, {0.505, 50.5}, {0.5
 constexpr std::array<double, 14> angles{0,  1e-9, 1,         10, 30, 45,  60,
                                         75, 89,   90 - 1e-9, 90, 91, 120, 180};  // degrees
 
-/// V* from 1e-17 to 10 by half decades, and both ends of the tables and the fits.
+/// V* from 1e-17 to 10 by decades, and both sides of the ends of the tables and the fits.
 std::vector<double> volumes() {
     std::vector<double> all;
-    for (int half = -34; half <= 2; ++half) all.push_back(std::pow(10, 0.5 * half));
+    for (int decade = -17; decade <= 1; ++decade) all.push_back(std::pow(10, decade));
     for (const double edge : {1e-9, BridgeTable::leastVolume, BridgeTable::mostVolume, 1.0})
         for (const double side : {0.0, infinity}) all.push_back(std::nextafter(edge, side));
     return all;
@@ -125,8 +125,8 @@ TEST(BridgeEdges, everyLawIsSoundOrRefused) {
         forAllShapes(volumes(), [&](const Bodies& bodies, double volume, double degrees) {
             ++(expectRefusedOrSound(bridge<Law>(volume, degrees), bodies) ? taken : refused);
         });
-        EXPECT_GT(taken, 300);
-        EXPECT_GT(refused, 300);
+        EXPECT_GT(taken, 200);
+        EXPECT_GT(refused, 200);
     });
 }
 
@@ -202,7 +202,7 @@ TEST(BridgeEdges, exactForceAtContactRepelsFromRightAngleOn) {
                 EXPECT_LT(exact->pinnedForce(), 0) << degrees << " degrees, V* = " << volume;
                 ++solved;
             }
-    EXPECT_GT(solved, 1000);
+    EXPECT_GT(solved, 500);
 }
 
 TEST(BridgeEdges, onlyTheExactLawServesAboveRightAngle) {
