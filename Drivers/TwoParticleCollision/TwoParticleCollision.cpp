@@ -6,6 +6,7 @@
 #include "Kernel/Output/RunTable.h"
 #include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Species/LawNames.h"
+#include "Kernel/Species/Laws.h"
 
 using namespace pendular;
 
@@ -177,12 +178,6 @@ int main(int argc, char** argv) {
         checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
         checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%",
                    notNegative);
-        withLawNamed<AdhesionLaws>("adhesion model", options.adhesion, [&]<class Adhesion>() {
-            TwoParticleCollision<Adhesion> collision(options);
-            collision.solve();
-            collision.complete();
-        });
-        return 0;
         withLawNamed<Bridges>("adhesion model", options.adhesion,
                               [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
     });
