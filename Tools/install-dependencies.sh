@@ -16,6 +16,7 @@ cmake|cmake|build
 ninja-build|ninja|build
 libeigen3-dev||vectors and linear algebra
 libfmt-dev||text
+zlib1g-dev||compressed files for ParaView
 libcli11-dev||command lines of drivers and tools
 libgtest-dev||self-tests
 gnuplot-nox|gnuplot|charts'

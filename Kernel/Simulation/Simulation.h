@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
@@ -56,6 +58,11 @@ public:
     }
     /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
     void setSaveCount(std::size_t steps) { saveCount = steps; }
+    /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()).
+    template <class Output>
+    void addOutput(Output output) {
+        outputs.push_back([this, kept = std::make_shared<Output>(std::move(output))] { kept->write(*this); });
+    }
     /// @param acceleration m/s^2
     void setGravity(const Vec3D& acceleration) {
         for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
@@ -86,6 +93,7 @@ public:
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
     [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
+    [[nodiscard]] int getNumberOfThreads() const { return threads; }
     [[nodiscard]] Vec3D getGravity() const { return toEigen(gravity); }
     [[nodiscard]] const ContactSystem<S>& contacts() const { return contactSystem; }
     [[nodiscard]] const EnergyLedger& energyLedger() const { return ledger; }
@@ -101,7 +109,7 @@ public:
     /// NAME-last-contacts.csv, and writeOutput() was called once more.
     void solve() {
         initialise();
-        writeOutput();
+        writeAll();
         try {
             stepToTheEnd();
         } catch (const RunError& stop) {
@@ -122,6 +130,12 @@ public:
                               ledgerKept);
         checkOverlaps();
         advance(0);  // a step of no length: forces and accelerations at the start
+    }
+
+    /// What the outputs and writeOutput() write; a driver that steps by itself calls it.
+    void writeAll() {
+        for (const auto& output : outputs) output();
+        writeOutput();
     }
 
     void step() {
@@ -145,10 +159,10 @@ private:
         const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
         while (steps < last && continueSolve()) {
             step();
-            if (saveCount > 0 && steps % saveCount == 0) writeOutput();
+            if (saveCount > 0 && steps % saveCount == 0) writeAll();
             progress.update(getTime(), steps);
         }
-        if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeOutput();
+        if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
     }
 
     /// Writes the state as it is, and adds to a sentence where it is.
@@ -157,7 +171,7 @@ private:
         try {
             writeGrains(grains, particleHandler.store(), sentence);
             writeContacts(contacts, contactSystem, particleHandler.store(), sentence);
-            writeOutput();
+            writeAll();
         } catch (const std::exception& problem) {
             return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
                                problem.what());
@@ -222,6 +236,7 @@ private:
     }
 
     std::string name = "pendular";
+    std::vector<std::function<void()>> outputs;
     ContactSystem<S> contactSystem;
     EnergyLedger ledger;
     PeriodicBox periodic;

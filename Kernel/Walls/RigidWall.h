@@ -37,6 +37,7 @@ public:
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const final;
     [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const final;
+    [[nodiscard]] WallSurface surface(const SceneSphere& around) const final;
 
 protected:
     // As those of Wall, in the body's own frame and at rest.
@@ -47,6 +48,7 @@ protected:
     [[nodiscard]] virtual bool isCrossedInBody(const Vector<double>& from,
                                                const Vector<double>& to) const = 0;
     [[nodiscard]] virtual SurfaceExtent extent() const = 0;
+    [[nodiscard]] virtual WallSurface surfaceInBody(const SceneSphere& /*around*/) const { return {}; }
 
     bool given = false;
 
