@@ -77,23 +77,30 @@ PolyDataField grainStresses(const ContactSystem<S>& contacts, const ParticleStor
 }
 
 /// The contacts that have a force as lines, from centre to centre (of the nearest image) or to the wall's
-/// surface. The forces are those on particle1; particle2 is -1 at a wall, and wall is -1 between grains.
+/// surface. The first points are the centres of all grains, in the order of identities. The forces are those
+/// on particle1; particle2 is -1 at a wall, and wall is -1 between grains.
 template <class S>
 PolyData contactLines(const ContactSystem<S>& contacts, const ParticleStore<S::hasTorque>& grains,
                       const SpeciesHandler<S>& species) {
     PolyData data;
     data.kind = PolyData::Cells::Lines;
+    for (const std::uint32_t place : grains.place) data.points.push_back(grains.translation[place].position);
     std::vector<float> force, normal, adhesive, overlap, volume;
     std::vector<std::int32_t> bridged, first, second, wall;
     contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         if (!contacts.store().acts(contact)) return;
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
-        const Vector<double> from = grains.translation[grains.place[seen.particle1]].position;
-        for (const Vector<double>& end : {from, from + seen.shift}) {
+        const Vector<double> end = data.points[seen.particle1] + seen.shift;
+        const bool isImage = bucket.wall < 0 && contacts.periodicBox().any() &&
+                             norm(end - data.points[seen.particle2]) > 0.5 * norm(seen.shift);
+        data.corners.push_back(static_cast<std::int32_t>(seen.particle1));
+        if (bucket.wall < 0 && !isImage) {
+            data.corners.push_back(static_cast<std::int32_t>(seen.particle2));
+        } else {
             data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
             data.points.push_back(end);
         }
-        data.ends.push_back(static_cast<std::int32_t>(data.points.size()));
+        data.ends.push_back(static_cast<std::int32_t>(data.corners.size()));
         for (const double part : {seen.force.x, seen.force.y, seen.force.z})
             force.push_back(static_cast<float>(part));
         normal.push_back(static_cast<float>(seen.normalForce));
