@@ -15,6 +15,7 @@ struct Options {
     double begin = 0.1;                                 // s, of the steady part
     double endTime = 0.4;                               // s
     double interval = 0.002;                            // s
+    bool paraView = false;
     std::string output = "HopperDischarge";
 };
 
@@ -31,6 +32,8 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--begin-s", o.begin, "begin of the steady part, s after the orifice is opened");
     app.add_option("--end-time-s", o.endTime, "end of each run, s after the orifice is opened");
     app.add_option("--interval-s", o.interval, "time between two rows of discharge.csv, s");
+    app.add_flag("--paraview", o.paraView,
+                 "writes files for ParaView at each interval, orifice-12mm.pvd and so on in the folder");
     app.add_option("--output", o.output, "folder for discharge.csv and flow.csv");
 }
 
@@ -49,8 +52,11 @@ int run(const Options& options) {
     std::vector<Discharge> runs;
     std::vector<CurvePoint> flows;
     for (const double orifice : options.orifices) {
-        runs.push_back(
-            discharge(options.hopper, grains, orifice, options.begin, options.endTime, options.interval));
+        const std::string frames = options.paraView
+                                       ? fmt::format("{}/orifice-{:g}mm", options.output, 1e3 * orifice)
+                                       : std::string();
+        runs.push_back(discharge(options.hopper, grains, orifice, options.begin, options.endTime,
+                                 options.interval, frames));
         flows.push_back({orifice, runs.back().flow});
     }
     const BeverlooLaw law =

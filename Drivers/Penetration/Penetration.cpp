@@ -6,6 +6,7 @@
 #include "Drivers/Shared/PenetrationScene.h"
 #include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Output/CsvFile.h"
+#include "Kernel/Output/ParaViewOutput.h"
 
 using namespace pendular;
 
@@ -20,6 +21,7 @@ struct Options {
     double interval = 5e-4;                           // s
     bool wholeTime = false;
     int threads = 1;
+    bool paraView = false;
     std::string output = "Penetration";
 };
 
@@ -32,6 +34,7 @@ public:
         setTimeMax(options.endTime);
         setSaveCount(stepsOf(options.interval, getTimeStep()));
         setNumberOfThreads(options.threads);
+        if (options.paraView) addOutput(ParaViewOutput(options.output + "/Penetration"));
     }
 
     void writeOutput() override {
@@ -82,6 +85,8 @@ void describe(CLI::App& app, Options& o) {
     app.add_flag("--whole-time", o.wholeTime, "go on to the end time after the intruder has stopped");
     app.add_option("--interval-s", o.interval, "time between two rows of depth.csv, s");
     app.add_option("--threads", o.threads, "OpenMP threads; the results do not depend on their number");
+    app.add_flag("--paraview", o.paraView,
+                 "writes files for ParaView at each interval, Penetration.pvd in the folder");
     app.add_option("--output", o.output, "folder for depth.csv");
 }
 

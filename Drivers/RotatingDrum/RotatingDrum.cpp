@@ -8,6 +8,7 @@
 #include "Drivers/Shared/DrumScene.h"
 #include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Output/CsvFile.h"
+#include "Kernel/Output/ParaViewOutput.h"
 
 using namespace pendular;
 
@@ -21,6 +22,7 @@ struct Options {
     double endTime = 5;                        // s
     double interval = 0.01;                    // s
     int threads = 1;
+    bool paraView = false;
     std::string output = "RotatingDrum";
 };
 
@@ -34,6 +36,7 @@ public:
         setTimeMax(options.endTime);
         setSaveCount(stepsOf(options.interval, getTimeStep()));
         setNumberOfThreads(options.threads);
+        if (options.paraView) addOutput(ParaViewOutput(options.output + "/RotatingDrum"));
     }
 
     void writeOutput() override {
@@ -77,6 +80,8 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--end-time-s", o.endTime, "end of the run, s");
     app.add_option("--interval-s", o.interval, "time between two rows of zones.csv, s");
     app.add_option("--threads", o.threads, "OpenMP threads; the results do not depend on their number");
+    app.add_flag("--paraview", o.paraView,
+                 "writes files for ParaView at each interval, RotatingDrum.pvd in the folder");
     app.add_option("--output", o.output, "folder for zones.csv and grains.csv");
 }
 

@@ -6,6 +6,7 @@
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/RunOptions.h"
+#include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
@@ -163,14 +164,16 @@ struct Discharge {
 
 /// Lets grains out of a hopper.
 /// @param begin s, of the steady part; @param end s, of the run; @param interval s, between points
+/// @param paraView what the names of files for ParaView begin with; empty: none
 inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grains, double orifice,
-                           double begin, double end, double interval) {
+                           double begin, double end, double interval, const std::string& paraView = {}) {
     HopperScene scene(hopper, grains, orifice);
     Discharge result{orifice, scene.bulkDensity(), {}, 0, 0};
     checkValue("HopperScene", "bulk density", result.bulkDensity, "kg/m^3", positive);
     scene.keepCurve(&result.curve);
     scene.setTimeMax(end);
     scene.setSaveCount(stepsOf(interval, scene.getTimeStep()));
+    if (!paraView.empty()) scene.addOutput(ParaViewOutput(paraView));
     scene.solve();
 
     const auto after = [&](double time) {

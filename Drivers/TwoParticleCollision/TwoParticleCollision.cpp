@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "Kernel/Output/CsvFile.h"
+#include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/Laws.h"
@@ -32,6 +33,7 @@ struct Options {
     double timeStep = 0;    // s; 0: 1/50 of the Rayleigh time
     double timeMax = 0.02;  // s
     std::string output = "TwoParticleCollision";
+    double paraViewInterval = 0;  // s; 0: no files for ParaView
 };
 
 template <class Adhesion>
@@ -54,6 +56,9 @@ public:
         this->setTimeMax(options.timeMax);
         this->setSaveCount(1);
         this->keepEnergyLedger();
+        if (options.paraViewInterval > 0)
+            this->addOutput(
+                ParaViewOutput(options.output + "/collision").withInterval(options.paraViewInterval));
     }
 
     void writeOutput() override {
@@ -148,6 +153,8 @@ void describe(CLI::App& app, Options& o) {
                    fmt::format("adhesion model: {}", listOfNames(lawNames<AdhesionLaws>())));
     app.add_option("--time-step-s", o.timeStep, "time step, s; 0 takes 1/50 of the Rayleigh time");
     app.add_option("--time-max-s", o.timeMax, "end of the run, s, if the grains have not parted before");
+    app.add_option("--paraview-interval-s", o.paraViewInterval,
+                   "time between two frames for ParaView, s, collision.pvd in the folder; 0: none");
     app.add_option("--output", o.output, "folder for force_separation.csv and energy.csv");
 }
 
@@ -160,6 +167,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     return runProgram([&] {
         checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
+        checkValue("TwoParticleCollision", "ParaView interval", options.paraViewInterval, "s", notNegative);
         withLawNamed<AdhesionLaws>("adhesion model", options.adhesion, [&]<class Adhesion>() {
             TwoParticleCollision<Adhesion> collision(options);
             collision.solve();

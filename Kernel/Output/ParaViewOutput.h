@@ -136,6 +136,14 @@ PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, co
 /// and NAME-walls-STEP.vtp. Given to Simulation::addOutput().
 class ParaViewOutput {
 public:
+    /// @param beginning NAME; that of the simulation if empty
+    explicit ParaViewOutput(std::string beginning = {}) : name(std::move(beginning)) {}
+
+    /// One frame in so much time (s) at most, where outputs are due more often.
+    ParaViewOutput& withInterval(double seconds) {
+        checkValue("ParaViewOutput", "interval", seconds, "s", notNegative);
+        return interval = seconds, *this;
+    }
     /// A number or a Vec3D of each grain, by its identity; the name ends with the unit.
     template <class Function>
     ParaViewOutput& addField(std::string name, Function valueOf) {
@@ -163,8 +171,11 @@ public:
 
     template <class Scene>
     void write(const Scene& scene) {
+        // A time step is a sum of rounded numbers.
+        if (scene.getTime() < lastFrame + interval * (1 - 1e-9)) return;
+        lastFrame = scene.getTime();
         const auto& grains = scene.particleHandler.store();
-        if (!series) series.emplace(scene.getName(), scene.getTime());
+        if (!series) series.emplace(name.empty() ? scene.getName() : name, scene.getTime());
         PolyData points = grainPoints(grains);
         for (const auto& field : added) points.pointFields.push_back(field(grains.size()));
         if (stress) points.pointFields.push_back(grainStresses(scene.contacts(), grains));
@@ -204,6 +215,8 @@ private:
 
     std::vector<std::function<PolyDataField(std::size_t)>> added;
     std::optional<ParaViewSeries> series;
+    std::string name;
+    double interval = 0, lastFrame = -infinity;  // s
     bool stress = false, contactsToo = true;
 };
 

@@ -7,6 +7,16 @@
 
 namespace pendular {
 
+/// A file of a series.
+struct ParaViewEntry {
+    double time;                 // s
+    std::string kind;            // "particles"
+    std::filesystem::path file;  // beside the series
+};
+
+/// The files of NAME.pvd, by time, with their folder. Throws InputError if it is no series of ours.
+std::vector<ParaViewEntry> readParaViewSeries(const std::filesystem::path& path);
+
 /// NAME.pvd, which ParaView opens as one thing: the files of a run by time.
 class ParaViewSeries {
 public:
@@ -19,14 +29,9 @@ public:
     void write() const;
 
 private:
-    struct Entry {
-        double time;  // s
-        std::string line;
-    };
-
     std::filesystem::path file;
     std::string beginning;
-    std::vector<Entry> entries;
+    std::vector<ParaViewEntry> entries;
 };
 
 }  // namespace pendular

@@ -247,7 +247,25 @@ TEST(ParaView, hasOneSeriesOfARunThatGoesOn) {
               "<DataSet timestep=\"0.5\" part=\"1\" name=\"walls\" file=\"run-walls-000000010.vtp\"/>");
     EXPECT_EQ(entries[4],
               "<DataSet timestep=\"1\" part=\"0\" name=\"particles\" file=\"run-particles-000000020.vtp\"/>");
+    const std::vector<ParaViewEntry> read = readParaViewSeries(folder.name() + ".pvd");
+    ASSERT_EQ(read.size(), 5u);
+    EXPECT_EQ(read[3].time, 0.5);
+    EXPECT_EQ(read[3].kind, "walls");
+    EXPECT_EQ(read[3].file, folder.path() / "run-walls-000000010.vtp");
     EXPECT_EQ(ParaViewSeries(folder.name(), 0).add("a", 0, 0).filename(), "run-a-000000000.vtp");
+}
+
+TEST(ParaView, writesOneFrameInAnInterval) {
+    const TestFolder folder;
+    FewGrains<Smooth> scene(scenes::boxMaterial<Smooth>(0), {{.radius = 1e-3}}, 1e-5);
+    scene.setTimeMax(100e-5);
+    scene.setSaveCount(1);
+    scene.addOutput(ParaViewOutput(folder.name()).withInterval(30e-5));
+    scene.solve();
+    std::vector<int> steps;
+    for (const ParaViewEntry& entry : readParaViewSeries(folder.name() + ".pvd"))
+        steps.push_back(static_cast<int>(std::lround(entry.time / 1e-5)));
+    EXPECT_EQ(steps, (std::vector<int>{0, 0, 30, 30, 60, 60, 90, 90}));  // particles and contacts
 }
 
 TEST(ParaView, thatCannotBeWrittenEndsTheRunInOneSentence) {
