@@ -13,6 +13,7 @@
 #include "Kernel/Simulation/EnergyLedger.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/StepTimes.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -58,9 +59,11 @@ public:
     }
     /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
     void setSaveCount(std::size_t steps) { saveCount = steps; }
-    /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()).
+    /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
+    /// it has a function prepare(), that is called at once.
     template <class Output>
     void addOutput(Output output) {
+        if constexpr (requires { output.prepare(*this); }) output.prepare(*this);
         outputs.push_back([this, kept = std::make_shared<Output>(std::move(output))] { kept->write(*this); });
     }
     /// @param acceleration m/s^2
@@ -96,6 +99,10 @@ public:
     [[nodiscard]] int getNumberOfThreads() const { return threads; }
     [[nodiscard]] Vec3D getGravity() const { return toEigen(gravity); }
     [[nodiscard]] const ContactSystem<S>& contacts() const { return contactSystem; }
+    /// Measures the time by part of the step.
+    void measureStepTimes(bool measure = true) { times.measure(measure); }
+    [[nodiscard]] const StepTimes& stepTimes() const { return times; }
+    [[nodiscard]] bool keepsEnergyLedger() const { return ledgerKept; }
     [[nodiscard]] const EnergyLedger& energyLedger() const { return ledger; }
 
     /// The time step (s) above which the stiffest possible contact of this scene is no longer stable.
@@ -134,8 +141,10 @@ public:
 
     /// What the outputs and writeOutput() write; a driver that steps by itself calls it.
     void writeAll() {
+        const StepTimes::Part before = times.enter(StepTimes::Part::Output);
         for (const auto& output : outputs) output();
         writeOutput();
+        times.enter(before);
     }
 
     void step() {
@@ -155,14 +164,21 @@ private:
     using Motion = VelocityVerlet<S::hasTorque>;
 
     void stepToTheEnd() {
-        Progress progress(timeMax);
+        Progress progress(timeMax, getTime(), steps);
         const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
         while (steps < last && continueSolve()) {
             step();
             if (saveCount > 0 && steps % saveCount == 0) writeAll();
-            progress.update(getTime(), steps);
+            if (progress.isDue(steps)) progress.show(getTime(), steps, [this] { return numbers(); });
         }
         if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
+    }
+
+    RunNumbers numbers() const {
+        std::size_t acting = 0;
+        for (const BlockState& state : contactSystem.store().states)
+            acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
+        return {particleHandler.getSize(), acting, kineticEnergy(particleHandler.store())};
     }
 
     /// Writes the state as it is, and adds to a sentence where it is.
@@ -185,17 +201,22 @@ private:
 
     void advance(double length) {
         auto& grains = particleHandler.store();
+        times.enter(StepTimes::Part::Motion);
         const double grainShift = std::sqrt(Motion::begin(grains, length, threads));
         refuseRunaway(grainShift);
         const double wallShift = wallHandler.moveTo(getTime() + length);
+        times.enter(StepTimes::Part::Search);
         const bool goesRound = ledgerKept && periodic.any();
         const double before = goesRound ? potentialEnergy(grains, gravity) : 0;
         if (contactSystem.refresh(grains, grainShift, wallShift)) {
             if (goesRound) ledger.goRound(before - potentialEnergy(grains, gravity));
             refuseDeepOverlaps();
         }
+        times.enter(StepTimes::Part::Contacts);
         contactSystem.computeForces(grains, length);
+        times.enter(StepTimes::Part::Sum);
         Motion::finish(grains, contactSystem.store(), gravity, length, threads);
+        times.enter(StepTimes::Part::Other);
         if (ledgerKept) account(length);
     }
 
@@ -239,6 +260,7 @@ private:
     std::vector<std::function<void()>> outputs;
     ContactSystem<S> contactSystem;
     EnergyLedger ledger;
+    StepTimes times;
     PeriodicBox periodic;
     Vector<double> gravity{0, 0, 0};
     double timeStep = unset;

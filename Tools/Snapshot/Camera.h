@@ -32,27 +32,30 @@ inline Camera cameraOn(std::span<const Vector<double>> points, const Vector<doub
     camera.right = cross(camera.forward, vertical);
     camera.right *= 1 / norm(camera.right);
     camera.up = cross(camera.right, camera.forward);
-    const double free = withLegend ? 1 - Camera::legendShare : 1;
-    const double upSlope = (1 - margin) * Camera::slope();
-    const double rightSlope = upSlope * camera.aspect() * free;
-    // A point is seen if |its place across| <= slope (distance along + its place along): the two ends of each
-    // direction give the place of the eye and the distance.
+    const double upSlope = (1 - margin) * Camera::slope(), leftSlope = upSlope * camera.aspect();
+    const double rightSlope = leftSlope * (withLegend ? 1 - 2 * Camera::legendShare : 1);
+    // A point is seen if its place across is at most slope times its distance along the view, on either side.
+    // So each direction gives the least distance, and between which limits the eye may be.
     struct Ends {
-        double high = -INFINITY, low = -INFINITY;
-    } across, upwards;
-    const auto take = [](Ends& ends, double place, double slope, double along) {
-        ends.high = std::max(ends.high, place - slope * along);
-        ends.low = std::max(ends.low, -place - slope * along);
-    };
+        double slopeHigh, slopeLow, high = -INFINITY, low = -INFINITY;
+
+        void take(double place, double along) {
+            high = std::max(high, place - slopeHigh * along);
+            low = std::max(low, -place - slopeLow * along);
+        }
+        [[nodiscard]] double distance() const { return (high + low) / (slopeHigh + slopeLow); }
+        [[nodiscard]] double middle(double d) const {
+            return 0.5 * (high - slopeHigh * d + slopeLow * d - low);
+        }
+    } across{rightSlope, leftSlope}, upwards{upSlope, upSlope};
     for (const Vector<double>& p : points) {
         const double along = dot(p, camera.forward);
-        take(across, dot(p, camera.right), rightSlope, along);
-        take(upwards, dot(p, camera.up), upSlope, along);
+        across.take(dot(p, camera.right), along);
+        upwards.take(dot(p, camera.up), along);
     }
-    const double distance =
-        std::max(0.5 * (across.high + across.low) / rightSlope, 0.5 * (upwards.high + upwards.low) / upSlope);
-    camera.eye = 0.5 * (across.high - across.low) * camera.right +
-                 0.5 * (upwards.high - upwards.low) * camera.up - distance * camera.forward;
+    const double distance = std::max(across.distance(), upwards.distance());
+    camera.eye = across.middle(distance) * camera.right + upwards.middle(distance) * camera.up -
+                 distance * camera.forward;
     return camera;
 }
 

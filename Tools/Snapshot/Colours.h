@@ -78,7 +78,7 @@ inline std::vector<double> ticks(double lowest, double highest) {
         if (step < rough) step = factor * power;
     std::vector<double> found;
     for (double k = std::ceil(lowest / step - 1e-9); k * step <= highest + 1e-9 * step; ++k)
-        found.push_back(k * step);
+        found.push_back(k * step + 0.0);  // no negative zero
     return found;
 }
 

@@ -169,14 +169,16 @@ inline Picture compose(const Frame& frame, const View& view, const Span& span) {
     return picture;
 }
 
-/// Points that a picture must show whole.
+/// Points that a picture must show whole. Those of a grain are the corners of a cube around it, a little
+/// smaller.
 inline std::vector<Vector<double>> outline(const Picture& picture) {
     std::vector<Vector<double>> points;
-    for (const Ball& ball : picture.balls)
-        for (int k = 0; k < 8; ++k)
-            points.push_back(ball.centre + ball.radius * Vector<double>{k & 1 ? 0.6 : -0.6,
-                                                                        k & 2 ? 0.6 : -0.6,
-                                                                        k & 4 ? 0.6 : -0.6});
+    for (const Ball& ball : picture.balls) {
+        const double half = 0.9 * ball.radius;
+        for (const double x : {-half, half})
+            for (const double y : {-half, half})
+                for (const double z : {-half, half}) points.push_back(ball.centre + Vector<double>{x, y, z});
+    }
     for (const Rod& rod : picture.rods) points.push_back(rod.begin), points.push_back(rod.end);
     for (const Polygon& polygon : picture.walls) points.insert(points.end(), polygon.begin(), polygon.end());
     return points;

@@ -128,7 +128,7 @@ private:
         std::string quoted;
         for (const char c : text) quoted += c == '"' || c == '\\' ? std::string("'") : std::string(1, c);
         const std::string name = fmt::format("Text{}", texts++);
-        put("#declare {0} = text {{ internal 1 \"{1}\" 0.01, 0 pigment {{ srgb 0.1 }} finish {{ Flat }} "
+        put("#declare {0} = text {{ internal 2 \"{1}\" 0.01, 0 pigment {{ srgb 0.1 }} finish {{ Flat }} "
             "no_shadow }}\n",
             name, quoted);
         const double scale = onScreen(height);
@@ -152,7 +152,8 @@ private:
     void writeLegend(const Legend& legend) {
         const double strip = 2 * camera.aspect() * Camera::legendShare, letters = 0.07;
         const double left = camera.aspect() - 0.85 * strip, bottom = -0.6, top = 0.6, wide = 0.09;
-        writeText(legend.title, camera.aspect() - 0.5 * strip, top + 0.12, letters, true);
+        const double titleHeight = legend.map ? top : bottom + (top - bottom) * legend.marks.front().place;
+        writeText(legend.title, camera.aspect() - 0.5 * strip, titleHeight + 0.12, letters, true);
         if (legend.map) {
             constexpr int shades = 128;
             for (int k = 0; k < shades; ++k)
