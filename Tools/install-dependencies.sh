@@ -19,7 +19,8 @@ libfmt-dev||text
 zlib1g-dev||compressed files for ParaView
 libcli11-dev||command lines of drivers and tools
 libgtest-dev||self-tests
-gnuplot-nox|gnuplot|charts'
+gnuplot-nox|gnuplot|charts
+povray|povray|pictures of grains (Tools/snapshot)'
 
 is_installed() {  # package, program
     if [[ -n $2 ]] && command -v "$2" >/dev/null; then

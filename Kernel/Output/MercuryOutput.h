@@ -108,7 +108,8 @@ private:
             const Vector<double> normal = (-1 / norm(seen.shift)) * seen.shift;  // to body 1
             const double fn = dot(seen.force, normal);
             const Vector<double> across = seen.force - fn * normal;
-            const double ft = norm(across);
+            // Less than this is round-off, without a direction.
+            const double ft = norm(across) > 1e-14 * norm(seen.force) ? norm(across) : 0;
             const Vector<double> tangent = ft > 0 ? (1 / ft) * across : Vector<double>{0, 0, 0};
             double spring = 0;
             const auto history = contacts.store().memory.history.get(contacts.store().slotOf(contact));

@@ -99,7 +99,8 @@ TEST(Mercury, contactsOfAGrainAndItsWeightMakeTheWholeForce) {
         walls += atWall ? 1 : 0;
         springs += row[7] > 0 ? 1 : 0;
         EXPECT_NEAR(normal.norm(), 1, 1e-14);
-        EXPECT_NEAR(normal.dot(tangent), 0, 1e-9);  // round-off of the force across, of its own size
+        EXPECT_NEAR(row[9] * normal.dot(tangent), 0, 1e-15 * std::hypot(row[8], row[9]));
+        EXPECT_NEAR(tangent.norm(), row[9] > 0 ? 1 : 0, 1e-14);
         // From the contact to the grain's centre, but reversed at walls.
         const double sign = atWall ? -1 : 1;
         const Vec3D branch = grain.getPosition() - contact;

@@ -69,10 +69,10 @@ inline std::string label(std::string_view field) {
     return name + unit;
 }
 
-/// Four to nine round numbers in [lowest, highest]: multiples of 1, 2 or 5 times a power of ten.
+/// Three to nine round numbers in [lowest, highest]: multiples of 1, 2 or 5 times a power of ten.
 inline std::vector<double> ticks(double lowest, double highest) {
     if (!(highest > lowest)) return {lowest};
-    const double rough = (highest - lowest) / 6, power = std::pow(10, std::floor(std::log10(rough)));
+    const double rough = (highest - lowest) / 8, power = std::pow(10, std::floor(std::log10(rough)));
     double step = power;
     for (const double factor : {2.0, 5.0, 10.0})
         if (step < rough) step = factor * power;
