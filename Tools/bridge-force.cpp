@@ -8,17 +8,12 @@
 
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Program.h"
+#include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/LawNames.h"
-#include "Kernel/Species/Laws.h"
 
 using namespace pendular;
 
 namespace {
-
-template <class Law>
-concept BridgeLaw = requires(const Law law, const Bodies bodies) {
-    law.scales(bodies);
-};
 
 struct Options {
     std::string model = "LiquidBridgeBagheri";
@@ -32,16 +27,13 @@ struct Options {
 
 std::vector<std::string_view> modelNames() {
     std::vector<std::string_view> names;
-    AdhesionLaws::forEach([&]<class Law>() {
-        if constexpr (BridgeLaw<Law>) names.push_back(Law::name);
-    });
+    forEachBridgeLaw([&]<class Law>() { names.push_back(Law::name); });
     return names;
 }
 
 void listModels() {
-    AdhesionLaws::forEach([]<class Law>() {
-        if constexpr (BridgeLaw<Law>) fmt::print("{:<30} {}; {}\n", Law::name, Law::summary, Law::domain);
-    });
+    forEachBridgeLaw(
+        []<class Law>() { fmt::print("{:<30} {}; {}\n", Law::name, Law::summary, Law::domain); });
 }
 
 double parseRadius(const std::string& text) {
@@ -94,12 +86,10 @@ int run(const Options& options) {
     }
     const std::string wanted = canonicalLawName(options.model);
     bool found = false;
-    AdhesionLaws::forEach([&]<class Law>() {
-        if constexpr (BridgeLaw<Law>)
-            if (wanted == Law::name) {
-                found = true;
-                printForces<Law>(options);
-            }
+    forEachBridgeLaw([&]<class Law>() {
+        if (wanted != Law::name) return;
+        found = true;
+        printForces<Law>(options);
     });
     if (!found) unknownName("bridge model", options.model, modelNames());
     return 0;

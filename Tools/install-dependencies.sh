@@ -19,6 +19,7 @@ libfmt-dev||text
 zlib1g-dev||compressed files for ParaView
 libcli11-dev||command lines of drivers and tools
 libgtest-dev||self-tests
+libhdf5-dev||restart files
 gnuplot-nox|gnuplot|charts
 povray|povray|pictures of grains (Tools/snapshot)'
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Pendular, runs two-particle collisions with three models of the bridge, and
 # draws Figures 3a, 3b, 4a and 4b of Bagheri, Roy and Poeschel, "Discrete Element Simulations of particles
-# interacting via capillary forces using MercuryDPM".
+# interacting via capillary forces using MercuryDPM"; then the curves of Figures 3, 4, 5 and 9 of Yang, Sega and
+# Harting, "Capillary-bridge forces between solid particles", with the exact ones.
 #   Tools/run-paper-figures.sh [OUTPUT_FOLDER]     (default: output/paper-figures)
 set -euo pipefail
 mkdir -p "${1:-$(dirname "${BASH_SOURCE[0]}")/../output/paper-figures}"
@@ -11,7 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 Tools/install-dependencies.sh
 echo "== Building (preset release, folder build/release)"
 cmake --preset release
-cmake --build --preset release --parallel "$(getconf _NPROCESSORS_ONLN)" --target TwoParticleCollision
+cmake --build --preset release --parallel "$(getconf _NPROCESSORS_ONLN)" --target TwoParticleCollision bridge-figures
 
 models='LiquidBridgeWillett LiquidBridgeClassicalWillett LiquidBridgeBagheri'
 
@@ -40,6 +41,15 @@ draw_figure 3b 0.8 80
 draw_figure 4a 1.0 10
 draw_figure 4b 1.0 80
 
+echo "== Figures 3, 4, 5 and 9 of Yang, Sega and Harting"
+models_output=$output/bridge-models
+build/release/Tools/bridge-figures --output "$models_output"
+for table in "$models_output"/*.csv; do
+    { Tools/describe-machine.sh && echo "# command: Tools/bridge-figures, one thread" && cat "$table"; } >"$table.new"
+    mv "$table.new" "$table"
+done
+gnuplot -c Tools/plot-bridge-figures.gp "$models_output"
+
 echo
-echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg}"
-echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv"
+echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg} $models_output/figure-{3,4,5,9}.png"
+echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv $models_output/figure-{3,4,5,9}.csv"

@@ -1,7 +1,6 @@
 /// Grains leave a hopper through circular orifices; their flow is compared with Beverloo's law.
 
-#include <CLI/CLI.hpp>
-
+#include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/HopperScene.h"
 #include "Kernel/Output/CsvFile.h"
 
@@ -15,8 +14,7 @@ struct Options {
     double begin = 0.1;                                 // s, of the steady part
     double endTime = 0.4;                               // s
     double interval = 0.002;                            // s
-    bool paraView = false;
-    std::string output = "HopperDischarge";
+    RunOptions run{.output = "HopperDischarge"};
 };
 
 void describe(CLI::App& app, Options& o) {
@@ -32,36 +30,33 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--begin-s", o.begin, "begin of the steady part, s after the orifice is opened");
     app.add_option("--end-time-s", o.endTime, "end of each run, s after the orifice is opened");
     app.add_option("--interval-s", o.interval, "time between two rows of discharge.csv, s");
-    app.add_flag("--paraview", o.paraView,
-                 "writes files for ParaView at each interval, orifice-12mm.pvd and so on in the folder");
-    app.add_option("--output", o.output, "folder for discharge.csv and flow.csv");
+    addRunOptions(app, o.run, "discharge.csv and flow.csv");
+    app.remove_option(app.get_option("--restart"));  // there are several runs, each with a file of its own
 }
 
 void writeTables(const Options& options, const std::vector<Discharge>& runs, const BeverlooLaw& law) {
-    CsvFile curves(options.output + "/discharge.csv", "orifice_m,time_s,mass_kg");
+    CsvFile curves(options.run.output + "/discharge.csv", "orifice_m,time_s,mass_kg");
     for (const Discharge& run : runs)
         for (const CurvePoint& p : run.curve) curves.row(run.orifice, p.x, p.y);
     curves.close();
-    CsvFile flows(options.output + "/flow.csv", "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s");
+    CsvFile flows(options.run.output + "/flow.csv", "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s");
     for (const Discharge& run : runs) flows.row(run.orifice, run.flow, run.change, law.flow(run.orifice));
     flows.close();
 }
 
-int run(const Options& options) {
-    const std::vector<GrainRow> grains = settledHopperGrains(options.hopper);
+void run(const Options& options) {
+    const std::vector<GrainRow> grains = settledHopperGrains(options.hopper, options.run);
     std::vector<Discharge> runs;
     std::vector<CurvePoint> flows;
     for (const double orifice : options.orifices) {
-        const std::string frames = options.paraView
-                                       ? fmt::format("{}/orifice-{:g}mm", options.output, 1e3 * orifice)
-                                       : std::string();
         runs.push_back(discharge(options.hopper, grains, orifice, options.begin, options.endTime,
-                                 options.interval, frames));
+                                 options.interval, options.run));
         flows.push_back({orifice, runs.back().flow});
     }
     const BeverlooLaw law =
         fitBeverloo(flows, runs.front().bulkDensity, Hopper::gravity, options.hopper.grainDiameter);
     writeTables(options, runs, law);
+    if (options.run.quiet) return;
     for (const Discharge& run : runs)
         fmt::print(
             "orifice {:.4g} m: {:.4g} kg/s ({:+.1f} % from the first half to the second); the law "
@@ -70,8 +65,7 @@ int run(const Options& options) {
     fmt::print(
         "Beverloo's law: C = {:.3f}, k = {:.2f}, with a bulk density of {:.0f} kg/m^3; wrote "
         "{}/discharge.csv and {}/flow.csv\n",
-        law.coefficient, law.emptyAnnulus, law.bulkDensity, options.output, options.output);
-    return 0;
+        law.coefficient, law.emptyAnnulus, law.bulkDensity, options.run.output, options.run.output);
 }
 
 }  // namespace
@@ -79,17 +73,17 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
     CLI::App app(
         "Grains leave a flat-bottomed hopper through circular orifices: mass over time, and "
-        "Beverloo's law.");
+        "Beverloo's law.",
+        "HopperDischarge");
     Options options;
     describe(app, options);
-    CLI11_PARSE(app, argc, argv);
-    return runProgram([&] {
-        checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval, 1);
+    return runDriver(app, options.run, argc, argv, [&] {
+        checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval);
         checkValue("HopperDischarge", "begin of the steady part", options.begin, "s",
                    {0, options.endTime, true, false});
         for (const double orifice : options.orifices)
             checkValue("HopperDischarge", "orifice diameter", orifice, "m",
                        {0, options.hopper.diameter, false, false});
-        return run(options);
+        run(options);
     });
 }

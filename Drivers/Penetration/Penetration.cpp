@@ -1,12 +1,9 @@
 /// A steel sphere hits a bed of grains: case 3 of Dosta et al., "Comparing open-source DEM frameworks for
 /// simulations of common bulk processes", Comput. Phys. Commun. 296 (2024) 109066.
 
-#include <CLI/CLI.hpp>
-
+#include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/PenetrationScene.h"
-#include "Drivers/Shared/RunOptions.h"
-#include "Kernel/Output/CsvFile.h"
-#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Output/RunTable.h"
 
 using namespace pendular;
 
@@ -20,9 +17,7 @@ struct Options {
     double endTime = 0.1;                             // s
     double interval = 5e-4;                           // s
     bool wholeTime = false;
-    int threads = 1;
-    bool paraView = false;
-    std::string output = "Penetration";
+    RunOptions run{.output = "Penetration"};
 };
 
 class Penetration : public PenetrationScene {
@@ -30,17 +25,14 @@ public:
     template <class Walls>
     Penetration(const Options& given, const PenetrationGrains& grains, const Walls& walls)
         : PenetrationScene(grains, walls, given.speed, given.softening), options(given) {
-        setName(options.output + "/stopped");
         setTimeMax(options.endTime);
         setSaveCount(stepsOf(options.interval, getTimeStep()));
-        setNumberOfThreads(options.threads);
-        if (options.paraView) addOutput(ParaViewOutput(options.output + "/Penetration"));
+        options.run.apply(*this);
     }
 
     void writeOutput() override {
-        if (!depths) openTables();  // once the scene has passed its checks
-        depths->row(getTime(), intruder().getPosition().z(), intruder().getVelocity().z(), penetration(),
-                    intruder().getForce().z());
+        depths.row(getTime(), intruder().getPosition().z(), intruder().getVelocity().z(), penetration(),
+                   intruder().getForce().z());
     }
     void actionsAfterTimeStep() override {
         deepest = std::max(deepest, penetration());
@@ -48,22 +40,27 @@ public:
     }
     [[nodiscard]] bool continueSolve() const override { return options.wholeTime || !stopped; }
 
-    void complete() {
-        depths->close();
+    void visitState(StateArchive& archive) override {
+        PenetrationScene::visitState(archive);
+        archive.same("speed", options.speed, "m/s");
+        archive.value("deepest", deepest);
+        archive.value("stopped", stopped);
+        depths.visitState(archive);
+    }
+
+    void completeOutput() override {
+        depths.close();
+        if (options.run.quiet) return;
         fmt::print(
             "{} grains, {:.4g} s in {} steps: deepest point {:.4g} m below the surface{}; wrote "
             "{}/depth.csv\n",
             particleHandler.getSize(), getTime(), getNumberOfTimeSteps(), deepest,
-            stopped || options.wholeTime ? "" : ", still moving", options.output);
+            stopped || options.wholeTime ? "" : ", still moving", options.run.output);
     }
 
 private:
-    void openTables() {
-        depths.emplace(options.output + "/depth.csv", "time_s,height_m,velocity_m/s,depth_m,force_N");
-    }
-
     Options options;
-    std::optional<CsvFile> depths;
+    RunTable depths{options.run.output + "/depth.csv", "time_s,height_m,velocity_m/s,depth_m,force_N"};
     double deepest = -infinity;  // m
     bool stopped = false;
 };
@@ -84,35 +81,33 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--end-time-s", o.endTime, "end of the run, s, if the intruder has not stopped before");
     app.add_flag("--whole-time", o.wholeTime, "go on to the end time after the intruder has stopped");
     app.add_option("--interval-s", o.interval, "time between two rows of depth.csv, s");
-    app.add_option("--threads", o.threads, "OpenMP threads; the results do not depend on their number");
-    app.add_flag("--paraview", o.paraView,
-                 "writes files for ParaView at each interval, Penetration.pvd in the folder");
-    app.add_option("--output", o.output, "folder for depth.csv");
+    addRunOptions(app, o.run, "depth.csv");
 }
 
 template <class Walls>
 void run(const Options& options, const PenetrationGrains& grains, const Walls& walls) {
-    Penetration penetration(options, grains, walls);
-    penetration.solve();
-    penetration.complete();
+    Penetration(options, grains, walls).solve();
+}
+
+/// Grains that a run begins with; none for one that goes on, which has its own.
+PenetrationGrains firstGrains(const Options& options, const BedBox& box) {
+    if (!options.run.restartSource().empty()) return {};
+    if (!options.grains.empty()) return separateIntruder(readGrainFile(options.grains));
+    return settledBed(options.number, box, options.softening, options.run);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("A steel sphere hits a bed of grains; gives its depth over time.");
+    CLI::App app("A steel sphere hits a bed of grains; gives its depth over time.", "Penetration");
     Options options;
     describe(app, options);
-    CLI11_PARSE(app, argc, argv);
-    return runProgram([&] {
-        checkRun("Penetration", options.number, options.endTime, options.interval, options.threads);
+    return runDriver(app, options.run, argc, argv, [&] {
+        checkRun("Penetration", options.number, options.endTime, options.interval);
         checkValue("Penetration", "speed", options.speed, "m/s", positive);
-        if (options.grains.empty()) {
-            const BedBox box = bedBoxFor(options.number);
-            run(options, settledBed(options.number, box, options.softening), box);
-        } else {
-            run(options, separateIntruder(readGrainFile(options.grains)), readTriangles(options.walls));
-        }
-        return 0;
+        const BedBox box = bedBoxFor(options.number);
+        const PenetrationGrains grains = firstGrains(options, box);
+        if (options.walls.empty()) run(options, grains, box);
+        else run(options, grains, readTriangles(options.walls));
     });
 }

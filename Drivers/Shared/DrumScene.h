@@ -4,6 +4,7 @@
 
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/PublishedScene.h"
+#include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/TriangleWall.h"
 
@@ -108,8 +109,9 @@ inline std::vector<GrainRow> looseDrumGrains(std::size_t number, const DrumShape
 /// The grains of looseDrumGrains() after they have fallen in the drum at rest: for three times the time in
 /// which a stone falls through its radius twice.
 inline std::vector<GrainRow> settledDrumGrains(std::size_t number, const DrumShape& drum,
-                                               double softening = 1) {
+                                               double softening = 1, const RunOptions& options = {}) {
     DrumScene scene(looseDrumGrains(number, drum), drum, softening);
+    options.applyToPreparation(scene);
     scene.setTimeMax(3 * std::sqrt(4 * drum.radius / 9.8));
     scene.solve();
     return grainRows(scene.particleHandler);

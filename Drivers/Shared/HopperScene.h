@@ -6,7 +6,6 @@
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/RunOptions.h"
-#include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
@@ -34,7 +33,8 @@ struct Hopper {
 class HopperScene : public Simulation<HertzianViscoelasticMindlinSpecies> {
 public:
     /// @param orifice diameter, m; 0: a closed bottom
-    HopperScene(const Hopper& given, std::span<const GrainRow> grains, double orifice) : hopper(given) {
+    HopperScene(const Hopper& given, std::span<const GrainRow> grains, double orifice)
+        : hopper(given), orificeDiameter(orifice) {
         checkValue("HopperScene", "orifice diameter", orifice, "m", {0, hopper.diameter, true, false});
         const Material* material = speciesHandler.copyAndAddObject(makeMaterial());
         double top = 0;
@@ -63,6 +63,13 @@ public:
 
     void writeOutput() override {
         if (curve) curve->push_back({getTime(), mass});
+    }
+
+    void visitState(StateArchive& archive) override {
+        archive.same("orifice", orificeDiameter, "m");
+        archive.value("mass", mass);
+        archive.value("taken", taken);
+        if (curve) archive.column<double>("curve", *curve);
     }
 
     /// Appends the time (s) and the mass that has left (kg) whenever output is due.
@@ -120,6 +127,7 @@ private:
     }
 
     Hopper hopper;
+    double orificeDiameter;  // m
     std::vector<CurvePoint>* curve = nullptr;
     double mass = 0;
     std::size_t taken = 0;
@@ -127,7 +135,7 @@ private:
 
 /// Grains that have fallen into the closed hopper from a loose lattice, for three times the time in which a
 /// stone falls through it.
-inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper) {
+inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const RunOptions& options = {}) {
     checkValue("HopperScene", "grain diameter", hopper.grainDiameter, "m", positive);
     checkValue("HopperScene", "hopper diameter", hopper.diameter, "m",
                {3 * hopper.grainDiameter, infinity, true, false});
@@ -148,6 +156,7 @@ inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper) {
         loose.push_back(jittered(size, cells[k], random));
     }
     HopperScene scene(hopper, loose, 0);
+    options.apply(scene, "settling");
     scene.setTimeMax(3 * std::sqrt(2 * height / Hopper::gravity));
     scene.solve();
     return grainRows(scene.particleHandler);
@@ -164,16 +173,15 @@ struct Discharge {
 
 /// Lets grains out of a hopper.
 /// @param begin s, of the steady part; @param end s, of the run; @param interval s, between points
-/// @param paraView what the names of files for ParaView begin with; empty: none
 inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grains, double orifice,
-                           double begin, double end, double interval, const std::string& paraView = {}) {
+                           double begin, double end, double interval, const RunOptions& options = {}) {
     HopperScene scene(hopper, grains, orifice);
     Discharge result{orifice, scene.bulkDensity(), {}, 0, 0};
     checkValue("HopperScene", "bulk density", result.bulkDensity, "kg/m^3", positive);
     scene.keepCurve(&result.curve);
+    options.apply(scene, fmt::format("orifice-{:g}", orifice));
     scene.setTimeMax(end);
     scene.setSaveCount(stepsOf(interval, scene.getTimeStep()));
-    if (!paraView.empty()) scene.addOutput(ParaViewOutput(paraView));
     scene.solve();
 
     const auto after = [&](double time) {

@@ -5,6 +5,7 @@
 
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/PublishedScene.h"
+#include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Walls/TriangleWall.h"
 
 namespace pendular {
@@ -80,6 +81,11 @@ public:
         return surfaceHeight - (intruder().getPosition().z() - intruder().getRadius());
     }
 
+    void visitState(StateArchive& archive) override {
+        archive.value("bedSize", bedSize);
+        archive.value("surfaceHeight", surfaceHeight);
+    }
+
 private:
     void addGrains(const PenetrationGrains& grains, double speed) {
         for (const GrainRow& grain : grains.bed) {
@@ -121,8 +127,10 @@ inline std::vector<GrainRow> looseBed(std::size_t number, const BedBox& box) {
 
 /// The grains of looseBed() after they have settled, for three times the time in which a stone falls through
 /// their lattice, and the intruder, one of its radii above them.
-inline PenetrationGrains settledBed(std::size_t number, const BedBox& box, double softening = 1) {
+inline PenetrationGrains settledBed(std::size_t number, const BedBox& box, double softening = 1,
+                                    const RunOptions& options = {}) {
     PenetrationScene scene({looseBed(number, box), {}}, box, 0, softening);
+    options.applyToPreparation(scene);
     scene.setTimeMax(3 * std::sqrt(2 * scene.surface() / 9.8));
     scene.solve();
     PenetrationGrains grains{grainRows(scene.particleHandler), {}};

@@ -2,13 +2,8 @@
 /// Roy and Poeschel, "Discrete Element Simulations of particles interacting via capillary forces using
 /// MercuryDPM".
 
-#include <CLI/CLI.hpp>
-
-#include <optional>
-
-#include "Kernel/Output/CsvFile.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Simulation/Simulation.h"
+#include "Drivers/Shared/CommandLine.h"
+#include "Kernel/Output/RunTable.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/Laws.h"
 
@@ -32,19 +27,26 @@ struct Options {
     std::string adhesion = "LiquidBridgeBagheri";
     double timeStep = 0;    // s; 0: 1/50 of the Rayleigh time
     double timeMax = 0.02;  // s
-    std::string output = "TwoParticleCollision";
-    double paraViewInterval = 0;  // s; 0: no files for ParaView
+    RunOptions run{.output = "TwoParticleCollision"};
 };
+
+/// What a driver of liquid bridges can do with: a bridge, or nothing.
+template <class Law>
+concept Bridge = requires(Law law) {
+    law.setLiquidBridgeVolume(0.0);
+};
+template <class Law>
+struct IsBridgeOrNothing : std::bool_constant<!Law::acts || Bridge<Law>> {};
+using Bridges = FilteredTypes<IsBridgeOrNothing, AdhesionLaws>::type;
 
 template <class Adhesion>
 class TwoParticleCollision : public Simulation<Species<HertzianViscoelastic, Mindlin, Adhesion>> {
 public:
     using Material = Species<HertzianViscoelastic, Mindlin, Adhesion>;
 
-    explicit TwoParticleCollision(const Options& given) : options(given) {}
+    explicit TwoParticleCollision(const Options& given) : options(given) { options.run.apply(*this); }
 
     void setupInitialConditions() override {
-        this->setName(options.output + "/stopped");
         const Material* material = this->speciesHandler.copyAndAddObject(makeMaterial());
         const double gap = 0.1 * std::min(options.radius1, options.radius2);
         addGrain(material, options.radius1, -options.radius1 - 0.5 * gap, options.speed);
@@ -56,13 +58,9 @@ public:
         this->setTimeMax(options.timeMax);
         this->setSaveCount(1);
         this->keepEnergyLedger();
-        if (options.paraViewInterval > 0)
-            this->addOutput(
-                ParaViewOutput(options.output + "/collision").withInterval(options.paraViewInterval));
     }
 
     void writeOutput() override {
-        if (!forces) openTables();  // once the scene has passed its checks
         const double time = this->getTime();
         double separation = distance() - options.radius1 - options.radius2;
         double normal = 0, capillary = 0;
@@ -77,30 +75,32 @@ public:
         });
         touched = touched || separation < 0;
         parted = touched && separation > 0 && !bridged;
-        forces->row(time, separation, normal, capillary, bridged ? 1 : 0);
+        forces.row(time, separation, normal, capillary, bridged ? 1 : 0);
         const EnergyLedger& ledger = this->energyLedger();
-        energies->row(time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.adhesionWork,
-                      ledger.total());
+        energies.row(time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.adhesionWork,
+                     ledger.total());
     }
 
     /// Until the grains have parted and the bridge, if there is one, has ruptured.
     [[nodiscard]] bool continueSolve() const override { return !parted; }
 
-    void complete() {
-        forces->close();
-        energies->close();
+    void visitState(StateArchive& archive) override {
+        archive.value("touched", touched);
+        archive.value("parted", parted);
+        forces.visitState(archive);
+        energies.visitState(archive);
+    }
+
+    void completeOutput() override {
+        forces.close();
+        energies.close();
+        if (options.run.quiet) return;
         fmt::print("{}: {} after {:.4g} s and {} steps; wrote {}/force_separation.csv and {}/energy.csv\n",
                    Material::name, parted ? "parted" : "still together", this->getTime(),
-                   this->getNumberOfTimeSteps(), options.output, options.output);
+                   this->getNumberOfTimeSteps(), options.run.output, options.run.output);
     }
 
 private:
-    void openTables() {
-        forces.emplace(options.output + "/force_separation.csv",
-                       "time_s,separation_m,normal_force_N,capillary_force_N,bridge");
-        energies.emplace(options.output + "/energy.csv",
-                         "time_s,kinetic_J,elastic_J,dissipated_J,bridge_work_J,total_J");
-    }
     Material makeMaterial() const {
         Material material;
         material.setDensity(options.density);
@@ -131,7 +131,10 @@ private:
     }
 
     Options options;
-    std::optional<CsvFile> forces, energies;
+    RunTable forces{options.run.output + "/force_separation.csv",
+                    "time_s,separation_m,normal_force_N,capillary_force_N,bridge"};
+    RunTable energies{options.run.output + "/energy.csv",
+                      "time_s,kinetic_J,elastic_J,dissipated_J,bridge_work_J,total_J"};
     bool touched = false;
     bool parted = false;
 };
@@ -150,29 +153,22 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--restitution", o.restitution, "restitution coefficient of the dry contact");
     app.add_option("--friction", o.friction, "coefficient of sliding friction");
     app.add_option("--adhesion", o.adhesion,
-                   fmt::format("adhesion model: {}", listOfNames(lawNames<AdhesionLaws>())));
+                   fmt::format("adhesion model: {}", listOfNames(lawNames<Bridges>())));
     app.add_option("--time-step-s", o.timeStep, "time step, s; 0 takes 1/50 of the Rayleigh time");
     app.add_option("--time-max-s", o.timeMax, "end of the run, s, if the grains have not parted before");
-    app.add_option("--paraview-interval-s", o.paraViewInterval,
-                   "time between two frames for ParaView, s, collision.pvd in the folder; 0: none");
-    app.add_option("--output", o.output, "folder for force_separation.csv and energy.csv");
+    addRunOptions(app, o.run, "force_separation.csv and energy.csv");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Two grains collide head-on and are joined by a liquid bridge until it ruptures.");
+    CLI::App app("Two grains collide head-on and are joined by a liquid bridge until it ruptures.",
+                 "TwoParticleCollision");
     Options options;
     describe(app, options);
-    CLI11_PARSE(app, argc, argv);
-    return runProgram([&] {
+    return runDriver(app, options.run, argc, argv, [&] {
         checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
-        checkValue("TwoParticleCollision", "ParaView interval", options.paraViewInterval, "s", notNegative);
-        withLawNamed<AdhesionLaws>("adhesion model", options.adhesion, [&]<class Adhesion>() {
-            TwoParticleCollision<Adhesion> collision(options);
-            collision.solve();
-            collision.complete();
-        });
-        return 0;
+        withLawNamed<Bridges>("adhesion model", options.adhesion,
+                              [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
     });
 }

@@ -2,7 +2,8 @@
 /// other.
 
 #include <array>
-#include "Kernel/Simulation/Simulation.h"
+
+#include "Drivers/Shared/CommandLine.h"
 #include "Kernel/Species/Laws.h"
 
 using namespace pendular;
@@ -33,8 +34,11 @@ struct SquareWell {
     [[nodiscard]] double range(const Bodies&) const { return width; }
 };
 
-int main() {
-    return runProgram([] {
+int main(int argc, char** argv) {
+    CLI::App app("Two grains attract each other by a law of this driver.", "UserDefinedLaw");
+    RunOptions options{.output = "UserDefinedLaw"};
+    addRunOptions(app, options, "restart files");
+    return runDriver(app, options, argc, argv, [&] {
         Species<HertzianViscoelastic, NoFriction, SquareWell> species;
         species.setDensity(2000);
         species.setEffectiveElasticModulusAndRestitutionCoefficient(1e6, 0.5);
@@ -42,6 +46,7 @@ int main() {
         species.width = 1e-4;
 
         Simulation<decltype(species)> scene;
+        options.apply(scene);
         SphericalParticle grain;
         grain.setSpecies(scene.speciesHandler.copyAndAddObject(species));
         grain.setRadius(0.5e-3);
@@ -53,6 +58,5 @@ int main() {
         scene.solve();
         fmt::print("{}: gap after {} s: {:.4g} m\n", species.getName(), scene.getTimeMax(),
                    (second.getPosition() - scene.particleHandler.getObject(0).getPosition()).norm() - 1e-3);
-        return 0;
     });
 }

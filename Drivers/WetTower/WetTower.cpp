@@ -1,5 +1,5 @@
+#include "Drivers/Shared/CommandLine.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/Simulation/Simulation.h"
 struct WetTower : Simulation<HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies> {
     void setupInitialConditions() override {
         auto glass = speciesHandler.copyAndAddObject({});
@@ -22,4 +22,6 @@ struct WetTower : Simulation<HertzianViscoelasticMindlinLiquidBridgeBagheriSpeci
         fmt::print("{:.3f} s, top at {} m\n", getTime(), particleHandler.getObject(9).getPosition().z());
     }
 };
-int main() { WetTower().solve(); }
+int main(int argc, char** argv) {
+    return runDriver<WetTower>("Ten wet grains fall.", "WetTower", argc, argv);
+}

@@ -18,6 +18,10 @@ struct ContactGeometry {
     Vector<T> velocity;   // m/s, of body 1 against body 2 (their centres)
     Vector<T> spinLever;  // m/s, sum of spin x lever arm over the bodies; zero without torque
     Vector<T> spinSum;    // rad/s, of both bodies
+
+    // For laws with a torque of the contact's own.
+    Vector<T> spinDifference;  // rad/s, of body 1 against body 2
+    T rotationResponse;        // 1/kg, R*^2 (1/I1 + 1/I2): of R* times the relative spin, to the torque / R*
 };
 
 /// The geometry of grain with grain; in a scene that repeats itself, with the nearest image.
@@ -68,6 +72,11 @@ struct PairGeometry {
             const Pack half = Pack(0.5) * g.overlap;
             g.spinLever = (radius1 - half) * spin1 + (radius2 - half) * spin2;
             g.spinSum = spin1 + spin2;
+            if constexpr (S::hasContactTorque) {
+                g.spinDifference = spin1 - spin2;
+                g.rotationResponse =
+                    Pack(2.5) * (im1 * square(radius2) + im2 * square(radius1)) / square(sum);
+            }
         }
         return g;
     }
@@ -115,6 +124,10 @@ struct WallGeometry {
                 loadRecords<3>(reinterpret_cast<const double*>(rotation), 8, block.first.data());
             g.spinSum = {wx, wy, wz};
             g.spinLever = (radius - Pack(0.5) * g.overlap) * g.spinSum;
+            if constexpr (S::hasContactTorque) {
+                g.spinDifference = g.spinSum;
+                g.rotationResponse = Pack(2.5) * im;
+            }
         }
         return g;
     }

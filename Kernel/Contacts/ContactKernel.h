@@ -59,12 +59,12 @@ public:
         Mask bridged = touching & !touching;
         if constexpr (Adhesion::acts) {
             const auto interaction = memory.interaction.load(block);
-            const Pack separation = max(-g.overlap, Pack(0));
+            const Pack separation = separationFor<Adhesion>(g.overlap);
             bridged = joined & (separation < interaction.range());
             adhesive = select(bridged, interaction.force(separation), Pack(0));
         }
         const LastForces last = loadLastForces(block);
-        const NormalPart normal = computeNormal(state, g, last, touching, begins, adhesive);
+        const NormalPart normal = computeNormal(block, state, g, last, touching, begins, adhesive);
         Vector<Pack> tangential = zero;
         Pack slipPower = 0;
         if constexpr (Friction::acts)
@@ -88,6 +88,7 @@ private:
     };
     struct NormalPart {
         Pack repulsion;  // N, elastic and damping
+        Pack elastic;    // N
         Pack damping;    // kg/s
         Pack approach;   // m/s, at the sample
         Contact<Pack> contact;
@@ -99,11 +100,13 @@ private:
     /// + a dt, with the acceleration a of the last step; here it gets the change of this contact's own force,
     /// (F - F_last) dt / (2 m*), in which the dashpot is implicit. For two grains that makes the step exactly
     /// the trapezoidal rule.
-    NormalPart computeNormal(const BlockState& state, const ContactGeometry<Pack>& g, const LastForces& last,
-                             Mask touching, Mask begins, Pack adhesive) const {
+    NormalPart computeNormal(std::size_t block, const BlockState& state, const ContactGeometry<Pack>& g,
+                             const LastForces& last, Mask touching, Mask begins, Pack adhesive) {
         NormalPart part;
         part.contact = {max(g.overlap, Pack(0)), g.effectiveRadius, g.effectiveMass};
-        NormalForce<Pack> force = Normal::force(laws.normal, part.contact);
+        auto history = memory.normalHistory.load(block);
+        NormalForce<Pack> force = normalForce<Normal>(laws.normal, part.contact, history);
+        memory.normalHistory.store(block, selectColumns(touching, history));
         force.damping = select(touching, force.damping, Pack(0));
 
         const Pack halfStep = Pack(0.5 * timeStep) * g.inverseMass;
@@ -134,6 +137,7 @@ private:
             force.elastic = force.elastic * part.timing.factor(Normal::elasticExponent, begins, part.closing);
             part.approach = approachWith(part.damping);
         }
+        part.elastic = force.elastic;
         part.repulsion = select(touching, force.elastic + part.damping * part.approach, Pack(0));
         return part;
     }
@@ -157,12 +161,39 @@ private:
                           .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
         const Vector<Pack> force =
             Friction::force(laws.friction, normal.contact, max(normal.repulsion, Pack(0)), slip, history);
-        memory.history.store(block, selectColumns(touching, history));
         const Vector<Pack> tangential = select(touching, force, zero);
         const Vector<Pack> velocity = slip.velocity + response * tangential;
         slipPower =
             select(touching, -dot(tangential, velocity), Pack(0));  // no slip where a wall's part is left out
+        if constexpr (S::hasContactTorque)
+            slipPower += computeRotation(block, g, touching, normal, slip, history);
+        memory.history.store(block, selectColumns(touching, history));
         return tangential;
+    }
+
+    /// Writes the contact's own torque; the power (W) that it takes. Velocity and response are those of R*
+    /// times the relative spin, as in computeFriction.
+    /// @param sliding the times of its Slip are those of the rotation
+    template <class History>
+    Pack computeRotation(std::size_t block, const ContactGeometry<Pack>& g, Mask touching,
+                         const NormalPart& normal, const Slip<Pack>& sliding, History& history) {
+        static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
+        auto* base = reinterpret_cast<double*>(&memory.torques[block * Pack::lanes]);
+        const auto [x, y, z] = loadRecords<3>(base, 4, each.data());
+        const Pack response = Pack(0.5 * timeStep) * g.rotationResponse;
+        const Vector<Pack> last = (Pack(1) / g.effectiveRadius) * Vector<Pack>{x, y, z};
+        const Slip<Pack> turning{.velocity = g.effectiveRadius * g.spinDifference - response * last,
+                                 .timeBefore = sliding.timeBefore,
+                                 .timeAfter = sliding.timeAfter,
+                                 .response = response};
+        const Vector<Pack> force =
+            select(touching,
+                   Friction::rotationForce(laws.friction, max(normal.repulsion, Pack(0)), g.normal, turning,
+                                           history),
+                   zero);
+        const Vector<Pack> torque = g.effectiveRadius * force;
+        storeRecords(base, std::array<Pack, 4>{torque.x, torque.y, torque.z, Pack(0)});
+        return select(touching, -dot(force, turning.velocity + response * force), Pack(0));
     }
 
     [[nodiscard]] LastForces loadLastForces(std::size_t block) const {
@@ -192,14 +223,18 @@ private:
 
     void writeEnergies(std::size_t block, const ContactGeometry<Pack>& g, const NormalPart& normal,
                        Pack adhesive, Pack slipPower, Mask touching) {
-        const Pack damping = select(touching, normal.damping * normal.approach * normal.approach, Pack(0));
+        Pack given = normal.damping * normal.approach;
+        if constexpr (HasNormalHistory<Normal>) given += normal.elastic;
+        const Pack damping = select(touching, given * normal.approach, Pack(0));
         const Pack adhesion = -adhesive * normal.approach;
+        const auto& history = memory.normalHistory;
+        const std::size_t at = block * Pack::lanes;
         for (int k = 0; k < Pack::lanes; ++k) {
             const Contact<double> contact{normal.contact.overlap[k], normal.contact.effectiveRadius[k],
                                           normal.contact.effectiveMass[k]};
-            memory.energies[block * Pack::lanes + k] = {
-                g.overlap[k] > 0 ? Normal::elasticEnergy(laws.normal, contact) : 0, damping[k], adhesion[k],
-                slipPower[k]};
+            memory.energies[at + k] = {
+                g.overlap[k] > 0 ? elasticEnergy<Normal>(laws.normal, contact, history.get(at + k)) : 0,
+                damping[k], adhesion[k], slipPower[k]};
         }
     }
 
@@ -207,8 +242,10 @@ private:
     void clear(std::size_t block, BlockState& state) {
         if ((state.touching | state.bridged) == 0) return;
         memory.history.store(block, {});
+        memory.normalHistory.store(block, {});
         for (int k = 0; k < Pack::lanes; ++k) {
             memory.records[block * Pack::lanes + k] = {};
+            if constexpr (S::hasContactTorque) memory.torques[block * Pack::lanes + k] = {};
             if constexpr (withLedger) memory.energies[block * Pack::lanes + k] = {};
         }
         state.touching = state.bridged = state.closing = 0;

@@ -65,6 +65,12 @@ public:
 
     [[nodiscard]] std::size_t bytes() const { return bytesOf(begins, ends, sides); }
 
+    void visitState(StateArchive& archive) {
+        archive.column<std::uint32_t>("begins", begins);
+        archive.column<std::uint32_t>("ends", ends);
+        archive.column<std::uint32_t>("sides", sides);
+    }
+
 private:
     static bool isMemory(std::uint32_t slot) { return slot >= Pack::lanes; }
 

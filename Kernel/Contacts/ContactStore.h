@@ -68,10 +68,17 @@ struct alignas(32) ForceRecord {
     double normalForce;    // N, repulsion positive
 };
 
+/// The torque on body 1 that a contact gives besides that of its force; body 2 gets the opposite one. Kept
+/// only for laws that have one.
+struct alignas(32) TorqueRecord {
+    Vector<double> torque{0, 0, 0};  // N m
+    double unused = 0;
+};
+
 /// What one contact did in a step, kept only when a ledger is asked for.
 struct alignas(32) EnergyRecord {
     double elastic;     // J, stored in the overlap
-    double damping;     // W, lost in the normal dashpot
+    double damping;     // W, lost in the normal dashpot; with a history, given to the elastic part as well
     double adhesion;    // W, done against the adhesion
     double tangential;  // W, given to the tangential spring, dashpot and slider
 };
@@ -152,12 +159,16 @@ public:
     template <class T>
     using History = typename S::Friction::template History<T>;
     template <class T>
+    using NormalHistory = typename NormalHistoryOf<typename S::Normal>::template type<T>;
+    template <class T>
     using Interaction = typename S::Adhesion::template Interaction<T>;
     using Record = std::conditional_t<S::hasTorque, ForceTorqueRecord, ForceRecord>;
 
-    MemoryColumns<History> history;
+    MemoryColumns<History> history;  // of the friction law
+    MemoryColumns<NormalHistory> normalHistory;
     MemoryColumns<Interaction> interaction;
     std::vector<Record> records;
+    std::vector<TorqueRecord> torques;   // empty unless the friction law has a torque of its own
     std::vector<EnergyRecord> energies;  // empty unless a ledger is kept
     std::vector<std::uint32_t> blockOf;  // the block of contacts that has this block of memory
 
@@ -172,8 +183,10 @@ public:
     /// Room for so many blocks in all.
     void reserve(std::size_t blocks) {
         history.reserve(blocks);
+        normalHistory.reserve(blocks);
         interaction.reserve(blocks);
         reserveLarge(records, blocks * Pack::lanes);
+        if constexpr (S::hasContactTorque) reserveLarge(torques, blocks * Pack::lanes);
         blockOf.reserve(blocks);
         if (!energies.empty()) energies.reserve(blocks * Pack::lanes);
     }
@@ -187,14 +200,28 @@ public:
         return static_cast<std::uint32_t>(count);
     }
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(history.columns, interaction.columns, records, energies, blockOf);
+        return bytesOf(history.columns, normalHistory.columns, interaction.columns, records, torques,
+                       energies, blockOf);
+    }
+
+    void visitState(StateArchive& archive) {
+        auto& [h, n, i, r, t, e, b] = *this;  // a member that is added has to be added here
+        archive.column<double>("history", h.columns);
+        archive.column<double>("normalHistory", n.columns);
+        archive.column<double>("interaction", i.columns);
+        archive.column<double>("records", r);
+        archive.column<double>("torques", t);
+        archive.column<double>("energies", e);
+        archive.column<std::uint32_t>("blockOf", b);
     }
 
 private:
     void resize(std::size_t blocks) {
         history.resize(blocks);
+        normalHistory.resize(blocks);
         interaction.resize(blocks);
         records.resize(blocks * Pack::lanes);
+        if constexpr (S::hasContactTorque) torques.resize(blocks * Pack::lanes);
         blockOf.resize(blocks);
         if (!energies.empty()) energies.resize(blocks * Pack::lanes);
     }
@@ -250,6 +277,18 @@ public:
                 if (bitOf(states[c / Pack::lanes].listed, c)) function(bucket, c);
     }
 
+    void visitState(StateArchive& archive) {
+        auto& [list, pairs, bits, memoryOf, m, points, sidesOf, g] = *this;  // a member that is added as well
+        archive.column<std::int32_t>("buckets", list);
+        archive.column<std::uint32_t>("blocks", pairs);
+        archive.column<std::uint8_t>("states", bits);
+        archive.column<std::uint32_t>("slots", memoryOf);
+        archive.column<double>("wallPoints", points);
+        archive.column<double>("gaps", g);
+        archive.group("memory", [&] { m.visitState(archive); });
+        archive.group("sides", [&] { sidesOf.visitState(archive); });
+    }
+
     /// Bytes of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const {
         return bytesOf(buckets, blocks, states, slots, wallPoints, gaps) + memory.bytes() + sides.bytes();
@@ -259,7 +298,9 @@ public:
         return (sizeof(ContactBlock) + sizeof(BlockState) + sizeof(std::uint32_t) + sizeof(double)) /
                    Pack::lanes +
                sizeof(typename ContactMemory<S>::Record) + 2 * sizeof(std::uint32_t) +
+               (S::hasContactTorque ? sizeof(TorqueRecord) : 0) +
                sizeof(double) * (columnsOf<ContactMemory<S>::template History> +
+                                 columnsOf<ContactMemory<S>::template NormalHistory> +
                                  columnsOf<ContactMemory<S>::template Interaction>);
     }
 

@@ -67,12 +67,22 @@ public:
         stepsListed = 0;
         listedGrains = grains.size();
         listedWalls = walls->getSize();
-        laws.clear();
-        for (const Bucket& bucket : contacts.buckets)
-            laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
+        prepareLaws();
         unlisted = 0;
         ++rebuilds;
         return true;
+    }
+
+    /// After prepare(); the species, the walls and the grains are visited by themselves.
+    void visitState(StateArchive& archive) {
+        contacts.visitState(archive);
+        archive.record<double>("skin", skin);
+        archive.value("stepsListed", stepsListed);
+        archive.value("listedGrains", listedGrains);
+        archive.value("listedWalls", listedWalls);
+        archive.value("unlisted", unlisted);
+        archive.value("rebuilds", rebuilds);
+        if (archive.isReading()) prepareLaws();
     }
 
     /// Threads for the forces; the results do not depend on it.
@@ -135,7 +145,7 @@ public:
         if constexpr (S::Adhesion::acts)
             if (seen.bridged)
                 seen.adhesiveForce = contacts.memory.interaction.get(contacts.slotOf(contact))
-                                         .force(std::max(seen.separation, 0.0));
+                                         .force(separationFor<typename S::Adhesion>(-seen.separation));
         seen.normalForce += seen.adhesiveForce;
         return seen;
     }
@@ -207,6 +217,12 @@ private:
                 if (bucket.wall == static_cast<int>(w)) addWallForces(contacts, bucket, grains, sum);
             wall.setForce(sum.force, sum.torque);
         }
+    }
+
+    void prepareLaws() {
+        laws.clear();
+        for (const Bucket& bucket : contacts.buckets)
+            laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
     }
 
     struct HandOver {

@@ -32,7 +32,11 @@ ForceAndTorque<S::hasTorque> sumContacts(const ContactStore<S>& store, std::size
                    select(torquePart, Pack(radius - record.halfOverlap), Pack(signs[side & 1]));
         }
         const auto lanes = sum.toLanes();
-        return {{lanes[0], lanes[1], lanes[2]}, {lanes[4], lanes[5], lanes[6]}};
+        ForceAndTorque<true> result{{lanes[0], lanes[1], lanes[2]}, {lanes[4], lanes[5], lanes[6]}};
+        if constexpr (S::hasContactTorque)
+            for (const std::uint32_t side : store.sides.of(grain))
+                result.torque += signs[side & 1] * store.memory.torques[side / 2].torque;
+        return result;
     } else {
         ForceAndTorque<false> sum;
         for (const std::uint32_t side : store.sides.of(grain))

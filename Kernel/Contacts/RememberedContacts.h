@@ -48,7 +48,9 @@ public:
         bool exchanged;  // the owner was body 2
         LastForces<S::hasTorque> forces;
         typename Memory::template History<double> history;
+        typename Memory::template NormalHistory<double> normalHistory;
         typename Memory::template Interaction<double> interaction;
+        std::conditional_t<S::hasContactTorque, TorqueRecord, NoHistory<double>> torque;
     };
 
     /// @param identity of the grain at each place, as the store's contacts have it
@@ -88,6 +90,11 @@ public:
         if constexpr (requires { history.exchangeBodies(); })
             if (exchanged != entry.exchanged) history.exchangeBodies();
         store.memory.history.set(slot, history);
+        store.memory.normalHistory.set(slot, entry.normalHistory);
+        if constexpr (S::hasContactTorque) {
+            const double sign = exchanged != entry.exchanged ? -1 : 1;
+            store.memory.torques[slot].torque = sign * entry.torque.torque;
+        }
         store.memory.interaction.set(slot, entry.interaction);
         entry.forces.putInto(store.memory.records[slot]);  // n x F is the same seen from either body
         BlockState& state = store.states[to / Pack::lanes];
@@ -118,7 +125,10 @@ private:
                     .exchanged = false,
                     .forces = LastForces<S::hasTorque>(store.memory.records[slot]),
                     .history = store.memory.history.get(slot),
-                    .interaction = store.memory.interaction.get(slot)};
+                    .normalHistory = store.memory.normalHistory.get(slot),
+                    .interaction = store.memory.interaction.get(slot),
+                    .torque = {}};
+        if constexpr (S::hasContactTorque) entry.torque = store.memory.torques[slot];
         if (bucket.wall < 0) {
             const std::uint32_t second = identity[block.second[lane]];
             entry.owner = std::min(first, second);

@@ -16,9 +16,9 @@ struct SampleTiming {
     T before;
     T after;
 
-    /// The factor on a force that grows with the power a (0, 1/4, 1 or 3/2) of the overlap. Near its begin
-    /// the overlap grows linearly in time, so the force's mean over the sample's time, against its value t
-    /// after the begin, is
+    /// The factor on a force that grows with the power a (0, 1/4, 1/2, 1 or 3/2) of the overlap. Near its
+    /// begin the overlap grows linearly in time, so the force's mean over the sample's time, against its
+    /// value t after the begin, is
     /// ((t + 1/2)/t)^a / (1 + a); the end is the same backwards.
     [[nodiscard]] T factor(double exponent, MaskOf<T> first, MaskOf<T> last) const {
         const auto mean = [exponent](T t) {
@@ -31,6 +31,7 @@ struct SampleTiming {
 private:
     static T power(T x, double exponent) {
         if (exponent == 0.25) return sqrt(sqrt(x));
+        if (exponent == 0.5) return sqrt(x);
         if (exponent == 1) return x;
         if (exponent == 1.5) return x * sqrt(x);
         return T(1);

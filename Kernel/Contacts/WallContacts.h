@@ -24,9 +24,15 @@ void handOver(ContactStore<S>& store, std::size_t from, std::size_t to, const Ve
         history.turn({.normal = newNormal, .normalShift = newNormal - oldNormal, .twist = 0});
     memory.history.set(next, history);
     memory.history.set(old, {});
+    memory.normalHistory.set(next, memory.normalHistory.get(old));
+    memory.normalHistory.set(old, {});
     memory.interaction.set(next, memory.interaction.get(old));
     memory.records[next] = memory.records[old];  // the kernel reads the forces of the last step
     memory.records[old] = {};
+    if constexpr (S::hasContactTorque) {
+        memory.torques[next] = memory.torques[old];
+        memory.torques[old] = {};
+    }
     if (!memory.energies.empty()) memory.energies[old] = {};
     const auto moveBit = [&](std::uint8_t& bitsFrom, std::uint8_t& bitsTo) {
         const unsigned bit = bitsFrom >> (from % Pack::lanes) & 1u;
@@ -56,6 +62,7 @@ void addWallForces(const ContactStore<S>& store, const Bucket& bucket, const Gra
         }
         sum.force -= record.force;
         sum.torque -= cross(point, record.force);
+        if constexpr (S::hasContactTorque) sum.torque -= store.memory.torques[store.slotOf(c)].torque;
     }
 }
 

@@ -2,6 +2,10 @@
 
 #include <cstdint>
 #include <random>
+#include <sstream>
+#include <string>
+
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 
@@ -14,6 +18,15 @@ public:
     /// Evenly in [low, high).
     double uniform(double low, double high) {
         return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
+    }
+
+    void visitState(StateArchive& archive) {
+        std::stringstream numbers;
+        numbers << engine;
+        std::string text = numbers.str();
+        archive.text("generator", text);
+        numbers.str(text);
+        numbers >> engine;
     }
 
 private:

@@ -16,6 +16,11 @@ class CsvFile {
 public:
     /// Throws InputError if the file cannot be written.
     CsvFile(std::filesystem::path path, std::string_view header) : file(std::move(path)) { line(header); }
+    /// Goes on with a table after its first bytes, as WrittenBeside says.
+    CsvFile(std::filesystem::path path, std::string_view header, std::uintmax_t bytes)
+        : file(std::move(path), bytes) {
+        if (file.flush() == 0) line(header);
+    }
 
     /// One line; numbers with all their digits.
     template <class... Values>
@@ -30,6 +35,8 @@ public:
     /// A line of its own, for comments that begin with '#'.
     void comment(std::string_view text) { file.write(fmt::format("# {}\n", text)); }
 
+    /// Waits until all rows are on the disk; returns how many bytes there are.
+    std::uintmax_t flush() { return file.flush(); }
     /// Completes the file under its name. Throws InputError if that fails (a full disk).
     void close() { file.close(); }
 

@@ -171,11 +171,10 @@ public:
 
     template <class Scene>
     void write(const Scene& scene) {
-        // A time step is a sum of rounded numbers.
-        if (scene.getTime() < lastFrame + interval * (1 - 1e-9)) return;
-        lastFrame = scene.getTime();
-        const auto& grains = scene.particleHandler.store();
         if (!series) series.emplace(name.empty() ? scene.getName() : name, scene.getTime());
+        // Times are products of rounded numbers.
+        if (scene.getTime() < series->lastTime() + interval * (1 - 1e-9)) return;
+        const auto& grains = scene.particleHandler.store();
         PolyData points = grainPoints(grains);
         for (const auto& field : added) points.pointFields.push_back(field(grains.size()));
         if (stress) points.pointFields.push_back(grainStresses(scene.contacts(), grains));
@@ -216,7 +215,7 @@ private:
     std::vector<std::function<PolyDataField(std::size_t)>> added;
     std::optional<ParaViewSeries> series;
     std::string name;
-    double interval = 0, lastFrame = -infinity;  // s
+    double interval = 0;  // s
     bool stress = false, contactsToo = true;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ public:
 
     /// The path of the file of one kind ("particles") at a step, NAME-KIND-STEP.vtp, taken into the series.
     std::filesystem::path add(std::string_view kind, double time, std::size_t step);
+    /// s, of the latest entry; -infinity if there is none.
+    [[nodiscard]] double lastTime() const { return entries.empty() ? -INFINITY : entries.back().time; }
     /// Writes the series as it is now.
     void write() const;
 

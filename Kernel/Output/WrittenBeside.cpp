@@ -1,6 +1,7 @@
 #include "Kernel/Output/WrittenBeside.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -12,10 +13,37 @@ namespace pendular {
 
 WrittenBeside::WrittenBeside(std::filesystem::path path)
     : target(std::move(path)), beside(target.string() + ".part") {
+    open("wb");
+}
+
+WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
+    : target(std::move(path)), beside(target.string() + ".part") {
+    namespace fs = std::filesystem;
+    std::error_code problem;
+    if (!fs::exists(beside, problem) && fs::exists(target, problem)) fs::rename(target, beside, problem);
+    if (fs::exists(beside)) {
+        const std::uintmax_t there = fs::file_size(beside);
+        if (there < bytes)
+            throw InputError(fmt::format(
+                "The file {} has {} bytes and had {} when the restart file was written: bring it back, "
+                "or give another folder for the output.",
+                beside.string(), there, bytes));
+        fs::resize_file(beside, bytes, problem);
+        if (problem) fail("cannot be cut to its length at the restart");
+    }
+    open("ab");
+}
+
+void WrittenBeside::open(const char* mode) {
     std::error_code ignored;
     if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), ignored);
-    file = std::fopen(beside.c_str(), "wb");
+    file = std::fopen(beside.c_str(), mode);
     if (!file) fail("cannot be written");
+}
+
+std::uintmax_t WrittenBeside::flush() {
+    if (std::fflush(file) != 0 || (fsync(fileno(file)) != 0 && errno != EINVAL)) fail("cannot be written");
+    return std::filesystem::file_size(beside);
 }
 
 WrittenBeside::~WrittenBeside() {

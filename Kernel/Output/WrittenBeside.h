@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -12,16 +13,23 @@ class WrittenBeside {
 public:
     /// Throws InputError if the file cannot be written.
     explicit WrittenBeside(std::filesystem::path path);
+    /// Goes on with a file after its first bytes, and cuts off what follows them: the one that is not
+    /// complete, or the complete one, which then gets the other name. Where there is neither, it begins anew;
+    /// throws InputError where there is less.
+    WrittenBeside(std::filesystem::path path, std::uintmax_t bytes);
     WrittenBeside(const WrittenBeside&) = delete;
     WrittenBeside& operator=(const WrittenBeside&) = delete;
     /// A file that was not completed stays under the other name.
     ~WrittenBeside();
 
     void write(std::string_view bytes);
+    /// Waits until all that was written is on the disk; returns how many bytes there are.
+    std::uintmax_t flush();
     /// Completes the file under its name. Throws InputError if that fails (a full disk).
     void close();
 
 private:
+    void open(const char* mode);
     [[noreturn]] void fail(std::string_view what) const;
 
     std::filesystem::path target;

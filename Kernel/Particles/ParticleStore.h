@@ -7,6 +7,7 @@
 
 #include "Kernel/LargePages.h"
 #include "Kernel/Math/Vector.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 
@@ -90,6 +91,16 @@ public:
         permute(identity, order);
         if constexpr (hasSpin) permute(rotation, order);
         for (std::size_t k = 0; k < identity.size(); ++k) place[identity[k]] = static_cast<std::uint32_t>(k);
+    }
+
+    void visitState(StateArchive& archive) {
+        auto& [t, r, a, s, i, p] = *this;  // a member that is added has to be added here
+        archive.column<double>("translation", t);
+        archive.column<double>("rotation", r);
+        archive.column<double>("acceleration", a);
+        archive.column<std::uint16_t>("species", s);
+        archive.column<std::uint32_t>("identity", i);
+        archive.column<std::uint32_t>("place", p);
     }
 
 private:

@@ -32,7 +32,7 @@ struct EnergyLedger {
     double kinetic = 0;
     double elastic = 0;     // stored in the normal overlaps
     double potential = 0;   // in the field of gravity
-    double dissipated = 0;  // lost in the normal dashpots since the start
+    double dissipated = 0;  // lost in the normal dashpots, and in plastic contacts, since the start
     double adhesionWork =
         0;  // done against bridges since the start: negative while they have given more than they took
     double tangential = 0;  // given to tangential springs, dashpots and sliders since the start
@@ -42,9 +42,12 @@ struct EnergyLedger {
     }
 
     /// Takes in the end of a step (s): powers are summed by the trapezoidal rule.
-    void add(const ContactEnergies& now, double step) {
+    /// @param withHistory the damping is all that the normal law was given: what of it can be got back is not
+    /// lost
+    void add(const ContactEnergies& now, double step, bool withHistory = false) {
         elastic = now.elastic;
         dissipated += 0.5 * step * (last.damping + now.damping);
+        if (withHistory && step > 0) dissipated -= now.elastic - last.elastic;
         adhesionWork += 0.5 * step * (last.adhesion + now.adhesion);
         tangential += 0.5 * step * (last.tangential + now.tangential);
         last = now;

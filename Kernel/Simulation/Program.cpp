@@ -6,18 +6,25 @@
 #include <cstdlib>
 #include <exception>
 
+#include "Kernel/Simulation/RunControl.h"
+
 namespace pendular {
 
 namespace {
 
-void printCurrentException() {
+/// Returns the exit code that goes with it.
+int printCurrentException() {
     try {
         throw;
+    } catch (const RunStopped& stop) {
+        fmt::print(stderr, "{}\n", stop.what());
+        return stop.exitCode;
     } catch (const std::exception& problem) {
         fmt::print(stderr, "Error: {}\n", problem.what());
     } catch (...) {
         fmt::print(stderr, "Error: of an unknown kind.\n");
     }
+    return EXIT_FAILURE;
 }
 
 }  // namespace
@@ -26,17 +33,16 @@ int runProgram(const std::function<int()>& body) {
     try {
         return body();
     } catch (...) {
-        printCurrentException();
-        return EXIT_FAILURE;
+        return printCurrentException();
     }
 }
 
 void reportUncaughtExceptions() {
     std::set_terminate([] {
         if (!std::current_exception()) std::abort();
-        printCurrentException();
+        const int code = printCurrentException();
         std::fflush(nullptr);
-        std::_Exit(EXIT_FAILURE);
+        std::_Exit(code);
     });
 }
 

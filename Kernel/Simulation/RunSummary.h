@@ -7,9 +7,9 @@
 
 namespace pendular {
 
-/// NAME-summary.csv, written anew at each output: what runs, with which species and values, how far it is,
-/// and what tells whether it is healthy. Tools/summary shows it. Given to Simulation::addOutput(); the time
-/// by part of the step is measured from then on.
+/// NAME-summary.csv, written anew at outputs, once a second at most, and at the end: what runs, with which
+/// species and values, how far it is, and what tells whether it is healthy. Tools/summary shows it. Given to
+/// Simulation::addOutput(); the time by part of the step is measured from then on.
 class RunSummary {
 public:
     template <class Scene>
@@ -19,6 +19,12 @@ public:
 
     template <class Scene>
     void write(const Scene& scene) {
+        if (Clock::now() >= next) complete(scene);
+    }
+
+    template <class Scene>
+    void complete(const Scene& scene) {
+        next = Clock::now() + std::chrono::seconds(1);
         CsvFile file(scene.getName() + "-summary.csv", "quantity,value,unit");
         writeRun(file, scene);
         writeHealth(file, scene);
@@ -96,6 +102,9 @@ private:
         }
     }
 
+    using Clock = std::chrono::steady_clock;
+
+    Clock::time_point next = Clock::now();
     double deepest = 0;     // of the smaller radius
     double firstTotal = 0;  // J
     bool isFirst = true;

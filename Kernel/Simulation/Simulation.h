@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
@@ -12,8 +13,10 @@
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/EnergyLedger.h"
 #include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/RunControl.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/StepTimes.h"
+#include "Kernel/State/RestartFile.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -34,6 +37,10 @@ public:
     virtual void actionsAfterTimeStep() {}
     /// Called at the start, after every saveCount steps and at the end.
     virtual void writeOutput() {}
+    /// Called when the run has ended, or was asked to stop: files are to be completed here.
+    virtual void completeOutput() {}
+    /// What the driver itself remembers from step to step, for restart files (StateArchive says how).
+    virtual void visitState(StateArchive& /*archive*/) {}
     /// The run ends when this returns false.
     [[nodiscard]] virtual bool continueSolve() const { return true; }
 
@@ -64,7 +71,10 @@ public:
     template <class Output>
     void addOutput(Output output) {
         if constexpr (requires { output.prepare(*this); }) output.prepare(*this);
-        outputs.push_back([this, kept = std::make_shared<Output>(std::move(output))] { kept->write(*this); });
+        const auto kept = std::make_shared<Output>(std::move(output));
+        outputs.push_back([this, kept] { kept->write(*this); });
+        if constexpr (requires { kept->complete(*this); })
+            completions.push_back([this, kept] { kept->complete(*this); });
     }
     /// @param acceleration m/s^2
     void setGravity(const Vec3D& acceleration) {
@@ -86,6 +96,34 @@ public:
         threads = count;
         contactSystem.setThreads(count);
     }
+    /// Keeps a restart file, NAME-restart.h5: written at the end of the run, and when it is asked to stop.
+    /// Throws InputError where this build of Pendular cannot write one.
+    void keepRestartFile(bool keep = true) {
+        if (keep) requireRestartFiles();
+        restarts.kept = keep;
+    }
+    /// Writes it also after so many steps; 0: does not.
+    void setRestartCount(std::size_t steps) { restarts.count = steps; }
+    /// Writes it also whenever this time (s of the clock on the wall) has passed; 0: does not.
+    void setRestartInterval(double seconds) {
+        checkValue("Simulation", "restart interval", seconds, "s", notNegative);
+        restarts.interval = seconds;
+    }
+    /// Goes on from a restart file instead of beginning: initialise() then takes the grains, and all else
+    /// that changes in a run, from it. The scene is set up as it was, but for its grains, which are ignored;
+    /// the end time, outputs and threads may be others.
+    void restartFrom(std::filesystem::path file) { restartSource = std::move(file); }
+    [[nodiscard]] bool isRestarted() const { return !restartSource.empty(); }
+    [[nodiscard]] std::filesystem::path restartFile() const { return name + "-restart.h5"; }
+    /// Writes the state after the last step. Throws InputError if that fails.
+    void writeRestart(const std::filesystem::path& file) {
+        writeRestartFile(file, [&](StateArchive& archive) {
+            visitScene(archive);
+            visitContacts(archive);
+        });
+    }
+    /// Shows no progress.
+    void setQuiet(bool beQuiet = true) { quiet = beQuiet; }
     /// Runs also with a step above the stability limit. The results of such a run mean nothing.
     void acceptUnstableTimeStep(bool accept = true) { unstableAccepted = accept; }
     /// Keeps account of the energy; costs time, and is off by default.
@@ -113,28 +151,28 @@ public:
 
     /// Sets up, and steps until the maximum time. A run that cannot go on ends with a RunError; the grains
     /// and contacts at the end of the last whole step are then in NAME-last-state.csv and
-    /// NAME-last-contacts.csv, and writeOutput() was called once more.
+    /// NAME-last-contacts.csv, and writeOutput() was called once more. A run that SIGINT, SIGTERM or the
+    /// limit of wall time asks to stop ends with RunStopped, its files complete and at one time.
     void solve() {
+        RunControl control(restarts);
         initialise();
-        writeAll();
+        if (!isRestarted()) writeAll();
         try {
-            stepToTheEnd();
+            stepToTheEnd(control);
         } catch (const RunError& stop) {
             throw RunError(withLastState(stop.what()));
         }
     }
 
-    /// Checks the scene and computes the forces at its start. solve() calls it; a driver that steps by itself
-    /// does.
+    /// Checks the scene and computes the forces at its start, or takes them from the restart file. solve()
+    /// calls it; a driver that steps by itself does.
     void initialise() {
         setupInitialConditions();
         checkValue("Simulation", "time step", timeStep, "s", positive);
         speciesHandler.mixAll();
-        checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
-        checkPeriodicLengths<S>(speciesHandler, particleHandler.store(), wallHandler, periodic);
+        if (isRestarted()) return readRestart();
         smallestRadius = particleHandler.store().smallestRadius();
-        contactSystem.prepare(speciesHandler, wallHandler, periodic, SkinChoice::byCost(smallestRadius),
-                              ledgerKept);
+        prepare();
         checkOverlaps();
         advance(0);  // a step of no length: forces and accelerations at the start
     }
@@ -145,6 +183,12 @@ public:
         for (const auto& output : outputs) output();
         writeOutput();
         times.enter(before);
+    }
+
+    /// What completes the outputs; a driver that steps by itself calls it at its end.
+    void completeAll() {
+        for (const auto& completion : completions) completion();
+        completeOutput();
     }
 
     void step() {
@@ -162,16 +206,26 @@ public:
 
 private:
     using Motion = VelocityVerlet<S::hasTorque>;
+    using Request = RunControl::Request;
 
-    void stepToTheEnd() {
-        Progress progress(timeMax, getTime(), steps);
+    void stepToTheEnd(RunControl& control) {
+        std::optional<Progress> progress;
+        if (!quiet) progress.emplace(timeMax, getTime(), steps);
         const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
-        while (steps < last && continueSolve()) {
+        Request request = control.request(steps);
+        while (request != Request::Stop && steps < last && continueSolve()) {
             step();
             if (saveCount > 0 && steps % saveCount == 0) writeAll();
-            if (progress.isDue(steps)) progress.show(getTime(), steps, [this] { return numbers(); });
+            if (progress && progress->isDue(steps))
+                progress->show(getTime(), steps, [this] { return numbers(); });
+            request = control.request(steps);
+            if (request == Request::WriteRestart) writeRestart(restartFile());
         }
+        // Before the last output: a run that goes on from here knows nothing of one that is not due.
+        if (restarts.kept) writeRestart(restartFile());
         if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
+        completeAll();
+        if (request == Request::Stop) throw stopped(control);
     }
 
     RunNumbers numbers() const {
@@ -181,6 +235,46 @@ private:
         return {particleHandler.getSize(), acting, kineticEnergy(particleHandler.store())};
     }
 
+    RunStopped stopped(const RunControl& control) const {
+        const std::string from = restarts.kept ? fmt::format("restart from {}", restartFile().string())
+                                               : std::string("it keeps no restart file");
+        return {fmt::format("{} has stopped the run at time {:.6g} s, after {} steps; {}.", control.reason(),
+                            getTime(), steps, from),
+                control.exitCode()};
+    }
+
+    /// When species, walls and grains are known.
+    void prepare() {
+        checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : timeStep);
+        checkPeriodicLengths<S>(speciesHandler, particleHandler.store(), wallHandler, periodic);
+        contactSystem.prepare(speciesHandler, wallHandler, periodic, SkinChoice::byCost(smallestRadius),
+                              ledgerKept);
+    }
+
+    void readRestart() {
+        readRestartFile(restartSource, [&](StateArchive& archive) {
+            visitScene(archive);
+            prepare();
+            visitContacts(archive);
+        });
+    }
+    void visitScene(StateArchive& archive) {
+        archive.group("species", [&] { speciesHandler.visitState(archive); });
+        archive.group("walls", [&] { wallHandler.visitState(archive); });
+        archive.same("timeStep", timeStep, "s");
+        archive.same("ledgerKept", ledgerKept);
+        archive.value("steps", steps);
+        archive.record<double>("gravity", gravity);
+        archive.record<double>("periodic", periodic);
+        archive.record<double>("ledger", ledger);
+        archive.value("smallestRadius", smallestRadius);
+        archive.group("particles", [&] { particleHandler.store().visitState(archive); });
+    }
+    void visitContacts(StateArchive& archive) {
+        archive.group("contacts", [&] { contactSystem.visitState(archive); });
+        archive.group("driver", [&] { visitState(archive); });
+    }
+
     /// Writes the state as it is, and adds to a sentence where it is.
     std::string withLastState(std::string sentence) {
         const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
@@ -188,6 +282,7 @@ private:
             writeGrains(grains, particleHandler.store(), sentence);
             writeContacts(contacts, contactSystem, particleHandler.store(), sentence);
             writeAll();
+            for (const auto& completion : completions) completion();
         } catch (const std::exception& problem) {
             return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
                                problem.what());
@@ -221,7 +316,7 @@ private:
     }
 
     void account(double length) {
-        ledger.add(contactSystem.energies(), length);
+        ledger.add(contactSystem.energies(), length, HasNormalHistory<typename S::Normal>);
         ledger.measureGrains(particleHandler.store(), gravity);
     }
 
@@ -257,7 +352,7 @@ private:
     }
 
     std::string name = "pendular";
-    std::vector<std::function<void()>> outputs;
+    std::vector<std::function<void()>> outputs, completions;
     ContactSystem<S> contactSystem;
     EnergyLedger ledger;
     StepTimes times;
@@ -269,6 +364,9 @@ private:
     std::size_t saveCount = 0;
     std::size_t steps = 0;
     int threads = 1;
+    RestartSchedule restarts;
+    std::filesystem::path restartSource;  // empty: a run from its beginning
+    bool quiet = false;
     bool unstableAccepted = false;
     bool ledgerKept = false;
 };

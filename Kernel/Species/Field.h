@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "Kernel/Math/Scalar.h"
 
@@ -67,6 +69,25 @@ struct Field {
         return {name, member, unit, range, mixing, meaning, source, ifUnset};
     }
 };
+
+/// The tables of the parts that a law is made of, as one.
+template <class Law, class... Tables>
+constexpr auto joinedFields(const Tables&... tables) {
+    return [&]<std::size_t... k>(std::index_sequence<k...>) {
+        const auto at = [&](std::size_t wanted) {
+            Field<Law> found{};
+            std::size_t begin = 0;
+            const auto look = [&](const auto& table) {
+                if (wanted >= begin && wanted < begin + table.size()) found = table[wanted - begin];
+                begin += table.size();
+            };
+            (look(tables), ...);
+            return found;
+        };
+        return std::array<Field<Law>, sizeof...(k)>{at(k)...};
+    }
+    (std::make_index_sequence<(std::tuple_size_v<Tables> + ...)>{});
+}
 
 /// Throws InputError, in one sentence with owner, field, value, unit and range, unless the value is in the
 /// range.

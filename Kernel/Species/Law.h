@@ -58,6 +58,10 @@ struct Slip {
     T response = T(0);   // m/s per N on body 1
 };
 
+/// The memory of a law that remembers nothing.
+template <class T>
+struct NoHistory {};
+
 /// The small rotation of a contact in a step. A history with a direction has a function turn(FrameRotation)
 /// that follows it, and one exchangeBodies() that sees it from the other body.
 template <class T>
@@ -80,18 +84,57 @@ concept HasRange = requires(const Law law, const Bodies bodies) {
     { law.range(bodies) } -> std::convertible_to<double>;
 };
 
-template <class Law, class T>
-concept HasNormalForce = requires(const typename Law::Prepared p, const Contact<T>& contact) {
-    { Law::force(p, contact) } -> std::same_as<NormalForce<T>>;
+/// A normal law whose force depends on what the overlap was before (plastic ones): its functions take its
+/// History<T> as well. What a contact remembers is zero at its first touch, and forgotten where it parts.
+template <class Law>
+concept HasNormalHistory = requires {
+    typename Law::template History<double>;
 };
+template <class Law>
+struct NormalHistoryOf {
+    template <class T>
+    using type = NoHistory<T>;
+};
+template <HasNormalHistory Law>
+struct NormalHistoryOf<Law> {
+    template <class T>
+    using type = typename Law::template History<T>;
+};
+
+/// The normal force of a law with or without a history, which it brings up to date.
+template <class Law, class T, class History>
+[[gnu::always_inline]] inline NormalForce<T> normalForce(const typename Law::Prepared& p,
+                                                         const Contact<T>& contact,
+                                                         [[maybe_unused]] History& history) {
+    if constexpr (HasNormalHistory<Law>) return Law::force(p, contact, history);
+    else return Law::force(p, contact);
+}
+/// The energy (J) that the overlap gives back.
+template <class Law, class History>
+double elasticEnergy(const typename Law::Prepared& p, const Contact<double>& contact,
+                     [[maybe_unused]] const History& history) {
+    if constexpr (HasNormalHistory<Law>) return Law::elasticEnergy(p, contact, history);
+    else return Law::elasticEnergy(p, contact);
+}
+
+template <class Law, class T>
+concept HasNormalForce = requires(const typename Law::Prepared p, const Contact<T>& contact,
+                                  typename NormalHistoryOf<Law>::template type<T> history) {
+    { normalForce<Law>(p, contact, history) } -> std::same_as<NormalForce<T>>;
+}
+&&(HasNormalHistory<Law> || requires(const typename Law::Prepared p, const Contact<T>& contact) {
+    { Law::force(p, contact) } -> std::same_as<NormalForce<T>>;
+});
 
 template <class Law>
 concept NormalLaw = HasFieldTable<Law> && HasRange<Law> && HasNormalForce<Law, double> &&
     HasNormalForce<Law, Pack> &&
     requires(const Law law, const typename Law::Prepared p, const Contact<double>& contact) {
     { law.prepare() } -> std::same_as<typename Law::Prepared>;
-    { Law::elasticEnergy(p, contact) } -> std::same_as<double>;  // J, stored in the overlap
-    { Law::stiffness(p, contact) } -> std::same_as<double>;      // N/m, slope of the elastic force
+    requires HasNormalHistory<Law> || requires {
+        { Law::elasticEnergy(p, contact) } -> std::same_as<double>;  // J, stored in the overlap
+    };
+    { Law::stiffness(p, contact) } -> std::same_as<double>;  // N/m, largest slope of the elastic force
     {
         Law::elasticExponent
         } -> std::convertible_to<double>;  // powers of the overlap with which the two parts
@@ -122,13 +165,31 @@ concept FrictionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<declty
                             } -> std::same_as<double>;  // N/m, of the tangential spring
                     }));
 
+/// A friction law that gives torques of its own to the two bodies (rolling, torsion), besides those of the
+/// tangential force:
+///     rotationForce(p, normalForce, normal, turning, history): the torque on body 1 over the effective
+///     radius (N), `turning` the motion of the effective radius times the relative spin (rad/s x m);
+///     rotationStiffness(p): of the stiffest of its springs (N/m).
+template <class Law>
+concept HasContactTorque = requires {
+    requires Law::hasContactTorque;
+};
+
 template <class Law, class T>
 concept HasAdhesionForce = requires(const typename Law::template Interaction<T> interaction, T separation) {
     {
         interaction.force(separation)
-        } -> std::same_as<T>;                    // N, attraction positive; separation in m, 0 in contact
+        } -> std::same_as<T>;                    // N, attraction positive; separation in m: separationFor
     { interaction.range() } -> std::same_as<T>;  // m
 };
+
+/// The separation (m) that an adhesion law is given at an overlap (m): 0 in contact, or negative for a law
+/// that says `readsOverlap`.
+template <class Law, class T>
+[[gnu::always_inline]] inline T separationFor(T overlap) {
+    if constexpr (requires { requires Law::readsOverlap; }) return -overlap;
+    else return max(-overlap, T(0));
+}
 
 /// `acts` is false for the law that does nothing. `formsAtContact` says that the force exists only from the
 /// first touch until the separation exceeds the range (a liquid bridge), not whenever bodies are within the

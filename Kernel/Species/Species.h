@@ -71,6 +71,8 @@ struct Species : MixedSpecies<N, F, A> {
 
     /// Grains of this species have a spin and their contacts a torque.
     static constexpr bool hasTorque = F::acts;
+    /// Contacts give their bodies a torque of their own, besides that of the tangential force.
+    static constexpr bool hasContactTorque = HasContactTorque<F>;
 
     void setDensity(double value) {
         checkValue(name, "density", value, "kg/m^3", positive);
@@ -82,6 +84,8 @@ struct Species : MixedSpecies<N, F, A> {
     void deriveUnset() {
         if constexpr (requires(Species s) { s.F::deriveUnset(static_cast<const N&>(s)); })
             F::deriveUnset(static_cast<const N&>(*this));
+        if constexpr (requires(Species s) { s.A::deriveUnset(static_cast<const N&>(s)); })
+            A::deriveUnset(static_cast<const N&>(*this));
     }
     /// Throws InputError if the density or a field of a law is unset or out of its range.
     void check() const {

@@ -10,6 +10,7 @@
 
 #include "Kernel/InputError.h"
 #include "Kernel/Species/Species.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 
@@ -58,13 +59,34 @@ public:
         return mixtures[static_cast<std::size_t>(a) * all.size() + static_cast<std::size_t>(b)];
     }
 
+    /// A run goes on with the species that it began with: their fields and the pairs' own values.
+    void visitState(StateArchive& archive) {
+        archive.same("name", S::name);
+        archive.same("count", all.size());
+        for (const S& species : all)
+            archive.group(fmt::format("{}", species.getIndex()), [&] {
+                archive.same("density", species.getDensity(), "kg/m^3");
+                visitFields(archive, species);
+            });
+        archive.same("countOfPairsWithOwnValues", own.size());
+        for (const auto& [pair, laws] : own)
+            archive.group(fmt::format("{}-{}", pair.first, pair.second), [&] { visitFields(archive, laws); });
+    }
+
 private:
+    static void visitFields(StateArchive& archive, const Mixed& laws) {
+        laws.forEachLaw([&]<class Law>(const Law& law) {
+            for (const auto& field : Law::fields())
+                archive.group(Law::name, [&] { archive.same(field.name, law.*field.member, field.unit); });
+        });
+    }
     std::size_t checked(std::size_t index) const {
         if (index >= all.size())
             throw InputError(fmt::format("There is no species {}; the scene has {} (counted from 0).",
                                          static_cast<std::ptrdiff_t>(index), all.size()));
         return index;
     }
+    static std::size_t indexOf(const S& species) { return static_cast<std::size_t>(species.getIndex()); }
     static Mixed nothingSet() {
         Mixed mixed;
         mixed.forEachLaw([](auto& law) { unsetFields(law); });
@@ -80,7 +102,10 @@ private:
         using A = typename S::Adhesion;
         static_cast<N&>(result) = mixLaws<N>(result, a, b);
         static_cast<F&>(result) = mixLaws<F>(result, a, b);
-        static_cast<A&>(result) = mixLaws<A>(result, a, b);
+        // What no user has set and an adhesion law takes from the normal law, it takes from that of the pair.
+        static_cast<A&>(result) = mixLaws<A>(result, all[indexOf(a)], all[indexOf(b)]);
+        if constexpr (requires { result.A::deriveUnset(static_cast<const N&>(result)); })
+            result.A::deriveUnset(static_cast<const N&>(result));
         result.check();
         return result;
     }

@@ -39,7 +39,8 @@ inline constexpr double largestSoundOverlap = 0.05;
 
 /// The time step (s) above which the contact of two grains is no longer integrated stably: 2 / omega for the
 /// stiffest of its oscillations at the largest sound overlap, the normal one, k_n / m*, and the tangential
-/// one, 7/2 k_t / m* (a solid sphere's spin adds 5/2 / m), halved because the stiffest oscillation of a grain
+/// one, 7/2 k_t / m* (a solid sphere's spin adds 5/2 / m), those of rolling and torsion, at most 5/2 k / m*,
+/// halved because the stiffest oscillation of a grain
 /// among many neighbours is up to twice as fast.
 /// @param effectiveMass kg, m1 m2 / (m1 + m2)
 template <class Mixed>
@@ -55,6 +56,9 @@ double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveM
         stiffness =
             std::max(stiffness,
                      3.5 * Friction::stiffness(static_cast<const Friction&>(laws).prepare(normal), contact));
+    if constexpr (HasContactTorque<Friction>)
+        stiffness = std::max(
+            stiffness, 2.5 * Friction::rotationStiffness(static_cast<const Friction&>(laws).prepare(normal)));
     return std::sqrt(effectiveMass / stiffness);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 namespace pendular {
 
@@ -15,5 +16,15 @@ struct TypeList {
         (function.template operator()<Types>(), ...);
     }
 };
+
+/// The types of a list for which Keep<Type>::value is true, in the same order.
+template <template <class> class Keep, class List, class Kept = TypeList<>>
+struct FilteredTypes {
+    using type = Kept;
+};
+template <template <class> class Keep, class First, class... Rest, class... Kept>
+struct FilteredTypes<Keep, TypeList<First, Rest...>, TypeList<Kept...>>
+    : FilteredTypes<Keep, TypeList<Rest...>,
+                    std::conditional_t<Keep<First>::value, TypeList<Kept..., First>, TypeList<Kept...>>> {};
 
 }  // namespace pendular

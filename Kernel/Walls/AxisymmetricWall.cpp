@@ -138,6 +138,13 @@ bool AxisymmetricWall::isCrossedInBody(const Vector<double>& from, const Vector<
     return false;
 }
 
+void AxisymmetricWall::visitShape(StateArchive& archive) const {
+    archive.same("shape", "AxisymmetricWall");
+    archive.sameRecord<double>("axis", axis);
+    archive.sameRecord<double>("origin", origin);
+    archive.same<double>("profile", std::span(profile));
+}
+
 SurfaceExtent AxisymmetricWall::extent() const {
     const auto [low, high] = std::minmax_element(
         profile.begin(), profile.end(), [](const Point& a, const Point& b) { return a.height < b.height; });

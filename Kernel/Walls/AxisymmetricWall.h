@@ -30,6 +30,7 @@ protected:
     [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override;
     [[nodiscard]] SurfaceExtent extent() const override;
     [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override;
+    void visitShape(StateArchive& archive) const override;
 
 private:
     struct Meridian {

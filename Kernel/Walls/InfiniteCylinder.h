@@ -57,6 +57,14 @@ protected:
         return surface;
     }
 
+    void visitShape(StateArchive& archive) const override {
+        archive.same("shape", "InfiniteCylinder");
+        archive.sameRecord<double>("axis", axis);
+        archive.sameRecord<double>("origin", origin);
+        archive.same("radius", cylinderRadius, "m");
+        archive.same("inside", inside);
+    }
+
 private:
     [[nodiscard]] Vector<double> across(const Vector<double>& centre) const {
         const Vector<double> relative = centre - origin;

@@ -36,6 +36,12 @@ protected:
         return {{{middle + a + b, middle - a + b, middle - a - b, middle + a - b}}, {{normal, offset}}, true};
     }
 
+    void visitShape(StateArchive& archive) const override {
+        archive.same("shape", "InfiniteWall");
+        archive.sameRecord<double>("normal", normal);
+        archive.same("offset", offset, "m");
+    }
+
 private:
     [[nodiscard]] double gap(const Vector<double>& centre) const { return offset - dot(normal, centre); }
 

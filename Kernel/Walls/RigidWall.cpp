@@ -109,6 +109,17 @@ RigidVelocity RigidWall::velocityAt(double time) const {
     return {toVector(linear), toVector(Eigen::Vector3d(spin / (4 * h))), pose.shift};
 }
 
+void RigidWall::visitState(StateArchive& archive) {
+    Wall::visitState(archive);
+    visitShape(archive);
+    archive.same("hasMotionFunction", static_cast<bool>(motion));
+    archive.value("atRest", atRest);
+    archive.record<double>("steadyMotion", steady);
+    archive.record<double>("surfaceVelocity", surfaceVelocity);
+    archive.record<double>("pose", pose);
+    archive.record<double>("velocity", velocity);
+}
+
 double RigidWall::moveTo(double time) {
     if (atRest) return 0;
     const Pose last = pose;

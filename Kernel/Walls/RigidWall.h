@@ -33,6 +33,7 @@ public:
     [[nodiscard]] const Pose& getPose() const { return pose; }
 
     double moveTo(double time) final;
+    void visitState(StateArchive& archive) override;
     void listParts(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const final;
@@ -49,6 +50,8 @@ protected:
                                                const Vector<double>& to) const = 0;
     [[nodiscard]] virtual SurfaceExtent extent() const = 0;
     [[nodiscard]] virtual WallSurface surfaceInBody(const SceneSphere& /*around*/) const { return {}; }
+    /// The name and the numbers of the shape, by StateArchive::same().
+    virtual void visitShape(StateArchive& /*archive*/) const {}
 
     bool given = false;
 

@@ -164,6 +164,14 @@ bool TriangleWall::isCrossedInBody(const Vector<double>& from, const Vector<doub
     return crossed;
 }
 
+void TriangleWall::visitShape(StateArchive& archive) const {
+    std::vector<Vector<double>> corners;
+    for (const Side& side : mesh->sides) corners.push_back(side.corner);
+    archive.same("shape", "TriangleWall");
+    archive.same("parts", getNumberOfParts());
+    archive.same<double>("corners", std::span<const Vector<double>>(corners));
+}
+
 SurfaceExtent TriangleWall::extent() const {
     return {SurfaceExtent::Symmetry::None, mesh->box.middle(), mesh->radius, {0, 0, 0}};
 }

@@ -73,6 +73,12 @@ public:
         kept = {force, torque, kept.about};
     }
 
+    /// What a run has changed, and what must be as it was when the run began.
+    virtual void visitState(StateArchive& archive) {
+        archive.same("species", species);
+        archive.record<double>("force", kept);
+    }
+
     int species = -1;
 
 private:

@@ -40,6 +40,12 @@ public:
         return farthest;
     }
 
+    void visitState(StateArchive& archive) {
+        archive.same("count", walls.size());
+        for (std::size_t w = 0; w < walls.size(); ++w)
+            archive.group(std::to_string(w), [&] { walls[w]->visitState(archive); });
+    }
+
 private:
     std::vector<std::unique_ptr<Wall>> walls;
 };

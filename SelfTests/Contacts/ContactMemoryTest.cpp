@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/SlidingRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearPlasticViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/ContactKey.h"
 
@@ -44,8 +47,12 @@ struct Settling {
     ContactSystem<S> system;
 };
 
-TEST(ContactMemory, makesTrajectoriesIndependentOfTheSkin) {
-    Settling<Wet> always(0), rarely(0.5 * r);
+/// With what every kind of law remembers.
+using PlasticRolling = Species<LinearPlasticViscoelastic, SlidingRollingTorsion, IrreversibleAdhesive>;
+
+template <class S>
+void expectTrajectoriesIndependentOfTheSkin() {
+    Settling<S> always(0), rarely(0.5 * r);
     // Until grains have met, bridges have ruptured, and contacts have slid. The order of sums differs: 1e-16
     // of each force, which the collisions of 1000 steps magnify.
     always.advance(1000);
@@ -66,6 +73,11 @@ TEST(ContactMemory, makesTrajectoriesIndependentOfTheSkin) {
         EXPECT_LT((a.getVelocity() - b.getVelocity()).norm(), 1e-9) << k;
         EXPECT_LT((a.getAngularVelocity() - b.getAngularVelocity()).norm(), 1e-6) << k;
     }
+}
+
+TEST(ContactMemory, makesTrajectoriesIndependentOfTheSkin) { expectTrajectoriesIndependentOfTheSkin<Wet>(); }
+TEST(ContactMemory, ofAllKindsOfLawsMakesTrajectoriesIndependentOfTheSkin) {
+    expectTrajectoriesIndependentOfTheSkin<PlasticRolling>();
 }
 
 struct Memory {
@@ -91,9 +103,12 @@ std::map<ContactKey, Memory> memories(Settling<Wet>& run, int& exchanged) {
         exchanged += reversed ? 1 : 0;
         const Vector<double> spring = store.memory.history.get(store.slotOf(c)).displacement;
         result[keyOf(store, identity, bucket, c)] = {
-            reversed ? -spring : spring,  store.memory.interaction.get(store.slotOf(c)).contactForce,
-            store.recordOf(c).normalForce, bit(state.touching),
-            bit(state.bridged),           bit(state.closing)};
+            reversed ? -spring : spring,
+            store.memory.interaction.get(store.slotOf(c)).contactForce,
+            store.recordOf(c).normalForce,
+            bit(state.touching),
+            bit(state.bridged),
+            bit(state.closing)};
     });
     return result;
 }

@@ -51,9 +51,16 @@ std::string headerOf(const std::filesystem::path& file) {
 }
 
 TEST(Drivers, explainTheirOptions) {
-    for (const std::string name : {"RotatingDrum", "Penetration", "HopperDischarge"}) {
+    for (const std::string name : {"RotatingDrum", "Penetration", "HopperDischarge", "TwoParticleCollision",
+                                   "WetTower", "UserDefinedLaw"}) {
         const auto help = run(drivers + "/" + name + "/" + name + " --help");
         EXPECT_EQ(help.exitCode, 0);
+        for (const char* option :
+             {"--output", "--threads", "--resume", "--restart-interval-s", "--wall-time", "--quiet"})
+            EXPECT_NE(help.output.find(option), std::string::npos) << name << option;
+    }
+    for (const std::string name : {"RotatingDrum", "Penetration", "HopperDischarge"}) {
+        const auto help = run(drivers + "/" + name + "/" + name + " --help");
         for (const char* option : {"--end-time-s", "--interval-s", "--output", "--number"})
             EXPECT_NE(help.output.find(option), std::string::npos) << name << option;
     }
@@ -128,6 +135,70 @@ TEST(HopperDischarge, writesCurvesAndFlows) {
     EXPECT_GT(mass[0.012], mass[0.01]) << "the wider orifice lets more through";
     // A line through two points meets both.
     for (const auto& row : rowsOf(folder.path / "flow.csv")) EXPECT_NEAR(row[3] / row[1], 1, 1e-9);
+}
+
+/// Every file of two folders is the same.
+void expectSameFiles(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(a)) {
+        const auto other = b / entry.path().filename();
+        EXPECT_TRUE(contentOf(entry.path()) == contentOf(other)) << other;
+        ++files;
+    }
+    const auto inB = std::distance(std::filesystem::directory_iterator(b), {});
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(files), inB);
+    EXPECT_GE(files, 2u);
+}
+
+/// A run to an early end, and from there to a later one, leaves the same files as one that goes there at
+/// once.
+void expectResumes(const std::string& command, const std::string& early, const std::string& late) {
+    const Folder whole("resume-whole"), part("resume-part");
+    const std::string quiet = " --quiet ";
+    const auto at = [&](const std::string& arguments) {
+        const auto result = run(command + quiet + arguments);
+        EXPECT_EQ(result.exitCode, 0) << result.output;
+        EXPECT_EQ(result.output, "");
+    };
+    at(late + " " + whole.option());
+    at(early + " --resume " + part.option());  // there is nothing yet: it begins
+    at(late + " --resume --threads 2 " + part.option());
+    expectSameFiles(whole.path, part.path);
+    at(late + " --resume " + part.option());  // once more: it is at its end
+    expectSameFiles(whole.path, part.path);
+}
+
+TEST(Drivers, goOnWhereTheyWere) {
+    expectResumes(drum + "--number 60 --softening 1000 --interval-s 0.002", "--end-time-s 0.005",
+                  "--end-time-s 0.013");
+    expectResumes(bed + "--number 120 --softening 100", "--end-time-s 0.0012", "--end-time-s 0.1");
+    expectResumes(
+        hopper + "--number 120 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.012 --begin-s 0.02",
+        "--end-time-s 0.05", "--end-time-s 0.06");
+    expectResumes(drivers + "/TwoParticleCollision/TwoParticleCollision ", "--time-max-s 2e-4",
+                  "--time-max-s 0.02");
+}
+
+TEST(Drivers, takeARestartFileByItsName) {
+    const Folder whole("restart-whole"), other("restart-other");
+    const std::string command = drum + "--number 60 --softening 1000 --quiet --interval-s 0.002 ";
+    EXPECT_EQ(run(command + "--end-time-s 0.005 " + whole.option()).exitCode, 0);
+    const std::string from = "--restart " + (whole.path / "run-restart.h5").string() + " ";
+    EXPECT_EQ(run(command + from + "--end-time-s 0.013 " + other.option()).exitCode, 0);
+    // The new folder has a table of the times since then.
+    EXPECT_NEAR(rowsOf(other.path / "zones.csv").front()[0], 0.006,
+                3e-5);  // a step of 0.8 us sqrt(1000) at most
+    expectOneSentence(run(command + from + "--speed-rad/s 3 " + other.option()),
+                      "driver/speed is 2 rad/s in the file");
+    expectOneSentence(run(command + from + "--softening 900 " + other.option()),
+                      "does not fit this scene: species/");
+    expectOneSentence(run(command + from + "--number 70 " + other.option()),
+                      "walls/0/profile is not the same");
+    expectOneSentence(run(command + "--restart /no/such " + other.option()), "/no/such does not exist");
+    expectOneSentence(run(bed + from + other.option()), "does not fit this scene");
+    expectOneSentence(run(command + "--wall-time soon " + other.option()), "'soon' is not a time");
+    expectOneSentence(run(command + "--wall-time 0:00 " + other.option()), "'0:00' is not a time");
+    EXPECT_NE(run(command + from + "--resume " + other.option()).exitCode, 0) << "one or the other";
 }
 
 TEST(Drivers, refuseWrongInputInOneSentence) {

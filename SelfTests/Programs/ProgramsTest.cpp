@@ -10,6 +10,7 @@
 
 #include "BuildFolders.h"
 #include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -31,7 +32,8 @@ TEST(Documentation, referencePageIsWhatTheToolPrints) {
 TEST(Documentation, driverOfTheReadmeIsThatOfTheFolder) {
     const std::string driver = contentOf(source / "Drivers/WetTower/WetTower.cpp");
     EXPECT_NE(contentOf(source / "README.md").find(driver), std::string::npos);
-    EXPECT_EQ(run(drivers + "/WetTower/WetTower").exitCode, 0);
+    const support::TestFolder folder;
+    EXPECT_EQ(run(drivers + "/WetTower/WetTower --output " + folder.path().string()).exitCode, 0);
 }
 
 TEST(BridgeForce, printsTheFiguresOfThePaper) {
@@ -72,6 +74,36 @@ TEST(BridgeForce, refusesInOneSentence) {
               0);
 }
 
+/// The separation of the largest exact force in a case of a table of bridge-figures, in R.
+double separationOfMostForce(const std::filesystem::path& table, const std::string& startOfCase) {
+    std::istringstream lines(contentOf(table));
+    double most = 0, where = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(startOfCase)) continue;
+        std::istringstream cells(line.substr(startOfCase.size()));
+        double separation = 0, force = 0;
+        char comma = 0;
+        if ((cells >> separation >> comma >> force) && force > most) most = force, where = separation;
+    }
+    return where;
+}
+
+// Yang, Sega and Harting: for theta = 60 degrees (Figure 3) and for V* = 0.25 (Figure 4) the force is largest
+// at S/R of about 0.5, here to half of the first decimal.
+TEST(BridgeFigures, writesTablesWithTheMaximumOfThePaper) {
+    const auto folder = std::filesystem::temp_directory_path() / "pendular-bridge-figures";
+    const Result result = run(tools + "/bridge-figures --output " + folder.string());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_NEAR(separationOfMostForce(folder / "figure-3.csv", "60,0.133,1,"), 0.5, 0.051);
+    EXPECT_NEAR(separationOfMostForce(folder / "figure-4.csv", "48,0.25,1,"), 0.5, 0.051);
+    for (const int number : {3, 4, 5, 9})
+        EXPECT_TRUE(contentOf(folder / ("figure-" + std::to_string(number) + ".csv"))
+                        .starts_with("contact_angle_deg,volume_over_sphere,radius_ratio,separation_over_R,"));
+    expectOneSentence(run(tools + "/bridge-figures --points 1"), "points = 1");
+    expectOneSentence(run(tools + "/bridge-figures --output /proc/nowhere"), "cannot be written");
+    std::filesystem::remove_all(folder);
+}
+
 TEST(TwoParticleCollision, writesItsTwoTables) {
     const auto folder = std::filesystem::temp_directory_path() / "pendular-two-particle-collision";
     const Result result =
@@ -97,7 +129,10 @@ TEST(TwoParticleCollision, writesItsTwoTables) {
     std::filesystem::remove_all(folder);
 }
 
-TEST(UserDefinedLaw, runs) { EXPECT_EQ(run(drivers + "/UserDefinedLaw/UserDefinedLaw").exitCode, 0); }
+TEST(UserDefinedLaw, runs) {
+    const support::TestFolder folder;
+    EXPECT_EQ(run(drivers + "/UserDefinedLaw/UserDefinedLaw --output " + folder.path().string()).exitCode, 0);
+}
 
 }  // namespace
 }  // namespace pendular

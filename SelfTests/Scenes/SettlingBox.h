@@ -17,14 +17,32 @@ S boxMaterial(int kind) {
     if constexpr (requires { species.setEffectiveElasticModulus(1.0); }) {
         species.setEffectiveElasticModulus(kind == 0 ? 2e6 : 3e6);
         species.setDissipation(kind == 0 ? 0.25 : 0.4);
+    } else if constexpr (requires { species.setPlasticParameters(1.0, 1.0, 1.0, 1.0); }) {
+        species.setPlasticParameters(kind == 0 ? 150 : 200, 500, kind == 0 ? 20 : 50, 0.01);
+        species.setDissipation(kind == 0 ? 2e-3 : 4e-3);
     } else {
         species.setStiffness(kind == 0 ? 300 : 400);
         species.setDissipation(kind == 0 ? 2e-3 : 4e-3);
     }
     if constexpr (requires { species.setSlidingFrictionCoefficient(1.0); }) {
-        species.setEffectiveShearModulus(kind == 0 ? 5e5 : 7e5);
-        species.setSlidingDissipation(kind == 0 ? 0.2 : 0.3);
+        if constexpr (requires { species.setEffectiveShearModulus(1.0); }) {
+            species.setEffectiveShearModulus(kind == 0 ? 5e5 : 7e5);
+            species.setSlidingDissipation(kind == 0 ? 0.2 : 0.3);
+        } else {
+            species.setSlidingStiffness(kind == 0 ? 80 : 100);
+            species.setStaticFrictionRatio(1.5);
+        }
         species.setSlidingFrictionCoefficient(kind == 0 ? 0.5 : 0.3);
+    }
+    if constexpr (requires { species.setRollingStiffness(1.0); }) {
+        species.setRollingStiffness(kind == 0 ? 80 : 100);
+        species.setRollingFrictionCoefficient(kind == 0 ? 0.1 : 0.2);
+        species.setTorsionStiffness(kind == 0 ? 80 : 100);
+        species.setTorsionFrictionCoefficient(kind == 0 ? 0.05 : 0.1);
+    }
+    if constexpr (requires { species.setAdhesionForceMax(1.0); }) {
+        species.setAdhesionForceMax(kind == 0 ? 1e-4 : 2e-4);
+        species.setAdhesionStiffness(2);
     }
     if constexpr (requires { species.setLiquidBridgeVolume(1.0); }) {
         species.setLiquidBridgeVolume(kind == 0 ? 2e-12 : 6e-12);

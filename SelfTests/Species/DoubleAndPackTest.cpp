@@ -8,6 +8,7 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
+#include "SelfTests/Support/RandomLaw.h"
 
 // A law gives the same bits on T = double and T = Pack: what is tested in double is what the kernel computes.
 
@@ -15,6 +16,7 @@ namespace pendular {
 namespace {
 
 using support::Draw;
+using support::randomLaw;
 
 constexpr int lanes = Pack::lanes;
 constexpr int rounds = 2000;
@@ -61,24 +63,37 @@ Contact<double> randomContact(Draw& draw) {
     return {overlap, radius, draw.logarithmic(1e-15, 1)};
 }
 
-template <class Law>
-Law randomLaw(Draw& draw) {
-    Law law;
-    for (const auto& field : Law::fields())
-        law.*field.member = field.unit == "Pa" ? draw.logarithmic(1e5, 1e11) : draw.uniform(0, 1);
-    return law;
-}
-
 TEST(DoubleAndPack, normalLawsGiveTheSameBits) {
     NormalLaws::forEach([]<class Law>() {
+        using Kind = NormalHistoryOf<Law>;
         Draw draw(1);
         for (int round = 0; round < rounds; ++round) {
             const auto prepared = randomLaw<Law>(draw).prepare();
             std::array<Contact<double>, lanes> contacts;
-            for (auto& contact : contacts) contact = randomContact(draw);
-            const NormalForce<Pack> pack = Law::force(prepared, packed<Contact>(contacts));
-            for (std::size_t k = 0; k < lanes; ++k)
-                expectSameBits<NormalForce>(pack, k, Law::force(prepared, contacts[k]), Law::name);
+            std::array<typename Kind::template type<double>, lanes> histories{};
+            for (int k = 0; k < lanes; ++k) {
+                contacts[k] = randomContact(draw);
+                // What a contact of another overlap has left behind.
+                Contact<double> before = contacts[k];
+                before.overlap *= draw.uniform(0, 3);
+                normalForce<Law>(prepared, before, histories[k]);
+            }
+            const auto expectSame = [&](const NormalForce<Pack>& pack, std::size_t k,
+                                        const NormalForce<double>& single) {
+                expectSameBits<NormalForce>(pack, k, single, Law::name);
+            };
+            if constexpr (HasNormalHistory<Law>) {
+                auto history = packed<Law::template History>(histories);
+                const NormalForce<Pack> pack = Law::force(prepared, packed<Contact>(contacts), history);
+                for (std::size_t k = 0; k < lanes; ++k) {
+                    expectSame(pack, k, Law::force(prepared, contacts[k], histories[k]));
+                    expectSameBits<Law::template History>(history, k, histories[k], Law::name);
+                }
+            } else {
+                const NormalForce<Pack> pack = Law::force(prepared, packed<Contact>(contacts));
+                for (std::size_t k = 0; k < lanes; ++k)
+                    expectSame(pack, k, Law::force(prepared, contacts[k]));
+            }
             if (::testing::Test::HasFailure()) return;
         }
     });
@@ -107,9 +122,10 @@ Sliding<Law> randomSliding(Draw& draw, const typename Law::Prepared& prepared) {
     const double step = draw.logarithmic(1e-9, 1e-3);
     lane.slip = {draw.oneIn(16) ? Vector<double>{0, 0, 0} : tangential(draw.logarithmic(1e-6, 1)), 0.5 * step,
                  0.5 * step};
-    auto& numbers = reinterpret_cast<Numbers<double, Law::template History>&>(lane.history);
+    Numbers<double, Law::template History> numbers;
     for (double& number : numbers)
         number = draw.oneIn(8) ? 0 : draw.uniform(-1, 1) * draw.logarithmic(1e-9, 1e-3);
+    lane.history = std::bit_cast<typename Law::template History<double>>(numbers);
     // About as often below as above the limit, by the size of what spring and dashpot would give without one.
     auto history = lane.history;
     const double size = norm(Law::force(prepared, lane.contact, 1e300, lane.slip, history));
@@ -140,6 +156,11 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
                 const Vector<Pack> force =
                     Law::force(prepared, packed<Contact>(contacts), Pack::fromLanes(normalForces),
                                packed<Slip>(slips), history);
+                Vector<Pack> rotation;
+                if constexpr (HasContactTorque<Law>)
+                    rotation = Law::rotationForce(prepared, Pack::fromLanes(normalForces),
+                                                  packed<FrameRotation>(rotations).normal,
+                                                  packed<Slip>(slips), history);
                 if constexpr (requires { history.exchangeBodies(); })
                     if (round % 2 == 1) history.exchangeBodies();
                 for (std::size_t k = 0; k < lanes; ++k) {
@@ -149,6 +170,12 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
                     const auto single =
                         Law::force(prepared, contacts[k], normalForces[k], slips[k], histories[k]);
                     (norm(single) < 0.999 * wanted ? slid : stuck) += 1;
+                    if constexpr (HasContactTorque<Law>)
+                        expectSameBits<Vector>(
+                            rotation, k,
+                            Law::rotationForce(prepared, normalForces[k], rotations[k].normal, slips[k],
+                                               histories[k]),
+                            Law::name);
                     if constexpr (requires { history.exchangeBodies(); })
                         if (round % 2 == 1) histories[k].exchangeBodies();
                     expectSameBits<Vector>(force, k, single, Law::name);
@@ -163,6 +190,28 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
     });
 }
 
+TEST(DoubleAndPack, otherAdhesionLawsGiveTheSameBits) {
+    AdhesionLaws::forEach([]<class Law>() {
+        if constexpr (Law::acts && !requires(Law law) { law.setLiquidBridgeVolume(0.0); }) {
+            Draw draw(4);
+            for (int round = 0; round < rounds; ++round) {
+                std::array<typename Law::template Interaction<double>, lanes> contacts;
+                std::array<double, lanes> separations;
+                for (int k = 0; k < lanes; ++k) {
+                    contacts[k] = randomLaw<Law>(draw).prepare(
+                        Bodies{1, draw.oneIn(4) ? infinity : draw.uniform(0.1, 10)});
+                    separations[k] = separationFor<Law>(draw.uniform(-1, 3) * contacts[k].range());
+                }
+                const Pack force =
+                    packed<Law::template Interaction>(contacts).force(Pack::fromLanes(separations));
+                for (std::size_t k = 0; k < lanes; ++k)
+                    expectSameBits<One>({force}, k, {contacts[k].force(separations[k])}, Law::name);
+                if (::testing::Test::HasFailure()) return;
+            }
+        }
+    });
+}
+
 template <class Law>
 Law randomBridge(Draw& draw) {
     Law law;
@@ -173,7 +222,7 @@ Law randomBridge(Draw& draw) {
 }
 
 TEST(DoubleAndPack, bridgesGiveTheSameBits) {
-    support::forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         Draw draw(3);
         for (int round = 0; round < rounds; ++round) {
             std::array<typename Law::template Interaction<double>, lanes> bridges;

@@ -127,34 +127,131 @@ struct Setter {
 template <class Law>
 std::vector<Setter<Law>> settersOf() {
     using L = Law;
-    using V = double;
-    if constexpr (std::is_same_v<L, LinearViscoelastic>)
-        return {
-            {"stiffness", [](L& l, V v) { l.setStiffness(v); }, [](const L& l) { return l.getStiffness(); }},
-            {"dissipation", [](L& l, V v) { l.setDissipation(v); },
-             [](const L& l) { return l.getDissipation(); }}};
-    else if constexpr (std::is_same_v<L, HertzianViscoelastic>)
-        return {{"effectiveElasticModulus", [](L& l, V v) { l.setEffectiveElasticModulus(v); },
-                 [](const L& l) { return l.getEffectiveElasticModulus(); }},
-                {"dissipation", [](L& l, V v) { l.setDissipation(v); },
-                 [](const L& l) { return l.getDissipation(); }}};
-    else if constexpr (std::is_same_v<L, Mindlin>)
-        return {{"effectiveShearModulus", [](L& l, V v) { l.setEffectiveShearModulus(v); },
-                 [](const L& l) { return l.getEffectiveShearModulus(); }},
-                {"slidingDissipation", [](L& l, V v) { l.setSlidingDissipation(v); },
-                 [](const L& l) { return l.getSlidingDissipation(); }},
-                {"slidingFrictionCoefficient", [](L& l, V v) { l.setSlidingFrictionCoefficient(v); },
-                 [](const L& l) { return l.getSlidingFrictionCoefficient(); }},
-                {"springFactor", [](L& l, V v) { l.setSpringFactor(v); },
-                 [](const L& l) { return l.getSpringFactor(); }}};
-    else if constexpr (requires(L l) { l.setLiquidBridgeVolume(0.0); })
-        return {{"liquidBridgeVolume", [](L& l, V v) { l.setLiquidBridgeVolume(v); },
-                 [](const L& l) { return l.getLiquidBridgeVolume(); }},
-                {"contactAngle", [](L& l, V v) { l.setContactAngle(v); },
-                 [](const L& l) { return l.getContactAngle(); }},
-                {"surfaceTension", [](L& l, V v) { l.setSurfaceTension(v); },
-                 [](const L& l) { return l.getSurfaceTension(); }}};
-    else return {};
+    std::vector<Setter<L>> setters;
+    [[maybe_unused]] const auto add = [&](std::string_view field, auto set, auto get) {
+        setters.push_back({field, set, get});
+    };
+    if constexpr (requires(L l) { l.setStiffness(0.0); })
+        add(
+            "stiffness", [](L& l, double v) { l.setStiffness(v); },
+            [](const L& l) { return l.getStiffness(); });
+    if constexpr (requires(L l) { l.setDissipation(0.0); })
+        add(
+            "dissipation", [](L& l, double v) { l.setDissipation(v); },
+            [](const L& l) { return l.getDissipation(); });
+    if constexpr (requires(L l) { l.setEffectiveElasticModulus(0.0); })
+        add(
+            "effectiveElasticModulus", [](L& l, double v) { l.setEffectiveElasticModulus(v); },
+            [](const L& l) { return l.getEffectiveElasticModulus(); });
+    if constexpr (requires(L l) { l.setDissipativeTime(0.0); })
+        add(
+            "dissipativeTime", [](L& l, double v) { l.setDissipativeTime(v); },
+            [](const L& l) { return l.getDissipativeTime(); });
+    if constexpr (requires(L l) { l.setLoadingStiffness(0.0); })
+        add(
+            "loadingStiffness", [](L& l, double v) { l.setLoadingStiffness(v); },
+            [](const L& l) { return l.getLoadingStiffness(); });
+    if constexpr (requires(L l) { l.setUnloadingStiffnessMax(0.0); })
+        add(
+            "unloadingStiffnessMax", [](L& l, double v) { l.setUnloadingStiffnessMax(v); },
+            [](const L& l) { return l.getUnloadingStiffnessMax(); });
+    if constexpr (requires(L l) { l.setCohesionStiffness(0.0); })
+        add(
+            "cohesionStiffness", [](L& l, double v) { l.setCohesionStiffness(v); },
+            [](const L& l) { return l.getCohesionStiffness(); });
+    if constexpr (requires(L l) { l.setPenetrationDepthMax(0.0); })
+        add(
+            "penetrationDepthMax", [](L& l, double v) { l.setPenetrationDepthMax(v); },
+            [](const L& l) { return l.getPenetrationDepthMax(); });
+    if constexpr (requires(L l) { l.setPlasticity(0.0); })
+        add(
+            "plasticity", [](L& l, double v) { l.setPlasticity(v); },
+            [](const L& l) { return l.getPlasticity(); });
+    if constexpr (requires(L l) { l.setCohesionRatio(0.0); })
+        add(
+            "cohesionRatio", [](L& l, double v) { l.setCohesionRatio(v); },
+            [](const L& l) { return l.getCohesionRatio(); });
+    if constexpr (requires(L l) { l.setEffectiveShearModulus(0.0); })
+        add(
+            "effectiveShearModulus", [](L& l, double v) { l.setEffectiveShearModulus(v); },
+            [](const L& l) { return l.getEffectiveShearModulus(); });
+    if constexpr (requires(L l) { l.setSlidingDissipation(0.0); })
+        add(
+            "slidingDissipation", [](L& l, double v) { l.setSlidingDissipation(v); },
+            [](const L& l) { return l.getSlidingDissipation(); });
+    if constexpr (requires(L l) { l.setSlidingFrictionCoefficient(0.0); })
+        add(
+            "slidingFrictionCoefficient", [](L& l, double v) { l.setSlidingFrictionCoefficient(v); },
+            [](const L& l) { return l.getSlidingFrictionCoefficient(); });
+    if constexpr (requires(L l) { l.setSpringFactor(0.0); })
+        add(
+            "springFactor", [](L& l, double v) { l.setSpringFactor(v); },
+            [](const L& l) { return l.getSpringFactor(); });
+    if constexpr (requires(L l) { l.setSlidingStiffness(0.0); })
+        add(
+            "slidingStiffness", [](L& l, double v) { l.setSlidingStiffness(v); },
+            [](const L& l) { return l.getSlidingStiffness(); });
+    if constexpr (requires(L l) { l.setStaticFrictionRatio(0.0); })
+        add(
+            "staticFrictionRatio", [](L& l, double v) { l.setStaticFrictionRatio(v); },
+            [](const L& l) { return l.getStaticFrictionRatio(); });
+    if constexpr (requires(L l) { l.setRollingStiffness(0.0); })
+        add(
+            "rollingStiffness", [](L& l, double v) { l.setRollingStiffness(v); },
+            [](const L& l) { return l.getRollingStiffness(); });
+    if constexpr (requires(L l) { l.setRollingDissipation(0.0); })
+        add(
+            "rollingDissipation", [](L& l, double v) { l.setRollingDissipation(v); },
+            [](const L& l) { return l.getRollingDissipation(); });
+    if constexpr (requires(L l) { l.setRollingFrictionCoefficient(0.0); })
+        add(
+            "rollingFrictionCoefficient", [](L& l, double v) { l.setRollingFrictionCoefficient(v); },
+            [](const L& l) { return l.getRollingFrictionCoefficient(); });
+    if constexpr (requires(L l) { l.setTorsionStiffness(0.0); })
+        add(
+            "torsionStiffness", [](L& l, double v) { l.setTorsionStiffness(v); },
+            [](const L& l) { return l.getTorsionStiffness(); });
+    if constexpr (requires(L l) { l.setTorsionDissipation(0.0); })
+        add(
+            "torsionDissipation", [](L& l, double v) { l.setTorsionDissipation(v); },
+            [](const L& l) { return l.getTorsionDissipation(); });
+    if constexpr (requires(L l) { l.setTorsionFrictionCoefficient(0.0); })
+        add(
+            "torsionFrictionCoefficient", [](L& l, double v) { l.setTorsionFrictionCoefficient(v); },
+            [](const L& l) { return l.getTorsionFrictionCoefficient(); });
+    if constexpr (requires(L l) { l.setLiquidBridgeVolume(0.0); })
+        add(
+            "liquidBridgeVolume", [](L& l, double v) { l.setLiquidBridgeVolume(v); },
+            [](const L& l) { return l.getLiquidBridgeVolume(); });
+    if constexpr (requires(L l) { l.setContactAngle(0.0); })
+        add(
+            "contactAngle", [](L& l, double v) { l.setContactAngle(v); },
+            [](const L& l) { return l.getContactAngle(); });
+    if constexpr (requires(L l) { l.setSurfaceTension(0.0); })
+        add(
+            "surfaceTension", [](L& l, double v) { l.setSurfaceTension(v); },
+            [](const L& l) { return l.getSurfaceTension(); });
+    if constexpr (requires(L l) { l.setAdhesionForceMax(0.0); })
+        add(
+            "adhesionForceMax", [](L& l, double v) { l.setAdhesionForceMax(v); },
+            [](const L& l) { return l.getAdhesionForceMax(); });
+    if constexpr (requires(L l) { l.setAdhesionStiffness(0.0); })
+        add(
+            "adhesionStiffness", [](L& l, double v) { l.setAdhesionStiffness(v); },
+            [](const L& l) { return l.getAdhesionStiffness(); });
+    if constexpr (requires(L l) { l.setWorkOfAdhesion(0.0); })
+        add(
+            "workOfAdhesion", [](L& l, double v) { l.setWorkOfAdhesion(v); },
+            [](const L& l) { return l.getWorkOfAdhesion(); });
+    if constexpr (requires(L l) { l.setSurfaceDistance(0.0); })
+        add(
+            "surfaceDistance", [](L& l, double v) { l.setSurfaceDistance(v); },
+            [](const L& l) { return l.getSurfaceDistance(); });
+    if constexpr (requires(L l) { l.setAdhesionModulus(0.0); })
+        add(
+            "adhesionModulus", [](L& l, double v) { l.setAdhesionModulus(v); },
+            [](const L& l) { return l.getAdhesionModulus(); });
+    return setters;
 }
 
 TEST(Field, everySetterChecksItsFieldAndItsGetterReturnsIt) {
@@ -220,6 +317,7 @@ TEST(Field, hertzHelpersCheckWhatTheyAreGiven) {
            [&](double e) { law.setEffectiveElasticModulusAndRestitutionCoefficient(1e6, e); });
     expect("effectiveElasticModulus", "Pa", positive,
            [&](double modulus) { law.setEffectiveElasticModulusAndRestitutionCoefficient(modulus, 0.5); });
+    expect("Tsuji damping factor", "", notNegative, [&](double a) { law.setTsujiDampingFactor(a); });
     expect("elastic modulus", "Pa", positive,
            [&](double modulus) { law.setElasticModulusAndPoissonRatio(modulus, 0.3); });
     expect("Poisson's ratio", "", {-1, 0.5, false, true},

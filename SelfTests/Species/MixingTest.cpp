@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -7,6 +8,7 @@
 #include "Kernel/Species/SpeciesHandler.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
+#include "SelfTests/Support/RandomLaw.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular {
@@ -119,7 +121,7 @@ TEST(Mixing, ofEveryFieldOfEverySpeciesIsTheRuleOfItsTable) {
             S species;
             species.setDensity(2000);
             species.forEachLaw([&]<class Law>(Law& law) {
-                for (const auto& field : Law::fields()) law.*field.member = draw.uniform(0.01, 1);
+                for (const auto& field : Law::fields()) law.*field.member = support::randomValue(draw, field);
             });
             handler.copyAndAddObject(species);
         }
@@ -169,7 +171,7 @@ TEST(Mixing, aFieldThatIsNotSetIsRefusedByItsName) {
         S complete;
         complete.setDensity(2000);
         complete.forEachLaw([]<class Law>(Law& law) {
-            for (const auto& field : Law::fields()) law.*field.member = 0.5;
+            for (const auto& field : Law::fields()) law.*field.member = std::max(0.5, field.range.lowest);
         });
         complete.forEachLaw([&]<class Law>(Law&) {
             for (const auto& field : Law::fields()) {

@@ -33,6 +33,19 @@ static_assert(historyColumns<Rough> == 3 && interactionColumns<Rough> == 0);
 static_assert(historyColumns<RoughAndWet> == 3 && interactionColumns<RoughAndWet> == 6);
 static_assert(interactionColumns<Species<LinearViscoelastic, NoFriction, LiquidBridgeWillett>> == 3);
 
+// Only laws that depend on the past, and those with a torque of their own, have memory for it.
+using Plastic = Species<LinearPlasticViscoelastic>;
+using Rolling = Species<HertzianViscoelastic, MindlinRollingTorsion>;
+template <class S>
+inline constexpr std::size_t normalHistoryColumns = columnsOf<ContactMemory<S>::template NormalHistory>;
+static_assert(normalHistoryColumns<RoughAndWet> == 0 && normalHistoryColumns<Plastic> == 1);
+static_assert(historyColumns<Plastic> == 0 && historyColumns<Rolling> == 8);
+static_assert(historyColumns<Species<LinearViscoelastic, SlidingFriction>> == 4);
+static_assert(!RoughAndWet::hasContactTorque && !Plastic::hasContactTorque && Rolling::hasContactTorque);
+static_assert(!Plastic::hasTorque && std::is_same_v<ContactMemory<Rolling>::Record, ForceTorqueRecord>);
+static_assert(ContactStore<Rolling>::bytesPerContact() ==
+              ContactStore<Rough>::bytesPerContact() + sizeof(TorqueRecord) + 5 * sizeof(double));
+
 // What a contact gives to its bodies.
 static_assert(!Dry::hasTorque && !Wet::hasTorque && Rough::hasTorque && RoughAndWet::hasTorque);
 static_assert(std::is_same_v<ContactMemory<Dry>::Record, ForceRecord>);
@@ -95,6 +108,14 @@ TEST(NoCost, grainsWithoutSpinHaveNoRotation) {
     EXPECT_EQ(smooth.size(), 4u);
     EXPECT_EQ(smooth.rotation.capacity(), 0u);
     EXPECT_EQ(spinning.rotation.size(), 4u);
+}
+
+TEST(NoCost, torquesOfContactsAreKeptForLawsThatHaveThem) {
+    ContactMemory<Rough> rough;
+    ContactMemory<Rolling> rolling;
+    for (int k = 0; k < 3; ++k) rough.add(0), rolling.add(0);
+    EXPECT_EQ(rough.torques.capacity(), 0u);
+    EXPECT_EQ(rolling.torques.size(), rolling.records.size());
 }
 
 TEST(NoCost, everySpeciesHasTheMemoryOfItsLawsAndNoMore) {

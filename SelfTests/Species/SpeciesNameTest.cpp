@@ -72,7 +72,7 @@ TEST(SpeciesName, anUnknownLawIsRefusedWithTheNearestNames) {
     const auto refused = [](const std::string& name) {
         return refusal([&] { withLawNamed<AdhesionLaws>("adhesion model", name, []<class>() { FAIL(); }); });
     };
-    for (const std::string name : {"LiquidBridgeBaghery", "liquidbridgebagheri", "Bagheri", "JKR", ""}) {
+    for (const std::string name : {"LiquidBridgeBaghery", "liquidbridgebagheri", "Bagheri", "JKRS", ""}) {
         const std::string message = refused(name);
         EXPECT_TRUE(isOneSentence(message));
         EXPECT_TRUE(contains(message, "adhesion model"));

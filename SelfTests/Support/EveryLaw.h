@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "Kernel/Species/Laws.h"
+#include "Kernel/Species/BridgeLaws.h"
 
 namespace pendular::support {
 
@@ -14,25 +14,19 @@ void forEveryLaw(Function&& function) {
     AdhesionLaws::forEach(function);
 }
 
-/// Every adhesion law that is a liquid bridge of constant volume.
-template <class Function>
-void forEveryBridge(Function&& function) {
-    AdhesionLaws::forEach([&]<class Law>() {
-        if constexpr (requires(Law law) { law.setLiquidBridgeVolume(0.0); })
-            function.template operator()<Law>();
-    });
-}
-
 /// Species that stand for all: the laws do not know of each other, so a test of what composes them needs each
-/// normal law with each friction law, dry and with one bridge. All combinations (forEachSpecies) would make
-/// the build of the tests grow with the number of bridge laws; each of these is tested by itself.
+/// normal and each friction law with and without the others' kinds. All combinations (forEachSpecies) would
+/// make the build of the tests grow with the product of the numbers of laws; Composition tests a product of
+/// some.
 template <class Function>
 void forRepresentativeSpecies(Function&& function) {
     NormalLaws::forEach([&]<class N>() {
-        FrictionLaws::forEach([&]<class F>() {
-            function.template operator()<Species<N, F, NoAdhesion>>();
-            function.template operator()<Species<N, F, LiquidBridgeBagheri>>();
-        });
+        function.template operator()<Species<N, Mindlin, NoAdhesion>>();
+        function.template operator()<Species<N, NoFriction, LiquidBridgeBagheri>>();
+    });
+    FrictionLaws::forEach([&]<class F>() {
+        function.template operator()<Species<LinearViscoelastic, F, NoAdhesion>>();
+        function.template operator()<Species<HertzianViscoelastic, F, LiquidBridgeBagheri>>();
     });
 }
 

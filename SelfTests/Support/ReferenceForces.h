@@ -135,7 +135,7 @@ private:
         bool bridged = false;
         if constexpr (Adhesion::acts) {
             const auto bridge = static_cast<const Adhesion&>(laws).prepare(radii);
-            const double separation = max(-g.overlap, 0.0);
+            const double separation = separationFor<Adhesion>(g.overlap);
             bridged = separation < bridge.range();  // the caller has seen that they touch or are joined
             adhesive = bridged ? bridge.force(separation) : 0;
         }

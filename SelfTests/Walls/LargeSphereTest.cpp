@@ -17,7 +17,8 @@ S anyMaterial() {
     species.setDensity(density);
     if constexpr (requires { species.setElasticModulusAndPoissonRatio(1.0, 0.2); }) {
         species.setElasticModulusAndPoissonRatio(youngModulus, poissonRatio);
-        species.setRestitutionCoefficient(0.7);
+        if constexpr (requires { species.setRestitutionCoefficient(0.7); })
+            species.setRestitutionCoefficient(0.7);
     } else {
         species.setStiffnessAndRestitutionCoefficient(500, 0.7, mass());
     }

@@ -4,10 +4,11 @@
 
 namespace pendular {
 
-/// Chen, Zhao and Liu, Particuology 9 (2011) 374-380: between unequal spheres, or a sphere and a plane, the
-/// meridian is an arc of a circle; volume as in Yang, Sega and Harting, Table I (with the second cap's cosine
-/// cubed), where also Sun and Sakai (2018) agree for equal contact angles. Our sources do not print the
-/// force: it is taken at the neck, as Lian et al. do, with which their Table IX agrees. The bridge ends at
+/// Chen, Zhao, Gao and Zheng, Particuology 9 (2011) 374-380: between unequal spheres, or a sphere and a
+/// plane, the meridian is an arc of a circle; volume as in Yang, Sega and Harting, Table I (with the second
+/// cap's cosine cubed), where also Sun and Sakai (2018) agree for equal contact angles. The paper was not at
+/// hand, and our sources do not print the force: it is taken at the neck, as Lian et al. do, with which Table
+/// IX of Yang et al. agrees up to S = 0.7 R. The bridge ends at
 /// the distance of Lian et al., or where there is no such arc. Refused where the arc is nearly straight: its
 /// neck then lies far outside of the bridge (a pole).
 struct LiquidBridgeChen : FittedBridge<LiquidBridgeChen> {

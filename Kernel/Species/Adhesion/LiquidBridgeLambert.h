@@ -21,10 +21,10 @@ struct LiquidBridgeLambertInteraction {
     [[nodiscard]] T range() const { return ruptureDistance; }
 };
 
-/// Lambert, Chau, Delchambre and Regnier, Langmuir 24 (2008) 3157-3163, equation 65: F = 2 pi R gamma
-/// cos(theta) / (1
-/// + S/(2d)), d = (S/2)(-1 + sqrt(1 + 2 V/(pi R S^2))), Derjaguin's approximation; also Rabinovich's without
-/// the pull of the rim, and model D of Yang, Sega and Harting. The bridge ends at the distance of Lian et al.
+/// Lambert, Chau, Delchambre and Regnier, Langmuir 24 (2008) 3157-3163, equation 65:
+///     F = 2 pi R gamma cos(theta) / (1 + S/(2d)),  d = (S/2)(-1 + sqrt(1 + 2 V/(pi R S^2))),
+/// Derjaguin's approximation (equation as cited in YADE); also Rabinovich's without the pull of the rim, and
+/// model D of Yang, Sega and Harting. It gives no rupture distance: the bridge ends at that of Lian et al.
 struct LiquidBridgeLambert : LiquidBridge<LiquidBridgeLambert> {
     static constexpr std::string_view name = "LiquidBridgeLambert";
     static constexpr std::string_view summary = "liquid bridge, Derjaguin's force (Lambert et al., 2008)";

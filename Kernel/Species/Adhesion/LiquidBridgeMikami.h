@@ -8,8 +8,11 @@ namespace pendular {
 
 /// The fit of Mikami, Kamiya and Horio, Chem. Eng. Sci. 53 (1998) 1927-1940, to their solutions of the
 /// Young-Laplace equation between equal spheres: F = pi R gamma (exp(A S/R + B) + C), with its own rupture
-/// distance (0.99 + 0.62 theta) V*^0.34 R. S is the full separation, as their solutions want it (Yang, Sega
-/// and Harting, model E, tabulate with half of it). Unequal spheres and walls by Derjaguin's R.
+/// distance (0.99 + 0.62 theta) V*^0.34 R. The paper was not at hand: coefficients as in Yang, Sega and
+/// Harting, Table II, the rupture distance as in two open programs. With V* = V / R^3 and the full separation
+/// both agree with the exact solution at theta = 0 (a test); Yang et al. tabulate with half of it, others
+/// divide V* by pi. Unequal spheres and walls by Derjaguin's R: the coefficients that one finds for their
+/// fit to a wall give 1.7 times the exact force at contact.
 struct LiquidBridgeMikami : LiquidBridge<LiquidBridgeMikami> {
     static constexpr std::string_view name = "LiquidBridgeMikami";
     static constexpr std::string_view summary = "liquid bridge, fit of Mikami et al. (1998)";

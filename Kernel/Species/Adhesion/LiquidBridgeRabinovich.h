@@ -5,10 +5,10 @@
 namespace pendular {
 
 /// Rabinovich, Esayanur and Moudgil, Langmuir 21 (2005) 10992-10997, equations 19, 20 and A3:
-///     F = 2 pi R gamma (cos(theta) D(S) + sin(alpha) sin(theta + alpha)),  alpha^2 = (sqrt(S^2 + L^2) - S) /
-///     R,
-/// L = sqrt(2 V / (pi R)). At S = 0 it is the limit, alpha^2 = L / R. The bridge ends at the distance of Lian
-/// et al.
+///     F = 2 pi R gamma (cos(theta) D(S) + sin(alpha) sin(theta + alpha)),
+///     D = 1 / (1 + S/(2d)) = 1 - S / sqrt(S^2 + L^2),  alpha^2 = (sqrt(S^2 + L^2) - S) / R,
+/// L = sqrt(2 V / (pi R)) (equations as cited in YADE; the paper was not at hand). At S = 0 it is the limit,
+/// alpha^2 = L / R. The bridge ends at the distance of Lian et al.
 struct LiquidBridgeRabinovich : FittedBridge<LiquidBridgeRabinovich> {
     static constexpr std::string_view name = "LiquidBridgeRabinovich";
     static constexpr std::string_view summary =

@@ -12,7 +12,6 @@ namespace pendular {
 namespace {
 
 using support::Draw;
-using support::forEveryBridge;
 
 constexpr double pi = std::numbers::pi;
 
@@ -58,7 +57,7 @@ double independentForce(const independent::BridgeForce& row) {
 // 1e-12: some ten operations with rounding errors of 1e-16, enlarged by exponents of up to 10 in the
 // classical law and by logarithms of up to 40 in the powers of V*.
 TEST(BridgeForce, equalsTheIndependentTable) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         for (const auto& row : independent::bridgeForces) {
             const double expected = independentForce<Law>(row);
             if (!isSet(expected)) continue;
@@ -143,7 +142,7 @@ TEST(BridgeForce, modelsDifferAsInThePapersFigures) {
                         0.75, 0.05);
         }
     const Bodies small{0.5e-3, 0.8e-3}, large{0.5e-3, 1.0e-3};
-    forEveryBridge([&]<class Law>() {
+    forEachBridgeLaw([&]<class Law>() {
         if (!isOfThePaper<Law>) return;
         const Law law = bridge<Law>(1e-11, 0, 0.079);
         EXPECT_GT(law.prepare(large).force(1e-4), law.prepare(small).force(1e-4));
@@ -166,7 +165,7 @@ Shape randomShape(Draw& draw) {
 // separations does; and what a fit makes of it.
 TEST(BridgeForce, isTheSameAtEveryScale) {
     Draw draw(3);
-    forEveryBridge([&]<class Law>() {
+    forEachBridgeLaw([&]<class Law>() {
         for (int k = 0; k < 200; ++k) {
             const Shape shape = randomShape(draw);
             const double share = draw.uniform(0, 1);
@@ -190,7 +189,7 @@ TEST(BridgeForce, isTheSameAtEveryScale) {
 
 TEST(BridgeForce, doesNotDependOnTheOrderOfTheBodies) {
     Draw draw(4);
-    forEveryBridge([&]<class Law>() {
+    forEachBridgeLaw([&]<class Law>() {
         for (int k = 0; k < 200; ++k) {
             Shape shape = randomShape(draw);
             if (std::isinf(shape.ratio)) shape.ratio = 3;
@@ -205,7 +204,7 @@ TEST(BridgeForce, doesNotDependOnTheOrderOfTheBodies) {
 }
 
 TEST(BridgeForce, doesNotDependOnWhetherTheWallIsTheFirstBody) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         const Law law = bridge<Law>(0.01, 0.3, 0.07);
         const auto one = law.prepare(Bodies{1, infinity}), other = law.prepare(Bodies{infinity, 1});
         EXPECT_EQ(one.range(), other.range()) << Law::name;
@@ -216,10 +215,10 @@ TEST(BridgeForce, doesNotDependOnWhetherTheWallIsTheFirstBody) {
 // A sphere of the radius k r has R = 2 r k/(k + 1): it differs from a wall by 1/k, in R and, with a factor
 // that does not depend on k, in the force. So k x (difference) is the same number for k = 1e5 and 1e6, but
 // for terms of the order 1/k (1e-5, and 1e-4 for a factor of up to ten) and rounding (1e-15 x 1e6, and 1e-7
-// for a factor of up to a hundred).
+// for a factor of up to a hundred; where a law is fitted, 1e-9 in each of two forces, as above, x 1e6).
 TEST(BridgeForce, atAWallIsTheLimitOfAHugeSphere) {
     Draw draw(5);
-    forEveryBridge([&]<class Law>() {
+    forEachBridgeLaw([&]<class Law>() {
         if (!servesWalls<Law>()) return;
         for (int k = 0; k < 100; ++k) {
             const Shape shape = randomShape(draw);
@@ -233,7 +232,8 @@ TEST(BridgeForce, atAWallIsTheLimitOfAHugeSphere) {
             };
             const double million = differenceTimes(1e6), thousands = differenceTimes(1e5);
             EXPECT_LT(std::abs(million), 20) << Law::name << ": so 2e-5 at a ratio of 1e6";
-            EXPECT_NEAR(million, thousands, 1e-3 * std::abs(million) + 1e-3) << Law::name;
+            const double rounding = isFitted<Law> ? 2e-3 : 1e-3;
+            EXPECT_NEAR(million, thousands, 1e-3 * std::abs(million) + rounding) << Law::name;
             EXPECT_NEAR(law.prepare(Bodies{1, 1e6}).range() / wall.range(), 1, 1e-6);
         }
     });
@@ -243,7 +243,7 @@ TEST(BridgeForce, atAWallIsTheLimitOfAHugeSphere) {
 // computed in another way here: a few rounding errors of 1.1e-16.
 TEST(BridgeForce, searchRangeIsTheRuptureDistance) {
     Draw draw(6);
-    forEveryBridge([&]<class Law>() {
+    forEachBridgeLaw([&]<class Law>() {
         for (int k = 0; k < 1000; ++k) {
             const double r1 = draw.logarithmic(1e-7, 1),
                          r2 = draw.oneIn(4) ? infinity : r1 * draw.logarithmic(0.01, 100);
@@ -266,7 +266,7 @@ TEST(BridgeForce, searchRangeIsTheRuptureDistance) {
 }
 
 TEST(BridgeForce, withoutLiquidThereIsNone) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         for (const Bodies bodies : {Bodies{1e-3, 1e-3}, Bodies{1e-3, 5e-3}, Bodies{1e-3}}) {
             const Law law = bridge<Law>(0, 0.5, 0.07);
             const auto interaction = law.prepare(bodies);

@@ -14,8 +14,6 @@
 namespace pendular {
 namespace {
 
-using support::forEveryBridge;
-
 constexpr Bodies equalSpheres{1, 1};                // R = 1 m, so V* = V
 constexpr double tension = 0.5 / std::numbers::pi;  // N/m: 2 pi R gamma = 1 N, so F* = F
 
@@ -72,7 +70,7 @@ double jump(Function&& f, double a, double b) {
 }
 
 TEST(BridgeShape, isFiniteFromContactToRupture) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         forAllShapes<Law>([](const Law& law, const auto& interaction) {
             EXPECT_GT(interaction.range(), 0);
             EXPECT_EQ(interaction.range(), law.range(equalSpheres));
@@ -85,7 +83,7 @@ TEST(BridgeShape, isFiniteFromContactToRupture) {
 // 1e-6: a rounding error of S is enlarged by the steepest accepted slope, near a pole of Bagheri's fit or at
 // the large exponents of the classical one outside of its domain.
 TEST(BridgeShape, isContinuousFromContactToRupture) {
-    forEveryBridge([]<class Law>() {
+    forEachBridgeLaw([]<class Law>() {
         forAllShapes<Law>([](const Law&, const auto& interaction) {
             const auto all = separations(interaction.range());
             for (std::size_t k = 0; k + 1 < all.size(); k += 7)

@@ -5,28 +5,26 @@
 #include <numbers>
 
 #include "SelfTests/Species/Normal/IndependentCollisions.h"
+#include "SelfTests/Species/Normal/LawCollision.h"
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
+#include "SelfTests/Support/RandomLaw.h"
 
 namespace pendular {
 namespace {
 
 using support::Draw;
+using support::randomLaw;
 
 constexpr double pi = std::numbers::pi;
 
-Contact<double> contactAt(double overlap, double radius, double mass) {
-    return {overlap, radius, mass};
-}
-
-template <class Law>
-Law randomLaw(Draw& draw) {
-    Law law;
-    for (const auto& field : Law::fields()) law.*field.member = draw.uniform(0.1, 1);
-    if constexpr (std::is_same_v<Law, HertzianViscoelastic>)
-        law.setEffectiveElasticModulus(draw.logarithmic(1e5, 1e11));
-    if constexpr (std::is_same_v<Law, LinearViscoelastic>) law.setStiffness(draw.logarithmic(1, 1e6));
-    return law;
+/// Calls function.template operator()<Law>() for each law whose force depends on the overlap of the moment
+/// only.
+template <class Function>
+void forEveryElasticLaw(Function&& function) {
+    NormalLaws::forEach([&]<class Law>() {
+        if constexpr (!HasNormalHistory<Law>) function.template operator()<Law>();
+    });
 }
 
 // With the overlap d = u^2 the integrand F(u^2) 2 u is a polynomial in u, u^4 for Hertz and u^3 for the
@@ -34,7 +32,7 @@ Law randomLaw(Draw& draw) {
 TEST(Normal, energyIsTheIntegralOfTheForce) {
     const std::array nodes{-std::sqrt(0.6), 0.0, std::sqrt(0.6)};
     constexpr std::array weights{5.0 / 9, 8.0 / 9, 5.0 / 9};
-    NormalLaws::forEach([&]<class Law>() {
+    forEveryElasticLaw([&]<class Law>() {
         Draw draw(1);
         for (int k = 0; k < 200; ++k) {
             const auto prepared = randomLaw<Law>(draw).prepare();
@@ -56,7 +54,7 @@ TEST(Normal, energyIsTheIntegralOfTheForce) {
 // The central difference over d (1 +- h) of d^(3/2) has the relative error -h^2/24: 4e-10 at h = 1e-4;
 // rounding adds 2e-12.
 TEST(Normal, stiffnessIsTheDerivativeOfTheForce) {
-    NormalLaws::forEach([]<class Law>() {
+    forEveryElasticLaw([]<class Law>() {
         Draw draw(2);
         for (int k = 0; k < 200; ++k) {
             const auto prepared = randomLaw<Law>(draw).prepare();
@@ -77,12 +75,15 @@ TEST(Normal, exponentsAreThoseOfTheForce) {
     NormalLaws::forEach([]<class Law>() {
         Draw draw(3);
         const auto prepared = randomLaw<Law>(draw).prepare();
-        const auto once = Law::force(prepared, contactAt(1e-6, 1e-3, 1e-6)),
-                   twice = Law::force(prepared, contactAt(16e-6, 1e-3, 1e-6));
+        const auto forceAt = [&](double overlap) {
+            typename NormalHistoryOf<Law>::template type<double> untouched{};
+            return normalForce<Law>(prepared, contactAt(overlap, 1e-3, 1e-6), untouched);
+        };
+        const auto once = forceAt(1e-6), twice = forceAt(16e-6);
         EXPECT_NEAR(twice.elastic / once.elastic, std::pow(16, Law::elasticExponent), 1e-12) << Law::name;
         EXPECT_NEAR(twice.damping / once.damping, std::pow(16, Law::dampingExponent), 1e-13) << Law::name;
         EXPECT_GT(once.damping, 0);
-        EXPECT_EQ(Law::force(prepared, contactAt(0, 1e-3, 1e-6)).elastic, 0);
+        EXPECT_EQ(forceAt(0).elastic, 0);
     });
 }
 
@@ -99,38 +100,6 @@ TEST(Normal, hertzIsItsFormula) {
     EXPECT_NEAR(
         force.damping / (0.3 * std::sqrt(mass * 4.0 / 3 * modulus) * std::pow(radius * overlap, 0.25)), 1,
         1e-14);
-}
-
-struct Rebound {
-    double speed, time, largestOverlap;
-};
-
-/// The law's own collision of two grains by the classical Runge-Kutta method, in steps of 1/4000 of the
-/// elastic contact time and the end by interpolation. The dashpot's d^(1/4) at either end limits the order:
-/// see the tolerances.
-template <class Law>
-Rebound collide(const Law& law, double radius, double mass, double speed, double contactTime) {
-    const auto prepared = law.prepare();
-    const auto acceleration = [&](double overlap, double approach) {
-        const auto force = Law::force(prepared, contactAt(std::max(overlap, 0.0), radius, mass));
-        return -(force.elastic + force.damping * approach) / mass;
-    };
-    const double h = contactTime / 4000;
-    double d = 0, v = speed, time = 0, largest = 0;
-    while (true) {
-        const double a1 = acceleration(d, v), v2 = v + h / 2 * a1;
-        const double a2 = acceleration(d + h / 2 * v, v2), v3 = v + h / 2 * a2;
-        const double a3 = acceleration(d + h / 2 * v2, v3), v4 = v + h * a3;
-        const double a4 = acceleration(d + h * v3, v4);
-        const double nextD = d + h / 6 * (v + 2 * v2 + 2 * v3 + v4),
-                     nextV = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-        if (v > 0 && nextV <= 0) largest = d + 0.5 * v * h * v / (v - nextV);  // a parabola at its top
-        if (nextD <= 0) {
-            const double share = d / (d - nextD);
-            return {-(v + share * (nextV - v)), time + share * h, largest};
-        }
-        d = nextD, v = nextV, time += h;
-    }
 }
 
 // 2e-5: at either end a step of h sees an overlap d = v h with an error of the damping of the order

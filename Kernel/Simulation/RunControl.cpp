@@ -1,0 +1,115 @@
+#include "Kernel/Simulation/RunControl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <limits>
+#include <utility>
+
+#include "Kernel/Species/Field.h"
+
+namespace pendular {
+
+namespace {
+
+const auto programBegin = std::chrono::steady_clock::now();
+double wallTimeLimit = 0;  // s; 0: none
+
+// What signals have asked for; a handler may touch nothing but lock-free atomics.
+std::atomic<int> stopSignal{0};
+std::atomic<bool> restartAsked{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+struct Listening {
+    std::size_t runs = 0;  // that listen, one within the other
+    std::array<struct sigaction, 3> before{};
+} listening;
+
+constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGUSR1};
+
+extern "C" void takeNote(int signal) {
+    if (signal == SIGUSR1) {
+        restartAsked.store(true, std::memory_order_relaxed);
+        return;
+    }
+    stopSignal.store(signal, std::memory_order_relaxed);
+    for (const int next : {SIGINT, SIGTERM}) std::signal(next, SIG_DFL);  // a second one ends the program
+}
+
+double secondsBetween(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+void setWallTimeLimit(double seconds) {
+    checkValue("Simulation", "wall time", seconds, "s", positive);
+    wallTimeLimit = seconds;
+}
+
+RunControl::RunControl(const RestartSchedule& given) : restarts(given) {
+    if (wallTimeLimit == 0 && restarts.interval == 0) nextLook = std::numeric_limits<std::size_t>::max();
+    if (listening.runs++ > 0) return;
+    struct sigaction action {};
+    action.sa_handler = takeNote;
+    action.sa_flags = SA_RESTART;  // a signal makes no system call fail
+    sigemptyset(&action.sa_mask);
+    for (std::size_t k = 0; k < signals.size(); ++k) {
+        sigaction(signals[k], nullptr, &listening.before[k]);
+        // What the parent has told us to ignore (nohup, a job in the background) stays so.
+        if (listening.before[k].sa_handler != SIG_IGN) sigaction(signals[k], &action, nullptr);
+    }
+}
+
+RunControl::~RunControl() {
+    if (--listening.runs > 0) return;
+    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &listening.before[k], nullptr);
+}
+
+void RunControl::lookAtClock(std::size_t steps) {
+    const auto now = Clock::now();
+    const double elapsed = secondsBetween(lastLooked, now);
+    const double rate = static_cast<double>(steps - std::min(steps, lastLook)) / (elapsed + 1e-6);  // steps/s
+    nextLook = steps + 1 + static_cast<std::size_t>(0.05 * rate);
+    lastLook = steps;
+    lastLooked = now;
+    outOfTime = wallTimeLimit > 0 && secondsBetween(programBegin, now) >= wallTimeLimit;
+    if (restarts.interval > 0 && secondsBetween(lastRestart, now) >= restarts.interval) {
+        restartDue = true;
+        lastRestart = now;
+    }
+}
+
+RunControl::Request RunControl::request(std::size_t steps) {
+    if (steps >= nextLook) lookAtClock(steps);
+    if (outOfTime || stopSignal.load(std::memory_order_relaxed) != 0) return Request::Stop;
+    bool write = std::exchange(restartDue, false);
+    if (restartAsked.load(std::memory_order_relaxed)) {
+        restartAsked = false;
+        write = true;
+        if (!restarts.kept) fmt::print(stderr, "SIGUSR1: this run keeps no restart file.\n");
+    }
+    if (restarts.count > 0 && steps % restarts.count == 0) write = true;
+    return write && restarts.kept ? Request::WriteRestart : Request::None;
+}
+
+std::string RunControl::reason() const {
+    switch (stopSignal.load()) {
+        case SIGINT:
+            return "SIGINT";
+        case SIGTERM:
+            return "SIGTERM";
+        default:
+            return fmt::format("the limit of {:g} s of wall time", wallTimeLimit);
+    }
+}
+
+int RunControl::exitCode() const {
+    const int signal = stopSignal.load();
+    return 128 + (signal != 0 ? signal : SIGTERM);  // as if the queue had asked for it
+}
+
+}  // namespace pendular

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace pendular {
+
+/// A run that was asked to end before its time. Its files are complete. what() is a sentence for the user.
+struct RunStopped : std::runtime_error {
+    RunStopped(const std::string& sentence, int code) : std::runtime_error(sentence), exitCode(code) {}
+    int exitCode;  // of the program, as shells give it: 128 + the number of the signal
+};
+
+/// When a run writes restart files.
+struct RestartSchedule {
+    bool kept = false;
+    std::size_t count = 0;  // steps from one restart file to the next; 0: none for the steps
+    double interval = 0;    // s of the clock on the wall from one to the next; 0: none for the time
+};
+
+/// Ends whatever run this program is in, as SIGTERM does, when the program has run for this time (s of the
+/// clock on the wall).
+void setWallTimeLimit(double seconds);
+
+/// Listens, for as long as it lives, to what is asked of a run from outside. SIGINT, SIGTERM and the limit of
+/// wall time end the run after the step, the first two at once when they come a second time; SIGUSR1 writes a
+/// restart file and goes on.
+class RunControl {
+public:
+    enum class Request { None, WriteRestart, Stop };
+
+    explicit RunControl(const RestartSchedule& given);
+    ~RunControl();
+    RunControl(const RunControl&) = delete;
+    RunControl& operator=(const RunControl&) = delete;
+
+    /// What is asked for when so many steps have been done. Costs two loads; looks at the clock, where there
+    /// is a limit, some twenty times a second.
+    [[nodiscard]] Request request(std::size_t steps);
+
+    /// "SIGINT", or what else has asked the run to stop.
+    [[nodiscard]] std::string reason() const;
+    [[nodiscard]] int exitCode() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void lookAtClock(std::size_t steps);
+
+    RestartSchedule restarts;
+    bool outOfTime = false, restartDue = false;
+    std::size_t nextLook = 0, lastLook = 0;  // steps
+    Clock::time_point lastLooked = Clock::now(), lastRestart = lastLooked;
+};
+
+}  // namespace pendular

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "Kernel/Species/Bodies.h"
+#include "Kernel/Species/Laws.h"
+
+namespace pendular {
+
+/// An adhesion law that is a liquid bridge of constant volume.
+template <class Law>
+concept BridgeLaw = requires(const Law law, const Bodies bodies) {
+    law.scales(bodies);
+};
+
+/// Calls function.template operator()<Law>() for each bridge law of the kernel.
+template <class Function>
+void forEachBridgeLaw(Function&& function) {
+    AdhesionLaws::forEach([&]<class Law>() {
+        if constexpr (BridgeLaw<Law>) function.template operator()<Law>();
+    });
+}
+
+}  // namespace pendular

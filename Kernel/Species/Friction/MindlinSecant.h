@@ -1,0 +1,43 @@
+#pragma once
+
+#include "Kernel/Species/Friction/Shared/MindlinSpring.h"
+
+namespace pendular {
+
+/// Mindlin's tangential spring in its secant form: the spring has the whole tangential way since the first
+/// touch, and stays so long where the contact slides; the force alone is cut at Coulomb's limit. So a grain
+/// that slid and turns back is pushed on by friction until it has come back as far as the spring is long.
+/// Source: the displacement x - x_0 of the force balance model of wet particle-wall collisions, equations 17
+/// to 21 and 27, after Di Renzo and Di Maio (2004), Chem. Eng. Sci. 59, 525.
+struct MindlinSecant : MindlinSpring<MindlinSecant> {
+    static constexpr std::string_view name = "MindlinSecant";
+    static constexpr std::string_view summary =
+        "tangential spring after Mindlin over the whole way since the first touch, not cut at sliding";
+    static constexpr std::string_view domain =
+        "short contacts of one sense of slip, as single collisions; not for lasting contacts, in which it "
+        "stores ways that a real contact has lost";
+
+    template <class T>
+    using History = TangentialSpring<T>;
+
+    using Prepared = PreparedSpring;
+    template <class Normal>
+    [[nodiscard]] Prepared prepare(const Normal&) const {
+        return prepareSpring();
+    }
+
+    /// On body 1 (N). The spring takes the velocity with the force as it is after the cut.
+    template <class T>
+    static Vector<T> force(const Prepared& p, const Contact<T>& contact, T normalForce, const Slip<T>& slip,
+                           TangentialSpring<T>& spring) {
+        const T limit = p.coefficient * max(normalForce, T(0));
+        Vector<T> shortened = spring.displacement;
+        const Vector<T> force =
+            slideSpring(springStiffness(p, contact), springDamping(p, contact), limit, limit, slip, shortened)
+                .force;
+        spring.displacement += (slip.timeBefore + slip.timeAfter) * (slip.velocity + slip.response * force);
+        return force;
+    }
+};
+
+}  // namespace pendular

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "Kernel/Species/Friction/Shared/SpringSlider.h"
+#include "Kernel/Species/Friction/Shared/TangentialSpring.h"
+
+namespace pendular {
+
+/// The effective shear modulus G* of two bodies of the same material (Pa) from its Young's modulus E (Pa) and
+/// Poisson's ratio: 1/G* = 2 (2 - nu) / G with G = E / (2 (1 + nu)).
+inline double computeEffectiveShearModulus(double elasticModulus, double poissonRatio) {
+    return 0.25 * elasticModulus / ((1 + poissonRatio) * (2 - poissonRatio));
+}
+
+/// The parameters of Mindlin's tangential spring: k_t = 8 G* sqrt(R* d), with the dashpot beta_t sqrt(m* k_t)
+/// and the limit mu times the normal force. Law is the law derived from this.
+/// Source: Thornton et al. (2023), section 4.2, equations 4.5 to 4.8; the factor 2/3 of the spring is that of
+/// Di Renzo and Di Maio (2005), Chem. Eng. Sci. 60, 1303, equation 15; other codes use 1: set springFactor.
+template <class Law>
+struct MindlinSpring {
+    static constexpr bool acts = true;
+
+    double effectiveShearModulus = unset;  // G*, Pa
+    double slidingDissipation = unset;     // beta_t
+    double slidingFrictionCoefficient = 0;
+    double springFactor = 2.0 / 3.0;
+
+    static constexpr auto fields() {
+        using Spring = MindlinSpring;
+        return std::to_array<Field<Spring>>(
+            {{"effectiveShearModulus", &Spring::effectiveShearModulus, "Pa", positive, Mixing::Harmonic,
+              "G* of a contact: 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2", "Thornton et al. (2023), equation 4.6"},
+             {"slidingDissipation", &Spring::slidingDissipation, "", notNegative, Mixing::Arithmetic,
+              "tangential damping factor beta_t", "Thornton et al. (2023), equation 4.7",
+              "sqrt(2/3) x the dissipation of HertzianViscoelastic (equation 4.8)"},
+             {"slidingFrictionCoefficient", &Spring::slidingFrictionCoefficient, "", notNegative,
+              Mixing::Geometric, "Coulomb's coefficient mu", "Thornton et al. (2023), section 4.2"},
+             {"springFactor", &Spring::springFactor, "", positive, Mixing::Arithmetic,
+              "factor of the spring force, 2/3 or 1", "Di Renzo and Di Maio (2005), equation 15"}});
+    }
+
+    void setEffectiveShearModulus(double value) { set(&MindlinSpring::effectiveShearModulus, value); }
+    void setSlidingDissipation(double value) { set(&MindlinSpring::slidingDissipation, value); }
+    void setSlidingFrictionCoefficient(double value) {
+        set(&MindlinSpring::slidingFrictionCoefficient, value);
+    }
+    void setSpringFactor(double value) { set(&MindlinSpring::springFactor, value); }
+    [[nodiscard]] double getEffectiveShearModulus() const { return effectiveShearModulus; }
+    [[nodiscard]] double getSlidingDissipation() const { return slidingDissipation; }
+    [[nodiscard]] double getSlidingFrictionCoefficient() const { return slidingFrictionCoefficient; }
+    [[nodiscard]] double getSpringFactor() const { return springFactor; }
+
+    /// What the user has not set and the normal law can give: beta_t by equation 4.8. A normal law whose
+    /// damping is not such a factor leaves it to the user.
+    template <class Normal>
+    void deriveUnset(const Normal& normal) {
+        if constexpr (requires {
+                          typename Normal::Prepared;
+                          normal.prepare().dampingFactor;
+                      })
+            if (!isSet(slidingDissipation))
+                slidingDissipation = std::sqrt(2.0 / 3.0) * normal.getDissipation();
+    }
+
+    struct PreparedSpring {
+        double stiffnessFactor;  // 8 G*, Pa
+        double springFactor;
+        double dashpotFactor;  // beta_t sqrt(8 G*), Pa^(1/2)
+        double coefficient;    // mu
+    };
+    [[nodiscard]] PreparedSpring prepareSpring() const {
+        return {8 * effectiveShearModulus, springFactor,
+                slidingDissipation * std::sqrt(8 * effectiveShearModulus), slidingFrictionCoefficient};
+    }
+    /// N/m
+    template <class T>
+    [[gnu::always_inline]] static T springStiffness(const PreparedSpring& p, const Contact<T>& contact) {
+        return p.springFactor * (p.stiffnessFactor * contact.contactRadius);
+    }
+    /// kg/s
+    template <class T>
+    [[gnu::always_inline]] static T springDamping(const PreparedSpring& p, const Contact<T>& contact) {
+        return p.dashpotFactor * contact.massRoot;
+    }
+    static double stiffness(const PreparedSpring& p, const Contact<double>& contact) {
+        return p.springFactor * p.stiffnessFactor * contact.contactRadius;
+    }
+
+    [[nodiscard]] double range(const Bodies&) const { return 0; }
+
+private:
+    void set(double MindlinSpring::*member, double value) {
+        setField(static_cast<Law&>(*this), member, value);
+    }
+};
+
+}  // namespace pendular

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "Kernel/Species/Friction/Shared/StickSlip.h"
+
+namespace pendular {
+
+/// What a contact with rolling and torsion remembers of them: R* times the angle that body 1 has turned
+/// against body 2, about axes in the tangential plane and about the normal, as far as the springs hold it.
+template <class T>
+struct RollingTorsionSpring {
+    TangentialSpring<T> rolling;  // m
+    T torsion;                    // m
+
+    void turn(const FrameRotation<T>& rotation) { rolling.turn(rotation); }
+    /// Seen from body 2, the relative spin and the normal change their signs: the torsion stays.
+    void exchangeBodies() { rolling.exchangeBodies(); }
+};
+
+/// Springs, dashpots and sliders against rolling and torsion: each gives a force F = -(k s + g v), at most mu
+/// times the normal force, of the way s of R* times the relative turn, and the torque R* F on body 1, the
+/// opposite one on body 2. Law is the law derived from this.
+/// Source: Luding (2008), Granular Matter 10, 235, sections 2.5 and 2.6; the torque has the effective radius,
+/// not the effective diameter: Thornton et al. (2023), equation 4.9.
+template <class Law>
+struct RollingTorsion {
+    static constexpr bool hasContactTorque = true;
+
+    double rollingStiffness = 0;    // k_r, N/m
+    double rollingDissipation = 0;  // g_r, kg/s
+    double rollingFrictionCoefficient = 0;
+    double torsionStiffness = 0;    // k_o, N/m
+    double torsionDissipation = 0;  // g_o, kg/s
+    double torsionFrictionCoefficient = 0;
+
+    static constexpr auto fields() {
+        using R = RollingTorsion;
+        constexpr std::string_view rolling = "Luding (2008), section 2.5",
+                                   torsion = "Luding (2008), section 2.6";
+        return std::to_array<Field<R>>(
+            {{"rollingStiffness", &R::rollingStiffness, "N/m", notNegative, Mixing::Harmonic,
+              "spring constant k_r against rolling, often 2/7 of the normal one; 0: no rolling resistance",
+              rolling},
+             {"rollingDissipation", &R::rollingDissipation, "kg/s", notNegative, Mixing::Arithmetic,
+              "dashpot constant g_r against rolling", rolling},
+             {"rollingFrictionCoefficient", &R::rollingFrictionCoefficient, "", notNegative,
+              Mixing::Geometric, "largest torque against rolling over R* and the normal force",
+              "Thornton et al. (2023), equation 4.9"},
+             {"torsionStiffness", &R::torsionStiffness, "N/m", notNegative, Mixing::Harmonic,
+              "spring constant k_o against torsion; 0: no torsion resistance", torsion},
+             {"torsionDissipation", &R::torsionDissipation, "kg/s", notNegative, Mixing::Arithmetic,
+              "dashpot constant g_o against torsion", torsion},
+             {"torsionFrictionCoefficient", &R::torsionFrictionCoefficient, "", notNegative,
+              Mixing::Geometric, "largest torque against torsion over R* and the normal force", torsion}});
+    }
+
+    void setRollingStiffness(double value) { set(&RollingTorsion::rollingStiffness, value); }
+    void setRollingDissipation(double value) { set(&RollingTorsion::rollingDissipation, value); }
+    void setRollingFrictionCoefficient(double value) {
+        set(&RollingTorsion::rollingFrictionCoefficient, value);
+    }
+    void setTorsionStiffness(double value) { set(&RollingTorsion::torsionStiffness, value); }
+    void setTorsionDissipation(double value) { set(&RollingTorsion::torsionDissipation, value); }
+    void setTorsionFrictionCoefficient(double value) {
+        set(&RollingTorsion::torsionFrictionCoefficient, value);
+    }
+    [[nodiscard]] double getRollingStiffness() const { return rollingStiffness; }
+    [[nodiscard]] double getRollingDissipation() const { return rollingDissipation; }
+    [[nodiscard]] double getRollingFrictionCoefficient() const { return rollingFrictionCoefficient; }
+    [[nodiscard]] double getTorsionStiffness() const { return torsionStiffness; }
+    [[nodiscard]] double getTorsionDissipation() const { return torsionDissipation; }
+    [[nodiscard]] double getTorsionFrictionCoefficient() const { return torsionFrictionCoefficient; }
+
+    /// A coefficient without a spring would do nothing, in silence.
+    [[nodiscard]] std::optional<std::string> objection(const Bodies&) const {
+        const auto missing = [](std::string_view kind, double stiffness, double coefficient) {
+            return stiffness > 0 || coefficient == 0
+                       ? std::nullopt
+                       : std::optional(fmt::format("{}: {}FrictionCoefficient = {} has no effect, because "
+                                                   "{}Stiffness = 0 N/m; it must be greater than 0 N/m.",
+                                                   Law::name, kind, coefficient, kind));
+        };
+        const auto found = missing("rolling", rollingStiffness, rollingFrictionCoefficient);
+        return found ? found : missing("torsion", torsionStiffness, torsionFrictionCoefficient);
+    }
+
+    struct PreparedSlider {
+        double stiffness;    // N/m
+        double damping;      // kg/s
+        double coefficient;  // of friction
+    };
+    struct PreparedRotation {
+        PreparedSlider rolling, torsion;
+    };
+    [[nodiscard]] PreparedRotation prepareRotation() const {
+        return {{rollingStiffness, rollingDissipation, rollingFrictionCoefficient},
+                {torsionStiffness, torsionDissipation, torsionFrictionCoefficient}};
+    }
+
+    /// The torque on body 1 over R* (N).
+    /// @param normal unit, from body 1 to body 2; @param turning of R* times the relative spin
+    template <class T>
+    [[gnu::always_inline]] static Vector<T> rotationForce(const PreparedRotation& p, T normalForce,
+                                                          const Vector<T>& normal, const Slip<T>& turning,
+                                                          RollingTorsionSpring<T>& spring) {
+        const T limit = max(normalForce, T(0));
+        Slip<T> torsion = turning, rolling = turning;
+        torsion.velocity = dot(turning.velocity, normal) * normal;
+        rolling.velocity = turning.velocity - torsion.velocity;
+        Vector<T> twist = spring.torsion * normal;
+        const Vector<T> force = slide(p.rolling, limit, rolling, spring.rolling.displacement) +
+                                slide(p.torsion, limit, torsion, twist);
+        spring.torsion = dot(twist, normal);
+        return force;
+    }
+    /// The stiffer of the two springs, N/m.
+    static double rotationStiffness(const PreparedRotation& p) {
+        return std::max(p.rolling.stiffness, p.torsion.stiffness);
+    }
+
+private:
+    template <class T>
+    [[gnu::always_inline]] static Vector<T> slide(const PreparedSlider& p, T normalForce, const Slip<T>& slip,
+                                                  Vector<T>& spring) {
+        const T limit = p.coefficient * normalForce;
+        return slideSpring(T(p.stiffness), T(p.damping), limit, limit, slip, spring).force;
+    }
+    void set(double RollingTorsion::*member, double value) {
+        setField(static_cast<Law&>(*this), member, value);
+    }
+};
+
+/// What a law with sliding, rolling and torsion remembers of a contact.
+template <class T>
+struct FrictionSprings {
+    StickSlipSpring<T> sliding;
+    RollingTorsionSpring<T> rotation;
+
+    void turn(const FrameRotation<T>& r) {
+        sliding.turn(r);
+        rotation.turn(r);
+    }
+    void exchangeBodies() {
+        sliding.exchangeBodies();
+        rotation.exchangeBodies();
+    }
+};
+
+}  // namespace pendular

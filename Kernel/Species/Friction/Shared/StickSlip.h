@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+
+#include "Kernel/Species/Friction/Shared/SpringSlider.h"
+#include "Kernel/Species/Friction/Shared/TangentialSpring.h"
+
+namespace pendular {
+
+/// A tangential spring that remembers whether it slides.
+template <class T>
+struct StickSlipSpring : TangentialSpring<T> {
+    T slides;  // 1 or 0, in the last step
+};
+
+/// Static and dynamic friction: a spring that sticks breaks loose at the ratio times the dynamic limit, and
+/// slides at the dynamic limit until spring and dashpot give less than that.
+/// Source: Luding (2008), Granular Matter 10, 235, section 2.4. Law is the law derived from this.
+template <class Law>
+struct StickSlip {
+    double staticFrictionRatio = 1;  // mu_s / mu_d
+
+    static constexpr auto fields() {
+        return std::to_array<Field<StickSlip>>(
+            {{"staticFrictionRatio", &StickSlip::staticFrictionRatio, "", Range{1, infinity, true, false},
+              Mixing::Arithmetic, "static over dynamic coefficient of sliding friction",
+              "Luding (2008), section 2.4"}});
+    }
+    void setStaticFrictionRatio(double value) {
+        setField(static_cast<Law&>(*this), &StickSlip::staticFrictionRatio, value);
+    }
+    [[nodiscard]] double getStaticFrictionRatio() const { return staticFrictionRatio; }
+
+    /// @param limit of the sliding contact, N
+    template <class T>
+    [[gnu::always_inline]] static Vector<T> slide(double ratio, T stiffness, T damping, T limit,
+                                                  const Slip<T>& slip, StickSlipSpring<T>& spring) {
+        const T threshold = select(spring.slides > T(0), limit, ratio * limit);
+        const SliderForce<T> result =
+            slideSpring(stiffness, damping, threshold, limit, slip, spring.displacement);
+        spring.slides = select(result.slides, T(1), T(0));
+        return result.force;
+    }
+};
+
+}  // namespace pendular

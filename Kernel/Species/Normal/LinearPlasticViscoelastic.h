@@ -1,0 +1,134 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "Kernel/Species/Normal/Shared/PlasticBranches.h"
+
+namespace pendular {
+
+/// Luding's linear plastic contact with cohesion: it loads along k1 d, unloads along a steeper slope k2 from
+/// its largest overlap d_max on, to zero force at d_0 = (1 - k1/k2) d_max, and then pulls, with at most k_c
+/// d. The slope grows with d_max, k2 = k1 + (k_p - k1) d_max / d*, up to k_p at d* = k_p / (k_p - k1) phi 2
+/// R*. A contact that was pulled open along -k_c d reloads from there. Source: Luding (2008), Granular Matter
+/// 10, 235, section 2.3, equations 6 to 11.
+struct LinearPlasticViscoelastic {
+    static constexpr std::string_view name = "LinearPlasticViscoelastic";
+    static constexpr std::string_view summary =
+        "linear loading, steeper unloading from the largest overlap, cohesion (Luding)";
+    static constexpr std::string_view domain =
+        "any overlap; a contact that has parted forgets its flattening";
+
+    double loadingStiffness = unset;       // k1, N/m
+    double unloadingStiffnessMax = unset;  // k_p, N/m
+    double cohesionStiffness = 0;          // k_c, N/m
+    double penetrationDepthMax = unset;    // phi
+    double dissipation = 0;                // g, kg/s
+
+    static constexpr auto fields() {
+        using Law = LinearPlasticViscoelastic;
+        constexpr std::string_view source = "Luding (2008), section 2.3";
+        return std::to_array<Field<Law>>(
+            {{"loadingStiffness", &Law::loadingStiffness, "N/m", positive, Mixing::Harmonic,
+              "slope k1 of the first loading", source},
+             {"unloadingStiffnessMax", &Law::unloadingStiffnessMax, "N/m", positive, Mixing::Harmonic,
+              "largest slope k_p of unloading, at least k1", source},
+             {"cohesionStiffness", &Law::cohesionStiffness, "N/m", notNegative, Mixing::Geometric,
+              "slope k_c of the largest pull; 0: none", source},
+             {"penetrationDepthMax", &Law::penetrationDepthMax, "", positive, Mixing::Arithmetic,
+              "phi: where k2 reaches k_p, unloading ends at an overlap of phi x 2 R*", source},
+             {"dissipation", &Law::dissipation, "kg/s", notNegative, Mixing::Arithmetic, "dashpot constant g",
+              source}});
+    }
+
+    void setLoadingStiffness(double value) { set(&LinearPlasticViscoelastic::loadingStiffness, value); }
+    void setUnloadingStiffnessMax(double value) {
+        set(&LinearPlasticViscoelastic::unloadingStiffnessMax, value);
+    }
+    void setCohesionStiffness(double value) { set(&LinearPlasticViscoelastic::cohesionStiffness, value); }
+    void setPenetrationDepthMax(double value) { set(&LinearPlasticViscoelastic::penetrationDepthMax, value); }
+    void setDissipation(double value) { set(&LinearPlasticViscoelastic::dissipation, value); }
+    [[nodiscard]] double getLoadingStiffness() const { return loadingStiffness; }
+    [[nodiscard]] double getUnloadingStiffnessMax() const { return unloadingStiffnessMax; }
+    [[nodiscard]] double getCohesionStiffness() const { return cohesionStiffness; }
+    [[nodiscard]] double getPenetrationDepthMax() const { return penetrationDepthMax; }
+    [[nodiscard]] double getDissipation() const { return dissipation; }
+    void setPlasticParameters(double k1, double unloadingMax, double cohesion, double depth) {
+        setLoadingStiffness(k1);
+        setUnloadingStiffnessMax(unloadingMax);
+        setCohesionStiffness(cohesion);
+        setPenetrationDepthMax(depth);
+    }
+
+    [[nodiscard]] std::optional<std::string> objection(const Bodies&) const {
+        if (unloadingStiffnessMax >= loadingStiffness) return std::nullopt;
+        return fmt::format(
+            "{}: unloadingStiffnessMax = {} N/m is too small; it must be at least the "
+            "loadingStiffness, {} N/m.",
+            name, unloadingStiffnessMax, loadingStiffness);
+    }
+
+    template <class T>
+    using History = LargestOverlap<T>;
+
+    struct Prepared {
+        double loading;      // k1, N/m
+        double unloading;    // k_p, N/m
+        double cohesion;     // k_c, N/m
+        double growth;       // (k_p - k1)^2 / (2 phi k_p) = (k_p - k1) R* / d*, N/m
+        double dissipation;  // kg/s
+    };
+    [[nodiscard]] Prepared prepare() const {
+        const double difference = unloadingStiffnessMax - loadingStiffness;
+        return {loadingStiffness, unloadingStiffnessMax, cohesionStiffness,
+                difference * difference / (2 * penetrationDepthMax * unloadingStiffnessMax), dissipation};
+    }
+
+    /// The overlap is its own measure.
+    template <class T>
+    static NormalForce<T> force(const Prepared& p, const Contact<T>& contact, LargestOverlap<T>& history) {
+        const T overlap = contact.overlap, largest = max(history.largest, overlap);
+        const T growth = p.growth / contact.effectiveRadius;
+        const PlasticBranches<T> branches(overlap, largest, T(p.loading), slope(p, growth, largest),
+                                          T(p.cohesion));
+        history.largest = select(branches.isCohesive(), reloaded(p, growth, overlap), largest);
+        return {branches.force(), T(p.dissipation)};
+    }
+    /// Of the branch of unloading.
+    static double elasticEnergy(const Prepared& p, const Contact<double>& contact,
+                                const LargestOverlap<double>& history) {
+        const double k2 = slope(p, p.growth / contact.effectiveRadius, history.largest);
+        const double force = k2 * (contact.overlap - history.largest) + p.loading * history.largest;
+        return 0.5 * force * force / k2;
+    }
+    static double stiffness(const Prepared& p, const Contact<double>&) { return p.unloading; }
+    static constexpr double elasticExponent = 1;
+    static constexpr double dampingExponent = 0;
+
+    [[nodiscard]] double range(const Bodies&) const { return 0; }
+
+private:
+    /// k2 (N/m) at the largest overlap.
+    template <class T>
+    static T slope(const Prepared& p, T growth, T largest) {
+        return min(p.loading + growth * largest, T(p.unloading));
+    }
+    /// The largest overlap m (m) whose branch of unloading meets the cohesive one at the overlap d:
+    /// (k2 + k_c) d = (k2 - k1) m, with k2 = k_p or, if m is then below d*, k2 = k1 + growth m.
+    template <class T>
+    static T reloaded(const Prepared& p, T growth, T d) {
+        constexpr double smallest = 1e-300;  // where k_p = k1, no branch is cohesive
+        const T difference = T(p.unloading - p.loading);
+        const T steepest = d * (T(p.unloading + p.cohesion) / max(difference, T(smallest)));
+        const T half = T(0.5) * d;
+        const T growing =
+            half + sqrt(half * half + d * (T(p.loading + p.cohesion) / max(growth, T(smallest))));
+        return select(growth * steepest > difference, steepest, growing);
+    }
+    void set(double LinearPlasticViscoelastic::*member, double value) { setField(*this, member, value); }
+};
+
+}  // namespace pendular

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+
+#include "Kernel/Species/Law.h"
+
+namespace pendular {
+
+/// The effective elastic modulus E* of two bodies of the same material (Pa) from its Young's modulus E (Pa)
+/// and Poisson's ratio: 1/E* = 2 (1 - nu^2) / E. (Thornton et al. 2023, section 4.1, print 1 - nu: a
+/// misprint.)
+inline double computeEffectiveElasticModulus(double elasticModulus, double poissonRatio) {
+    return 0.5 * elasticModulus / (1 - poissonRatio * poissonRatio);
+}
+
+/// What laws with Hertz's elastic force have in common: F = 4/3 E* sqrt(R*) d^(3/2). Law is the law derived
+/// from this; its Prepared has the stiffnessFactor 4/3 E* (Pa).
+/// Source: Hertz (1882), J. reine angew. Math. 92, 156; Thornton et al. (2023), Mathematics in Computer
+/// Science 17, 13, equation 4.2.
+template <class Law>
+struct HertzianContact {
+    double effectiveElasticModulus = unset;  // E*, Pa
+
+    static constexpr Field<Law> modulusField() {
+        return {"effectiveElasticModulus",
+                &Law::effectiveElasticModulus,
+                "Pa",
+                positive,
+                Mixing::Harmonic,
+                "E* of a contact: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2",
+                "Thornton et al. (2023), equation 4.2"};
+    }
+
+    void setEffectiveElasticModulus(double value) {
+        setField(static_cast<Law&>(*this), &HertzianContact::effectiveElasticModulus, value);
+    }
+    [[nodiscard]] double getEffectiveElasticModulus() const { return effectiveElasticModulus; }
+    /// E* from Young's modulus (Pa) and Poisson's ratio (-1 to 0.5) of the one material of both bodies.
+    void setElasticModulusAndPoissonRatio(double elasticModulus, double poissonRatio) {
+        checkValue(Law::name, "elastic modulus", elasticModulus, "Pa", positive);
+        checkValue(Law::name, "Poisson's ratio", poissonRatio, "", {-1, 0.5, false, true});
+        setEffectiveElasticModulus(computeEffectiveElasticModulus(elasticModulus, poissonRatio));
+    }
+
+    template <class Prepared>
+    static double elasticEnergy(const Prepared& p, const Contact<double>& contact) {
+        return 0.4 * p.stiffnessFactor * contact.contactRadius * contact.overlap * contact.overlap;
+    }
+    template <class Prepared>
+    static double stiffness(const Prepared& p, const Contact<double>& contact) {
+        return 1.5 * p.stiffnessFactor * contact.contactRadius;
+    }
+    static constexpr double elasticExponent = 1.5;
+
+    [[nodiscard]] double range(const Bodies&) const { return 0; }
+};
+
+}  // namespace pendular

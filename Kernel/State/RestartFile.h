@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "Kernel/State/StateArchive.h"
+
+namespace pendular {
+
+/// The format of restart files that this version writes; it reads this one and all before it.
+inline constexpr int restartFormat = 1;
+
+/// Throws InputError in a build without the HDF5 library, in which there are no restart files.
+void requireRestartFiles();
+
+/// Writes a restart file: beside its name, complete and on the disk before it gets it, so that the name
+/// always stands for a whole state. Throws InputError if that fails; the file of before is then left as it
+/// is.
+/// @param visit visits all that the file is to hold
+void writeRestartFile(const std::filesystem::path& path, const std::function<void(StateArchive&)>& visit);
+
+/// Throws InputError unless the file is a whole and undamaged restart file of a format that is known.
+void checkRestartFile(const std::filesystem::path& path);
+
+/// Checks a restart file, and gives its content to what is visited. Throws InputError.
+void readRestartFile(const std::filesystem::path& path, const std::function<void(StateArchive&)>& visit);
+
+}  // namespace pendular

@@ -1,0 +1,67 @@
+#include "Kernel/State/StateArchive.h"
+
+#include <fmt/format.h>
+
+#include "Kernel/InputError.h"
+
+namespace pendular {
+
+void StateArchive::refuseMissing(std::string_view name) const {
+    throw InputError(fmt::format(
+        "The restart file {} has no {} as this scene has it: it was written by another driver, for another "
+        "species or with other options.",
+        file.path().string(), fullName(name)));
+}
+
+std::size_t StateArchive::rowsOf(std::string_view name, const TableShape& row) const {
+    const std::string full = fullName(name);
+    const auto shape = file.holds(full) ? file.shapeOf(full) : std::nullopt;
+    if (!shape || shape->kind != row.kind || shape->columns != row.columns) refuseMissing(name);
+    return shape->rows;
+}
+
+void StateArchive::transfer(std::string_view name, const TableShape& shape, void* numbers) {
+    if (!isReading()) return file.write(fullName(name), shape, numbers);
+    if (rowsOf(name, shape) != shape.rows)
+        throw InputError(fmt::format("The restart file {} has another number of rows in {} than this scene.",
+                                     file.path().string(), fullName(name)));
+    file.read(fullName(name), shape, numbers);
+}
+
+void StateArchive::text(std::string_view name, std::string& content) {
+    if (!isReading()) return file.write(fullName(name), content);
+    if (!file.holds(fullName(name))) refuseMissing(name);
+    content = file.readText(fullName(name));
+}
+
+void StateArchive::same(std::string_view name, std::string_view text) {
+    if (!isReading()) return file.write(fullName(name), text);
+    std::string kept;
+    this->text(name, kept);
+    expectSame(name, kept, std::string(text), {});
+}
+
+void StateArchive::expectEqual(std::string_view name, bool equal) const {
+    if (!equal)
+        throw InputError(
+            fmt::format("The restart file {} does not fit this scene: {} is not the same; a run goes on with "
+                        "what it began with.",
+                        file.path().string(), fullName(name)));
+}
+
+void StateArchive::expectSame(std::string_view name, const std::string& kept, const std::string& now,
+                              std::string_view unit) const {
+    if (kept == now) return;
+    const std::string space = unit.empty() ? "" : " ";
+    throw InputError(
+        fmt::format("The restart file {} does not fit this scene: {} is {}{}{} in the file and {}{}{} in the "
+                    "scene; a run goes on with the values it began with.",
+                    file.path().string(), fullName(name), kept, space, unit, now, space, unit));
+}
+
+/// With all its digits: two numbers that are shown alike are equal, and so are two that are not set.
+std::string StateArchive::shown(double number) {
+    return number == number ? fmt::format("{}", number) : std::string("not set");
+}
+
+}  // namespace pendular

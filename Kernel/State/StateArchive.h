@@ -1,0 +1,121 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "Kernel/LargePages.h"
+#include "Kernel/State/Hdf5File.h"
+
+namespace pendular {
+
+template <class Number>
+constexpr NumberKind kindOf() {
+    if constexpr (std::is_same_v<Number, double>) return NumberKind::Float64;
+    else if constexpr (std::is_same_v<Number, bool>) return NumberKind::UInt8;
+    else if constexpr (std::is_signed_v<Number>) {
+        static_assert(sizeof(Number) == 4);
+        return NumberKind::Int32;
+    } else {
+        static_assert(std::is_unsigned_v<Number>);
+        return sizeof(Number) == 8   ? NumberKind::UInt64
+               : sizeof(Number) == 4 ? NumberKind::UInt32
+               : sizeof(Number) == 2 ? NumberKind::UInt16
+                                     : NumberKind::UInt8;
+    }
+}
+
+/// A record that is nothing but numbers of one kind: a Vector<double>, a column's block.
+template <class Record, class Number>
+concept RecordOf = std::is_trivially_copyable_v<Record> && sizeof(Record) % sizeof(Number) == 0;
+
+/// What the state of a scene goes through, into a restart file or out of one. A class lists what it remembers
+/// in one function, visitState(StateArchive&), which serves both ways: what is read is what was written. All
+/// bits of a number are kept. Names are unique within their group.
+class StateArchive {
+public:
+    enum class Direction { Write, Read };
+
+    StateArchive(Hdf5File& stateFile, Direction way) : file(stateFile), direction(way) {}
+
+    [[nodiscard]] bool isReading() const { return direction == Direction::Read; }
+
+    /// All that is visited within the function is in this group.
+    template <class Function>
+    void group(std::string_view name, Function&& visit) {
+        const std::size_t outside = prefix.size();
+        prefix.append(name).push_back('/');
+        visit();
+        prefix.resize(outside);
+    }
+
+    /// A column of any length.
+    template <class Number, RecordOf<Number> Record>
+    void column(std::string_view name, std::vector<Record>& records) {
+        constexpr TableShape one{kindOf<Number>(), 1, sizeof(Record) / sizeof(Number)};
+        if (isReading()) {
+            const std::size_t rows = rowsOf(name, one);
+            records.clear();
+            reserveLarge(records, rows);
+            records.resize(rows);
+        }
+        transfer(name, {one.kind, records.size(), one.columns}, records.data());
+    }
+    /// A few numbers, such as a Vector<double>.
+    template <class Number, RecordOf<Number> Record>
+    void record(std::string_view name, Record& numbers) {
+        transfer(name, {kindOf<Number>(), 1, sizeof(Record) / sizeof(Number)}, &numbers);
+    }
+    template <class Number>
+    requires std::is_arithmetic_v<Number>
+    void value(std::string_view name, Number& number) { record<Number>(name, number); }
+    void text(std::string_view name, std::string& content);
+
+    /// What a scene must set as it was when the file was written: a species' parameter, a wall's shape.
+    /// Reading throws InputError where it is not so.
+    template <class Number>
+    requires std::is_arithmetic_v<Number>
+    void same(std::string_view name, Number number, std::string_view unit = {}) {
+        if (!isReading()) return value(name, number);
+        Number kept{};
+        value(name, kept);
+        expectSame(name, shown(kept), shown(number), unit);
+    }
+    void same(std::string_view name, std::string_view text);
+    template <class Number, RecordOf<Number> Record>
+    void same(std::string_view name, std::span<const Record> records) {
+        std::vector<Number> numbers(records.size_bytes() / sizeof(Number));
+        std::memcpy(numbers.data(), records.data(), records.size_bytes());
+        if (!isReading()) return column<Number>(name, numbers);
+        std::vector<Number> kept;
+        column<Number>(name, kept);
+        expectEqual(name, kept == numbers);
+    }
+    template <class Number, RecordOf<Number> Record>
+    void sameRecord(std::string_view name, const Record& numbers) {
+        same<Number>(name, std::span<const Record>(&numbers, 1));
+    }
+
+private:
+    [[nodiscard]] std::string fullName(std::string_view name) const { return prefix + std::string(name); }
+    /// The rows of a table of the file, which has this kind and these columns.
+    [[nodiscard]] std::size_t rowsOf(std::string_view name, const TableShape& row) const;
+    [[noreturn]] void refuseMissing(std::string_view name) const;
+    void transfer(std::string_view name, const TableShape& shape, void* numbers);
+    void expectEqual(std::string_view name, bool equal) const;
+    void expectSame(std::string_view name, const std::string& kept, const std::string& now,
+                    std::string_view unit) const;
+    static std::string shown(double number);
+    static std::string shown(std::integral auto number) { return std::to_string(number); }
+
+    Hdf5File& file;
+    Direction direction;
+    std::string prefix;
+};
+
+}  // namespace pendular

@@ -1,0 +1,184 @@
+// Runs that are asked to stop, or whose disk is full: their files are complete, and a restart goes on as if
+// nothing had been.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "SelfTests/Restart/ChildRun.h"
+
+namespace pendular {
+namespace {
+
+using namespace support;
+
+constexpr std::size_t wholeRun = 400;  // steps
+
+/// A run that waits after a step, until it is to go on.
+class WaitingRun : public KeptRun {
+public:
+    WaitingRun(const std::filesystem::path& folder, std::size_t stepOfWaiting)
+        : KeptRun(folder, wholeRun),
+          waitAt(stepOfWaiting),
+          here(folder / "waiting"),
+          goOn(folder / "go-on") {}
+    void actionsAfterTimeStep() override {
+        if (getNumberOfTimeSteps() != waitAt) return;
+        std::ofstream(here).flush();
+        EXPECT_TRUE(waitUntil([&] { return std::filesystem::exists(goOn); }));
+    }
+
+private:
+    std::size_t waitAt;
+    std::filesystem::path here, goOn;
+};
+
+class AskedToStop : public testing::Test {
+protected:
+    const TestFolder folder;
+    const std::filesystem::path whole = folder.path() / "whole", part = folder.path() / "part";
+
+    void waitForChild() const {
+        ASSERT_TRUE(waitUntil([&] { return std::filesystem::exists(part / "waiting"); }));
+    }
+    void letGoOn() const { std::ofstream(part / "go-on").flush(); }
+    std::string printed() const { return contentOf(part / "printed"); }
+
+    /// The table and the restart file are complete and at this step, and the run goes on from them.
+    void expectCompleteAt(std::size_t step) {
+        EXPECT_FALSE(std::filesystem::exists(part / "table.csv.part"));
+        EXPECT_FALSE(std::filesystem::exists(part / "run-restart.h5.part"));
+        const std::string table = contentOf(part / "table.csv");
+        const auto lastRow = table.rfind('\n', table.size() - 2) + 1;
+        EXPECT_EQ(std::stod(table.substr(lastRow)), static_cast<double>(step) * 0x1p-17);
+        KeptRun again(part, wholeRun);
+        again.initialise();
+        EXPECT_EQ(again.getNumberOfTimeSteps(), step);
+    }
+    void expectGoesOnAsIfNothingHadBeen() {
+        EXPECT_EQ(Child(part, [&] { KeptRun(part, wholeRun).solve(); }).wait(), 0) << printed();
+        runUndisturbed(whole, wholeRun);
+        expectSameRun(whole, part);
+    }
+};
+
+/// At a step at which output is due (a multiple of 7), and at one at which it is not.
+TEST_F(AskedToStop, completesItsFilesAtOneTime) {
+    for (const auto& [signal, code, at] :
+         {std::tuple{SIGINT, 130, std::size_t{140}}, std::tuple{SIGTERM, 143, std::size_t{150}}}) {
+        std::filesystem::remove_all(part);
+        const Child child(part, [&, at = at] { WaitingRun(part, at).solve(); });
+        waitForChild();
+        child.send(signal);
+        letGoOn();
+        EXPECT_EQ(child.wait(), code);
+        EXPECT_NE(printed().find(
+                      fmt::format("after {} steps; restart from {}", at, (part / "run-restart.h5").string())),
+                  std::string::npos)
+            << printed();
+        // The check opens the table again: on a copy.
+        std::filesystem::copy(part, folder.path() / "copy");
+        expectCompleteAt(at);
+        std::filesystem::remove_all(part);
+        std::filesystem::rename(folder.path() / "copy", part);
+        expectGoesOnAsIfNothingHadBeen();
+    }
+}
+
+TEST_F(AskedToStop, aSecondTimeEndsAtOnce) {
+    for (const auto& [first, second] : {std::pair{SIGINT, SIGINT}, std::pair{SIGTERM, SIGINT}}) {
+        std::filesystem::remove_all(part);
+        const Child child(part, [&] { WaitingRun(part, 20).solve(); });
+        waitForChild();
+        child.send(first);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // two signals at once may be one
+        child.send(second);
+        EXPECT_EQ(child.wait(), -second);
+    }
+}
+
+TEST_F(AskedToStop, byTheWallClockDoesAsOnSigterm) {
+    const Child child(part, [&] {
+        setWallTimeLimit(1e-6);
+        KeptRun(part, wholeRun).solve();
+    });
+    EXPECT_EQ(child.wait(), 143);
+    EXPECT_NE(printed().find("the limit of 1e-06 s of wall time has stopped the run at time 0 s"),
+              std::string::npos)
+        << printed();
+    expectGoesOnAsIfNothingHadBeen();
+}
+
+TEST_F(AskedToStop, forARestartFileOnlyWritesItAndGoesOn) {
+    const Child child(part, [&] { WaitingRun(part, 100).solve(); });
+    waitForChild();
+    EXPECT_FALSE(std::filesystem::exists(part / "run-restart.h5"));
+    child.send(SIGUSR1);
+    letGoOn();
+    EXPECT_EQ(child.wait(), 0) << printed();
+    runUndisturbed(whole, wholeRun);
+    expectSameRun(whole, part);
+}
+
+TEST_F(AskedToStop, writesARestartFileOnSigusr1AtOnce) {
+    const Child child(part, [&] {
+        struct WaitsTwice : WaitingRun {
+            using WaitingRun::WaitingRun;
+            void actionsBeforeTimeStep() override {
+                if (getNumberOfTimeSteps() == 101) std::this_thread::sleep_for(std::chrono::minutes(1));
+            }
+        } run(part, 100);
+        run.solve();
+    });
+    waitForChild();
+    child.send(SIGUSR1);
+    letGoOn();
+    // After step 100, or, where the child was slow to hear it, 101.
+    EXPECT_TRUE(waitUntil([&] { return std::filesystem::exists(part / "run-restart.h5"); }));
+    child.send(SIGKILL);
+    EXPECT_EQ(child.wait(), -SIGKILL);
+    expectGoesOnAsIfNothingHadBeen();
+}
+
+/// A limit of the size of files stands for a full disk: both make a write fail, for the one with EFBIG, for
+/// the other with ENOSPC.
+void limitFiles(std::uintmax_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+TEST_F(AskedToStop, byAFullDiskKeepsTheLastCompleteFile) {
+    for (const double share : {0.0, 0.02, 0.5, 0.99}) {
+        std::filesystem::remove_all(part);
+        runUndisturbed(part, 70);
+        const std::string before = contentOf(part / "run-restart.h5");
+        const Child child(part, [&] {
+            limitFiles(static_cast<std::uintmax_t>(share * static_cast<double>(before.size())) + 2000);
+            KeptRun run(part, 120);
+            run.setRestartCount(100);
+            run.solve();
+        });
+        EXPECT_EQ(child.wait(), 1) << share;
+        EXPECT_NE(printed().find("File too large; the restart file of before is kept.\n"), std::string::npos)
+            << printed();
+        const std::string lines = printed();
+        EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1) << lines;
+        EXPECT_TRUE(contentOf(part / "run-restart.h5") == before) << share;
+        EXPECT_FALSE(std::filesystem::exists(part / "run-restart.h5.part"));
+    }
+    expectGoesOnAsIfNothingHadBeen();
+}
+
+TEST_F(AskedToStop, byATableThatCannotGrowSaysSo) {
+    const Child child(part, [&] {
+        limitFiles(300);
+        KeptRun run(part, wholeRun);
+        run.keepRestartFile(false);
+        run.solve();
+    });
+    EXPECT_EQ(child.wait(), 1);
+    EXPECT_NE(printed().find("table.csv cannot be completed: File too large"), std::string::npos)
+        << printed();
+}
+
+}  // namespace
+}  // namespace pendular

@@ -1,0 +1,192 @@
+// A run that is restarted is in the same state, in every bit, as one that never stopped.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "Kernel/Math/Random.h"
+#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Walls/AxisymmetricWall.h"
+#include "Kernel/Walls/TriangleWall.h"
+#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular {
+namespace {
+
+using scenes::SettlingBox;
+using support::expectSameState;
+using support::TestFolder;
+
+using Smooth = Species<LinearViscoelastic>;
+using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
+
+template <class Scene>
+void runTo(Scene& scene, std::size_t steps) {
+    while (scene.getNumberOfTimeSteps() < steps) scene.step();
+}
+
+/// Contacts that touch, and bridges that are stretched between grains that do not.
+template <class S>
+std::pair<int, int> touchingAndStretched(const Simulation<S>& scene) {
+    int touching = 0, stretched = 0;
+    const auto& store = scene.contacts().store();
+    store.forEachListed([&](const Bucket&, std::uint32_t c) {
+        if (store.touches(c)) ++touching;
+        else stretched += store.acts(c) ? 1 : 0;
+    });
+    return {touching, stretched};
+}
+
+/// Runs a scene to `end` in one go, and in another one that is restarted at `middle`.
+/// @param make makes the scene, by the number of threads
+template <class Make>
+void expectSameAfterRestart(Make&& make, std::size_t middle, std::size_t end, int threadsBefore = 1,
+                            int threadsAfter = 1) {
+    const TestFolder folder;
+    const std::filesystem::path whole = folder.path() / "whole.h5", half = folder.path() / "half.h5",
+                                restarted = folder.path() / "restarted.h5";
+    {
+        auto scene = make(threadsBefore);
+        scene->initialise();
+        runTo(*scene, middle);
+        scene->writeRestart(half);
+        runTo(*scene, end);
+        scene->writeRestart(whole);
+    }
+    auto scene = make(threadsAfter);
+    scene->restartFrom(half);
+    scene->initialise();
+    ASSERT_EQ(scene->getNumberOfTimeSteps(), middle);
+    scene->writeRestart(restarted);
+    expectSameState(half, restarted);
+    runTo(*scene, end);
+    scene->writeRestart(restarted);
+    expectSameState(whole, restarted);
+}
+
+template <class S>
+auto box(int layers) {
+    return [=](int threads) {
+        auto scene = std::make_unique<SettlingBox<S>>(layers);
+        scene->setNumberOfThreads(threads);
+        return scene;
+    };
+}
+
+TEST(Restart, ofSmoothDryGrainsIsBitForBit) {
+    for (const std::size_t middle : {0, 1, 500, 1500}) expectSameAfterRestart(box<Smooth>(3), middle, 2000);
+}
+
+TEST(Restart, withStretchedBridgesIsBitForBit) {
+    const auto make = box<Wet>(3);
+    auto probe = make(1);
+    probe->initialise();
+    runTo(*probe, 900);
+    const auto [touching, stretched] = touchingAndStretched(*probe);
+    EXPECT_GT(touching, 5);
+    EXPECT_GT(stretched, 10);
+    for (const std::size_t middle : {0, 300, 900}) expectSameAfterRestart(make, middle, 1500);
+}
+
+TEST(Restart, withOtherThreadsIsBitForBit) {
+    for (const auto& [before, after] : {std::pair{1, 3}, std::pair{2, 1}})
+        expectSameAfterRestart(box<Wet>(2), 100, 250, before, after);
+}
+
+/// The step before the contacts are listed anew, that step, and the one after it.
+TEST(Restart, aroundARelistingIsBitForBit) {
+    auto probe = box<Wet>(3)(1);
+    probe->initialise();
+    runTo(*probe, 400);
+    const std::size_t rebuilds = probe->contacts().rebuildCount();
+    while (probe->contacts().rebuildCount() == rebuilds) probe->step();
+    const std::size_t at = probe->getNumberOfTimeSteps();
+    for (const std::size_t middle : {at - 1, at, at + 1})
+        expectSameAfterRestart(box<Wet>(3), middle, at + 300);
+}
+
+/// All else that a run changes: an energy ledger, walls that move and keep forces, one that the driver sets
+/// in motion during the run, gravity that it turns, a periodic direction, random numbers and a counter of its
+/// own.
+class Everything : public SettlingBox<Wet> {
+public:
+    Everything() : SettlingBox<Wet>(2) {
+        keepEnergyLedger();
+        const double far = 1;  // m, along x: no grain meets its image but the account of the rounds is kept
+        setPeriodic(0, -0.5 * far, 0.5 * far);
+        const Wet* material = speciesHandler.getObject(0);
+        TriangleWall paddle;
+        paddle.setSpecies(material);
+        const double edge = width, height = 1e-4;  // m: just below the lowest grains
+        paddle.set(std::vector<Triangle>{{{{0, 0, height}, {edge, 0, height}, {0, edge, height}}},
+                                         {{{edge, edge, height}, {edge, 0, height}, {0, edge, height}}}});
+        paddle.setAngularVelocity({0, 20, 0}, {0.5 * edge, 0, height});
+        moved = wallHandler.copyAndAddObject(paddle);
+        moved->keepForces(true, {0, 0, height});
+        AxisymmetricWall cone;
+        cone.setSpecies(material);
+        cone.set({0, 0, 1}, {0.5 * edge, 0.5 * edge, 0}, {{2e-3, 7.5e-3}, {4e-3, 7e-3}});
+        wallHandler.copyAndAddObject(cone);
+        speciesHandler.getMixedObject(0, 1)->setSlidingFrictionCoefficient(0.25);
+    }
+    void actionsAfterTimeStep() override {
+        const std::size_t step = getNumberOfTimeSteps();
+        if (step % 100 == 50) {
+            const double kick = random.uniform(-0.1, 0.1);
+            particleHandler.getObject(step % particleHandler.getSize()).setVelocity({kick, 0, 0});
+            ++kicks;
+        }
+        if (step == 250) moved->setSurfaceVelocity({0, 0.1, 0});
+        if (step == 300) setGravity({1, 0, -9.7});
+    }
+    void visitState(StateArchive& archive) override {
+        random.visitState(archive);
+        archive.value("kicks", kicks);
+    }
+    std::size_t kicks = 0;
+
+private:
+    UniformRandom random{7};
+    RigidWall* moved = nullptr;
+};
+
+TEST(Restart, ofAllThatARunChangesIsBitForBit) {
+    const auto make = [](int threads) {
+        auto scene = std::make_unique<Everything>();
+        scene->setNumberOfThreads(threads);
+        return scene;
+    };
+    Everything probe;
+    probe.initialise();
+    runTo(probe, 400);
+    EXPECT_GT(probe.wallHandler.getObject(6).getForce().norm(), 0) << "the paddle meets grains";
+    EXPECT_NE(probe.energyLedger().dissipated, 0);
+    EXPECT_EQ(probe.kicks, 4u);
+    for (const std::size_t middle : {200, 260, 400}) expectSameAfterRestart(make, middle, 700);
+}
+
+/// Equal states make equal files, but for nothing.
+TEST(Restart, writesTheSameBytesForTheSameState) {
+    const TestFolder folder;
+    std::vector<std::string> bytes;
+    for (int k = 0; k < 2; ++k) {
+        auto scene = box<Wet>(2)(1 + k);
+        scene->initialise();
+        runTo(*scene, 100);
+        const auto file = folder.path() / std::to_string(k);
+        scene->writeRestart(file);
+        std::ifstream stream(file, std::ios::binary);
+        bytes.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    }
+    EXPECT_GT(bytes[0].size(), 10000u);
+    EXPECT_TRUE(bytes[0] == bytes[1]);
+}
+
+}  // namespace
+}  // namespace pendular

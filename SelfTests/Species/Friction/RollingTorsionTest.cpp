@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Species/Friction/SlidingRollingTorsion.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular {
+namespace {
+
+using scenes::FewGrains;
+using scenes::GrainMotion;
+
+using Linear = Species<LinearViscoelastic, SlidingRollingTorsion>;
+using Hertzian = Species<HertzianViscoelastic, MindlinRollingTorsion>;
+
+constexpr double radius = 1e-3, density = 2500, gravity = 9.81;  // m, kg/m^3, m/s^2
+constexpr double mass = 4.0 / 3 * std::numbers::pi * radius * radius * radius * density;
+constexpr double normalStiffness = 2000;  // N/m: the weight presses in 5e-8 m, 5e-5 of the radius
+
+template <class S>
+S material(double rolling, double torsion) {
+    S species;
+    species.setDensity(density);
+    if constexpr (requires { species.setStiffness(1.0); }) {
+        species.setStiffness(normalStiffness);
+        species.setDissipation(0.02);
+        species.setSlidingStiffness(2.0 / 7 * normalStiffness);
+        species.setSlidingDissipation(0.01);
+    } else {
+        species.setElasticModulusAndPoissonRatio(1e8, 0.3);
+        species.setRestitutionCoefficient(0.3);
+        species.setEffectiveShearModulus(computeEffectiveShearModulus(1e8, 0.3));
+    }
+    species.setSlidingFrictionCoefficient(0.8);
+    species.setRollingStiffness(500);
+    species.setRollingDissipation(0.01);
+    species.setRollingFrictionCoefficient(rolling);
+    species.setTorsionStiffness(500);
+    species.setTorsionDissipation(0.01);
+    species.setTorsionFrictionCoefficient(torsion);
+    return species;
+}
+
+/// A grain that lies on a plane, pressed in by what its weight needs.
+template <class S>
+struct OnPlane {
+    OnPlane(const S& species, double angle, const Vec3D& spin)
+        : scene(species, {{.radius = radius, .position = {0, 0, radius - overlap()}, .spin = spin}}, step(),
+                {{{0, 0, -1}, {0, 0, 0}}}) {
+        scene.setGravity({gravity * std::sin(angle), 0, -gravity * std::cos(angle)});
+        scene.keepEnergyLedger();
+        scene.initialise();
+    }
+    static double overlap() {
+        const double hertz = 4.0 / 3 * computeEffectiveElasticModulus(1e8, 0.3) * std::sqrt(radius);
+        return std::is_same_v<S, Linear> ? mass * gravity / normalStiffness
+                                         : std::pow(mass * gravity / hertz, 2.0 / 3);
+    }
+    static double step() { return 2e-6; }  // s
+    void run(double time) {
+        for (int k = 0; k < std::lround(time / step()); ++k) scene.step();
+    }
+    [[nodiscard]] GrainMotion motion() { return scene.motion(0); }
+
+    FewGrains<S> scene;
+};
+
+template <class S>
+class RollingTorsionOnPlane : public testing::Test {};
+using Materials = testing::Types<Linear, Hertzian>;
+TYPED_TEST_SUITE(RollingTorsionOnPlane, Materials);
+
+// Rolling without slip against the torque R* mu_r N, with R* = r at a wall: 7/5 m a = m g sin(alpha) -
+// mu_r m g cos(alpha). The lever arm is shorter by half the overlap, 3e-5 r; the springs oscillate at first,
+// so that the acceleration is taken from the second half of the time.
+TYPED_TEST(RollingTorsionOnPlane, sphereRollsDownAnInclineAsInTheClosedForm) {
+    const double angle = 0.3;
+    for (const double coefficient : {0.0, 0.05, 0.2}) {
+        OnPlane<TypeParam> sphere(material<TypeParam>(coefficient, 0.1), angle, Vec3D::Zero());
+        sphere.run(0.01);
+        const double before = sphere.motion().velocity.x();
+        sphere.run(0.01);
+        const GrainMotion now = sphere.motion();
+        const double expected = 5.0 / 7 * gravity * (std::sin(angle) - coefficient * std::cos(angle));
+        EXPECT_NEAR((now.velocity.x() - before) / 0.01 / expected, 1, 2e-3) << coefficient;
+        EXPECT_NEAR(now.spin.y() * radius / now.velocity.x(), 1, 2e-3);
+    }
+}
+
+// mu_r > 2 tan(alpha): the springs hold it also where they swing to twice what the weight needs, and come to
+// rest. At most the ways that they take up then, 2 m g sin(alpha) over k_r for rolling and as much for sliding,
+// has it moved.
+TYPED_TEST(RollingTorsionOnPlane, sphereIsHeldBelowTheAngleOfItsRollingFriction) {
+    OnPlane<TypeParam> sphere(material<TypeParam>(0.7, 0), 0.3, Vec3D::Zero());
+    sphere.run(0.02);
+    EXPECT_LT(std::abs(sphere.motion().position.x()), 4 * mass * gravity * std::sin(0.3) / 500);
+    EXPECT_LT(std::abs(sphere.motion().velocity.x()), 1e-3 * 5.0 / 7 * gravity * std::sin(0.3) * 0.02);
+}
+
+// A sphere that spins about the normal of a plane is stopped by the torque R* mu_o m g at the constant rate
+// 5/2 mu_o g / r; then it rests, and the ledger holds what it had.
+TYPED_TEST(RollingTorsionOnPlane, spinningSphereComesToRest) {
+    const double coefficient = 0.1, spin = 50, rate = 2.5 * coefficient * gravity / radius;
+    OnPlane<TypeParam> sphere(material<TypeParam>(0, coefficient), 0, {0, 0, spin});
+    const double kinetic = 0.2 * mass * radius * radius * spin * spin;
+    sphere.run(0.005);
+    const double early = sphere.motion().spin.z();
+    sphere.run(0.01);
+    EXPECT_NEAR((early - sphere.motion().spin.z()) / 0.01 / rate, 1, 1e-3);
+    sphere.run(0.01);  // 20 ms of spinning in all
+    EXPECT_LT(std::abs(sphere.motion().spin.z()), 1e-3 * spin);
+    EXPECT_LT(std::hypot(sphere.motion().position.x(), sphere.motion().position.y()), 1e-12);
+    EXPECT_NEAR(sphere.scene.energyLedger().tangential / kinetic, 1, 1e-3);
+}
+
+// A coefficient without a spring would do nothing.
+TEST(RollingTorsion, aCoefficientWithoutASpringIsRefused) {
+    Linear species = material<Linear>(0.1, 0);
+    species.setRollingStiffness(0);
+    const std::string message = support::refusal([&] { OnPlane<Linear>(species, 0, Vec3D::Zero()); });
+    EXPECT_TRUE(support::isOneSentence(message));
+    EXPECT_TRUE(support::contains(message, "rollingStiffness"));
+    species = material<Linear>(0, 0.1);
+    species.setTorsionStiffness(0);
+    EXPECT_TRUE(support::contains(support::refusal([&] { OnPlane<Linear>(species, 0, Vec3D::Zero()); }),
+                                  "torsionStiffness"));
+}
+
+}  // namespace
+}  // namespace pendular

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Species/Adhesion/Shared/ExactBridge.h"
+#include "Kernel/Species/BridgeLaws.h"
+
+// What the liquid bridge laws cost: force in the form of the contact kernel, eight bridges at a time from
+// columns in the first-level cache; and prepare.
+
+namespace pendular {
+
+/// Nanoseconds of the fastest of many runs of an action: what else the machine does only adds time.
+template <class Action>
+double fastest(int runs, Action&& action) {
+    double best = infinity;
+    for (int run = 0; run < runs; ++run) {
+        const auto start = std::chrono::steady_clock::now();
+        action();
+        const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+        best = std::min(best, time.count());
+    }
+    return best;
+}
+
+/// Keeps the compiler from leaving out what makes these numbers, or from moving it out of the loop.
+inline void use(const void* numbers) { asm volatile("" : : "g"(numbers) : "memory"); }
+
+template <class Law>
+typename Law::template Interaction<double> prepared(const BridgeCase& bridge) {
+    Law law;
+    law.liquidBridgeVolume = bridge.volume;
+    law.contactAngle = bridge.contactAngle;
+    law.surfaceTension = 0.07;
+    return law.prepare(bridge.bodies);
+}
+
+/// Nanoseconds for the force of one bridge.
+template <class Law>
+double forceTime(const std::vector<BridgeCase>& bridges, int runs) {
+    const std::size_t blocks = bridges.size() / Pack::lanes;
+    MemoryColumns<Law::template Interaction> memory;
+    memory.resize(blocks);
+    std::vector<LaneColumn> separations(blocks), forces(blocks);
+    for (std::size_t k = 0; k < blocks * Pack::lanes; ++k) {
+        const auto interaction = prepared<Law>(bridges[k]);
+        memory.set(k, interaction);
+        const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(bridges.size());
+        separations[k / Pack::lanes].lane[k % Pack::lanes] = share * interaction.range();
+    }
+    constexpr int rounds = 100;
+    const auto computeForces = [&] {
+        for (int round = 0; round < rounds; ++round) {
+            for (std::size_t b = 0; b < blocks; ++b) {
+                const auto bridge = memory.load(b);
+                const Pack separation = Pack::load(separations[b].lane.data());
+                select(separation < bridge.range(), bridge.force(separation), Pack(0))
+                    .store(forces[b].lane.data());
+            }
+            use(forces.data());
+        }
+    };
+    return fastest(runs, computeForces) / static_cast<double>(rounds * blocks * Pack::lanes);
+}
+
+/// Nanoseconds for the preparation of one bridge.
+template <class Law>
+double prepareTime(const std::vector<BridgeCase>& bridges, int runs) {
+    const auto prepareAll = [&] {
+        for (const BridgeCase& bridge : bridges) {
+            const auto interaction = prepared<Law>(bridge);
+            use(&interaction);
+        }
+    };
+    return fastest(runs, prepareAll) / static_cast<double>(bridges.size());
+}
+
+struct BridgeCost {
+    std::string_view law;
+    std::size_t numbers;        // that each contact stores, of 8 bytes
+    double force = infinity;    // ns, of one bridge
+    double prepare = infinity;  // ns, of one bridge
+};
+
+/// The costs of all bridge laws, in the order of forEachBridgeLaw. The laws take turns, so that a machine
+/// that is busy for a while does not slow down one of them only.
+/// @param runs of which the fastest counts
+inline std::vector<BridgeCost> measureBridgeCosts(int runs) {
+    constexpr std::size_t count = 16 * Pack::lanes;  // so that all stays in the first-level cache
+    constexpr int turns = 5;
+    // Equal spheres, which all laws take.
+    const auto bridges = BridgePopulation{{1e-3, 1e-3}, 0, {1e-5, 0.1}, {0.3, 0.3}}.draw(count, 1);
+    std::vector<BridgeCost> costs;
+    std::map<std::type_index, double> forces;  // ns, of each kind of numbers that a contact stores
+    forEachBridgeLaw([&]<class Law>() {
+        costs.push_back({Law::name, columnsOf<Law::template Interaction>});
+        forces.emplace(typeid(typename Law::template Interaction<double>), infinity);
+    });
+    for (int turn = 0; turn < turns; ++turn) {
+        auto cost = costs.begin();
+        forEachBridgeLaw([&]<class Law>() {
+            double& force = forces.at(typeid(typename Law::template Interaction<double>));
+            force = std::min(force, forceTime<Law>(bridges, (runs + turns - 1) / turns));
+            cost->prepare =
+                std::min(cost->prepare, prepareTime<Law>(bridges, (runs + 10 * turns - 1) / (10 * turns)));
+            ++cost;
+        });
+    }
+    auto cost = costs.begin();
+    forEachBridgeLaw([&]<class Law>() {
+        (cost++)->force = forces.at(typeid(typename Law::template Interaction<double>));
+    });
+    return costs;
+}
+
+}  // namespace pendular

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Species/Adhesion/Shared/BridgeError.h"
+#include "Kernel/Species/BridgeLaws.h"
+
+// Where each bridge law fails: a region for each volume and contact angle, between equal spheres.
+
+namespace pendular {
+
+/// By the largest error of the force, relative to the force, from contact to 0.95 of the exact rupture
+/// distance. The numbers are those of the table and of the chart.
+enum class ErrorRegion { Within5Percent, Within20Percent, Beyond20Percent, WrongSign, NotFinite, Refused };
+
+inline ErrorRegion regionOf(const BridgeDeviation& errors) {
+    if (errors.refused) return ErrorRegion::Refused;
+    if (!errors.finite) return ErrorRegion::NotFinite;
+    if (errors.wrongSign) return ErrorRegion::WrongSign;
+    const double largest = errors.largestOfForce();
+    return largest <= 0.05  ? ErrorRegion::Within5Percent
+           : largest <= 0.2 ? ErrorRegion::Within20Percent
+                            : ErrorRegion::Beyond20Percent;
+}
+
+struct FailureMapOptions {
+    std::filesystem::path file = "failure-maps.csv";
+    int volumes = 121, angles = 61;  // cells of the map
+};
+
+/// Equal spheres, R = 1 m: V* from 1e-9 to 10 and theta from 0 to 180 degrees, in the middles of cells.
+inline std::vector<BridgeCase> mapOfBridges(const FailureMapOptions& options) {
+    std::vector<BridgeCase> bridges;
+    for (int v = 0; v < options.volumes; ++v)
+        for (int a = 0; a < options.angles; ++a)
+            bridges.push_back({{1, 1},
+                               std::pow(10, -9 + 10 * (v + 0.5) / options.volumes),
+                               std::numbers::pi * (a + 0.5) / options.angles});
+    return bridges;
+}
+
+template <class Law>
+void writeMap(CsvFile& file, std::string_view name, const std::vector<ExactBridge>& exact, const Law& law) {
+    for (const ExactBridge& bridge : exact) {
+        const BridgeDeviation errors = deviation(modelBridge(bridge.bridge, law), bridge);
+        file.line(fmt::format("{},{:.5g},{:.5g},{},{:.4g},{:.4g}", name, std::log10(bridge.bridge.volume),
+                              bridge.bridge.contactAngle * (180 / std::numbers::pi),
+                              static_cast<int>(regionOf(errors)), 100 * errors.largestOfForce(),
+                              100 * errors.ofRuptureDistance));
+    }
+}
+
+inline void mapFailures(const FailureMapOptions& options) {
+    checkValue("accuracy-versus-cost", "volumes", options.volumes, "", {2, 1e4});
+    checkValue("accuracy-versus-cost", "angles", options.angles, "", {2, 1e4});
+    CsvFile file(options.file,
+                 "law,log10_dimensionless_volume,contact_angle_deg,region,largest_force_error_percent,"
+                 "rupture_distance_error_percent");
+    file.comment("regions: 0 within 5 %, 1 within 20 %, 2 beyond, 3 wrong sign, 4 not finite, 5 refused");
+    const auto exact = solveExactly(mapOfBridges(options));
+    forEachBridgeLaw([&]<class Law>() {
+        writeMap(file, Law::name, exact, Law());
+        if constexpr (requires(Law law) { law.setSolveOutsideTable(true); }) {
+            Law solving;
+            solving.setSolveOutsideTable(true);
+            writeMap(file, fmt::format("{}+solveOutsideTable", Law::name), exact, solving);
+        }
+    });
+    file.close();
+}
+
+}  // namespace pendular
