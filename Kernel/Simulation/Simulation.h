@@ -175,7 +175,8 @@ public:
         if (isRestarted()) return readRestart();
         smallestRadius = particleHandler.store().smallestRadius();
         prepare();
-        checkOverlaps();
+        contactSystem.refresh(particleHandler.store(), 0, 0);
+        refuseInitialOverlaps(contactSystem, particleHandler.store());
         Motion::start(particleHandler.store(), integrator);
         advance(0);  // a step of no length: forces and accelerations at the start
         Motion::start(particleHandler.store(), integrator);
@@ -229,7 +230,8 @@ private:
         if (restarts.kept) writeRestart(restartFile());
         if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
         completeAll();
-        if (request == Request::Stop) throw stopped(control);
+        if (request == Request::Stop)
+            throw control.stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string());
     }
 
     RunNumbers numbers() const {
@@ -237,14 +239,6 @@ private:
         for (const BlockState& state : contactSystem.store().states)
             acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
         return {particleHandler.getSize(), acting, kineticEnergy(particleHandler.store())};
-    }
-
-    RunStopped stopped(const RunControl& control) const {
-        const std::string from = restarts.kept ? fmt::format("restart from {}", restartFile().string())
-                                               : std::string("it keeps no restart file");
-        return {fmt::format("{} has stopped the run at time {:.6g} s, after {} steps; {}.", control.reason(),
-                            getTime(), steps, from),
-                control.exitCode()};
     }
 
     /// When species, walls and grains are known.
@@ -310,7 +304,7 @@ private:
         const double before = goesRound ? potentialEnergy(grains, gravity) : 0;
         if (contactSystem.refresh(grains, grainShift, wallShift)) {
             if (goesRound) ledger.goRound(before - potentialEnergy(grains, gravity));
-            refuseDeepOverlaps();
+            refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
         }
         times.enter(StepTimes::Part::Contacts);
         contactSystem.computeForces(grains, length, integrator.contacts);
@@ -323,31 +317,6 @@ private:
     void account(double length) {
         ledger.add(contactSystem.energies(), length, HasNormalHistory<typename S::Normal>);
         ledger.measureGrains(particleHandler.store(), gravity);
-    }
-
-    void checkOverlaps() {
-        auto& grains = particleHandler.store();
-        contactSystem.refresh(grains, 0, 0);
-        contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            refuseOverlap(contactSystem.observe(grains, bucket, contact), smallerRadius(bucket, contact));
-        });
-    }
-    /// At walls, a grain that has gone half its way is followed until its centre crosses the surface.
-    void refuseDeepOverlaps() const {
-        const auto& store = contactSystem.store();
-        store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            if (bucket.wall >= 0) return;
-            const ContactBlock& block = store.blocks[contact / Pack::lanes];
-            refuseDeepOverlap(particleHandler.store(), block.first[contact % Pack::lanes],
-                              block.second[contact % Pack::lanes], periodic, getTime());
-        });
-    }
-    double smallerRadius(const Bucket& bucket, std::uint32_t contact) const {
-        const ContactBlock& block = contactSystem.store().blocks[contact / Pack::lanes];
-        const auto& grains = particleHandler.store().translation;
-        const double radius1 = grains[block.first[contact % Pack::lanes]].radius;
-        return bucket.wall >= 0 ? radius1
-                                : std::min(radius1, grains[block.second[contact % Pack::lanes]].radius);
     }
 
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
