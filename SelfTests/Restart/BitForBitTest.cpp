@@ -6,9 +6,12 @@
 #include <memory>
 
 #include "Kernel/Math/Random.h"
+#include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/SlidingRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearPlasticViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/TriangleWall.h"
@@ -81,6 +84,12 @@ auto box(int layers) {
 
 TEST(Restart, ofSmoothDryGrainsIsBitForBit) {
     for (const std::size_t middle : {0, 1, 500, 1500}) expectSameAfterRestart(box<Smooth>(3), middle, 2000);
+}
+
+/// With what every kind of law remembers.
+TEST(Restart, ofPlasticRollingGrainsIsBitForBit) {
+    using PlasticRolling = Species<LinearPlasticViscoelastic, SlidingRollingTorsion, IrreversibleAdhesive>;
+    for (const std::size_t middle : {300, 900}) expectSameAfterRestart(box<PlasticRolling>(3), middle, 1500);
 }
 
 TEST(Restart, withStretchedBridgesIsBitForBit) {
