@@ -205,10 +205,12 @@ public:
     }
 
     void visitState(StateArchive& archive) {
-        auto& [h, i, r, e, b] = *this;  // a member that is added has to be added here
+        auto& [h, n, i, r, t, e, b] = *this;  // a member that is added has to be added here
         archive.column<double>("history", h.columns);
+        archive.column<double>("normalHistory", n.columns);
         archive.column<double>("interaction", i.columns);
         archive.column<double>("records", r);
+        archive.column<double>("torques", t);
         archive.column<double>("energies", e);
         archive.column<std::uint32_t>("blockOf", b);
     }
