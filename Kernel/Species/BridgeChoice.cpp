@@ -104,20 +104,14 @@ std::string bridgeAdviceText(const BridgeChoice& own, const BridgeAdvice& advice
 }
 
 std::optional<BridgeLawCost> nominalBridgeCost(std::string_view law) {
-    static const std::map<std::string_view, BridgeLawCost> costs{{"LiquidBridgeWillett", {1.0, 30}},
-                                                                 {"LiquidBridgeBagheri", {1.0, 130}},
-                                                                 {"LiquidBridgeYoungLaplace", {1.1, 750}},
-                                                                 {"LiquidBridgeLianSeville", {1.0, 280}},
-        {"LiquidBridgeMikami", {1.3, 70}},
-                                                                 {"LiquidBridgeSoulie", {1.3, 55}},
-                                                                 {"LiquidBridgeLambert", {2.5, 27}},
-                                                                 {"LiquidBridgeRabinovich", {1.06, 15e3}},
-                                                                 {"LiquidBridgeWeigert", {1.06, 18e3}},
-                                                                 {"LiquidBridgeLian", {1.06, 65e3}},
-                                                                 {"LiquidBridgePietschRumpf", {1.06, 65e3}},
-                                                                 {"LiquidBridgeMegiasAlguacil", {1.06, 65e3}},
-                                                                 {"LiquidBridgeChen", {1.06, 130e3}},
-                                                                 {"LiquidBridgeClassicalWillett", {8, 60}}};
+    static const std::map<std::string_view, BridgeLawCost> costs{
+        {"LiquidBridgeWillett", {1.0, 30}},         {"LiquidBridgeBagheri", {1.0, 130}},
+        {"LiquidBridgeYoungLaplace", {1.1, 750}},   {"LiquidBridgeLianSeville", {1.0, 165}},
+        {"LiquidBridgeMikami", {1.3, 70}},          {"LiquidBridgeSoulie", {1.3, 55}},
+        {"LiquidBridgeLambert", {2.5, 27}},         {"LiquidBridgeRabinovich", {1.06, 15e3}},
+        {"LiquidBridgeWeigert", {1.06, 18e3}},      {"LiquidBridgeLian", {1.06, 65e3}},
+        {"LiquidBridgePietschRumpf", {1.06, 74e3}}, {"LiquidBridgeMegiasAlguacil", {1.06, 74e3}},
+        {"LiquidBridgeChen", {1.06, 130e3}},        {"LiquidBridgeClassicalWillett", {8, 60}}};
     const auto found = costs.find(law);
     if (found == costs.end()) return {};
     return found->second;
