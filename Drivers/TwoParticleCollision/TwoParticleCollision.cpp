@@ -57,7 +57,7 @@ public:
         this->setTimeMax(options.timeMax);
         this->setSaveCount(1);
         this->keepEnergyLedger();
-        if constexpr (Bridge<Adhesion>)
+        if constexpr (BridgeLaw<Adhesion>)
             if (options.adviceTolerance > 0)
                 fmt::print("{}\n", bridgeAdvice(*this, 0.01 * options.adviceTolerance));
     }
