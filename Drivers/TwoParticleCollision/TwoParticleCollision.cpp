@@ -4,8 +4,8 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Kernel/Output/RunTable.h"
+#include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/LawNames.h"
-#include "Kernel/Species/Laws.h"
 
 using namespace pendular;
 
@@ -32,11 +32,7 @@ struct Options {
 
 /// What a driver of liquid bridges can do with: a bridge, or nothing.
 template <class Law>
-concept Bridge = requires(Law law) {
-    law.setLiquidBridgeVolume(0.0);
-};
-template <class Law>
-struct IsBridgeOrNothing : std::bool_constant<!Law::acts || Bridge<Law>> {};
+struct IsBridgeOrNothing : std::bool_constant<!Law::acts || BridgeLaw<Law>> {};
 using Bridges = FilteredTypes<IsBridgeOrNothing, AdhesionLaws>::type;
 
 template <class Adhesion>
