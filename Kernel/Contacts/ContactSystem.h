@@ -90,9 +90,9 @@ public:
 
     /// The force records of all contacts, for grains at the end of a step (s) with their predicted
     /// velocities.
-    void computeForces(const Grains& grains, double step) {
-        if (ledger) computeAll<true>(grains, step);
-        else computeAll<false>(grains, step);
+    void computeForces(const Grains& grains, double step, ContactTiming timing = {}) {
+        if (ledger) computeAll<true>(grains, step, timing);
+        else computeAll<false>(grains, step, timing);
     }
 
     [[nodiscard]] const ContactStore<S>& store() const { return contacts; }
@@ -153,12 +153,12 @@ public:
 private:
     /// Blocks are independent: each writes only its own memory and records.
     template <bool withLedger>
-    void computeAll(const Grains& grains, double step) {
+    void computeAll(const Grains& grains, double step, ContactTiming timing) {
         const TranslationRecord* translation = grains.translation.data();
         const RotationRecord* rotation = grains.rotation.data();
         for (std::size_t k = 0; k < contacts.buckets.size(); ++k) {
             const Bucket& bucket = contacts.buckets[k];
-            ContactKernel<S, withLedger> kernel(laws[k], step, contacts);
+            ContactKernel<S, withLedger> kernel(laws[k], step, timing, contacts);
             const auto forEachBlock = [&](auto geometryOf) {
                 std::atomic<bool> allHaveMemory = true;
                 inParts(

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Output/Progress.h"
 #include "Kernel/Particles/ParticleHandler.h"
@@ -96,6 +96,8 @@ public:
         threads = count;
         contactSystem.setThreads(count);
     }
+    /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
+    void setIntegrator(const Integrator& scheme) { integrator = scheme; }
     /// Keeps a restart file, NAME-restart.h5: written at the end of the run, and when it is asked to stop.
     /// Throws InputError where this build of Pendular cannot write one.
     void keepRestartFile(bool keep = true) {
@@ -173,8 +175,11 @@ public:
         if (isRestarted()) return readRestart();
         smallestRadius = particleHandler.store().smallestRadius();
         prepare();
-        checkOverlaps();
+        contactSystem.refresh(particleHandler.store(), 0, 0);
+        refuseInitialOverlaps(contactSystem, particleHandler.store());
+        Motion::start(particleHandler.store(), integrator);
         advance(0);  // a step of no length: forces and accelerations at the start
+        Motion::start(particleHandler.store(), integrator);
     }
 
     /// What the outputs and writeOutput() write; a driver that steps by itself calls it.
@@ -196,7 +201,7 @@ public:
         try {
             advance(timeStep);
         } catch (const RunError&) {
-            Motion::takeBack(particleHandler.store(), timeStep);
+            Motion::takeBack(particleHandler.store(), timeStep, integrator);
             wallHandler.moveTo(getTime());
             throw;
         }
@@ -205,7 +210,7 @@ public:
     }
 
 private:
-    using Motion = VelocityVerlet<S::hasTorque>;
+    using Motion = TimeIntegration<S::hasTorque>;
     using Request = RunControl::Request;
 
     void stepToTheEnd(RunControl& control) {
@@ -225,7 +230,8 @@ private:
         if (restarts.kept) writeRestart(restartFile());
         if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
         completeAll();
-        if (request == Request::Stop) throw stopped(control);
+        if (request == Request::Stop)
+            throw control.stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string());
     }
 
     RunNumbers numbers() const {
@@ -233,14 +239,6 @@ private:
         for (const BlockState& state : contactSystem.store().states)
             acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
         return {particleHandler.getSize(), acting, kineticEnergy(particleHandler.store())};
-    }
-
-    RunStopped stopped(const RunControl& control) const {
-        const std::string from = restarts.kept ? fmt::format("restart from {}", restartFile().string())
-                                               : std::string("it keeps no restart file");
-        return {fmt::format("{} has stopped the run at time {:.6g} s, after {} steps; {}.", control.reason(),
-                            getTime(), steps, from),
-                control.exitCode()};
     }
 
     /// When species, walls and grains are known.
@@ -262,6 +260,7 @@ private:
         archive.group("species", [&] { speciesHandler.visitState(archive); });
         archive.group("walls", [&] { wallHandler.visitState(archive); });
         archive.same("timeStep", timeStep, "s");
+        archive.same("integrator", integrator.name);
         archive.same("ledgerKept", ledgerKept);
         archive.value("steps", steps);
         archive.record<double>("gravity", gravity);
@@ -297,7 +296,7 @@ private:
     void advance(double length) {
         auto& grains = particleHandler.store();
         times.enter(StepTimes::Part::Motion);
-        const double grainShift = std::sqrt(Motion::begin(grains, length, threads));
+        const double grainShift = std::sqrt(Motion::begin(grains, length, threads, integrator));
         refuseRunaway(grainShift);
         const double wallShift = wallHandler.moveTo(getTime() + length);
         times.enter(StepTimes::Part::Search);
@@ -305,12 +304,12 @@ private:
         const double before = goesRound ? potentialEnergy(grains, gravity) : 0;
         if (contactSystem.refresh(grains, grainShift, wallShift)) {
             if (goesRound) ledger.goRound(before - potentialEnergy(grains, gravity));
-            refuseDeepOverlaps();
+            refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
         }
         times.enter(StepTimes::Part::Contacts);
-        contactSystem.computeForces(grains, length);
+        contactSystem.computeForces(grains, length, integrator.contacts);
         times.enter(StepTimes::Part::Sum);
-        Motion::finish(grains, contactSystem.store(), gravity, length, threads);
+        Motion::finish(grains, contactSystem.store(), gravity, length, threads, integrator);
         times.enter(StepTimes::Part::Other);
         if (ledgerKept) account(length);
     }
@@ -318,31 +317,6 @@ private:
     void account(double length) {
         ledger.add(contactSystem.energies(), length, HasNormalHistory<typename S::Normal>);
         ledger.measureGrains(particleHandler.store(), gravity);
-    }
-
-    void checkOverlaps() {
-        auto& grains = particleHandler.store();
-        contactSystem.refresh(grains, 0, 0);
-        contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            refuseOverlap(contactSystem.observe(grains, bucket, contact), smallerRadius(bucket, contact));
-        });
-    }
-    /// At walls, a grain that has gone half its way is followed until its centre crosses the surface.
-    void refuseDeepOverlaps() const {
-        const auto& store = contactSystem.store();
-        store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            if (bucket.wall >= 0) return;
-            const ContactBlock& block = store.blocks[contact / Pack::lanes];
-            refuseDeepOverlap(particleHandler.store(), block.first[contact % Pack::lanes],
-                              block.second[contact % Pack::lanes], periodic, getTime());
-        });
-    }
-    double smallerRadius(const Bucket& bucket, std::uint32_t contact) const {
-        const ContactBlock& block = contactSystem.store().blocks[contact / Pack::lanes];
-        const auto& grains = particleHandler.store().translation;
-        const double radius1 = grains[block.first[contact % Pack::lanes]].radius;
-        return bucket.wall >= 0 ? radius1
-                                : std::min(radius1, grains[block.second[contact % Pack::lanes]].radius);
     }
 
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
@@ -358,6 +332,7 @@ private:
     StepTimes times;
     PeriodicBox periodic;
     Vector<double> gravity{0, 0, 0};
+    Integrator integrator = integrators::predictedVelocityVerlet;
     double timeStep = unset;
     double timeMax = 0;
     double smallestRadius = infinity;
