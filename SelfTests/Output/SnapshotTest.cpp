@@ -1,6 +1,8 @@
 // Pictures of states: what is computed for them, and the program as a user runs it.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "BuildFolders.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Species/Friction/Mindlin.h"
@@ -174,6 +176,21 @@ TEST_F(Snapshot, isAPicture) {
     EXPECT_TRUE(bytes.starts_with("\x89PNG"));
     EXPECT_GT(bytes.size(), 2000u);
     EXPECT_FALSE(std::filesystem::exists(scene));
+}
+
+/// The table that a run leaves that could not go on.
+TEST_F(Snapshot, drawsATableOfGrains) {
+    const std::filesystem::path table = folder.path() / "table.csv";
+    const auto drawTable = [&](std::string_view rows) {
+        std::ofstream(table) << "identity,species,radius_m,x_m,y_m,z_m\n# a remark\n" << rows;
+        return support::run(tool + " " + table.string() + " --field identity --scene-only --output " +
+                            picture.string());
+    };
+    ASSERT_EQ(drawTable("0,0,1e-3,0,0,0\n1,1,2e-3,5e-3,0,0\n").exitCode, 0);
+    EXPECT_EQ(count(support::contentOf(scene), "\nsphere {"), 2u);
+    expectOneSentence(drawTable("0,0,1e-3,0,0\n"), "line 3: a number is missing");
+    expectOneSentence(drawTable("0,0,large,0,0,0\n"), "'large' is no number of a column");
+    expectOneSentence(drawTable(""), "has no column radius_m with numbers");
 }
 
 TEST_F(Snapshot, refusesInOneSentence) {
