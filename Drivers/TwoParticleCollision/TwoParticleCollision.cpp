@@ -4,6 +4,7 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Kernel/Output/RunTable.h"
+#include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/LawNames.h"
 
@@ -25,8 +26,9 @@ struct Options {
     double restitution = 0.86;
     double friction = 0.5;
     std::string adhesion = "LiquidBridgeBagheri";
-    double timeStep = 0;    // s; 0: 1/50 of the Rayleigh time
-    double timeMax = 0.02;  // s
+    double timeStep = 0;         // s; 0: 1/50 of the Rayleigh time
+    double timeMax = 0.02;       // s
+    double adviceTolerance = 0;  // %; 0: no advice
     RunOptions run{.output = "TwoParticleCollision"};
 };
 
@@ -54,6 +56,9 @@ public:
         this->setTimeMax(options.timeMax);
         this->setSaveCount(1);
         this->keepEnergyLedger();
+        if constexpr (BridgeLaw<Adhesion>)
+            if (options.adviceTolerance > 0)
+                fmt::print("{}\n", bridgeAdvice(*this, 0.01 * options.adviceTolerance));
     }
 
     void writeOutput() override {
@@ -152,6 +157,9 @@ void describe(CLI::App& app, Options& o) {
                    fmt::format("adhesion model: {}", listOfNames(lawNames<Bridges>())));
     app.add_option("--time-step-s", o.timeStep, "time step, s; 0 takes 1/50 of the Rayleigh time");
     app.add_option("--time-max-s", o.timeMax, "end of the run, s, if the grains have not parted before");
+    app.add_option("--advise-within-percent", o.adviceTolerance,
+                   "say how far the bridge law is from the exact solution, and which law is the cheapest one "
+                   "within this error, %; 0: say nothing");
     addRunOptions(app, o.run, "force_separation.csv and energy.csv");
 }
 
@@ -164,6 +172,8 @@ int main(int argc, char** argv) {
     describe(app, options);
     return runDriver(app, options.run, argc, argv, [&] {
         checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
+        checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%",
+                   notNegative);
         withLawNamed<Bridges>("adhesion model", options.adhesion,
                               [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
     });

@@ -96,20 +96,15 @@ RunControl::Request RunControl::request(std::size_t steps) {
     return write && restarts.kept ? Request::WriteRestart : Request::None;
 }
 
-std::string RunControl::reason() const {
-    switch (stopSignal.load()) {
-        case SIGINT:
-            return "SIGINT";
-        case SIGTERM:
-            return "SIGTERM";
-        default:
-            return fmt::format("the limit of {:g} s of wall time", wallTimeLimit);
-    }
-}
-
-int RunControl::exitCode() const {
+RunStopped RunControl::stopped(double time, std::size_t steps, const std::string& restartFile) {
     const int signal = stopSignal.load();
-    return 128 + (signal != 0 ? signal : SIGTERM);  // as if the queue had asked for it
+    const std::string reason = signal == SIGINT ? "SIGINT"
+                               : signal == SIGTERM
+                                   ? "SIGTERM"
+                                   : fmt::format("the limit of {:g} s of wall time", wallTimeLimit);
+    return {fmt::format("{} has stopped the run at time {:.6g} s, after {} steps; {}.", reason, time, steps,
+                        restartFile.empty() ? "it keeps no restart file" : "restart from " + restartFile),
+            128 + (signal != 0 ? signal : SIGTERM)};  // out of time: as if the queue had asked for it
 }
 
 }  // namespace pendular

@@ -40,9 +40,9 @@ public:
     /// is a limit, some twenty times a second.
     [[nodiscard]] Request request(std::size_t steps);
 
-    /// "SIGINT", or what else has asked the run to stop.
-    [[nodiscard]] std::string reason() const;
-    [[nodiscard]] int exitCode() const;
+    /// What ends a run that was asked to stop.
+    /// @param time s; @param restartFile empty: none is kept
+    [[nodiscard]] static RunStopped stopped(double time, std::size_t steps, const std::string& restartFile);
 
 private:
     using Clock = std::chrono::steady_clock;

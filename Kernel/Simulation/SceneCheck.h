@@ -126,6 +126,20 @@ inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) 
         contact.particle1, other, -contact.separation, 100 * share, 100 * largestSoundOverlap));
 }
 
+/// Throws InputError if two bodies of a new list overlap by more than a sound share of the smaller radius.
+template <class S>
+void refuseInitialOverlaps(const ContactSystem<S>& contacts, const ParticleStore<S::hasTorque>& grains) {
+    contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
+        const double radius1 = grains.translation[block.first[contact % Pack::lanes]].radius;
+        const double smaller =
+            bucket.wall >= 0
+                ? radius1
+                : std::min(radius1, grains.translation[block.second[contact % Pack::lanes]].radius);
+        refuseOverlap(contacts.observe(grains, bucket, contact), smaller);
+    });
+}
+
 /// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
 /// made for: by half the smaller radius. Looked at when contacts are listed anew, nothing that lasts until
 /// then goes deeper unseen by more than the skin.
@@ -145,6 +159,19 @@ void refuseDeepOverlap(const ParticleStore<hasSpin>& grains, std::uint32_t first
                     "take stiffer grains, a smaller time step, or lower speeds and loads.",
                     time, grains.identity[first], grains.identity[second], overlap, 100 * overlap / smaller,
                     100 * largestShare));
+}
+
+/// The same for all pairs of a list that was just made. At walls, a grain that has gone half its way is
+/// followed until its centre crosses the surface.
+template <class S>
+void refuseDeepOverlaps(const ContactStore<S>& store, const ParticleStore<S::hasTorque>& grains,
+                        const PeriodicBox& box, double time) {
+    store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (bucket.wall >= 0) return;
+        const ContactBlock& block = store.blocks[contact / Pack::lanes];
+        refuseDeepOverlap(grains, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes],
+                          box, time);
+    });
 }
 
 /// The error that ends a run in which a grain has moved farther in a step than the smallest radius (m).

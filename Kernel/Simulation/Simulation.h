@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Output/Progress.h"
 #include "Kernel/Particles/ParticleHandler.h"
@@ -13,6 +15,7 @@
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/RunControl.h"
 #include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/StepTimes.h"
 #include "Kernel/State/RestartFile.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -63,6 +66,16 @@ public:
     }
     /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
     void setSaveCount(std::size_t steps) { saveCount = steps; }
+    /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
+    /// it has a function prepare(), that is called at once.
+    template <class Output>
+    void addOutput(Output output) {
+        if constexpr (requires { output.prepare(*this); }) output.prepare(*this);
+        const auto kept = std::make_shared<Output>(std::move(output));
+        outputs.push_back([this, kept] { kept->write(*this); });
+        if constexpr (requires { kept->complete(*this); })
+            completions.push_back([this, kept] { kept->complete(*this); });
+    }
     /// @param acceleration m/s^2
     void setGravity(const Vec3D& acceleration) {
         for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
@@ -83,6 +96,8 @@ public:
         threads = count;
         contactSystem.setThreads(count);
     }
+    /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
+    void setIntegrator(const Integrator& scheme) { integrator = scheme; }
     /// Keeps a restart file, NAME-restart.h5: written at the end of the run, and when it is asked to stop.
     /// Throws InputError where this build of Pendular cannot write one.
     void keepRestartFile(bool keep = true) {
@@ -121,8 +136,13 @@ public:
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
     [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
+    [[nodiscard]] int getNumberOfThreads() const { return threads; }
     [[nodiscard]] Vec3D getGravity() const { return toEigen(gravity); }
     [[nodiscard]] const ContactSystem<S>& contacts() const { return contactSystem; }
+    /// Measures the time by part of the step.
+    void measureStepTimes(bool measure = true) { times.measure(measure); }
+    [[nodiscard]] const StepTimes& stepTimes() const { return times; }
+    [[nodiscard]] bool keepsEnergyLedger() const { return ledgerKept; }
     [[nodiscard]] const EnergyLedger& energyLedger() const { return ledger; }
 
     /// The time step (s) above which the stiffest possible contact of this scene is no longer stable.
@@ -138,7 +158,7 @@ public:
     void solve() {
         RunControl control(restarts);
         initialise();
-        if (!isRestarted()) writeOutput();
+        if (!isRestarted()) writeAll();
         try {
             stepToTheEnd(control);
         } catch (const RunError& stop) {
@@ -155,8 +175,25 @@ public:
         if (isRestarted()) return readRestart();
         smallestRadius = particleHandler.store().smallestRadius();
         prepare();
-        checkOverlaps();
+        contactSystem.refresh(particleHandler.store(), 0, 0);
+        refuseInitialOverlaps(contactSystem, particleHandler.store());
+        Motion::start(particleHandler.store(), integrator);
         advance(0);  // a step of no length: forces and accelerations at the start
+        Motion::start(particleHandler.store(), integrator);
+    }
+
+    /// What the outputs and writeOutput() write; a driver that steps by itself calls it.
+    void writeAll() {
+        const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+        for (const auto& output : outputs) output();
+        writeOutput();
+        times.enter(before);
+    }
+
+    /// What completes the outputs; a driver that steps by itself calls it at its end.
+    void completeAll() {
+        for (const auto& completion : completions) completion();
+        completeOutput();
     }
 
     void step() {
@@ -164,7 +201,7 @@ public:
         try {
             advance(timeStep);
         } catch (const RunError&) {
-            Motion::takeBack(particleHandler.store(), timeStep);
+            Motion::takeBack(particleHandler.store(), timeStep, integrator);
             wallHandler.moveTo(getTime());
             throw;
         }
@@ -173,34 +210,35 @@ public:
     }
 
 private:
-    using Motion = VelocityVerlet<S::hasTorque>;
+    using Motion = TimeIntegration<S::hasTorque>;
     using Request = RunControl::Request;
 
     void stepToTheEnd(RunControl& control) {
         std::optional<Progress> progress;
-        if (!quiet) progress.emplace(timeMax);
+        if (!quiet) progress.emplace(timeMax, getTime(), steps);
         const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
         Request request = control.request(steps);
         while (request != Request::Stop && steps < last && continueSolve()) {
             step();
-            if (saveCount > 0 && steps % saveCount == 0) writeOutput();
-            if (progress) progress->update(getTime(), steps);
+            if (saveCount > 0 && steps % saveCount == 0) writeAll();
+            if (progress && progress->isDue(steps))
+                progress->show(getTime(), steps, [this] { return numbers(); });
             request = control.request(steps);
             if (request == Request::WriteRestart) writeRestart(restartFile());
         }
         // Before the last output: a run that goes on from here knows nothing of one that is not due.
         if (restarts.kept) writeRestart(restartFile());
-        if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeOutput();
-        completeOutput();
-        if (request == Request::Stop) throw stopped(control);
+        if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
+        completeAll();
+        if (request == Request::Stop)
+            throw control.stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string());
     }
 
-    RunStopped stopped(const RunControl& control) const {
-        const std::string from = restarts.kept ? fmt::format("restart from {}", restartFile().string())
-                                               : std::string("it keeps no restart file");
-        return {fmt::format("{} has stopped the run at time {:.6g} s, after {} steps; {}.", control.reason(),
-                            getTime(), steps, from),
-                control.exitCode()};
+    RunNumbers numbers() const {
+        std::size_t acting = 0;
+        for (const BlockState& state : contactSystem.store().states)
+            acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
+        return {particleHandler.getSize(), acting, kineticEnergy(particleHandler.store())};
     }
 
     /// When species, walls and grains are known.
@@ -222,6 +260,7 @@ private:
         archive.group("species", [&] { speciesHandler.visitState(archive); });
         archive.group("walls", [&] { wallHandler.visitState(archive); });
         archive.same("timeStep", timeStep, "s");
+        archive.same("integrator", integrator.name);
         archive.same("ledgerKept", ledgerKept);
         archive.value("steps", steps);
         archive.record<double>("gravity", gravity);
@@ -241,7 +280,8 @@ private:
         try {
             writeGrains(grains, particleHandler.store(), sentence);
             writeContacts(contacts, contactSystem, particleHandler.store(), sentence);
-            writeOutput();
+            writeAll();
+            for (const auto& completion : completions) completion();
         } catch (const std::exception& problem) {
             return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
                                problem.what());
@@ -255,48 +295,28 @@ private:
 
     void advance(double length) {
         auto& grains = particleHandler.store();
-        const double grainShift = std::sqrt(Motion::begin(grains, length, threads));
+        times.enter(StepTimes::Part::Motion);
+        const double grainShift = std::sqrt(Motion::begin(grains, length, threads, integrator));
         refuseRunaway(grainShift);
         const double wallShift = wallHandler.moveTo(getTime() + length);
+        times.enter(StepTimes::Part::Search);
         const bool goesRound = ledgerKept && periodic.any();
         const double before = goesRound ? potentialEnergy(grains, gravity) : 0;
         if (contactSystem.refresh(grains, grainShift, wallShift)) {
             if (goesRound) ledger.goRound(before - potentialEnergy(grains, gravity));
-            refuseDeepOverlaps();
+            refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
         }
-        contactSystem.computeForces(grains, length);
-        Motion::finish(grains, contactSystem.store(), gravity, length, threads);
+        times.enter(StepTimes::Part::Contacts);
+        contactSystem.computeForces(grains, length, integrator.contacts);
+        times.enter(StepTimes::Part::Sum);
+        Motion::finish(grains, contactSystem.store(), gravity, length, threads, integrator);
+        times.enter(StepTimes::Part::Other);
         if (ledgerKept) account(length);
     }
 
     void account(double length) {
         ledger.add(contactSystem.energies(), length, HasNormalHistory<typename S::Normal>);
         ledger.measureGrains(particleHandler.store(), gravity);
-    }
-
-    void checkOverlaps() {
-        auto& grains = particleHandler.store();
-        contactSystem.refresh(grains, 0, 0);
-        contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            refuseOverlap(contactSystem.observe(grains, bucket, contact), smallerRadius(bucket, contact));
-        });
-    }
-    /// At walls, a grain that has gone half its way is followed until its centre crosses the surface.
-    void refuseDeepOverlaps() const {
-        const auto& store = contactSystem.store();
-        store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            if (bucket.wall >= 0) return;
-            const ContactBlock& block = store.blocks[contact / Pack::lanes];
-            refuseDeepOverlap(particleHandler.store(), block.first[contact % Pack::lanes],
-                              block.second[contact % Pack::lanes], periodic, getTime());
-        });
-    }
-    double smallerRadius(const Bucket& bucket, std::uint32_t contact) const {
-        const ContactBlock& block = contactSystem.store().blocks[contact / Pack::lanes];
-        const auto& grains = particleHandler.store().translation;
-        const double radius1 = grains[block.first[contact % Pack::lanes]].radius;
-        return bucket.wall >= 0 ? radius1
-                                : std::min(radius1, grains[block.second[contact % Pack::lanes]].radius);
     }
 
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
@@ -306,10 +326,13 @@ private:
     }
 
     std::string name = "pendular";
+    std::vector<std::function<void()>> outputs, completions;
     ContactSystem<S> contactSystem;
     EnergyLedger ledger;
+    StepTimes times;
     PeriodicBox periodic;
     Vector<double> gravity{0, 0, 0};
+    Integrator integrator = integrators::predictedVelocityVerlet;
     double timeStep = unset;
     double timeMax = 0;
     double smallestRadius = infinity;

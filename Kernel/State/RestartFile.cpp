@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -74,6 +75,10 @@ struct Seal {
     }
 };
 
+std::uint64_t lowestByteFirst(std::uint64_t word) {
+    return std::endian::native == std::endian::little ? word : __builtin_bswap64(word);
+}
+
 /// FNV-1a over words of 64 bits instead of bytes: any one damaged word changes it, and it is as fast as
 /// memory. (Each step is a bijection of the sum so far, and of the word.)
 unsigned long long checksumOfRest(Descriptor& file) {
@@ -85,7 +90,7 @@ unsigned long long checksumOfRest(Descriptor& file) {
         std::memset(reinterpret_cast<char*>(words.data()) + bytes, 0,
                     (sizeof(words[0]) - bytes % sizeof(words[0])) % sizeof(words[0]));
         for (std::size_t k = 0; k < (bytes + sizeof(words[0]) - 1) / sizeof(words[0]); ++k)
-            sum = (sum ^ words[k]) * 0x100000001b3u;
+            sum = (sum ^ lowestByteFirst(words[k])) * 0x100000001b3u;
     }
 }
 
