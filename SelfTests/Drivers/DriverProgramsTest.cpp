@@ -231,8 +231,11 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
     expectOneSentence(run(hopper + "--grain-diameter-m -1"), "grain diameter = -1 m");
     expectOneSentence(run(hopper + "--elastic-modulus-Pa 0"), "elastic modulus = 0 Pa");
     expectOneSentence(run(hopper + "--begin-s 1"), "begin of the steady part = 1 s");
-    expectOneSentence(run(hopper + "--number 60 --hopper-diameter-m 0.016 --orifice-m 0.0005 --orifice-m "
-                                   "0.001 --end-time-s 0.02 --begin-s 0"),
+    const Folder clogged("hopper-clogged");
+    expectOneSentence(run(hopper +
+                          "--number 60 --hopper-diameter-m 0.016 --orifice-m 0.0005 --orifice-m 0.001 "
+                          "--end-time-s 0.02 --begin-s 0 " +
+                          clogged.option()),
                       "no grain left the orifice of 0.0005 m");
     EXPECT_NE(run(drum + "--grains " + grains.path.string()).exitCode, 0) << "grains need walls";
 }
