@@ -20,7 +20,7 @@ rows(population, cost, front) = sprintf("< awk -F, -v population='%s' -v cost=%s
         name = $1; sub(\"LiquidBridge\", \"\", name); \
         print $column[cost] \",\" $column[\"force_percentile95_percent\"] \",\" name \",\" $column[front] }' '%s' \
     | sort -t, -k2g | awk -F, '{ line[NR] = $0 } \
-        END { for (k = 1; k <= NR; ++k) print line[k] \",\" 0.012 * exp((k - 1) / 12 * log(9000 / 0.012)) }'", \
+        END { for (k = 1; k <= NR; ++k) print line[k] \",\" 0.012 * exp((k - 1) / (NR > 13 ? NR - 1 : 12) * log(9000 / 0.012)) }'", \
     population, cost, front, ARG1)
 
 frontRows(population, cost, front) = rows(population, cost, front)." | awk -F, '$4 == 1' | sort -t, -k1g"
@@ -33,7 +33,7 @@ panel = "plot \
     '' using 1:($4 == 1 ? $2 : NaN) with points pointtype 7 pointsize 1.5 linecolor rgb '#D55E00', \
     '' using (labels * 1.05):5:3:($4 == 1 ? 0xD55E00 : 0x000000) with labels left textcolor rgb variable"
 
-set terminal pngcairo size 1500,760 fontscale 1.15 linewidth 1.5
+set terminal pngcairo size 1300,680 fontscale 1 linewidth 1.5
 set output ARG2.".png"
 set multiplot layout 1,2 title "Liquid bridge laws: accuracy against cost; orange: the Pareto front"
 population = "wide"
@@ -53,7 +53,7 @@ set xlabel "time to prepare one bridge (ns)"
 @panel
 unset multiplot
 
-set terminal pngcairo size 1800,1300 fontscale 1.1 linewidth 1.5
+set terminal pngcairo size 1500,1080 fontscale 0.92 linewidth 1.3
 set output ARG2."-populations.png"
 set multiplot layout 2,3
 cost = "force_ns_per_bridge"

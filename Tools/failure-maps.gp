@@ -3,7 +3,7 @@
 # A panel for each law; the black line surrounds where the rupture distance is wrong by more than 20 %.
 
 set encoding utf8
-set terminal pngcairo size 1400,860 fontscale 0.75
+set terminal pngcairo size 1060,1000 fontscale 0.68
 set output ARG2
 
 names = system(sprintf("awk -F, '!/^#/ && $1 != \"law\" && $1 != last { print last = $1 }' '%s'", ARG1))
@@ -24,14 +24,14 @@ set xtics ("10^{-9}" -9, "10^{-6}" -6, "10^{-3}" -3, "1" 0)
 set ytics 30
 set tics front out nomirror
 
-set multiplot layout 3,5 margins 0.05,0.99,0.07,0.96 spacing 0.03,0.075
+set multiplot layout 4,4 margins 0.05,0.99,0.06,0.965 spacing 0.03,0.06
 do for [i = 1:words(names)] {
     law = word(names, i)
     title = law[13:*]
     if (strstrt(title, "+") > 0) { title = title[1:strstrt(title, "+") - 1].", solving outside" }
     set title title offset 0,-0.7
-    set xlabel (i > 10 ? "{/:Italic V}*" : "") offset 0,0.5
-    set ylabel (i % 5 == 1 ? "contact angle (deg)" : "") offset 1.5,0
+    set xlabel (i > 12 ? "{/:Italic V}*" : "") offset 0,0.5
+    set ylabel (i % 4 == 1 ? "contact angle (deg)" : "") offset 1.5,0
     set table $outline
     set contour base
     set cntrparam levels discrete 20

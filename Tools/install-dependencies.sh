@@ -16,10 +16,12 @@ cmake|cmake|build
 ninja-build|ninja|build
 libeigen3-dev||vectors and linear algebra
 libfmt-dev||text
+zlib1g-dev||compressed files for ParaView
 libcli11-dev||command lines of drivers and tools
 libgtest-dev||self-tests
 libhdf5-dev||restart files
-gnuplot-nox|gnuplot|charts'
+gnuplot-nox|gnuplot|charts
+povray|povray|pictures of grains (Tools/snapshot)'
 
 is_installed() {  # package, program
     if [[ -n $2 ]] && command -v "$2" >/dev/null; then

@@ -26,6 +26,10 @@ inline void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files
         ->capture_default_str();
     app.add_option("--wall-time", o.wallTime,
                    "time on the clock, hours:minutes:seconds, after which the run ends as on SIGTERM");
+    app.add_option("--paraview-interval-s", o.paraViewInterval,
+                   "time between two frames for ParaView (run.pvd in the folder), s, which are written when "
+                   "output is due; 0: none")
+        ->capture_default_str();
     app.add_flag("--quiet", o.quiet, "print nothing but errors");
 }
 
@@ -36,6 +40,7 @@ int runDriver(CLI::App& app, const RunOptions& options, int argc, char** argv, B
     return runProgram([&] {
         checkValue(app.get_name(), "number of threads", options.threads, "", {1, 4096});
         checkValue(app.get_name(), "restart interval", options.restartInterval, "s", notNegative);
+        checkValue(app.get_name(), "ParaView interval", options.paraViewInterval, "s", notNegative);
         if (!options.wallTime.empty()) setWallTimeLimit(secondsOf(options.wallTime));
         if (options.resume || !options.restart.empty()) requireRestartFiles();
         if (!options.restart.empty()) checkRestartFile(options.restart);

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Simulation/RunSummary.h"
 #include "Kernel/Simulation/Simulation.h"
 
 namespace pendular {
@@ -20,6 +22,7 @@ struct RunOptions {
     double restartInterval = 600;  // s of the clock on the wall
     std::string wallTime{};        // [[hours:]minutes:]seconds; empty: no limit
     bool quiet = false;
+    double paraViewInterval = 0;  // s; 0: no files for ParaView
 
     /// The restart file from which a run of this name goes on; empty if it begins.
     [[nodiscard]] std::filesystem::path restartSource(const std::string& run = "run") const {
@@ -42,6 +45,8 @@ struct RunOptions {
         if (Hdf5File::isAvailable()) scene.keepRestartFile();
         scene.setRestartInterval(restartInterval);
         scene.restartFrom(restartSource(run));
+        scene.addOutput(RunSummary());
+        if (paraViewInterval > 0) scene.addOutput(ParaViewOutput().withInterval(paraViewInterval));
     }
 };
 

@@ -4,6 +4,8 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Kernel/Output/RunTable.h"
+#include "Kernel/Simulation/BridgeAdvice.h"
+#include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/Laws.h"
 
@@ -25,18 +27,15 @@ struct Options {
     double restitution = 0.86;
     double friction = 0.5;
     std::string adhesion = "LiquidBridgeBagheri";
-    double timeStep = 0;    // s; 0: 1/50 of the Rayleigh time
-    double timeMax = 0.02;  // s
+    double timeStep = 0;         // s; 0: 1/50 of the Rayleigh time
+    double timeMax = 0.02;       // s
+    double adviceTolerance = 0;  // %; 0: no advice
     RunOptions run{.output = "TwoParticleCollision"};
 };
 
 /// What a driver of liquid bridges can do with: a bridge, or nothing.
 template <class Law>
-concept Bridge = requires(Law law) {
-    law.setLiquidBridgeVolume(0.0);
-};
-template <class Law>
-struct IsBridgeOrNothing : std::bool_constant<!Law::acts || Bridge<Law>> {};
+struct IsBridgeOrNothing : std::bool_constant<!Law::acts || BridgeLaw<Law>> {};
 using Bridges = FilteredTypes<IsBridgeOrNothing, AdhesionLaws>::type;
 
 template <class Adhesion>
@@ -58,6 +57,9 @@ public:
         this->setTimeMax(options.timeMax);
         this->setSaveCount(1);
         this->keepEnergyLedger();
+        if constexpr (BridgeLaw<Adhesion>)
+            if (options.adviceTolerance > 0)
+                fmt::print("{}\n", bridgeAdvice(*this, 0.01 * options.adviceTolerance));
     }
 
     void writeOutput() override {
@@ -156,6 +158,9 @@ void describe(CLI::App& app, Options& o) {
                    fmt::format("adhesion model: {}", listOfNames(lawNames<Bridges>())));
     app.add_option("--time-step-s", o.timeStep, "time step, s; 0 takes 1/50 of the Rayleigh time");
     app.add_option("--time-max-s", o.timeMax, "end of the run, s, if the grains have not parted before");
+    app.add_option("--advise-within-percent", o.adviceTolerance,
+                   "say how far the bridge law is from the exact solution, and which law is the cheapest one "
+                   "within this error, %; 0: say nothing");
     addRunOptions(app, o.run, "force_separation.csv and energy.csv");
 }
 
@@ -168,6 +173,8 @@ int main(int argc, char** argv) {
     describe(app, options);
     return runDriver(app, options.run, argc, argv, [&] {
         checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
+        checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%",
+                   notNegative);
         withLawNamed<Bridges>("adhesion model", options.adhesion,
                               [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
     });

@@ -12,6 +12,10 @@ namespace pendular {
 namespace {
 
 /// Bridges of one shape at growing gaps (/ R), each solved from the one before.
+struct NoBridge : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 class GrowingGap {
 public:
     explicit GrowingGap(const BridgeShape& shape) : conditions(shape.conditions()) {}
@@ -19,9 +23,8 @@ public:
     const CapillaryBridge& at(double gap) {
         last = solveBridge(conditions, gap, last ? &*last : nullptr);
         if (!last)
-            throw std::runtime_error(
-                fmt::format("No bridge of V* = {:.6g} and theta = {:.6g} rad at S/R = {:.6g}.",
-                            conditions.volume, conditions.first.contactAngle, gap));
+            throw NoBridge(fmt::format("No bridge of V* = {:.6g} and theta = {:.6g} rad at S/R = {:.6g}.",
+                                       conditions.volume, conditions.first.contactAngle, gap));
         return *last;
     }
 
@@ -82,9 +85,13 @@ std::optional<SolvedCurve> solveCurve(const BridgeShape& shape, double radius, d
     const auto rupture = findRupture(shape.conditions());
     if (!rupture) return {};
     const double distance = rupture->last.gap(), length = shape.length();
-    const auto values = fitCurve(shape, distance, distance / length);
-    return SolvedCurve{curveThrough(values, distance / length, radius * length, forceScale),
-                       radius * distance};
+    try {
+        const auto values = fitCurve(shape, distance, distance / length);
+        return SolvedCurve{curveThrough(values, distance / length, radius * length, forceScale),
+                           radius * distance};
+    } catch (const NoBridge&) {
+        return {};  // the search has lost it on the way
+    }
 }
 
 BridgeTable makeBridgeTable() {

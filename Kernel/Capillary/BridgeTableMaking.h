@@ -15,7 +15,7 @@ BridgeTable makeBridgeTable();
 CurveValues fitCurve(const BridgeShape& shape, double rupture, double reach);
 
 /// The curve of one bridge by the solver itself, for shapes that the table does not hold; nothing if no
-/// stable bridge is found. A fifth of a millisecond.
+/// stable bridge is found all the way from contact to rupture. A fifth of a millisecond.
 struct SolvedCurve {
     RationalBridge<double> curve;
     double ruptureDistance;  // m

@@ -2,6 +2,7 @@
 
 #include "Kernel/Contacts/ContactGeometry.h"
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactTiming.h"
 #include "Kernel/Contacts/SampleTiming.h"
 #include "Kernel/Species/Species.h"
 
@@ -30,8 +31,14 @@ public:
     using Friction = typename S::Friction;
     using Adhesion = typename S::Adhesion;
 
-    ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactStore<S>& contactStore)
-        : laws(preparedLaws), timeStep(step), store(contactStore), memory(contactStore.memory) {}
+    ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactTiming contactTiming,
+                  ContactStore<S>& contactStore)
+        : laws(preparedLaws),
+          timeStep(step),
+          implicitStep(contactTiming.implicitForces ? step : 0),
+          timing(contactTiming),
+          store(contactStore),
+          memory(contactStore.memory) {}
 
     /// @return false if the block needs memory first; it is marked then
     template <class Geometry>
@@ -53,7 +60,8 @@ public:
 
         const ContactGeometry<Pack> g = geometry.complete();
         // A step of no length, at the start of a scene, finds overlaps that did not begin in it.
-        const Mask begins = maskFromBits(timeStep > 0 ? 0xff : 0) & touching & !maskFromBits(state.touching);
+        const Mask begins = maskFromBits(timeStep > 0 && timing.timesTouches ? 0xff : 0) & touching &
+                            !maskFromBits(state.touching);
 
         Pack adhesive = 0;
         Mask bridged = touching & !touching;
@@ -109,7 +117,7 @@ private:
         memory.normalHistory.store(block, selectColumns(touching, history));
         force.damping = select(touching, force.damping, Pack(0));
 
-        const Pack halfStep = Pack(0.5 * timeStep) * g.inverseMass;
+        const Pack halfStep = Pack(0.5 * implicitStep) * g.inverseMass;
         const Pack predicted = dot(g.velocity, g.normal);
         const auto approachWith = [&](Pack damping) {
             return (predicted - halfStep * (force.elastic - adhesive - last.normalForce)) /
@@ -123,7 +131,8 @@ private:
                                   (force.elastic + part.damping * part.approach - adhesive);  // m/step^2
         const Pack approachInStep = part.approach * timeStep;
         const Pack nextOverlap = g.overlap + approachInStep + Pack(0.5) * acceleration;
-        part.closing = touching & (part.approach < Pack(0)) & (nextOverlap <= Pack(0));
+        part.closing = touching & (part.approach < Pack(0)) & (nextOverlap <= Pack(0)) &
+                       maskFromBits(timing.timesTouches ? 0xff : 0);
         if (any(begins | part.closing)) {
             const Pack sinceBegin =
                 select(predicted > Pack(0), min(g.overlap / (predicted * timeStep), Pack(1)), Pack(1));
@@ -148,11 +157,12 @@ private:
         const Vector<Pack> sideways = g.velocity - approach * g.normal;
         // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
         // last step; 1/m + r^2/I of a solid sphere is 7/2 of 1/m.
-        const Pack response = Pack(3.5 * 0.5 * timeStep) * g.inverseMass;
+        const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
         const Vector<Pack> predicted = sideways + cross(g.spinLever, g.normal);
+        const double before = timing.timesTouches ? 0.5 : 1;  // steps for which the spring has still to move
         const Slip<Pack> slip{.velocity = predicted - response * cross(last.leverless, g.normal),
-                              .timeBefore = timeStep * select(begins, normal.timing.before, Pack(0.5)),
-                              .timeAfter = Pack(0.5 * timeStep),
+                              .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
+                              .timeAfter = Pack(timeStep * (1 - before)),
                               .response = response};
         auto history = memory.history.load(block);
         if constexpr (requires { history.turn(FrameRotation<Pack>{}); })
@@ -254,7 +264,9 @@ private:
     const Vector<Pack> zero{Pack(0), Pack(0), Pack(0)};
 
     const PreparedLaws<S>& laws;
-    double timeStep;
+    double timeStep;      // s
+    double implicitStep;  // s: the time step, or 0
+    ContactTiming timing;
     ContactStore<S>& store;
     ContactMemory<S>& memory;
 };

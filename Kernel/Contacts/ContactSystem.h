@@ -31,6 +31,8 @@ struct ObservedContact {
     double normalForce;       // N, elastic and damping, repulsion positive
     double adhesiveForce;     // N, attraction positive
     bool bridged;
+    Vector<double> shift;  // m, from the centre of particle 1 to that of particle 2 or to the wall's surface
+    Vector<double> force;  // N, on particle 1
 };
 
 /// The contacts of a scene: their list, and the forces of a step.
@@ -88,12 +90,13 @@ public:
 
     /// The force records of all contacts, for grains at the end of a step (s) with their predicted
     /// velocities.
-    void computeForces(const Grains& grains, double step) {
-        if (ledger) computeAll<true>(grains, step);
-        else computeAll<false>(grains, step);
+    void computeForces(const Grains& grains, double step, ContactTiming timing = {}) {
+        if (ledger) computeAll<true>(grains, step, timing);
+        else computeAll<false>(grains, step, timing);
     }
 
     [[nodiscard]] const ContactStore<S>& store() const { return contacts; }
+    [[nodiscard]] const PeriodicBox& periodicBox() const { return periodic; }
     /// Of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const { return contacts.bytes(); }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
@@ -123,18 +126,21 @@ public:
                              0,
                              contacts.recordOf(contact).normalForce,
                              0,
-                             (state.bridged >> lane & 1) != 0};
+                             (state.bridged >> lane & 1) != 0,
+                             {},
+                             contacts.recordOf(contact).force};
         if (bucket.wall < 0) {
             const TranslationRecord& second = grains.translation[block.second[lane]];
             seen.particle2 = grains.identity[block.second[lane]];
-            seen.separation =
-                norm(periodic.nearest(second.position - first.position)) - (first.radius + second.radius);
+            seen.shift = periodic.nearest(second.position - first.position);
+            seen.separation = norm(seen.shift) - (first.radius + second.radius);
         } else {
             const std::uint32_t part = block.second[lane];
             WallPoint point;
             walls->getObject(static_cast<std::size_t>(bucket.wall))
                 .findPoints(first.position, first.radius, {&part, 1}, {&point, 1});
             seen.separation = point.distance - first.radius;
+            seen.shift = point.distance * point.normal;
         }
         if constexpr (S::Adhesion::acts)
             if (seen.bridged)
@@ -147,12 +153,12 @@ public:
 private:
     /// Blocks are independent: each writes only its own memory and records.
     template <bool withLedger>
-    void computeAll(const Grains& grains, double step) {
+    void computeAll(const Grains& grains, double step, ContactTiming timing) {
         const TranslationRecord* translation = grains.translation.data();
         const RotationRecord* rotation = grains.rotation.data();
         for (std::size_t k = 0; k < contacts.buckets.size(); ++k) {
             const Bucket& bucket = contacts.buckets[k];
-            ContactKernel<S, withLedger> kernel(laws[k], step, contacts);
+            ContactKernel<S, withLedger> kernel(laws[k], step, timing, contacts);
             const auto forEachBlock = [&](auto geometryOf) {
                 std::atomic<bool> allHaveMemory = true;
                 inParts(

@@ -1,32 +1,51 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 
 namespace pendular {
 
-/// A line on the terminal that shows how far a run is and the time left; silent where standard error is no
-/// terminal.
+/// How a run is at a moment.
+struct RunNumbers {
+    std::size_t grains = 0;
+    std::size_t contacts = 0;  // that have a force
+    double kineticEnergy = 0;  // J
+};
+
+/// How far a run is, how fast, and the time left: a line on the terminal that is renewed a few times a
+/// second; where standard error is no terminal, a plain line for each minute. It takes a hundredth of the
+/// run's time at most.
 class Progress {
 public:
-    explicit Progress(double endTime);
+    /// @param endTime s; @param time s, and @param step, where the run begins
+    explicit Progress(double endTime, double time = 0, std::size_t step = 0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Call it after each step; it writes a few times a second at most.
-    /// @param time s, simulated
-    void update(double time, std::size_t step);
+    /// To be called after each step: whether show() is to be called. It looks at the clock some twenty times
+    /// a second.
+    [[nodiscard]] bool isDue(std::size_t step);
+    /// @param measure gives the RunNumbers
+    template <class Measure>
+    void show(double time, std::size_t step, Measure&& measure) {
+        const auto before = Clock::now();
+        print(time, step, measure());
+        const auto after = Clock::now();
+        nextShown = after + std::max<Clock::duration>(interval, 100 * (after - before));
+    }
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    double end;
-    bool shown = false;
-    bool terminal;
-    std::size_t nextLook = 0;
-    Clock::time_point started = Clock::now();
-    Clock::time_point lastShown = started;
+    void print(double time, std::size_t step, const RunNumbers& numbers);
+
+    double end, firstTime;  // s
+    std::size_t firstStep, nextLook;
+    bool terminal, shown = false;
+    Clock::duration interval;
+    Clock::time_point started = Clock::now(), nextShown;
 };
 
 }  // namespace pendular

@@ -29,6 +29,12 @@ struct alignas(64) RotationRecord {
 };
 static_assert(sizeof(RotationRecord) == 64);
 
+/// The accelerations of the step before the last, for integrators of higher order.
+struct EarlierAcceleration {
+    Vector<double> acceleration{0, 0, 0};         // m/s^2
+    Vector<double> angularAcceleration{0, 0, 0};  // rad/s^2
+};
+
 /// Bytes of memory that vectors have taken.
 template <class... Values>
 std::size_t bytesOf(const std::vector<Values>&... columns) {
@@ -43,6 +49,7 @@ public:
     std::vector<TranslationRecord> translation;
     std::vector<RotationRecord> rotation;      // empty without spin
     std::vector<Vector<double>> acceleration;  // m/s^2, of the last step
+    std::vector<EarlierAcceleration> earlier;  // empty unless the integrator needs it
     std::vector<std::uint16_t> species;
     std::vector<std::uint32_t> identity;  // of the grain at a place
     std::vector<std::uint32_t> place;     // of the grain with an identity
@@ -50,7 +57,7 @@ public:
     [[nodiscard]] std::size_t size() const { return translation.size(); }
     /// Of memory that the grains take.
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(translation, rotation, acceleration, species, identity, place);
+        return bytesOf(translation, rotation, acceleration, earlier, species, identity, place);
     }
 
     /// m; infinite without grains.
@@ -75,6 +82,7 @@ public:
         const auto number = static_cast<std::uint32_t>(size());
         translation.push_back(grain);
         acceleration.push_back({0, 0, 0});
+        if (!earlier.empty()) earlier.push_back({});
         species.push_back(speciesIndex);
         identity.push_back(number);
         place.push_back(number);
@@ -90,14 +98,16 @@ public:
         permute(species, order);
         permute(identity, order);
         if constexpr (hasSpin) permute(rotation, order);
+        if (!earlier.empty()) permute(earlier, order);
         for (std::size_t k = 0; k < identity.size(); ++k) place[identity[k]] = static_cast<std::uint32_t>(k);
     }
 
     void visitState(StateArchive& archive) {
-        auto& [t, r, a, s, i, p] = *this;  // a member that is added has to be added here
+        auto& [t, r, a, e, s, i, p] = *this;  // a member that is added has to be added here
         archive.column<double>("translation", t);
         archive.column<double>("rotation", r);
         archive.column<double>("acceleration", a);
+        archive.column<double>("earlier", e);
         archive.column<std::uint16_t>("species", s);
         archive.column<std::uint32_t>("identity", i);
         archive.column<std::uint32_t>("place", p);

@@ -13,6 +13,20 @@ double potentialEnergy(const ParticleStore<hasSpin>& grains, const Vector<double
     return sum;
 }
 
+/// Of the grains' motion, spin included, J.
+template <bool hasSpin>
+double kineticEnergy(const ParticleStore<hasSpin>& grains) {
+    double sum = 0;
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        const TranslationRecord& grain = grains.translation[k];
+        if (grain.inverseMass == 0) continue;
+        sum += 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
+        if constexpr (hasSpin)
+            sum += 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
+    }
+    return sum;
+}
+
 /// The energy of a scene by kind, in J. total() stays constant but for the error of the time steps.
 struct EnergyLedger {
     double kinetic = 0;
@@ -45,15 +59,8 @@ struct EnergyLedger {
 
     template <bool hasSpin>
     void measureGrains(const ParticleStore<hasSpin>& grains, const Vector<double>& gravity) {
-        kinetic = 0;
+        kinetic = kineticEnergy(grains);
         potential = carried + potentialEnergy(grains, gravity);
-        for (std::size_t k = 0; k < grains.size(); ++k) {
-            const TranslationRecord& grain = grains.translation[k];
-            if (grain.inverseMass == 0) continue;
-            kinetic += 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
-            if constexpr (hasSpin)
-                kinetic += 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
-        }
     }
 
 private:

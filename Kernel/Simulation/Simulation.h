@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Output/Progress.h"
 #include "Kernel/Particles/ParticleHandler.h"
@@ -13,6 +15,7 @@
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/RunControl.h"
 #include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/StepTimes.h"
 #include "Kernel/State/RestartFile.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -63,6 +66,16 @@ public:
     }
     /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
     void setSaveCount(std::size_t steps) { saveCount = steps; }
+    /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
+    /// it has a function prepare(), that is called at once.
+    template <class Output>
+    void addOutput(Output output) {
+        if constexpr (requires { output.prepare(*this); }) output.prepare(*this);
+        const auto kept = std::make_shared<Output>(std::move(output));
+        outputs.push_back([this, kept] { kept->write(*this); });
+        if constexpr (requires { kept->complete(*this); })
+            completions.push_back([this, kept] { kept->complete(*this); });
+    }
     /// @param acceleration m/s^2
     void setGravity(const Vec3D& acceleration) {
         for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
@@ -83,6 +96,8 @@ public:
         threads = count;
         contactSystem.setThreads(count);
     }
+    /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
+    void setIntegrator(const Integrator& scheme) { integrator = scheme; }
     /// Keeps a restart file, NAME-restart.h5: written at the end of the run, and when it is asked to stop.
     /// Throws InputError where this build of Pendular cannot write one.
     void keepRestartFile(bool keep = true) {
@@ -121,8 +136,13 @@ public:
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
     [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
+    [[nodiscard]] int getNumberOfThreads() const { return threads; }
     [[nodiscard]] Vec3D getGravity() const { return toEigen(gravity); }
     [[nodiscard]] const ContactSystem<S>& contacts() const { return contactSystem; }
+    /// Measures the time by part of the step.
+    void measureStepTimes(bool measure = true) { times.measure(measure); }
+    [[nodiscard]] const StepTimes& stepTimes() const { return times; }
+    [[nodiscard]] bool keepsEnergyLedger() const { return ledgerKept; }
     [[nodiscard]] const EnergyLedger& energyLedger() const { return ledger; }
 
     /// The time step (s) above which the stiffest possible contact of this scene is no longer stable.
@@ -138,7 +158,7 @@ public:
     void solve() {
         RunControl control(restarts);
         initialise();
-        if (!isRestarted()) writeOutput();
+        if (!isRestarted()) writeAll();
         try {
             stepToTheEnd(control);
         } catch (const RunError& stop) {
@@ -157,7 +177,23 @@ public:
         prepare();
         contactSystem.refresh(particleHandler.store(), 0, 0);
         refuseInitialOverlaps(contactSystem, particleHandler.store());
+        Motion::start(particleHandler.store(), integrator);
         advance(0);  // a step of no length: forces and accelerations at the start
+        Motion::start(particleHandler.store(), integrator);
+    }
+
+    /// What the outputs and writeOutput() write; a driver that steps by itself calls it.
+    void writeAll() {
+        const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+        for (const auto& output : outputs) output();
+        writeOutput();
+        times.enter(before);
+    }
+
+    /// What completes the outputs; a driver that steps by itself calls it at its end.
+    void completeAll() {
+        for (const auto& completion : completions) completion();
+        completeOutput();
     }
 
     void step() {
@@ -165,7 +201,7 @@ public:
         try {
             advance(timeStep);
         } catch (const RunError&) {
-            Motion::takeBack(particleHandler.store(), timeStep);
+            Motion::takeBack(particleHandler.store(), timeStep, integrator);
             wallHandler.moveTo(getTime());
             throw;
         }
@@ -174,27 +210,35 @@ public:
     }
 
 private:
-    using Motion = VelocityVerlet<S::hasTorque>;
+    using Motion = TimeIntegration<S::hasTorque>;
     using Request = RunControl::Request;
 
     void stepToTheEnd(RunControl& control) {
         std::optional<Progress> progress;
-        if (!quiet) progress.emplace(timeMax);
+        if (!quiet) progress.emplace(timeMax, getTime(), steps);
         const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
         Request request = control.request(steps);
         while (request != Request::Stop && steps < last && continueSolve()) {
             step();
-            if (saveCount > 0 && steps % saveCount == 0) writeOutput();
-            if (progress) progress->update(getTime(), steps);
+            if (saveCount > 0 && steps % saveCount == 0) writeAll();
+            if (progress && progress->isDue(steps))
+                progress->show(getTime(), steps, [this] { return numbers(); });
             request = control.request(steps);
             if (request == Request::WriteRestart) writeRestart(restartFile());
         }
         // Before the last output: a run that goes on from here knows nothing of one that is not due.
         if (restarts.kept) writeRestart(restartFile());
-        if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeOutput();
-        completeOutput();
+        if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
+        completeAll();
         if (request == Request::Stop)
             throw control.stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string());
+    }
+
+    RunNumbers numbers() const {
+        std::size_t acting = 0;
+        for (const BlockState& state : contactSystem.store().states)
+            acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
+        return {particleHandler.getSize(), acting, kineticEnergy(particleHandler.store())};
     }
 
     /// When species, walls and grains are known.
@@ -216,6 +260,7 @@ private:
         archive.group("species", [&] { speciesHandler.visitState(archive); });
         archive.group("walls", [&] { wallHandler.visitState(archive); });
         archive.same("timeStep", timeStep, "s");
+        archive.same("integrator", integrator.name);
         archive.same("ledgerKept", ledgerKept);
         archive.value("steps", steps);
         archive.record<double>("gravity", gravity);
@@ -235,7 +280,8 @@ private:
         try {
             writeGrains(grains, particleHandler.store(), sentence);
             writeContacts(contacts, contactSystem, particleHandler.store(), sentence);
-            writeOutput();
+            writeAll();
+            for (const auto& completion : completions) completion();
         } catch (const std::exception& problem) {
             return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
                                problem.what());
@@ -249,17 +295,22 @@ private:
 
     void advance(double length) {
         auto& grains = particleHandler.store();
-        const double grainShift = std::sqrt(Motion::begin(grains, length, threads));
+        times.enter(StepTimes::Part::Motion);
+        const double grainShift = std::sqrt(Motion::begin(grains, length, threads, integrator));
         refuseRunaway(grainShift);
         const double wallShift = wallHandler.moveTo(getTime() + length);
+        times.enter(StepTimes::Part::Search);
         const bool goesRound = ledgerKept && periodic.any();
         const double before = goesRound ? potentialEnergy(grains, gravity) : 0;
         if (contactSystem.refresh(grains, grainShift, wallShift)) {
             if (goesRound) ledger.goRound(before - potentialEnergy(grains, gravity));
             refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
         }
-        contactSystem.computeForces(grains, length);
-        Motion::finish(grains, contactSystem.store(), gravity, length, threads);
+        times.enter(StepTimes::Part::Contacts);
+        contactSystem.computeForces(grains, length, integrator.contacts);
+        times.enter(StepTimes::Part::Sum);
+        Motion::finish(grains, contactSystem.store(), gravity, length, threads, integrator);
+        times.enter(StepTimes::Part::Other);
         if (ledgerKept) account(length);
     }
 
@@ -275,10 +326,13 @@ private:
     }
 
     std::string name = "pendular";
+    std::vector<std::function<void()>> outputs, completions;
     ContactSystem<S> contactSystem;
     EnergyLedger ledger;
+    StepTimes times;
     PeriodicBox periodic;
     Vector<double> gravity{0, 0, 0};
+    Integrator integrator = integrators::predictedVelocityVerlet;
     double timeStep = unset;
     double timeMax = 0;
     double smallestRadius = infinity;

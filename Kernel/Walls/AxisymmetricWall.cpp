@@ -160,4 +160,15 @@ void FiniteCylinder::set(const Vec3D& direction, const Vec3D& point, double radi
     AxisymmetricWall::set(direction, point, {{radius, -0.5 * length}, {radius, 0.5 * length}});
 }
 
+WallSurface AxisymmetricWall::surfaceInBody(const SceneSphere&) const {
+    WallSurface surface;
+    for (std::size_t k = 1; k < profile.size(); ++k) {
+        const Point &begin = profile[k - 1], &end = profile[k];
+        const auto facets = turnedAround(axis, origin + begin.height * axis, begin.radius,
+                                         origin + end.height * axis, end.radius);
+        surface.polygons.insert(surface.polygons.end(), facets.begin(), facets.end());
+    }
+    return surface;
+}
+
 }  // namespace pendular

@@ -40,6 +40,22 @@ protected:
     [[nodiscard]] SurfaceExtent extent() const override {
         return {SurfaceExtent::Symmetry::Cylinder, origin, infinity, axis};
     }
+    [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override {
+        const Vector<double> middle = around.centre - across(around.centre);
+        const Vector<double> half = around.radius * axis;
+        WallSurface surface;
+        surface.endless = true;
+        surface.polygons = turnedAround(axis, middle - half, cylinderRadius, middle + half, cylinderRadius);
+        if (!inside) return surface;
+        const Vector<double> a = anyAcross(axis), b = cross(axis, a);
+        for (int k = 0; k < facetsAround; ++k) {
+            const double angle = 2 * std::numbers::pi * (k + 0.5) / facetsAround;
+            const Vector<double> outward = std::cos(angle) * a + std::sin(angle) * b;
+            surface.inside.push_back(
+                {outward, dot(outward, middle) + cylinderRadius * std::cos(std::numbers::pi / facetsAround)});
+        }
+        return surface;
+    }
 
     void visitShape(StateArchive& archive) const override {
         archive.same("shape", "InfiniteCylinder");

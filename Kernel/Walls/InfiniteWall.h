@@ -29,6 +29,12 @@ protected:
     [[nodiscard]] SurfaceExtent extent() const override {
         return {SurfaceExtent::Symmetry::Plane, offset * normal, infinity, normal};
     }
+    /// A square that covers the cut with the sphere.
+    [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override {
+        const Vector<double> middle = around.centre + gap(around.centre) * normal;
+        const Vector<double> a = around.radius * anyAcross(normal), b = cross(normal, a);
+        return {{{middle + a + b, middle - a + b, middle - a - b, middle + a - b}}, {{normal, offset}}, true};
+    }
 
     void visitShape(StateArchive& archive) const override {
         archive.same("shape", "InfiniteWall");

@@ -153,4 +153,8 @@ bool RigidWall::isCrossed(const Vector<double>& from, const Vector<double>& to) 
     return atRest ? isCrossedInBody(from, to) : isCrossedInBody(pose.placeBack(from), pose.placeBack(to));
 }
 
+WallSurface RigidWall::surface(const SceneSphere& around) const {
+    return surfaceInBody({pose.placeBack(around.centre), around.radius}).placed(pose);
+}
+
 }  // namespace pendular

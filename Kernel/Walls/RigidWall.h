@@ -38,6 +38,7 @@ public:
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const final;
     [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const final;
+    [[nodiscard]] WallSurface surface(const SceneSphere& around) const final;
 
 protected:
     // As those of Wall, in the body's own frame and at rest.
@@ -48,6 +49,7 @@ protected:
     [[nodiscard]] virtual bool isCrossedInBody(const Vector<double>& from,
                                                const Vector<double>& to) const = 0;
     [[nodiscard]] virtual SurfaceExtent extent() const = 0;
+    [[nodiscard]] virtual WallSurface surfaceInBody(const SceneSphere& /*around*/) const { return {}; }
     /// The name and the numbers of the shape, by StateArchive::same().
     virtual void visitShape(StateArchive& /*archive*/) const {}
 

@@ -176,4 +176,13 @@ SurfaceExtent TriangleWall::extent() const {
     return {SurfaceExtent::Symmetry::None, mesh->box.middle(), mesh->radius, {0, 0, 0}};
 }
 
+WallSurface TriangleWall::surfaceInBody(const SceneSphere&) const {
+    WallSurface surface;
+    for (const Face& face : mesh->faces) {
+        Polygon& polygon = surface.polygons.emplace_back();
+        for (const Side& side : mesh->sidesOf(face)) polygon.push_back(side.corner);
+    }
+    return surface;
+}
+
 }  // namespace pendular

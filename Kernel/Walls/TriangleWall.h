@@ -32,6 +32,7 @@ protected:
                     std::span<WallPoint> points) const override;
     [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override;
     [[nodiscard]] SurfaceExtent extent() const override;
+    [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override;
     void visitShape(StateArchive& archive) const override;
 
 private:

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Walls/WallSurface.h"
 
 namespace pendular {
 
@@ -52,6 +53,9 @@ public:
     /// Moves the wall to where it is at a time (s); returns how far (m) any point of its surface can have
     /// moved.
     virtual double moveTo(double /*time*/) { return 0; }
+
+    /// The wall as polygons, for pictures; a shape that gives none is not seen.
+    [[nodiscard]] virtual WallSurface surface(const SceneSphere& /*around*/) const { return {}; }
 
     /// Sums the forces of the grains on this wall after each step; off by default, because it costs time.
     /// @param about m, the point of the torque

@@ -10,9 +10,9 @@ namespace {
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
 // The mean of the stress over all contacts is that at the wall, but for two terms of the momentum balance:
-// the change of sum(m v_x z) over the time T of measurement, at most rho phi U H / (2 T) = 14 Pa x 3/T* for
-// the whole profile of velocity (T* strains), of which a tenth is much: 1.5 Pa; and the fluctuations, rho phi
-// (rate d)^2 = 0.6 Pa.
+// the change of sum(m v_x z) during the time T, which is rho phi rate H^2 / (12 T) = 1.0 Pa if a linear
+// profile becomes a plug (H = 16 mm, T = 0.3 s), and the stress of the fluctuations, rho phi (rate d)^2 = 0.6
+// Pa.
 TEST(HeavyShearCell, stressOfTheContactsIsThatAtTheWall) {
     scenes::ShearCellOptions options;
     options.across = 6;
@@ -20,7 +20,7 @@ TEST(HeavyShearCell, stressOfTheContactsIsThatAtTheWall) {
     scenes::ShearCell<Wet> cell(options, 1);
     cell.initialise();
     const scenes::ShearFigures figures = cell.run();
-    EXPECT_NEAR(figures.shearStress, figures.wallStress, 2.1);
+    EXPECT_NEAR(figures.shearStress, figures.wallStress, 1.6);
     EXPECT_GT(figures.shearStress, 20);  // so that the difference is a small one
 
     // The capillary tension is that of as many bridges as there are, each with a force between those at

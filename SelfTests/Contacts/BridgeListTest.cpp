@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
@@ -34,10 +34,10 @@ public:
     void advance() {
         auto& grains = scene.particleHandler.store();
         const std::size_t before = system.rebuildCount();
-        system.refresh(grains, std::sqrt(VelocityVerlet<true>::begin(grains, step)), 0);
+        system.refresh(grains, std::sqrt(TimeIntegration<true>::begin(grains, step)), 0);
         if (system.rebuildCount() > before) expectListed();
         system.computeForces(grains, step);
-        VelocityVerlet<true>::finish(grains, system.store(), box.any() ? weightless : weight, step);
+        TimeIntegration<true>::finish(grains, system.store(), box.any() ? weightless : weight, step);
         takeNote();
         EXPECT_EQ(joinedInStore(), joined);
     }

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
@@ -35,9 +35,9 @@ struct Settling {
     }
     void step(double length) {
         auto& grains = scene.particleHandler.store();
-        system.refresh(grains, std::sqrt(VelocityVerlet<S::hasTorque>::begin(grains, length)), 0);
+        system.refresh(grains, std::sqrt(TimeIntegration<S::hasTorque>::begin(grains, length)), 0);
         system.computeForces(grains, length);
-        VelocityVerlet<S::hasTorque>::finish(grains, system.store(), {0, 0, -9.81}, length);
+        TimeIntegration<S::hasTorque>::finish(grains, system.store(), {0, 0, -9.81}, length);
     }
     void advance(int steps) {
         for (int k = 0; k < steps; ++k) step(scene.getTimeStep());

@@ -1,8 +1,9 @@
-// The three drivers as a user runs them.
+// The drivers as a user runs them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -116,6 +117,24 @@ TEST(Penetration, goesOnAfterTheStopIfAsked) {
                                                [](const auto& a, const auto& b) { return a[3] < b[3]; })
                                   ->at(3))
         << "it comes back from its deepest point";
+}
+
+TEST(ObliqueImpact, writesTheClosedFormWhereTheSphereSlides) {
+    const Folder folder("oblique-impact");
+    const std::string impact = drivers + "/ObliqueImpact/ObliqueImpact ";
+    const auto result = run(impact + "--restitution 1 --friction 0.1 --angles-deg 60 75 --spring-factors 1 " +
+                            folder.option());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_EQ(headerOf(folder.path / "impacts.csv"),
+              "spring_factor,incidence_deg,normal_restitution,tangential_restitution,spin_rad/s,"
+              "rebound_of_contact_deg");
+    const auto rows = rowsOf(folder.path / "impacts.csv");
+    ASSERT_EQ(rows.size(), 2u);
+    for (const auto& row : rows)  // to the 0.002 of 50 steps, and there are 100
+        EXPECT_NEAR(row[3], 1 - 0.2 / std::tan(row[1] * std::numbers::pi / 180), 0.001);
+    EXPECT_NE(run(impact + "--friction -1 " + folder.option()).exitCode, 0);
+    EXPECT_NE(run(impact + "--angles-deg 90 " + folder.option()).exitCode, 0);
+    EXPECT_EQ(run(impact + "--help").exitCode, 0);
 }
 
 TEST(HopperDischarge, writesCurvesAndFlows) {

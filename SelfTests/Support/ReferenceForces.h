@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/SampleTiming.h"
-#include "Kernel/Motion/VelocityVerlet.h"
+#include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/ContactKey.h"

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/Walls/InfiniteWall.h"
+#include "SelfTests/Support/AnyMaterial.h"
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Walls/WallScene.h"
 
@@ -10,37 +11,14 @@ namespace {
 using namespace wallTests;
 using scenes::GrainMotion;
 
-/// Values for any composition of laws.
-template <class S>
-S anyMaterial() {
-    S species;
-    species.setDensity(density);
-    if constexpr (requires { species.setElasticModulusAndPoissonRatio(1.0, 0.2); }) {
-        species.setElasticModulusAndPoissonRatio(youngModulus, poissonRatio);
-        if constexpr (requires { species.setRestitutionCoefficient(0.7); })
-            species.setRestitutionCoefficient(0.7);
-    } else {
-        species.setStiffnessAndRestitutionCoefficient(500, 0.7, mass());
-    }
-    if constexpr (S::hasTorque) {
-        species.setEffectiveShearModulus(computeEffectiveShearModulus(youngModulus, poissonRatio));
-        species.setSlidingFrictionCoefficient(0.3);
-        species.setSlidingDissipation(0.1);
-    }
-    if constexpr (S::Adhesion::acts) {
-        species.setLiquidBridgeVolume(1e-12);
-        species.setContactAngle(0.2);
-        species.setSurfaceTension(0.07);
-    }
-    return species;
-}
+const support::MaterialScale scale{density, youngModulus, poissonRatio, 500, mass()};
 
 /// R* and the bridge's R of a contact with a sphere of 1000 R are smaller by 1/1000, and forces with them by
 /// half (Hertz) to the whole of it (bridge); so are the velocities that a bounce gives.
 TEST(LargeSphere, ofAThousandRadiiIsAlmostAWallForAllLaws) {
     support::forRepresentativeSpecies([]<class S>() {
         SCOPED_TRACE(S::name);
-        const S species = anyMaterial<S>();
+        const S species = support::anyMaterial<S>(scale);
         const GrainMotion grain{.radius = radius,
                                 .position = {0, 0, 1.003e-3},
                                 .velocity = {0.1, -0.05, -0.3},

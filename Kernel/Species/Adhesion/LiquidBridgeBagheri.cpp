@@ -20,17 +20,22 @@ double smallestDenominator(double b, double c) {
 
 std::optional<std::string> LiquidBridgeBagheri::objection(const Bodies& bodies) const {
     if (rawFit > 0 || liquidBridgeVolume == 0) return std::nullopt;
-    const Interaction<double> bridge = prepare(bodies);
-    const bool repulsive = !(bridge.contactForce > 0) || !(1 + bridge.numerator > 0);
-    const bool pole = !(smallestDenominator(bridge.linear, bridge.quadratic) > 0);
-    if (!repulsive && !pole) return std::nullopt;
+    if (auto angle = LiquidBridge::objection(bodies)) return angle;
+    const BridgeScales bridge = scales(bodies);
+    const auto [wetted, angled, aS, bS, cTheta] = coefficients(bridge.volume, contactAngle);
+    const bool attracts = wetted * angled > 0 && 1 + aS > 0;
+    const bool pole = !(smallestDenominator(cTheta * aS * bS, cTheta * bS) > 0);
+    if (attracts && !pole && bS > 0 && cTheta > 0) return std::nullopt;
     return fmt::format(
         "{}: the fit {} for contactAngle = {:.6g} rad and V* = liquidBridgeVolume/R^3 = {:.6g} "
         "(liquidBridgeVolume = {:.6g} "
         "m^3, R = {:.6g} m); take a smaller angle or volume, another bridge law, or setRawFit(true) to use "
         "it as it is.",
-        name, pole ? "has a pole before the rupture" : "is not attractive", contactAngle,
-        scales(bodies).volume, liquidBridgeVolume, 2 * bodies.effectiveRadius());
+        name,
+        pole        ? "has a pole before the rupture"
+        : !attracts ? "is not attractive"
+                    : "has a coefficient b_s or c_theta that is not positive",
+        contactAngle, bridge.volume, liquidBridgeVolume, bridge.radius);
 }
 
 }  // namespace pendular

@@ -12,11 +12,11 @@ PublishedBridge LiquidBridgeChen::published(const Bodies& bodies) const {
                  larger = std::max(bodies.radius1, bodies.radius2);
     const double asymmetry = std::isinf(larger) ? 1 : (larger - smaller) / (larger + smaller);
     const double most = lianRupture(volume, contactAngle);
-    PublishedBridge bridge = attractiveBridge(UnequalToroidsOfVolume(volume, contactAngle, asymmetry),
-                                              &UnequalToroid::gorgeForce, most);
-    constexpr double leastShare = 0.5;  // ends earlier only where its arc becomes straight: the pole
-    if (bridge.ruptureDistance < leastShare * most) bridge.ruptureDistance = 0;
-    return bridge;
+    const UnequalToroidsOfVolume toroids(volume, contactAngle, asymmetry);
+    const auto atContact = UnequalToroidsOfVolume(toroids).at(0);
+    const bool concave = atContact && atContact->arcCurvature() > 0;
+    if (!concave) return {[](double) { return 0.0; }, 0};
+    return attractiveBridge(toroids, &UnequalToroid::gorgeForce, most);
 }
 
 }  // namespace pendular

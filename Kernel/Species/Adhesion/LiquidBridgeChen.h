@@ -9,8 +9,8 @@ namespace pendular {
 /// cap's cosine cubed), where also Sun and Sakai (2018) agree for equal contact angles. The paper was not at
 /// hand, and our sources do not print the force: it is taken at the neck, as Lian et al. do, with which Table
 /// IX of Yang et al. agrees up to S = 0.7 R. The bridge ends at
-/// the distance of Lian et al., or where there is no such arc. Refused where the arc is nearly straight: its
-/// neck then lies far outside of the bridge (a pole).
+/// the distance of Lian et al., or where there is no such arc. Refused where the arc is nearly straight, with
+/// its neck far outside of the bridge (a pole), or convex at contact, beyond that pole.
 struct LiquidBridgeChen : FittedBridge<LiquidBridgeChen> {
     static constexpr std::string_view name = "LiquidBridgeChen";
     static constexpr std::string_view summary =

@@ -6,6 +6,7 @@ namespace pendular {
 
 std::optional<std::string> LiquidBridgeClassicalWillett::objection(const Bodies& bodies) const {
     if (liquidBridgeVolume == 0) return std::nullopt;
+    if (auto angle = LiquidBridge::objection(bodies)) return angle;
     constexpr double mostReasonable = 10;  // F* at contact
     const BridgeScales bridge = scales(bodies);
     const Coefficients f = coefficients(bridge.volume, contactAngle);

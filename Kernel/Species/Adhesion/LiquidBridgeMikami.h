@@ -40,6 +40,7 @@ struct LiquidBridgeMikami : LiquidBridge<LiquidBridgeMikami> {
     }
     [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const {
         if (liquidBridgeVolume == 0) return std::nullopt;
+        if (auto angle = LiquidBridge::objection(bodies)) return angle;
         return objectionToExponential(name, prepare(bodies), scales(bodies), contactAngle);
     }
 };

@@ -11,6 +11,7 @@ std::optional<std::string> LiquidBridgeSoulie::objection(const Bodies& bodies) c
             "{}: the fit is for two spheres and has no limit at a wall (r1 = {:.6g} m, r2 = {:.6g} m), "
             "so take another bridge law.",
             name, bodies.radius1, bodies.radius2);
+    if (auto angle = LiquidBridge::objection(bodies)) return angle;
     return objectionToExponential(name, prepare(bodies), scales(bodies), contactAngle);
 }
 

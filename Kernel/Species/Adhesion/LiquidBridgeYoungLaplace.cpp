@@ -6,10 +6,13 @@
 
 #include "Kernel/Capillary/BridgeTableMaking.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/RunError.h"
 
 namespace pendular {
 
 namespace {
+
+constexpr std::string_view noBridge = "no stable bridge was found all the way from contact to rupture";
 
 /// The nearest shape that the table holds: set-up has refused all others, but the extremes of sizes alone are
 /// looked at there, and what is beyond by a rounding error must not fail.
@@ -39,14 +42,14 @@ double LiquidBridgeYoungLaplace::range(const Bodies& bodies) const {
 }
 
 LiquidBridgeYoungLaplace::Interaction<double> LiquidBridgeYoungLaplace::prepare(const Bodies& bodies) const {
-    const Interaction<double> none{{{}, 0, 1}, 0, 0};
-    if (liquidBridgeVolume == 0) return none;
+    if (liquidBridgeVolume == 0) return {{{}, 0, 1}, 0, 0};
     const BridgeShape bridge = shape(bodies);
     const auto [radius, volume, unused, forceScale] = scales(bodies);
     const double leastForce = pinned > 0 ? -100 * forceScale : 0;
     if (solveOutsideTable > 0 && !BridgeTable::contains(bridge)) {
         const auto solved = solveCurve(bridge, radius, forceScale);
-        return solved ? Interaction<double>{solved->curve, leastForce, solved->ruptureDistance} : none;
+        if (!solved) throw RunError(sentence(bodies, noBridge));
+        return {solved->curve, leastForce, solved->ruptureDistance};
     }
     return {bridgesAt(contactAngle).curve(clamped(bridge), radius, forceScale), leastForce, range(bodies)};
 }
@@ -63,23 +66,22 @@ double LiquidBridgeYoungLaplace::lateralArea(const Bodies& bodies, double separa
 }
 
 std::optional<std::string> LiquidBridgeYoungLaplace::objection(const Bodies& bodies) const {
-    if (liquidBridgeVolume == 0) return std::nullopt;
-    const BridgeScales bridge = scales(bodies);
-    const auto sentence = [&](std::string_view what) {
-        return fmt::format(
-            "{}: {} for contactAngle = {:.6g} rad and V* = liquidBridgeVolume/R^3 = {:.6g} "
-            "(liquidBridgeVolume = "
-            "{:.6g} m^3, R = {:.6g} m).",
-            name, what, contactAngle, bridge.volume, liquidBridgeVolume, bridge.radius);
-    };
-    if (BridgeTable::contains(shape(bodies))) return std::nullopt;
+    if (liquidBridgeVolume == 0 || BridgeTable::contains(shape(bodies))) return std::nullopt;
     if (!(solveOutsideTable > 0))
-        return sentence(
-            fmt::format("the table holds V* from {} to {}, so take another volume or "
-                        "setSolveOutsideTable(true),",
-                        BridgeTable::leastVolume, BridgeTable::mostVolume));
-    if (range(bodies) > 0) return std::nullopt;
-    return sentence("there is no stable bridge");
+        return sentence(bodies, fmt::format("the table holds V* from {} to {}, so take another volume or "
+                                            "setSolveOutsideTable(true),",
+                                            BridgeTable::leastVolume, BridgeTable::mostVolume));
+    const BridgeScales bridge = scales(bodies);
+    if (solveCurve(shape(bodies), bridge.radius, bridge.forceScale)) return std::nullopt;
+    return sentence(bodies, noBridge);
+}
+
+std::string LiquidBridgeYoungLaplace::sentence(const Bodies& bodies, std::string_view what) const {
+    const BridgeScales bridge = scales(bodies);
+    return fmt::format(
+        "{}: {} for contactAngle = {:.6g} rad and V* = liquidBridgeVolume/R^3 = {:.6g} (liquidBridgeVolume = "
+        "{:.6g} m^3, R = {:.6g} m).",
+        name, what, contactAngle, bridge.volume, liquidBridgeVolume, bridge.radius);
 }
 
 }  // namespace pendular

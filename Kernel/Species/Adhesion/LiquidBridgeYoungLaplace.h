@@ -56,6 +56,8 @@ struct LiquidBridgeYoungLaplace : LiquidBridge<LiquidBridgeYoungLaplace> {
     template <class T>
     using Interaction = LiquidBridgeYoungLaplaceInteraction<T>;
 
+    /// Throws RunError if the equation is to be solved and no bridge is found (set-up looks at the extremes
+    /// of the sizes only).
     [[nodiscard]] Interaction<double> prepare(const Bodies& bodies) const;
     /// The true rupture distance (m).
     [[nodiscard]] double range(const Bodies& bodies) const;
@@ -65,6 +67,10 @@ struct LiquidBridgeYoungLaplace : LiquidBridge<LiquidBridgeYoungLaplace> {
     /// Why there is no table value for these bodies, if so.
     [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const;
     [[nodiscard]] BridgeShape shape(const Bodies& bodies) const;
+
+private:
+    /// What is wrong with a bridge, and its numbers.
+    [[nodiscard]] std::string sentence(const Bodies& bodies, std::string_view what) const;
 };
 
 }  // namespace pendular

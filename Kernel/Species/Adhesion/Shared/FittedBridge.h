@@ -90,6 +90,7 @@ struct FittedBridge : LiquidBridge<Model> {
     }
     [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const {
         if (this->liquidBridgeVolume == 0) return std::nullopt;
+        if (auto angle = LiquidBridge<Model>::objection(bodies)) return angle;
         const BridgeScales scales = this->scales(bodies);
         return objectionToFit(Model::name, publishedFor(bodies), scales, this->contactAngle);
     }

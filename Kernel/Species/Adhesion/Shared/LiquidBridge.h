@@ -19,6 +19,12 @@ struct BridgeScales {
     double forceScale;       // 2 pi R gamma, N
 };
 
+/// Why a law that is made for liquids that wet cannot be used, if so: its contact angle (rad) is above 90
+/// degrees. There the exact force at contact repels for every volume (CapillaryBridge; a test), so that a fit
+/// that attracts has the wrong sign; and one that repels would give the grains energy in each collision,
+/// because its bridge begins at the touch.
+std::optional<std::string> objectionAboveRightAngle(std::string_view law, double contactAngle);
+
 /// Parameters that every bridge of constant volume has, and the rupture distance that the fits share.
 /// A bridge forms when the grains touch, acts with its value at S = 0 while they overlap, and until S exceeds
 /// the rupture distance. Model is the law derived from this.
@@ -58,6 +64,11 @@ struct LiquidBridge {
     }
     /// The rupture distance (m).
     [[nodiscard]] double range(const Bodies& bodies) const { return scales(bodies).ruptureDistance; }
+    /// Why the law cannot be used between the bodies, if so.
+    [[nodiscard]] std::optional<std::string> objection(const Bodies&) const {
+        if (liquidBridgeVolume == 0) return std::nullopt;
+        return objectionAboveRightAngle(Model::name, contactAngle);
+    }
 
 private:
     void set(double LiquidBridge::*member, double value) {

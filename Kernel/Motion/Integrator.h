@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "Kernel/Contacts/ContactTiming.h"
+
+namespace pendular {
+
+/// How a step of length h goes from the accelerations a of this and a' of the last step to the next, a+.
+/// Forces are found once a step, between two parts:
+/// - before: x += h v + h^2 (position0 a + position1 a'), v += h (velocity0 a + velocity1 a')
+/// - after:  v += corrector h (a+ - now a + earlier a')
+struct Integrator {
+    std::string_view name;
+    double position0, position1;
+    double velocity0, velocity1;
+    double corrector, now, earlier;
+    ContactTiming contacts;
+
+    [[nodiscard]] constexpr bool remembersEarlier() const {
+        return position1 != 0 || velocity1 != 0 || earlier != 0;
+    }
+    friend constexpr bool operator==(const Integrator& a, const Integrator& b) { return a.name == b.name; }
+};
+
+namespace integrators {
+
+/// Velocity Verlet for forces that depend on the velocity: contacts see v + h a, which is right to second
+/// order in a dashpot, and their own force implicitly: two grains follow the trapezoidal rule. The default.
+inline constexpr Integrator predictedVelocityVerlet{.name = "PredictedVelocityVerlet",
+                                                    .position0 = 0.5,
+                                                    .position1 = 0,
+                                                    .velocity0 = 1,
+                                                    .velocity1 = 0,
+                                                    .corrector = 0.5,
+                                                    .now = 1,
+                                                    .earlier = 0,
+                                                    .contacts = {true, true}};
+
+/// As in other codes: contacts see the velocity in the middle of the step, which is first order in a dashpot.
+inline constexpr Integrator velocityVerlet{.name = "VelocityVerlet",
+                                           .position0 = 0.5,
+                                           .position1 = 0,
+                                           .velocity0 = 0.5,
+                                           .velocity1 = 0,
+                                           .corrector = 0.5,
+                                           .now = 0,
+                                           .earlier = 0,
+                                           .contacts = {false, false}};
+
+/// Third order between touches: the prediction of Beeman (1976), J. Comput. Phys. 20, 130, velocities of
+/// Adams and Bashforth before and of Adams and Moulton after the forces. Explicit in dashpots; keeps the last
+/// acceleration of each grain, 24 bytes (48 with spin).
+inline constexpr Integrator adamsMoulton{.name = "AdamsMoulton",
+                                         .position0 = 2.0 / 3.0,
+                                         .position1 = -1.0 / 6.0,
+                                         .velocity0 = 1.5,
+                                         .velocity1 = -0.5,
+                                         .corrector = 5.0 / 12.0,
+                                         .now = 2,
+                                         .earlier = 1,
+                                         .contacts = {false, true}};
+
+inline constexpr std::array all{predictedVelocityVerlet, velocityVerlet, adamsMoulton};
+
+}  // namespace integrators
+
+}  // namespace pendular

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "Kernel/Contacts/ContactSystem.h"
+
+namespace pendular {
+
+/// A text to which frames are added; each is on the disk, whole, when add() returns.
+class FrameFile {
+public:
+    /// @param goesOn behind what is there; else anew. Throws InputError if the file cannot be written.
+    FrameFile(std::string path, bool goesOn);
+    void add(std::string_view frame);
+
+private:
+    std::string path;
+    std::shared_ptr<std::FILE> file;
+};
+
+/// The files NAME.data, NAME.fstat and NAME.ene of MercuryDPM, for the tools of its users (XBalls, MercuryCG,
+/// scripts). Given to Simulation::addOutput(); the energies need keepEnergyLedger(). Source of the columns:
+/// MercuryDPM's documentation, "Visualising your results", 3D; see the README of this folder.
+class MercuryOutput {
+public:
+    /// @param beginning NAME; that of the simulation if empty
+    explicit MercuryOutput(std::string beginning = {}) : name(std::move(beginning)) {}
+
+    /// NAME.ene, on by default.
+    MercuryOutput& withEnergies(bool yes = true) { return energiesToo = yes, *this; }
+    /// NAME.fstat, on by default.
+    MercuryOutput& withContacts(bool yes = true) { return contactsToo = yes, *this; }
+    /// The box in the headers, m; that of the grains if not given.
+    MercuryOutput& withDomain(const Vec3D& lowest, const Vec3D& highest) {
+        return domain = {toVector(lowest), toVector(highest)}, *this;
+    }
+
+    template <class Scene>
+    void write(const Scene& scene) {
+        if (!data) open(scene.getName(), scene.getTime() > 0);
+        const auto& grains = scene.particleHandler.store();
+        const Domain box = domain ? *domain : domainOf(grains);
+        data->add(dataFrame(grains, box, scene.getTime()));
+        if (contactsToo) contacts->add(contactFrame(scene.contacts(), grains, box, scene.getTime()));
+        if (!energiesToo) return;
+        if (!scene.keepsEnergyLedger())
+            throw InputError(
+                "MercuryOutput: the .ene file needs the elastic energy; call keepEnergyLedger(), or "
+                "withEnergies(false) to do without the file.");
+        energies->add(energyLine(grains, scene));
+    }
+
+private:
+    struct Domain {
+        Vector<double> lowest, highest;  // m
+    };
+
+    void open(const std::string& standardName, bool goesOn);
+
+    template <bool hasSpin>
+    static Domain domainOf(const ParticleStore<hasSpin>& grains) {
+        Domain box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+        for (const TranslationRecord& grain : grains.translation)
+            for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z}) {
+                box.lowest.*axis = std::min(box.lowest.*axis, grain.position.*axis - grain.radius);
+                box.highest.*axis = std::max(box.highest.*axis, grain.position.*axis + grain.radius);
+            }
+        return grains.size() > 0 ? box : Domain{{0, 0, 0}, {0, 0, 0}};
+    }
+    static std::string words(const Vector<double>& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
+
+    /// N time xmin ymin zmin xmax ymax zmax, then for each grain rx ry rz vx vy vz rad alpha beta gamma omex
+    /// omey omez info: the angles are 0 (spheres), the info is the species.
+    template <bool hasSpin>
+    static std::string dataFrame(const ParticleStore<hasSpin>& grains, const Domain& box, double time) {
+        std::string text =
+            fmt::format("{} {} {} {}\n", grains.size(), time, words(box.lowest), words(box.highest));
+        for (const std::uint32_t place : grains.place) {
+            const TranslationRecord& grain = grains.translation[place];
+            Vector<double> spin{0, 0, 0};
+            if constexpr (hasSpin) spin = grains.rotation[place].spin;
+            fmt::format_to(std::back_inserter(text), "{} {} {} 0 0 0 {} {}\n", words(grain.position),
+                           words(grain.velocity), grain.radius, words(spin), grains.species[place]);
+        }
+        return text;
+    }
+
+    /// Three lines of header, then time i j cx cy cz delta deltat fn ft nx ny nz tx ty tz: for grains a line
+    /// for each of the two. The force on i is fn n + ft t, where n points from j to i. At wall number w, j is
+    /// -w - 1, and n and t are reversed, as MercuryDPM does it ("an old bug").
+    template <class S>
+    static std::string contactFrame(const ContactSystem<S>& contacts,
+                                    const ParticleStore<S::hasTorque>& grains, const Domain& box,
+                                    double time) {
+        double largest = 0;
+        for (const TranslationRecord& grain : grains.translation) largest = std::max(largest, grain.radius);
+        std::string text =
+            fmt::format("# {} 1\n# {} {}\n# {} {} 0 0 0 0\n", time, words(box.lowest), words(box.highest),
+                        grains.size() > 0 ? grains.smallestRadius() : 0, largest);
+        contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+            if (!contacts.store().acts(contact)) return;
+            const ObservedContact seen = contacts.observe(grains, bucket, contact);
+            const std::uint32_t place = grains.place[seen.particle1];
+            const TranslationRecord& first = grains.translation[place];
+            const Vector<double> normal = (-1 / norm(seen.shift)) * seen.shift;  // to body 1
+            const double fn = dot(seen.force, normal);
+            const Vector<double> across = seen.force - fn * normal;
+            // Less than this is round-off, without a direction.
+            const double ft = norm(across) > 1e-14 * norm(seen.force) ? norm(across) : 0;
+            const Vector<double> tangent = ft > 0 ? (1 / ft) * across : Vector<double>{0, 0, 0};
+            double spring = 0;
+            const auto history = contacts.store().memory.history.get(contacts.store().slotOf(contact));
+            if constexpr (requires { history.displacement.x; }) spring = norm(history.displacement);
+            const auto line = [&](std::uint32_t i, std::int64_t j, const Vector<double>& point, double sign) {
+                fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {} {} {}\n", time, i, j,
+                               words(point), 0.0 - seen.separation, spring, fn, ft, words(sign * normal),
+                               words(sign * tangent));
+            };
+            // In the middle of the overlap or of the gap; at a wall on its surface.
+            if (bucket.wall >= 0) {
+                if (first.inverseMass > 0)
+                    line(seen.particle1, -std::int64_t{seen.wall} - 1, first.position + seen.shift, -1);
+                return;
+            }
+            const Vector<double> point = first.position - (first.radius + 0.5 * seen.separation) * normal;
+            if (first.inverseMass > 0) line(seen.particle1, seen.particle2, point, 1);
+            if (grains.translation[grains.place[seen.particle2]].inverseMass > 0)
+                line(seen.particle2, seen.particle1, point, -1);
+        });
+        return text;
+    }
+
+    /// time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM, of the grains that can move.
+    template <bool hasSpin, class Scene>
+    static std::string energyLine(const ParticleStore<hasSpin>& grains, const Scene& scene) {
+        double mass = 0, translation = 0, rotation = 0;
+        Vector<double> moment{0, 0, 0};
+        for (std::size_t k = 0; k < grains.size(); ++k) {
+            const TranslationRecord& grain = grains.translation[k];
+            if (grain.inverseMass == 0) continue;
+            mass += 1 / grain.inverseMass;
+            moment += (1 / grain.inverseMass) * grain.position;
+            translation += 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
+            if constexpr (hasSpin)
+                rotation += 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
+        }
+        const Vector<double> centre = mass > 0 ? (1 / mass) * moment : Vector<double>{0, 0, 0};
+        return fmt::format("{} {} {} {} {} {}\n", scene.getTime(), -dot(toVector(scene.getGravity()), moment),
+                           translation, rotation, scene.energyLedger().elastic, words(centre));
+    }
+
+    std::string name;
+    std::optional<Domain> domain;
+    bool energiesToo = true, contactsToo = true;
+    std::optional<FrameFile> data, contacts, energies;
+};
+
+}  // namespace pendular

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include "Kernel/Math/Random.h"
+#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Species/BridgeChoice.h"
+
+// For a driver that wants to know at set-up whether its bridge law is the right one. Not part of a
+// Simulation: it is compiled and run only where it is asked for.
+
+namespace pendular {
+
+/// Bridges that a scene can have: the extremes of the sizes, and random pairs of its grains, every fourth one
+/// a grain and a wall if there are any. The grains must have been added. Dry contacts are left out.
+template <class S>
+std::vector<BridgeCase> bridgesOf(Simulation<S>& scene, std::size_t count) {
+    scene.speciesHandler.mixAll();
+    const auto& grains = scene.particleHandler.store();
+    std::vector<BridgeCase> bridges;
+    const auto add = [&](const auto& laws, const Bodies& bodies) {
+        if (laws.liquidBridgeVolume > 0)
+            bridges.push_back({bodies, laws.liquidBridgeVolume, laws.contactAngle});
+    };
+    forEachExtremePair(scene.speciesHandler, grains, scene.wallHandler,
+                       [&](const auto& laws, const Bodies& bodies, double) { add(laws, bodies); });
+    UniformRandom random(1);
+    const auto anyBelow = [&](std::size_t number) {
+        return static_cast<std::size_t>(random.uniform(0, static_cast<double>(number)));
+    };
+    const std::size_t number = grains.size(), walls = scene.wallHandler.getSize();
+    if (number == 0 || (number == 1 && walls == 0)) return bridges;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = anyBelow(number);
+        if (walls > 0 && (k % 4 == 0 || number == 1)) {
+            const int wall = scene.wallHandler.getObject(anyBelow(walls)).species;
+            add(scene.speciesHandler.mixture(grains.species[i], wall), {grains.translation[i].radius});
+        } else {
+            const std::size_t j = (i + 1 + anyBelow(number - 1)) % number;  // another one
+            add(scene.speciesHandler.mixture(grains.species[i], grains.species[j]),
+                {grains.translation[i].radius, grains.translation[j].radius});
+        }
+    }
+    return bridges;
+}
+
+/// One line: how far the scene's bridge law is from the exact solution for the bridges of this scene, and
+/// which law is the cheapest one within a tolerance (a share). Costs are nominal. About 0.15 s.
+template <class S>
+std::string bridgeAdvice(Simulation<S>& scene, double tolerance) {
+    using Law = typename S::Adhesion;
+    checkValue("bridge advice", "tolerance", tolerance, "", positive);
+    const auto exact = solveExactly(bridgesOf(scene, 100));
+    if (exact.empty()) return "Bridge advice: this scene has no liquid bridges that could be compared.";
+    const auto& grains = scene.particleHandler.store().translation;
+    const bool oneSize = std::all_of(grains.begin(), grains.end(), [&](const TranslationRecord& grain) {
+        return grain.radius == grains.front().radius;
+    });
+    const auto cost = [&](std::string_view law) {
+        const auto nominal = nominalBridgeCost(law);
+        return nominal ? nominal->perStep(oneSize, usualStepsPerList) : unset;
+    };
+    const auto own =
+        bridgeChoice(exact, cost(Law::name), static_cast<const Law&>(*scene.speciesHandler.getObject(0)));
+    return bridgeAdviceText(own, advise(bridgeChoices(exact, cost), tolerance), tolerance);
+}
+
+}  // namespace pendular

@@ -1,0 +1,162 @@
+// The files of MercuryDPM, read as its documentation describes them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "Kernel/Output/MercuryOutput.h"
+#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular {
+namespace {
+
+using support::TestFolder;
+using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
+using Row = std::vector<double>;
+
+/// The lines of a file as numbers; lines that begin with # or with words are left out.
+std::vector<Row> rowsOf(const std::string& path, std::vector<std::string>* others = nullptr) {
+    std::ifstream file(path);
+    EXPECT_TRUE(file) << path;
+    std::vector<Row> rows;
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        Row row;
+        for (double number; words >> number;) row.push_back(number);
+        if (words.eof() && !row.empty()) rows.push_back(row);
+        else if (others) others->push_back(line);
+    }
+    return rows;
+}
+Vec3D part(const Row& row, std::size_t k) { return {row.at(k), row.at(k + 1), row.at(k + 2)}; }
+
+/// A box of wet grains with a frame at the start and one after 1500 steps.
+struct Box : scenes::SettlingBox<Wet> {
+    explicit Box(const std::string& name, bool watched = true) : SettlingBox(3) {
+        setName(name);
+        setTimeMax(1500 * 0x1p-17);
+        keepEnergyLedger();
+        if (watched) addOutput(MercuryOutput().withDomain({0, 0, 0}, {width, width, 0.02}));
+    }
+};
+
+TEST(Mercury, dataHasFourteenColumnsForEachGrain) {
+    const TestFolder folder;
+    Box box(folder.name());
+    box.solve();
+    const std::vector<Row> rows = rowsOf(folder.name() + ".data");
+    ASSERT_EQ(rows.size(), 2u * (1 + 48));
+    for (const std::size_t frame : {0, 1}) {
+        const Row& header = rows[frame * 49];
+        ASSERT_EQ(header.size(), 8u);  // N time xmin ymin zmin xmax ymax zmax
+        EXPECT_EQ(header[0], 48);
+        EXPECT_EQ(header[1], frame == 0 ? 0 : box.getTime());
+        EXPECT_EQ(part(header, 2), Vec3D(0, 0, 0));
+        EXPECT_EQ(part(header, 5), Vec3D(Box::width, Box::width, 0.02));
+    }
+    for (std::size_t k = 0; k < 48; ++k) {
+        const Row& row = rows[50 + k];
+        const auto grain = box.particleHandler.getObject(k);
+        ASSERT_EQ(row.size(), 14u);  // r v rad alpha beta gamma omega info, by the documentation of 2020
+        EXPECT_EQ(part(row, 0), grain.getPosition());
+        EXPECT_EQ(part(row, 3), grain.getVelocity());
+        EXPECT_EQ(row[6], grain.getRadius());
+        EXPECT_EQ(part(row, 7), Vec3D(0, 0, 0));
+        EXPECT_EQ(part(row, 10), grain.getAngularVelocity());
+        EXPECT_EQ(row[13], grain.getRadius() > 1.2e-3 ? 1 : 0);
+    }
+}
+
+TEST(Mercury, contactsOfAGrainAndItsWeightMakeTheWholeForce) {
+    const TestFolder folder;
+    Box box(folder.name());
+    box.solve();
+    std::vector<std::string> headers;
+    std::vector<Row> rows = rowsOf(folder.name() + ".fstat", &headers);
+    ASSERT_EQ(headers.size(), 6u);
+    EXPECT_EQ(headers[3], fmt::format("# {} 1", box.getTime()));
+    EXPECT_EQ(headers[4], fmt::format("# 0 0 0 {0} {0} 0.02", Box::width));
+    EXPECT_TRUE(headers[5].starts_with(fmt::format("# {} {} ", Box::smallRadius, Box::largeRadius)));
+    std::vector<Vec3D> sums;
+    for (std::size_t k = 0; k < 48; ++k)
+        sums.push_back(box.particleHandler.getObject(k).getMass() * box.getGravity());
+    std::erase_if(rows, [&](const Row& row) { return row[0] != box.getTime(); });
+    ASSERT_GT(rows.size(), 60u);
+    int walls = 0, springs = 0;
+    for (const Row& row : rows) {
+        ASSERT_EQ(row.size(), 16u);  // time i j c delta deltat fn ft n t
+        const auto i = static_cast<std::size_t>(row[1]);
+        const auto grain = box.particleHandler.getObject(i);
+        const Vec3D contact = part(row, 3), normal = part(row, 10), tangent = part(row, 13);
+        const bool atWall = row[2] < 0;
+        walls += atWall ? 1 : 0;
+        springs += row[7] > 0 ? 1 : 0;
+        EXPECT_NEAR(normal.norm(), 1, 1e-14);
+        EXPECT_NEAR(row[9] * normal.dot(tangent), 0, 1e-15 * std::hypot(row[8], row[9]));
+        EXPECT_NEAR(tangent.norm(), row[9] > 0 ? 1 : 0, 1e-14);
+        // From the contact to the grain's centre, but reversed at walls.
+        const double sign = atWall ? -1 : 1;
+        const Vec3D branch = grain.getPosition() - contact;
+        EXPECT_NEAR(branch.dot(normal) * sign, grain.getRadius() - (atWall ? 1 : 0.5) * row[6], 1e-16);
+        EXPECT_LT(branch.cross(normal).norm(), 1e-16);
+        if (atWall) {
+            const auto& plane = box.planes.at(static_cast<std::size_t>(-row[2]) - 1);
+            EXPECT_LT((normal - plane.normal).norm(), 1e-14);
+        }
+        sums[i] += sign * (row[8] * normal + row[9] * tangent);
+    }
+    EXPECT_GT(walls, 10);
+    EXPECT_GT(springs, 30);
+    for (std::size_t k = 0; k < 48; ++k)
+        // A dozen forces of some mN, each to a few units of the last of 53 bits.
+        EXPECT_LT((sums[k] - box.particleHandler.getObject(k).getForce()).norm(), 1e-15) << k;
+}
+
+TEST(Mercury, energiesAreThoseOfTheLedger) {
+    const TestFolder folder;
+    Box box(folder.name());
+    box.solve();
+    std::vector<std::string> headers;
+    const std::vector<Row> rows = rowsOf(folder.name() + ".ene", &headers);
+    EXPECT_EQ(headers, std::vector<std::string>{"time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM"});
+    ASSERT_EQ(rows.size(), 2u);
+    const Row& last = rows[1];
+    ASSERT_EQ(last.size(), 8u);
+    const EnergyLedger& ledger = box.energyLedger();
+    EXPECT_EQ(last[0], box.getTime());
+    EXPECT_NEAR(last[1] / ledger.potential, 1, 1e-13);
+    EXPECT_NEAR((last[2] + last[3]) / ledger.kinetic, 1, 1e-13);
+    EXPECT_GT(last[3], 0);
+    EXPECT_EQ(last[4], ledger.elastic);
+    double mass = 0;
+    Vec3D moment = Vec3D::Zero();
+    for (std::size_t k = 0; k < 48; ++k) {
+        const auto grain = box.particleHandler.getObject(k);
+        mass += grain.getMass(), moment += grain.getMass() * grain.getPosition();
+    }
+    EXPECT_LT((part(last, 5) - moment / mass).norm(), 1e-15 * moment.norm() / mass * 50);
+}
+
+TEST(Mercury, doesNotChangeTheTrajectory) {
+    const TestFolder folder;
+    Box with(folder.name()), without(folder.name(), false);
+    with.solve(), without.solve();
+    EXPECT_EQ(stateHash(with.particleHandler.store()), stateHash(without.particleHandler.store()));
+}
+
+TEST(Mercury, energiesWithoutALedgerAreRefused) {
+    const TestFolder folder;
+    Box box(folder.name());
+    box.keepEnergyLedger(false);
+    EXPECT_TRUE(support::contains(support::refusal([&] { box.solve(); }), "keepEnergyLedger()"));
+}
+
+}  // namespace
+}  // namespace pendular

@@ -1,0 +1,82 @@
+// The adviser as a user runs it.
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+#include "BuildFolders.h"
+#include "Kernel/Species/BridgeLaws.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/RunProgram.h"
+
+namespace pendular {
+namespace {
+
+using support::contains;
+using support::expectOneSentence;
+using support::run;
+
+const std::string choose = std::string(folders::tools) + "/choose-bridge-model --runs 1 --count 40 ";
+const std::string bridges = "--smallest-radius 0.5e-3 --largest-radius 1e-3 --smallest-volume 1e-12 --walls ";
+
+TEST(ChooseBridgeModel, listsAllLawsAndAnswersWithTheOnlyAccurateOne) {
+    const auto result = run(choose + bridges + "--tolerance 1 --all");
+    EXPECT_EQ(result.exitCode, 0);
+    std::istringstream lines(result.output);
+    std::string line;
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(line.substr(0, 18), "law,error_percent,");
+    forEachBridgeLaw([&]<class Law>() {
+        ASSERT_TRUE(std::getline(lines, line));
+        EXPECT_EQ(line.substr(0, line.find(',')), Law::name);
+        EXPECT_EQ(contains(line, "has no limit at a wall"), Law::name == LiquidBridgeSoulie::name);
+    });
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(line.substr(0, line.find(':')), "LiquidBridgeYoungLaplace");
+    for (const char* part : {"% from the exact bridge", "ns a bridge and step", "times LiquidBridgeBagheri"})
+        EXPECT_TRUE(contains(line, part));
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(line, "none is better");
+}
+
+TEST(ChooseBridgeModel, saysWhichIsBestAndWhichIsBetterButDearer) {
+    const auto result = run(choose + bridges + "--tolerance 0.001 --cost-at-most 1.2");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_TRUE(contains(result.output,
+                         "no law is within 0.001 % at 1.2 times the cost of LiquidBridgeBagheri; "
+                         "the best is LiquidBridge"));
+    EXPECT_TRUE(contains(result.output, "\nnext better: LiquidBridge"));
+}
+
+TEST(ChooseBridgeModel, refusesInOneSentence) {
+    expectOneSentence(run(choose), "smallest-radius is not set");
+    expectOneSentence(run(choose + "--smallest-radius 1e-3"), "smallest-volume is not set");
+    expectOneSentence(run(choose + bridges + "--largest-volume 1e-13"), "largest-volume = 1e-13 m^3");
+    expectOneSentence(run(choose + bridges + "--contact-angle-deg 181"), "contact-angle-deg = 181 degrees");
+    expectOneSentence(run(choose + bridges + "--tolerance 0"), "tolerance = 0 %");
+    expectOneSentence(run(choose + bridges + "--cost-at-most -1"), "cost-at-most = -1");
+    // Above 90 degrees only the exact law serves, and this volume is below its table.
+    expectOneSentence(run(choose + "--contact-angle-deg 120 --smallest-radius 1e-3 --smallest-volume 1e-17"),
+                      "no law serves");
+    EXPECT_NE(run(choose + "--radius 1").exitCode, 0);
+    const auto help = run(choose + "--help");
+    EXPECT_EQ(help.exitCode, 0);
+    for (const char* part : {"m^3", "degrees", "--walls", "--tolerance"})
+        EXPECT_TRUE(contains(help.output, part));
+}
+
+TEST(TwoParticleCollisionAdvice, isALineAtSetUpWhereAskedFor) {
+    const std::string collision = std::string(folders::drivers) +
+                                  "/TwoParticleCollision/TwoParticleCollision --output " +
+                                  testing::TempDir() + "pendular-advice --adhesion LiquidBridgeWillett";
+    const auto silent = run(collision), advised = run(collision + " --advise-within-percent 5");
+    EXPECT_EQ(silent.exitCode, 0);
+    EXPECT_EQ(advised.exitCode, 0);
+    EXPECT_FALSE(contains(silent.output, "exact"));
+    EXPECT_TRUE(contains(advised.output, "the cheapest law within 5 % is LiquidBridgeYoungLaplace"));
+    EXPECT_EQ(advised.output.substr(advised.output.find('\n') + 1), silent.output);
+    expectOneSentence(run(collision + " --advise-within-percent -5"), "advise-within-percent = -5 %");
+}
+
+}  // namespace
+}  // namespace pendular

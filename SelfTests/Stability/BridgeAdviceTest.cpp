@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "Kernel/Simulation/BridgeAdvice.h"
+#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Support/Refusal.h"
+
+// The advice that a driver can ask for: the bridges are those of its scene, and nothing else changes.
+
+namespace pendular {
+namespace {
+
+using Wet = Species<LinearViscoelastic, NoFriction, LiquidBridgeWillett>;
+using scenes::FewGrains;
+using scenes::GrainMotion;
+
+constexpr double volume = 2e-12;  // m^3
+
+Wet wet() {
+    Wet species;
+    species.setDensity(2500);
+    species.setStiffness(100);
+    species.setDissipation(1e-3);
+    species.setLiquidBridgeVolume(volume);
+    species.setContactAngle(0.4);
+    species.setSurfaceTension(0.07);
+    return species;
+}
+
+const std::vector<GrainMotion> threeGrains{
+    {.radius = 1e-3, .position = {0, 0, 1e-3}},
+    {.radius = 0.6e-3, .position = {1.62e-3, 0, 1e-3}, .velocity = {-0.1, 0, 0}},
+    {.radius = 0.8e-3, .position = {0, 3e-3, 1e-3}}};
+
+std::vector<scenes::PlaneAt> floorIf(bool wall) {
+    if (!wall) return {};
+    return {{{0, 0, -1}, {0, 0, 0}}};
+}
+
+TEST(BridgeAdvice, looksAtTheBridgesOfTheScene) {
+    for (const bool wall : {false, true}) {
+        FewGrains<Wet> scene(wet(), threeGrains, 1e-6, floorIf(wall));
+        const auto bridges = bridgesOf(scene, 200);
+        ASSERT_GT(bridges.size(), 200u);  // and the extremes
+        int walls = 0, mixed = 0;
+        for (const BridgeCase& bridge : bridges) {
+            EXPECT_EQ(bridge.volume, volume);
+            EXPECT_NEAR(bridge.contactAngle, 0.4, 1e-12);
+            walls += std::isinf(bridge.bodies.radius2) ? 1 : 0;
+            mixed += bridge.bodies.radius1 == 0.8e-3 && bridge.bodies.radius2 == 0.6e-3 ? 1 : 0;
+        }
+        EXPECT_EQ(walls > 40, wall);
+        EXPECT_GT(mixed, 10);
+        // Three grains of different sizes: no grain has a bridge with itself.
+        for (std::size_t k = bridges.size() - 200; k < bridges.size(); ++k)
+            EXPECT_NE(bridges[k].bodies.radius1, bridges[k].bodies.radius2);
+    }
+}
+
+TEST(BridgeAdvice, isOneLineWithLawsAndErrors) {
+    FewGrains<Wet> scene(wet(), threeGrains, 1e-6);
+    const std::string text = bridgeAdvice(scene, 0.01);
+    EXPECT_TRUE(support::isOneSentence(text));
+    EXPECT_TRUE(support::contains(text, "LiquidBridgeWillett: "));
+    EXPECT_TRUE(support::contains(text, "the cheapest law within 1 % is LiquidBridgeYoungLaplace"));
+    EXPECT_TRUE(support::contains(bridgeAdvice(scene, 10), "it is the cheapest law within 1e+03 %"));
+    EXPECT_TRUE(support::isOneSentence(support::refusal([&] { static_cast<void>(bridgeAdvice(scene, 0)); })));
+}
+
+TEST(BridgeAdvice, saysThatThereAreNoBridges) {
+    Wet dry = wet();
+    dry.setLiquidBridgeVolume(0);
+    FewGrains<Wet> dryScene(dry, threeGrains, 1e-6), alone(wet(), {threeGrains[0]}, 1e-6),
+        empty(wet(), {}, 1e-6);
+    for (FewGrains<Wet>* scene : {&dryScene, &empty})
+        EXPECT_TRUE(support::contains(bridgeAdvice(*scene, 0.01), "no liquid bridges"));
+    static_cast<void>(bridgeAdvice(alone, 0.01));  // of the extremes of the sizes, as set-up sees it
+}
+
+TEST(BridgeAdvice, changesNothing) {
+    FewGrains<Wet> plain(wet(), threeGrains, 1e-6), advised(wet(), threeGrains, 1e-6);
+    static_cast<void>(bridgeAdvice(advised, 0.05));
+    plain.run(3000), advised.run(3000);
+    for (std::size_t k = 0; k < threeGrains.size(); ++k) {
+        EXPECT_EQ(plain.motion(k).position, advised.motion(k).position);
+        EXPECT_EQ(plain.motion(k).velocity, advised.motion(k).velocity);
+    }
+    EXPECT_NE(plain.motion(0).velocity, Vec3D::Zero());  // they have met
+}
+
+}  // namespace
+}  // namespace pendular

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "Kernel/Motion/Integrator.h"
+#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Species/Laws.h"
+#include "Tools/AccuracyVersusCost/IntegratorCost.h"
+#include "Tools/AccuracyVersusCost/StudiedCollision.h"
+
+// Errors of collisions against steps for the time of a contact, for each integrator.
+
+namespace pendular {
+
+struct TimeChartOptions {
+    std::filesystem::path file = "time.csv";
+    int offsets = 16;             // begins of the touch within a step
+    int referenceSteps = 200000;  // a contact
+};
+
+inline constexpr std::array stepsPerContact{5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300, 500};
+
+/// A collision of the study: a species, the grains' motion, and the time (s) of the contact.
+template <class S>
+struct CollisionCase {
+    std::string_view name;
+    S species;
+    Encounter encounter;
+    double contactTime;
+};
+
+namespace collisions {
+
+constexpr double density = 2500, modulus = 1e9, poissonRatio = 0.25;  // kg/m^3, Pa, 1
+
+inline double reducedMass(double radius) {
+    return 0.5 * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
+}
+
+template <class S>
+S hertzian(double restitution) {
+    S species;
+    species.setDensity(density);
+    species.setElasticModulusAndPoissonRatio(modulus, poissonRatio);
+    species.setRestitutionCoefficient(restitution);
+    return species;
+}
+
+inline double hertzianTime(const Encounter& encounter) {
+    return hertzContactTime(computeEffectiveElasticModulus(modulus, poissonRatio), 0.5 * encounter.radius,
+                            reducedMass(encounter.radius), encounter.speed);
+}
+
+inline CollisionCase<HertzianViscoelasticSpecies> hertz() {
+    const Encounter encounter;
+    return {"Hertz", hertzian<HertzianViscoelasticSpecies>(0.5), encounter, hertzianTime(encounter)};
+}
+
+inline CollisionCase<LinearViscoelasticSpecies> linear() {
+    const Encounter encounter;
+    LinearViscoelasticSpecies species;
+    species.setDensity(density);
+    species.setStiffnessAndRestitutionCoefficient(1e4, 0.5, 2 * reducedMass(encounter.radius));
+    return {"linear", species, encounter,
+            linearContactTime(1e4, species.getDissipation(), reducedMass(encounter.radius))};
+}
+
+/// 15 degrees from the normal, friction 0.3: sticking, then sliding.
+inline CollisionCase<HertzianViscoelasticMindlinSpecies> oblique() {
+    const Encounter encounter{.slip = 0.2 * std::tan(std::numbers::pi / 12)};
+    auto species = hertzian<HertzianViscoelasticMindlinSpecies>(0.9);
+    species.setEffectiveShearModulus(computeEffectiveShearModulus(modulus, poissonRatio));
+    species.setSlidingFrictionCoefficient(0.3);
+    species.setSpringFactor(1);
+    return {"oblique", species, encounter, hertzianTime(encounter)};
+}
+
+/// A bridge that takes about half of the energy; it forms at the touch and ruptures.
+inline CollisionCase<HertzianViscoelasticLiquidBridgeYoungLaplaceSpecies> wet() {
+    auto species = hertzian<HertzianViscoelasticLiquidBridgeYoungLaplaceSpecies>(0.9);
+    species.setLiquidBridgeVolume(2e-11);
+    species.setContactAngle(0.2);
+    species.setSurfaceTension(0.07);
+    const Encounter encounter{.reach = 1.01 * species.range(Bodies{1e-3, 1e-3})};
+    return {"wet", species, encounter, hertzianTime(encounter)};
+}
+
+}  // namespace collisions
+
+/// Largest errors over the offsets: of the speed of parting and of the spin as shares of the speed of
+/// approach, and of the energy as a share of that before.
+struct CollisionErrors {
+    double parting = 0, spin = 0, energy = 0;
+    bool finite = true;
+
+    void include(const Aftermath& seen, const Aftermath& exact, const Encounter& encounter) {
+        const double before = 0.125 * (encounter.speed * encounter.speed + encounter.slip * encounter.slip);
+        parting = std::max(parting, std::abs(seen.parting - exact.parting) / encounter.speed);
+        spin = std::max(spin, std::abs(seen.rim - exact.rim) / encounter.speed);
+        energy = std::max(energy, std::abs(seen.energy - exact.energy) / before);
+        finite = finite && std::isfinite(seen.energy);
+    }
+};
+
+template <class S>
+Aftermath finish(CollisionCase<S> studied, double steps, double offset, const Integrator& integrator) {
+    const double step = studied.contactTime / steps;
+    studied.encounter.gap = offset * step * studied.encounter.speed;
+    return StudiedCollision<S>(studied.species, studied.encounter, step, integrator).finish();
+}
+
+template <class S>
+CollisionErrors errorsOf(const CollisionCase<S>& studied, const Aftermath& exact, int steps,
+                         const Integrator& integrator, int offsets) {
+    CollisionErrors errors;
+    for (int k = 0; k < offsets; ++k) {
+        // A step before the touch at least, so that the integrators that look back have one.
+        const double offset = 2 + (k + 0.5) / offsets;
+        errors.include(finish(studied, steps, offset, integrator), exact, studied.encounter);
+    }
+    return errors;
+}
+
+template <class S>
+void writeCollision(CsvFile& file, const CollisionCase<S>& studied, const IntegratorCosts& costs,
+                    const TimeChartOptions& options) {
+    const Aftermath exact =
+        finish(studied, options.referenceSteps, 2.5, integrators::predictedVelocityVerlet);
+    for (std::size_t k = 0; k < integrators::all.size(); ++k) {
+        const Integrator& integrator = integrators::all[k];
+        for (const int steps : stepsPerContact) {
+            const auto errors = errorsOf(studied, exact, steps, integrator, options.offsets);
+            file.row(studied.name, integrator.name, steps, steps * costs[k], 100 * errors.parting,
+                     100 * errors.spin, 100 * errors.energy);
+        }
+    }
+}
+
+inline void chartTime(const TimeChartOptions& options) {
+    checkValue("accuracy-versus-cost", "offsets", options.offsets, "", {1, 1e6});
+    CsvFile file(options.file,
+                 "collision,integrator,steps_per_contact,cost_in_default_steps,parting_error_percent,"
+                 "spin_error_percent,energy_error_percent");
+    const IntegratorCosts costs = measureIntegratorCosts();
+    writeCollision(file, collisions::linear(), costs, options);
+    writeCollision(file, collisions::hertz(), costs, options);
+    writeCollision(file, collisions::oblique(), costs, options);
+    writeCollision(file, collisions::wet(), costs, options);
+    file.close();
+}
+
+}  // namespace pendular

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "Kernel/Input/TextFile.h"
+#include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Output/PolyData.h"
+#include "Tools/Snapshot/Colours.h"
+
+namespace pendular::snapshot {
+
+/// What a picture is made of, at one time.
+struct Frame {
+    PolyData grains, contacts, walls;
+};
+
+inline PolyData readIfThere(const std::filesystem::path& path) {
+    return std::filesystem::exists(path) ? readPolyData(path) : PolyData{};
+}
+
+/// NAME-particles-STEP.vtp, and the files of contacts and walls that go with it, if there are any.
+inline Frame readFrame(const std::filesystem::path& particles) {
+    const auto fileOf = [&](std::string_view kind) {
+        constexpr std::string_view own = "-particles-";
+        std::string name = particles.filename().string();
+        const std::size_t at = name.rfind(own);
+        if (at == name.npos) return std::filesystem::path();
+        return particles.parent_path() / name.replace(at, own.size(), fmt::format("-{}-", kind));
+    };
+    return {readPolyData(particles), readIfThere(fileOf("contacts")), readIfThere(fileOf("walls"))};
+}
+
+/// A table with the columns radius_m, x_m, y_m and z_m, as a run that stops leaves it; its other columns are
+/// fields.
+inline Frame readTable(const std::filesystem::path& path) {
+    const InputFile file = loadInputFile("table of grains", path);
+    std::istringstream lines(file.text);
+    std::vector<std::string> names;
+    std::map<std::string, std::vector<double>> columns;
+    std::size_t lineNumber = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++lineNumber;
+        if (line.empty() || line[0] == '#') continue;
+        std::istringstream cells(line);
+        const bool isHeader = names.empty();
+        std::size_t k = 0;
+        for (std::string cell; std::getline(cells, cell, ','); ++k) {
+            double value = 0;
+            if (isHeader) names.push_back(cell);
+            else if (k >= names.size() || !parseNumber(cell, value))
+                file.refuse("line", lineNumber, fmt::format("'{}' is no number of a column", shown(cell)));
+            else columns[names[k]].push_back(value);
+        }
+        if (k != names.size()) file.refuse("line", lineNumber, "a number is missing");
+    }
+    Frame frame;
+    for (const char* needed : {"radius_m", "x_m", "y_m", "z_m"})
+        if (columns[needed].empty()) file.refuse(fmt::format("has no column {} with numbers", needed));
+    for (std::size_t k = 0; k < columns["x_m"].size(); ++k)
+        frame.grains.points.push_back({columns["x_m"][k], columns["y_m"][k], columns["z_m"][k]});
+    for (const std::string& name : names) frame.grains.pointFields.push_back({name, 1, columns[name]});
+    return frame;
+}
+
+/// The files of particles that are meant by a file: those of a series, in order, or the one.
+inline std::vector<std::filesystem::path> framesOf(const std::filesystem::path& path) {
+    if (path.extension() != ".pvd") return {path};
+    std::vector<std::filesystem::path> found;
+    for (const ParaViewEntry& entry : readParaViewSeries(path))
+        if (entry.kind == "particles") found.push_back(entry.file);
+    if (found.empty())
+        throw InputError(fmt::format("The ParaView series {} has no particles.", path.string()));
+    return found;
+}
+
+inline Frame readAny(const std::filesystem::path& path) {
+    return path.extension() == ".csv" ? readTable(path) : readFrame(path);
+}
+
+/// A number of each point or cell: of a vector its length, or a part as in "velocity_m_per_s.z".
+struct Scalar {
+    std::string name;
+    std::vector<double> values;
+    bool areNames = false;  // few whole numbers, which tell kinds apart
+};
+
+/// Throws InputError if there is no field of this name.
+inline Scalar scalarOf(const std::vector<PolyDataField>& fields, const std::string& wanted) {
+    const std::size_t dot = wanted.rfind('.');
+    const std::string name = wanted.substr(0, dot);
+    const auto part =
+        dot == wanted.npos ? std::string_view::npos : std::string_view("xyz").find(wanted.substr(dot + 1));
+    std::string known;
+    for (const PolyDataField& field : fields) {
+        known += (known.empty() ? "" : ", ") + field.name;
+        if (field.name != name || (dot != wanted.npos && part >= field.components)) continue;
+        Scalar scalar{wanted, {}, false};
+        for (std::size_t k = 0; k < field.size(); k += field.components) {
+            double square = 0;
+            for (std::size_t c = 0; c < field.components; ++c) square += field.at(k + c) * field.at(k + c);
+            scalar.values.push_back(dot != wanted.npos      ? field.at(k + part)
+                                    : field.components == 1 ? field.at(k)
+                                                            : std::sqrt(square));
+        }
+        const std::set<double> different(scalar.values.begin(), scalar.values.end());
+        scalar.areNames =
+            different.size() <= namedColours.size() &&
+            (field.name == "species" || std::holds_alternative<std::vector<std::int32_t>>(field.numbers));
+        return scalar;
+    }
+    throw InputError(fmt::format("snapshot: there is no field '{}'; there are {}.", wanted, known));
+}
+
+}  // namespace pendular::snapshot

@@ -1,0 +1,153 @@
+/// Advises which liquid bridge law to take: the cheapest one that is accurate enough for the bridges of a
+/// scene.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <map>
+#include <numbers>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/Species/BridgeChoice.h"
+#include "Tools/AccuracyVersusCost/BridgeTiming.h"
+
+using namespace pendular;
+
+namespace {
+
+constexpr std::string_view reference = LiquidBridgeBagheri::name;  // of costs
+
+struct Options {
+    double smallestRadius = unset, largestRadius = unset, smallestVolume = unset, largestVolume = unset;
+    double contactAngle = 0, tolerance = 5, mostCost = infinity, stepsPerList = usualStepsPerList;
+    bool walls = false, all = false;
+    std::size_t count = 300;
+    std::uint64_t seed = 1;
+    int runs = 200;
+};
+
+/// The largest value is the smallest one where it is not given.
+Range rangeOf(std::string_view what, std::string_view unit, double smallest, double largest) {
+    checkValue("choose-bridge-model", fmt::format("smallest-{}", what), smallest, unit, positive);
+    if (!isSet(largest)) return {smallest, smallest};
+    checkValue("choose-bridge-model", fmt::format("largest-{}", what), largest, unit,
+               {smallest, infinity, true, false});
+    return {smallest, largest};
+}
+
+BridgeRange bridgesOf(const Options& o) {
+    checkValue("choose-bridge-model", "contact-angle-deg", o.contactAngle, "degrees", fromZeroTo(180));
+    return {.radius = rangeOf("radius", "m", o.smallestRadius, o.largestRadius),
+            .volume = rangeOf("volume", "m^3", o.smallestVolume, o.largestVolume),
+            .contactAngle = o.contactAngle * std::numbers::pi / 180,
+            .walls = o.walls};
+}
+
+/// Nanoseconds of a bridge and a step, by law.
+std::map<std::string_view, double> measuredCosts(const Options& o, bool oneSize) {
+    std::map<std::string_view, double> costs;
+    for (const BridgeCost& cost : measureBridgeCosts(o.runs))
+        costs[cost.law] = BridgeLawCost{cost.force, cost.prepare}.perStep(oneSize, o.stepsPerList);
+    return costs;
+}
+
+std::string inWords(const BridgeChoice& choice, double referenceCost) {
+    const BridgeErrors& of = choice.errors;
+    return fmt::format(
+        "{}: {:.3g} % from the exact bridge (force {:.3g} %, at most {:.3g} %; work up to the rupture {:.3g} "
+        "%), "
+        "{:.2f} ns a bridge and step, {:.2f} times {}",
+        choice.law, 100 * choice.error(), 100 * of.ofForce.percentile95, 100 * of.ofForce.largest,
+        100 * of.ofRuptureWork.percentile95, choice.cost, choice.cost / referenceCost, reference);
+}
+
+void printAll(const std::vector<BridgeChoice>& choices, double referenceCost) {
+    fmt::print(
+        "law,error_percent,force_error_percentile95_percent,force_error_largest_percent,"
+        "rupture_work_error_percentile95_percent,rupture_distance_error_percentile95_percent,cost_ns,cost_"
+        "over_{},"
+        "refused_bridges,bridges,reason\n",
+        reference);
+    for (const BridgeChoice& choice : choices) {
+        const BridgeErrors& of = choice.errors;
+        fmt::print("{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{},{},\"{}\"\n", choice.law,
+                   100 * choice.error(), 100 * of.ofForce.percentile95, 100 * of.ofForce.largest,
+                   100 * of.ofRuptureWork.percentile95, 100 * of.ofRuptureDistance.percentile95, choice.cost,
+                   choice.cost / referenceCost, of.refused, of.bridges, choice.objection.value_or(""));
+    }
+}
+
+void printAdvice(const BridgeAdvice& advice, const Options& o, double referenceCost) {
+    const std::string costs = o.mostCost < infinity
+                                  ? fmt::format(" at {:g} times the cost of {}", o.mostCost, reference)
+                                  : std::string();
+    if (!advice.best)
+        throw InputError(fmt::format(
+            "choose-bridge-model: no law serves these bridges{}; --all gives the reasons.", costs));
+    if (advice.adequate) fmt::print("{}\n", inWords(*advice.adequate, referenceCost));
+    else
+        fmt::print("no law is within {:g} %{}; the best is {}\n", o.tolerance, costs,
+                   inWords(*advice.best, referenceCost));
+    if (advice.better) fmt::print("next better: {}\n", inWords(*advice.better, referenceCost));
+    else fmt::print("none is better\n");
+}
+
+int run(const Options& o) {
+    const std::string_view program = "choose-bridge-model";
+    checkValue(program, "tolerance", o.tolerance, "%", positive);
+    checkValue(program, "cost-at-most", o.mostCost, "", {0, infinity, false, true});
+    checkValue(program, "steps-per-list", o.stepsPerList, "", {1, 1e9});
+    checkValue(program, "count", static_cast<double>(o.count), "", {20, 1e6});
+    checkValue(program, "runs", o.runs, "", {1, 1e6});
+    const BridgeRange range = bridgesOf(o);
+    const auto exact = solveExactly(range.draw(o.count, o.seed));
+    if (exact.empty())
+        throw InputError(
+            "choose-bridge-model: the exact solver finds no stable bridge of these sizes and volumes.");
+    if (exact.size() < o.count)
+        fmt::print("{} of {} bridges have no exact solution and are left out\n", o.count - exact.size(),
+                   o.count);
+    const auto costs = measuredCosts(o, range.radius.lowest == range.radius.highest);
+    const double referenceCost = costs.at(reference);
+    const auto choices = bridgeChoices(exact, [&](std::string_view law) { return costs.at(law); });
+    if (o.all) printAll(choices, referenceCost);
+    printAdvice(advise(choices, 0.01 * o.tolerance, o.mostCost * referenceCost), o, referenceCost);
+    return 0;
+}
+
+void describe(CLI::App& app, Options& o) {
+    app.add_option("--smallest-radius", o.smallestRadius, "of the grains, m");
+    app.add_option("--largest-radius", o.largestRadius,
+                   "of the grains, m; if not given, all are of one size");
+    app.add_option("--smallest-volume", o.smallestVolume, "of a bridge, m^3 (10 nl = 1e-11)");
+    app.add_option("--largest-volume", o.largestVolume, "of a bridge, m^3; if not given, all are alike");
+    app.option_defaults()->always_capture_default();
+    app.add_option("--contact-angle-deg", o.contactAngle, "contact angle, degrees");
+    app.add_flag("--walls", o.walls, "there are bridges between grains and walls");
+    app.add_option(
+        "--tolerance", o.tolerance,
+        "error, %, that 95 % of the forces up to 0.95 of the rupture distance must keep to, and 95 % of "
+        "the works up to the rupture");
+    app.add_option("--cost-at-most", o.mostCost,
+                   fmt::format("of a bridge and step, in those of {}", reference));
+    app.add_option("--steps-per-list", o.stepsPerList,
+                   "steps from one list of contacts to the next, at which bridges are prepared anew");
+    app.add_flag("--all", o.all, "a table of all laws, as CSV, before the advice");
+    app.add_option("--count", o.count, "random bridges");
+    app.add_option("--seed", o.seed, "of the random bridges");
+    app.add_option("--runs", o.runs, "measurements of time, of which the fastest counts");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "The cheapest liquid bridge law that is accurate enough, its error against the exact solution and "
+        "its cost "
+        "on this machine, and the next better one.");
+    Options options;
+    describe(app, options);
+    CLI11_PARSE(app, argc, argv);
+    return runProgram([&] { return run(options); });
+}
