@@ -1,6 +1,7 @@
 // The drivers as a user runs them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,8 @@ const std::string hopper = drivers + "/HopperDischarge/HopperDischarge ";
 /// A folder that lives as long as the test.
 struct Folder {
     explicit Folder(const std::string& name)
-        : path(std::filesystem::temp_directory_path() / ("pendular-" + name)) {}
+        : path(std::filesystem::temp_directory_path() /
+               ("pendular-" + name + "-" + std::to_string(getpid()))) {}
     ~Folder() { std::filesystem::remove_all(path); }
     [[nodiscard]] std::string option() const { return "--output " + path.string(); }
     std::filesystem::path path;
