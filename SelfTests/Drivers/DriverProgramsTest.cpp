@@ -158,13 +158,15 @@ TEST(HopperDischarge, writesCurvesAndFlows) {
     for (const auto& row : rowsOf(folder.path / "flow.csv")) EXPECT_NEAR(row[3] / row[1], 1, 1e-9);
 }
 
-/// Every file of two folders is the same.
+/// Two folders have the same files, with the same content but for summaries.
 void expectSameFiles(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(a)) {
         const auto other = b / entry.path().filename();
-        EXPECT_TRUE(contentOf(entry.path()) == contentOf(other)) << other;
         ++files;
+        // A summary has the times on the clock.
+        if (entry.path().filename().string().ends_with("-summary.csv")) continue;
+        EXPECT_TRUE(contentOf(entry.path()) == contentOf(other)) << other;
     }
     const auto inB = std::distance(std::filesystem::directory_iterator(b), {});
     EXPECT_EQ(static_cast<std::ptrdiff_t>(files), inB);
