@@ -7,7 +7,6 @@
 #include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/LawNames.h"
-#include "Kernel/Species/Laws.h"
 
 using namespace pendular;
 

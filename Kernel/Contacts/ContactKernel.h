@@ -190,7 +190,7 @@ private:
         static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
         auto* base = reinterpret_cast<double*>(&memory.torques[block * Pack::lanes]);
         const auto [x, y, z] = loadRecords<3>(base, 4, each.data());
-        const Pack response = Pack(0.5 * timeStep) * g.rotationResponse;
+        const Pack response = Pack(0.5 * implicitStep) * g.rotationResponse;
         const Vector<Pack> last = (Pack(1) / g.effectiveRadius) * Vector<Pack>{x, y, z};
         const Slip<Pack> turning{.velocity = g.effectiveRadius * g.spinDifference - response * last,
                                  .timeBefore = sliding.timeBefore,

@@ -32,8 +32,8 @@ TEST(FailureMap, hasABridgeInTheMiddleOfEachCell) {
     EXPECT_NEAR(bridges.back().contactAngle, std::numbers::pi * 11 / 12, 1e-14);
 }
 
-// Willett's simplified force at contact is 2 pi R gamma cos(theta); that of a small bridge (Derjaguin) tends
-// to it, and above 90 degrees both push.
+// Willett's simplified force at contact is 2 pi R gamma cos(theta), to which that of a small bridge tends
+// (Derjaguin). At 85 degrees it pulls, while the exact bridge pushes near contact.
 TEST(FailureMap, ofWillettsFormIsGoodOnlyForSmallWettingBridges) {
     const auto region = [](double volume, double degrees) {
         const auto exact = solveExactly(BridgeCase{{1, 1}, volume, degrees * std::numbers::pi / 180});
@@ -41,7 +41,8 @@ TEST(FailureMap, ofWillettsFormIsGoodOnlyForSmallWettingBridges) {
     };
     EXPECT_EQ(region(1e-8, 5), ErrorRegion::Within20Percent);
     EXPECT_EQ(region(0.1, 5), ErrorRegion::Beyond20Percent);
-    EXPECT_EQ(region(0.1, 120), ErrorRegion::WrongSign);
+    EXPECT_EQ(region(0.01, 85), ErrorRegion::WrongSign);
+    EXPECT_EQ(region(0.1, 120), ErrorRegion::Refused);
 }
 
 }  // namespace

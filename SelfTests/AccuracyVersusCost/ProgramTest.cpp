@@ -94,8 +94,8 @@ TEST(AccuracyVersusCost, mapsEveryLaw) {
 }
 
 TEST(AccuracyVersusCost, refusesInOneSentence) {
-    expectOneSentence(runTool("accuracy-versus-cost"), "either --bridges or --failure-maps");
-    expectOneSentence(runTool("accuracy-versus-cost --bridges --failure-maps"), "either");
+    expectOneSentence(runTool("accuracy-versus-cost"), "one of --bridges, --failure-maps and --time");
+    expectOneSentence(runTool("accuracy-versus-cost --bridges --failure-maps"), "one of");
     expectOneSentence(runTool("accuracy-versus-cost --bridges --count 0"), "number of bridges = 0");
     expectOneSentence(runTool("accuracy-versus-cost --bridges --runs 0"), "runs = 0");
     expectOneSentence(runTool("accuracy-versus-cost --failure-maps --angles 1"), "angles = 1");

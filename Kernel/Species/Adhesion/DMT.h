@@ -29,7 +29,7 @@ struct DMTInteraction {
 /// in contact, and F_0 / (1 + S / z_0)^2 acts outside, which is van der Waals' attraction of two surfaces
 /// that touch at the distance z_0, w = A_H / (12 pi z_0^2).
 /// Source: Derjaguin, Muller and Toporov (1975), J. Colloid Interface Sci. 53, 314; Israelachvili,
-/// Intermolecular and Surface Forces, 3rd edition, section 13.
+/// Intermolecular and Surface Forces, 3rd edition, chapter 13.
 struct DMT {
     static constexpr std::string_view name = "DMT";
     static constexpr std::string_view summary =
@@ -50,7 +50,7 @@ struct DMT {
               "Derjaguin, Muller and Toporov (1975)"},
              {"surfaceDistance", &DMT::surfaceDistance, "m", positive, Mixing::Arithmetic,
               "distance z_0 of surfaces in contact, of real ones 0.2 to 0.4 nm; the attraction ends at 9 z_0",
-              "Israelachvili, section 13"}});
+              "Israelachvili, chapter 13"}});
     }
 
     void setWorkOfAdhesion(double value) { setField(*this, &DMT::workOfAdhesion, value); }

@@ -13,7 +13,7 @@ namespace pendular {
 /// largest w_max on, w_p = lambda_p w_max, lambda_p = 1 - k1/k2, and then pulls, with at most k_c w. The
 /// constant pull of the model (f_0) is an adhesion law's: compose it with ReversibleAdhesive or DMT. Here
 /// k_c is a share of k1, where the model derives it from a surface energy.
-/// Source: Thakur, Morrissey, Sun, Chen and Ooi (2014), Granular Matter 16, 383, section 2.
+/// Source: Thakur, Morrissey, Sun, Chen and Ooi (2014), Granular Matter 16, 383.
 struct HertzianPlasticViscoelastic : HertzianContact<HertzianPlasticViscoelastic> {
     static constexpr std::string_view name = "HertzianPlasticViscoelastic";
     static constexpr std::string_view summary =
@@ -27,7 +27,7 @@ struct HertzianPlasticViscoelastic : HertzianContact<HertzianPlasticViscoelastic
 
     static constexpr auto fields() {
         using Law = HertzianPlasticViscoelastic;
-        constexpr std::string_view source = "Thakur et al. (2014), section 2";
+        constexpr std::string_view source = "Thakur et al. (2014)";
         return std::to_array<Field<Law>>(
             {modulusField(),
              {"plasticity", &Law::plasticity, "", Range{0, 1, true, false}, Mixing::Arithmetic,

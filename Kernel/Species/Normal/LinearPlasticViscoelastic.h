@@ -14,7 +14,7 @@ namespace pendular {
 /// its largest overlap d_max on, to zero force at d_0 = (1 - k1/k2) d_max, and then pulls, with at most k_c
 /// d. The slope grows with d_max, k2 = k1 + (k_p - k1) d_max / d*, up to k_p at d* = k_p / (k_p - k1) phi 2
 /// R*. A contact that was pulled open along -k_c d reloads from there. Source: Luding (2008), Granular Matter
-/// 10, 235, section 2.3, equations 6 to 11.
+/// 10, 235, adhesive elasto-plastic contacts.
 struct LinearPlasticViscoelastic {
     static constexpr std::string_view name = "LinearPlasticViscoelastic";
     static constexpr std::string_view summary =
@@ -30,7 +30,7 @@ struct LinearPlasticViscoelastic {
 
     static constexpr auto fields() {
         using Law = LinearPlasticViscoelastic;
-        constexpr std::string_view source = "Luding (2008), section 2.3";
+        constexpr std::string_view source = "Luding (2008), plastic contacts";
         return std::to_array<Field<Law>>(
             {{"loadingStiffness", &Law::loadingStiffness, "N/m", positive, Mixing::Harmonic,
               "slope k1 of the first loading", source},

@@ -65,7 +65,7 @@ JKR jkr(double work) {
     return law;
 }
 
-// Thornton and Ning (1998), Powder Technology 99, 154, equation 36: an elastic collision costs
+// Thornton and Ning (1998), Powder Technology 99, 154: an elastic collision costs
 // 7.09 (w^5 R*^4 / E*^2)^(1/3), the work of the neck from overlap 0 to its snap; its constant has three
 // digits (7.0895 by the integral of the force). The snap is seen up to a step late: at 5/9 of F_c, 5/9 F_c v
 // dt, here up to 1e-3 of the energy. The attraction sets in where the grains touch, at the first sample.

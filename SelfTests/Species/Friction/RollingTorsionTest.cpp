@@ -94,8 +94,8 @@ TYPED_TEST(RollingTorsionOnPlane, sphereRollsDownAnInclineAsInTheClosedForm) {
 }
 
 // mu_r > 2 tan(alpha): the springs hold it also where they swing to twice what the weight needs, and come to
-// rest. At most the ways that they take up then, 2 m g sin(alpha) over k_r for rolling and as much for sliding,
-// has it moved.
+// rest. At most the ways that they take up then, 2 m g sin(alpha) over k_r for rolling and as much for
+// sliding, has it moved.
 TYPED_TEST(RollingTorsionOnPlane, sphereIsHeldBelowTheAngleOfItsRollingFriction) {
     OnPlane<TypeParam> sphere(material<TypeParam>(0.7, 0), 0.3, Vec3D::Zero());
     sphere.run(0.02);
@@ -117,6 +117,18 @@ TYPED_TEST(RollingTorsionOnPlane, spinningSphereComesToRest) {
     EXPECT_LT(std::abs(sphere.motion().spin.z()), 1e-3 * spin);
     EXPECT_LT(std::hypot(sphere.motion().position.x(), sphere.motion().position.y()), 1e-12);
     EXPECT_NEAR(sphere.scene.energyLedger().tangential / kinetic, 1, 1e-3);
+}
+
+// A sphere at a wall swings against its rolling spring with omega^2 = k_r r^2 / I = 5/2 k_r / m; the limit is
+// half of 2 / omega.
+TEST(RollingTorsion, stiffSpringsLimitTheTimeStep) {
+    Linear species = material<Linear>(0.1, 0.1);
+    const double omega = std::sqrt(2.5 * 1e6 / mass);
+    species.setRollingStiffness(1e6);
+    EXPECT_NEAR(stabilityLimit<Linear::Mixed>(species, {radius}, mass) * omega, 1, 1e-12);
+    species.setRollingStiffness(500);
+    species.setTorsionStiffness(1e6);
+    EXPECT_NEAR(stabilityLimit<Linear::Mixed>(species, {radius}, mass) * omega, 1, 1e-12);
 }
 
 // A coefficient without a spring would do nothing.

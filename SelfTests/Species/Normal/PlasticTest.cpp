@@ -53,8 +53,8 @@ struct Pressed {
     LargestOverlap<double> history{};
 };
 
-// Luding (2008), figure 1 and equations 6 to 11, with the numbers of each branch worked out by hand:
-// d* = 500/400 x 0.05 x 2 R* = 1.25e-4 m.
+// The path of Luding (2008) through loading, unloading and reloading, with the numbers of each branch worked
+// out by hand: d* = 500/400 x 0.05 x 2 R* = 1.25e-4 m.
 TEST(LinearPlastic, pathHasLudingsBranches) {
     const double k1 = 100, kp = 500, kc = 50, dStar = 1.25e-4;
     for (const double largest : {0.2 * dStar, 0.7 * dStar, dStar, 3 * dStar}) {

@@ -20,7 +20,7 @@ struct AdhesionRampInteraction {
 /// An attraction that is constant in contact and falls linearly to zero with the separation; it does not
 /// depend on the sizes. Law is the law derived from this, which says whether it must touch first.
 /// Source: MercuryDPM's reversible and irreversible adhesive species; Luding (2008), Granular Matter 10, 235,
-/// section 2.3, has the part within the contact.
+/// long range normal forces.
 template <class Law>
 struct AdhesionRamp {
     static constexpr bool acts = true;
@@ -31,7 +31,7 @@ struct AdhesionRamp {
     static constexpr auto fields() {
         return std::to_array<Field<AdhesionRamp>>(
             {{"adhesionForceMax", &AdhesionRamp::adhesionForceMax, "N", notNegative, Mixing::Geometric,
-              "attraction in contact; 0 is none", "Luding (2008), section 2.3"},
+              "attraction in contact; 0 is none", "Luding (2008), long range forces"},
              {"adhesionStiffness", &AdhesionRamp::adhesionStiffness, "N/m", positive, Mixing::Geometric,
               "how fast it falls with the separation; its range is adhesionForceMax / adhesionStiffness",
               "MercuryDPM, ReversibleAdhesiveSpecies"}});

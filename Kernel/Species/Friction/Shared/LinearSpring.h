@@ -8,7 +8,7 @@ namespace pendular {
 
 /// The parameters of a linear tangential spring with dashpot and slider: F = -(k_t s + g_t v), at most mu
 /// times the normal force. Law is the law derived from this.
-/// Source: Luding (2008), Granular Matter 10, 235, section 2.4; Cundall and Strack (1979).
+/// Source: Luding (2008), Granular Matter 10, 235, sliding friction; Cundall and Strack (1979).
 template <class Law>
 struct LinearSpring {
     static constexpr bool acts = true;
@@ -21,11 +21,12 @@ struct LinearSpring {
         using Spring = LinearSpring;
         return std::to_array<Field<Spring>>(
             {{"slidingStiffness", &Spring::slidingStiffness, "N/m", positive, Mixing::Harmonic,
-              "tangential spring constant k_t, often 2/7 of the normal one", "Luding (2008), section 2.4"},
+              "tangential spring constant k_t, often 2/7 of the normal one",
+              "Luding (2008), sliding friction"},
              {"slidingDissipation", &Spring::slidingDissipation, "kg/s", notNegative, Mixing::Arithmetic,
-              "tangential dashpot constant g_t", "Luding (2008), section 2.4"},
+              "tangential dashpot constant g_t", "Luding (2008), sliding friction"},
              {"slidingFrictionCoefficient", &Spring::slidingFrictionCoefficient, "", notNegative,
-              Mixing::Geometric, "dynamic coefficient mu_d of Coulomb", "Luding (2008), section 2.4"}});
+              Mixing::Geometric, "dynamic coefficient mu_d of Coulomb", "Luding (2008), sliding friction"}});
     }
 
     void setSlidingStiffness(double value) { set(&LinearSpring::slidingStiffness, value); }

@@ -26,8 +26,8 @@ struct RollingTorsionSpring {
 /// Springs, dashpots and sliders against rolling and torsion: each gives a force F = -(k s + g v), at most mu
 /// times the normal force, of the way s of R* times the relative turn, and the torque R* F on body 1, the
 /// opposite one on body 2. Law is the law derived from this.
-/// Source: Luding (2008), Granular Matter 10, 235, sections 2.5 and 2.6; the torque has the effective radius,
-/// not the effective diameter: Thornton et al. (2023), equation 4.9.
+/// Source: Luding (2008), Granular Matter 10, 235, rolling and torsion resistance; the torque has the
+/// effective radius, not the effective diameter: Thornton et al. (2023), equation 4.9.
 template <class Law>
 struct RollingTorsion {
     static constexpr bool hasContactTorque = true;
@@ -41,8 +41,8 @@ struct RollingTorsion {
 
     static constexpr auto fields() {
         using R = RollingTorsion;
-        constexpr std::string_view rolling = "Luding (2008), section 2.5",
-                                   torsion = "Luding (2008), section 2.6";
+        constexpr std::string_view rolling = "Luding (2008), rolling resistance",
+                                   torsion = "Luding (2008), torsion resistance";
         return std::to_array<Field<R>>(
             {{"rollingStiffness", &R::rollingStiffness, "N/m", notNegative, Mixing::Harmonic,
               "spring constant k_r against rolling, often 2/7 of the normal one; 0: no rolling resistance",

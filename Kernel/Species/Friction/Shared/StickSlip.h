@@ -15,7 +15,7 @@ struct StickSlipSpring : TangentialSpring<T> {
 
 /// Static and dynamic friction: a spring that sticks breaks loose at the ratio times the dynamic limit, and
 /// slides at the dynamic limit until spring and dashpot give less than that.
-/// Source: Luding (2008), Granular Matter 10, 235, section 2.4. Law is the law derived from this.
+/// Source: Luding (2008), Granular Matter 10, 235, sliding friction. Law is the law derived from this.
 template <class Law>
 struct StickSlip {
     double staticFrictionRatio = 1;  // mu_s / mu_d
@@ -24,7 +24,7 @@ struct StickSlip {
         return std::to_array<Field<StickSlip>>(
             {{"staticFrictionRatio", &StickSlip::staticFrictionRatio, "", Range{1, infinity, true, false},
               Mixing::Arithmetic, "static over dynamic coefficient of sliding friction",
-              "Luding (2008), section 2.4"}});
+              "Luding (2008), sliding friction"}});
     }
     void setStaticFrictionRatio(double value) {
         setField(static_cast<Law&>(*this), &StickSlip::staticFrictionRatio, value);
