@@ -44,14 +44,23 @@ std::vector<BridgeCase> bridgesOf(Simulation<S>& scene, std::size_t count) {
     return bridges;
 }
 
+/// Some of its forces push: a law with pinned contact lines has other forces than the others.
+inline bool anyPushes(const std::vector<ExactBridge>& bridges) {
+    return std::any_of(bridges.begin(), bridges.end(), [](const ExactBridge& bridge) {
+        return std::any_of(bridge.forces.begin(), bridge.forces.end(),
+                           [](const ExactForce& force) { return force.pinned < 0; });
+    });
+}
+
 /// One line: how far the scene's bridge law is from the exact solution for the bridges of this scene, and
 /// which law is the cheapest one within a tolerance (a share). Costs are nominal. About 0.15 s.
 template <class S>
 std::string bridgeAdvice(Simulation<S>& scene, double tolerance) {
     using Law = typename S::Adhesion;
     checkValue("bridge advice", "tolerance", tolerance, "", positive);
-    const auto exact = solveExactly(bridgesOf(scene, 100));
-    if (exact.empty()) return "Bridge advice: this scene has no liquid bridges that could be compared.";
+    const ComparedBridges bridges(bridgesOf(scene, 100));
+    if (bridges.exact.empty())
+        return "Bridge advice: this scene has no liquid bridges that could be compared.";
     const auto& grains = scene.particleHandler.store().translation;
     const bool oneSize = std::all_of(grains.begin(), grains.end(), [&](const TranslationRecord& grain) {
         return grain.radius == grains.front().radius;
@@ -60,9 +69,19 @@ std::string bridgeAdvice(Simulation<S>& scene, double tolerance) {
         const auto nominal = nominalBridgeCost(law);
         return nominal ? nominal->perStep(oneSize, usualStepsPerList) : unset;
     };
-    const auto own =
-        bridgeChoice(exact, cost(Law::name), static_cast<const Law&>(*scene.speciesHandler.getObject(0)));
-    return bridgeAdviceText(own, advise(bridgeChoices(exact, cost), tolerance), tolerance);
+    const Law& law = *scene.speciesHandler.getObject(0);
+    if constexpr (requires { law.pinned; })
+        if (law.pinned > 0 && anyPushes(bridges.exact))
+            return fmt::format(
+                "Bridge advice: {} with setPinned(true) is not compared, since bridges of this scene push "
+                "and "
+                "the other laws are of bridges that slide off the axis instead.",
+                Law::name);
+    const BridgeChoice own = bridgeChoice(bridges, cost, law);
+    auto choices = bridgeChoices(bridges, cost);
+    for (BridgeChoice& choice : choices)  // which has the default options
+        if (choice.law == own.law) choice = own;
+    return bridgeAdviceText(own, advise(choices, tolerance), tolerance);
 }
 
 }  // namespace pendular

@@ -31,6 +31,15 @@ std::vector<BridgeChoice> those(const std::vector<BridgeChoice>& choices, Condit
     return some;
 }
 
+std::string inWords(const BridgeChoice& own) {
+    if (!own.serves()) return fmt::format("{}: not for all bridges of this scene", own.law);
+    if (own.error() > 1)
+        return fmt::format("{}: 5 % of the bridges of this scene more than 100 % from the exact ones",
+                           own.law);
+    return fmt::format("{}: 95 % of the bridges of this scene within {} of the exact ones", own.law,
+                       percentText(own.error()));
+}
+
 }  // namespace
 
 std::vector<BridgeCase> BridgeRange::draw(std::size_t count, std::uint64_t seed) const {
@@ -59,10 +68,24 @@ double BridgeChoice::error() const {
     return std::max(errors.ofForce.percentile95, errors.ofRuptureWork.percentile95);
 }
 
-std::vector<BridgeChoice> bridgeChoices(const std::vector<ExactBridge>& exact,
-                                        const std::function<double(std::string_view)>& cost) {
+ComparedBridges::ComparedBridges(const std::vector<BridgeCase>& bridges) {
+    for (const BridgeCase& bridge : bridges) {
+        if (const auto solved = solveExactly(bridge)) exact.push_back(*solved);
+        else unsolved.push_back(bridge);
+    }
+}
+
+std::vector<BridgeChoice> bridgeChoices(const ComparedBridges& bridges, const CostOfLaw& cost) {
     std::vector<BridgeChoice> choices;
-    forEachBridgeLaw([&]<class Law>() { choices.push_back(bridgeChoice<Law>(exact, cost(Law::name))); });
+    forEachBridgeLaw([&]<class Law>() {
+        choices.push_back(bridgeChoice<Law>(bridges, cost));
+        if constexpr (requires(Law law) { law.setSolveOutsideTable(true); }) {
+            if (choices.back().errors.refused == 0) return;
+            Law solving;
+            solving.setSolveOutsideTable(true);
+            choices.push_back(bridgeChoice(bridges, cost, solving));
+        }
+    });
     return choices;
 }
 
@@ -82,36 +105,47 @@ BridgeAdvice advise(const std::vector<BridgeChoice>& choices, double tolerance, 
     return advice;
 }
 
+std::string percentText(double share) {
+    return share > 1 ? "more than 100 %" : fmt::format("{:.3g} %", 100 * share);
+}
+
 std::string bridgeAdviceText(const BridgeChoice& own, const BridgeAdvice& advice, double tolerance) {
     const auto other = [&](const BridgeChoice& choice) {
-        const std::string cost = isSet(own.cost)
-                                     ? fmt::format(", {:.2g} times the nominal cost", choice.cost / own.cost)
-                                     : std::string();
-        return fmt::format("{} ({:.2g} %{})", choice.law, 100 * choice.error(), cost);
+        const double ratio = choice.cost / own.cost;
+        const std::string cost = isSet(own.cost) ? fmt::format(", {} times the nominal cost",
+                                                               ratio < 10 ? fmt::format("{:.2g}", ratio)
+                                                                          : fmt::format("{:.0f}", ratio))
+                                                 : std::string();
+        return fmt::format("{} ({}{})", choice.law, percentText(choice.error()), cost);
     };
-    const std::string wanted = fmt::format("{:.2g} %", 100 * tolerance);
-    const std::string beginning =
-        own.serves() ? fmt::format("{}: 95 % of the bridges of this scene within {:.2g} % of the exact ones",
-                                   own.law, 100 * own.error())
-                     : fmt::format("{}: not for all bridges of this scene", own.law);
+    const std::string wanted = fmt::format("{:g} %", 100 * tolerance);
+    const std::string beginning = inWords(own);
+    if (!advice.best) return fmt::format("{}; no law serves them all.", beginning);
     if (!advice.adequate)
-        return advice.best ? fmt::format("{}; no law is within {}, the best is {}.", beginning, wanted,
-                                         other(*advice.best))
-                           : fmt::format("{}; no law serves them all.", beginning);
+        return fmt::format("{}; no law is within {}, {}.", beginning, wanted,
+                           advice.best->law == own.law ? "and it is the best"
+                                                       : fmt::format("the best is {}", other(*advice.best)));
     if (advice.adequate->law == own.law)
         return fmt::format("{}; it is the cheapest law within {}.", beginning, wanted);
     return fmt::format("{}; the cheapest law within {} is {}.", beginning, wanted, other(*advice.adequate));
 }
 
 std::optional<BridgeLawCost> nominalBridgeCost(std::string_view law) {
-    static const std::map<std::string_view, BridgeLawCost> costs{
-        {"LiquidBridgeWillett", {1.0, 30}},         {"LiquidBridgeBagheri", {1.0, 130}},
-        {"LiquidBridgeYoungLaplace", {1.1, 750}},   {"LiquidBridgeLianSeville", {1.0, 165}},
-        {"LiquidBridgeMikami", {1.3, 70}},          {"LiquidBridgeSoulie", {1.3, 55}},
-        {"LiquidBridgeLambert", {2.5, 27}},         {"LiquidBridgeRabinovich", {1.06, 15e3}},
-        {"LiquidBridgeWeigert", {1.06, 18e3}},      {"LiquidBridgeLian", {1.06, 65e3}},
-        {"LiquidBridgePietschRumpf", {1.06, 74e3}}, {"LiquidBridgeMegiasAlguacil", {1.06, 74e3}},
-        {"LiquidBridgeChen", {1.06, 130e3}},        {"LiquidBridgeClassicalWillett", {8, 60}}};
+    static const std::map<std::string_view, BridgeLawCost> costs{{"LiquidBridgeWillett", {1.0, 30}},
+                                                                 {"LiquidBridgeBagheri", {1.0, 130}},
+                                                                 {"LiquidBridgeYoungLaplace", {1.1, 750}},
+                                                                 {solvingLaw, {1.1, 580e3}},  // 0.3 ms
+                                                                 {"LiquidBridgeLianSeville", {1.0, 165}},
+                                                                 {"LiquidBridgeMikami", {1.3, 70}},
+                                                                 {"LiquidBridgeSoulie", {1.3, 55}},
+                                                                 {"LiquidBridgeLambert", {2.5, 27}},
+                                                                 {"LiquidBridgeRabinovich", {1.06, 15e3}},
+                                                                 {"LiquidBridgeWeigert", {1.06, 18e3}},
+                                                                 {"LiquidBridgeLian", {1.06, 65e3}},
+                                                                 {"LiquidBridgePietschRumpf", {1.06, 74e3}},
+                                                                 {"LiquidBridgeMegiasAlguacil", {1.06, 74e3}},
+                                                                 {"LiquidBridgeChen", {1.06, 130e3}},
+                                                                 {"LiquidBridgeClassicalWillett", {8, 60}}};
     const auto found = costs.find(law);
     if (found == costs.end()) return {};
     return found->second;

@@ -26,6 +26,21 @@ struct BridgeRange {
     [[nodiscard]] std::vector<BridgeCase> draw(std::size_t count, std::uint64_t seed) const;
 };
 
+/// Bridges on which laws are compared. A law must take all of them, as at set-up; errors are of those that
+/// have an exact solution.
+struct ComparedBridges {
+    std::vector<ExactBridge> exact;
+    std::vector<BridgeCase> unsolved;
+
+    explicit ComparedBridges(const std::vector<BridgeCase>& bridges);
+};
+
+/// The exact law where some bridges are outside of its table and setSolveOutsideTable(true) is called.
+inline constexpr std::string_view solvingLaw = "LiquidBridgeYoungLaplace+solveOutsideTable";
+
+/// Of a bridge and a step, in any unit, for a law of this name; for solvingLaw if all are solved.
+using CostOfLaw = std::function<double(std::string_view)>;
+
 /// A bridge law as it serves certain bridges.
 struct BridgeChoice {
     std::string_view law;
@@ -40,24 +55,43 @@ struct BridgeChoice {
     [[nodiscard]] double error() const;
 };
 
-/// @param exact the bridges; @param law with its options
+/// The share of the bridges that are outside of the law's table.
 template <class Law>
-BridgeChoice bridgeChoice(const std::vector<ExactBridge>& exact, double cost, const Law& law = {}) {
-    BridgeChoice choice{Law::name, cost, {}, {}};
+double shareOutsideTable(const ComparedBridges& bridges, Law law) {
+    law.setSolveOutsideTable(false);
+    const auto isOutside = [&](const BridgeCase& bridge) { return !!modelBridge(bridge, law).objection; };
+    std::size_t outside = 0;
+    for (const ExactBridge& bridge : bridges.exact) outside += isOutside(bridge.bridge);
+    for (const BridgeCase& bridge : bridges.unsolved) outside += isOutside(bridge);
+    return static_cast<double>(outside) / static_cast<double>(bridges.exact.size() + bridges.unsolved.size());
+}
+
+/// @param law with its options
+template <class Law>
+BridgeChoice bridgeChoice(const ComparedBridges& bridges, const CostOfLaw& cost, const Law& law = {}) {
+    BridgeChoice choice{Law::name, cost(Law::name), {}, {}};
+    if constexpr (requires { law.solveOutsideTable; })
+        if (const double share = law.solveOutsideTable > 0 ? shareOutsideTable(bridges, law) : 0; share > 0) {
+            choice.law = solvingLaw;
+            choice.cost += share * (cost(solvingLaw) - choice.cost);
+        }
     std::vector<BridgeDeviation> deviations;
-    for (const ExactBridge& bridge : exact) {
-        const ModelBridge model = modelBridge(bridge.bridge, law);
+    const auto ask = [&](const BridgeCase& bridge) {
+        ModelBridge model = modelBridge(bridge, law);
         if (model.objection && !choice.objection) choice.objection = model.objection;
-        deviations.push_back(deviation(model, bridge));
-    }
+        return model;
+    };
+    for (const ExactBridge& bridge : bridges.exact)
+        deviations.push_back(deviation(ask(bridge.bridge), bridge));
+    for (const BridgeCase& bridge : bridges.unsolved)
+        if (ask(bridge).objection) deviations.emplace_back().refused = true;
     choice.errors = errorsOf(deviations);
     return choice;
 }
 
-/// All bridge laws of the kernel.
-/// @param exact the bridges; @param cost of a bridge and a step for a law of this name
-std::vector<BridgeChoice> bridgeChoices(const std::vector<ExactBridge>& exact,
-                                        const std::function<double(std::string_view)>& cost);
+/// All bridge laws of the kernel, with their default options; and solvingLaw where there are bridges outside
+/// of the table.
+std::vector<BridgeChoice> bridgeChoices(const ComparedBridges& bridges, const CostOfLaw& cost);
 
 /// The answers that there are, of the laws that serve.
 struct BridgeAdvice {
@@ -72,6 +106,9 @@ inline constexpr double equalCosts = 0.03;
 
 /// @param tolerance of error(), a share; @param mostCost that `adequate` and `best` may have
 BridgeAdvice advise(const std::vector<BridgeChoice>& choices, double tolerance, double mostCost = infinity);
+
+/// An error in words, with its unit: a share above 1 says no more than that.
+std::string percentText(double share);
 
 /// One line for the user of a law: how far it is from the exact solution, and which one to take.
 std::string bridgeAdviceText(const BridgeChoice& own, const BridgeAdvice& advice, double tolerance);

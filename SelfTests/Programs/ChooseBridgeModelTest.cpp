@@ -16,7 +16,10 @@ using support::contains;
 using support::expectOneSentence;
 using support::run;
 
-const std::string choose = std::string(folders::tools) + "/choose-bridge-model --runs 1 --count 40 ";
+const std::string every = std::string(folders::tools) + "/choose-bridge-model --runs 1 ";
+const std::string choose = every + "--count 40 ";
+const std::string largeBridges =
+    "--smallest-radius 1e-4 --largest-radius 1e-3 --smallest-volume 1e-12 --largest-volume 1e-10 ";
 const std::string bridges = "--smallest-radius 0.5e-3 --largest-radius 1e-3 --smallest-volume 1e-12 --walls ";
 
 TEST(ChooseBridgeModel, listsAllLawsAndAnswersWithTheOnlyAccurateOne) {
@@ -48,6 +51,21 @@ TEST(ChooseBridgeModel, saysWhichIsBestAndWhichIsBetterButDearer) {
     EXPECT_TRUE(contains(result.output, "\nnext better: LiquidBridge"));
 }
 
+// Set-up refuses Bagheri for V* = 100, which the exact solver does not find.
+TEST(ChooseBridgeModel, asksLawsForBridgesWithoutExactSolutionToo) {
+    const auto result = run(every + largeBridges + "--tolerance 40");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_TRUE(contains(result.output, "1 of 300 bridges have no exact solution"));
+    EXPECT_TRUE(contains(result.output, "no law is within 40 %"));
+    EXPECT_FALSE(contains(result.output, "LiquidBridgeBagheri:"));
+}
+
+TEST(ChooseBridgeModel, solvesOutsideOfTheTable) {
+    const auto result = run(choose + "--smallest-radius 1e-3 --smallest-volume 6e-10 --tolerance 1");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.output.substr(0, result.output.find(':')), "LiquidBridgeYoungLaplace+solveOutsideTable");
+}
+
 TEST(ChooseBridgeModel, refusesInOneSentence) {
     expectOneSentence(run(choose), "smallest-radius is not set");
     expectOneSentence(run(choose + "--smallest-radius 1e-3"), "smallest-volume is not set");
@@ -55,9 +73,12 @@ TEST(ChooseBridgeModel, refusesInOneSentence) {
     expectOneSentence(run(choose + bridges + "--contact-angle-deg 181"), "contact-angle-deg = 181 degrees");
     expectOneSentence(run(choose + bridges + "--tolerance 0"), "tolerance = 0 %");
     expectOneSentence(run(choose + bridges + "--cost-at-most -1"), "cost-at-most = -1");
-    // Above 90 degrees only the exact law serves, and this volume is below its table.
-    expectOneSentence(run(choose + "--contact-angle-deg 120 --smallest-radius 1e-3 --smallest-volume 1e-17"),
-                      "no law serves");
+    expectOneSentence(run(every + bridges + "--count -3"), "count = -3 is");
+    expectOneSentence(run(choose + bridges + "--seed -3"), "seed = -3 is");
+    // Above 90 degrees only the exact law serves, and V* = 100 has no stable bridge.
+    const auto none = run(choose + largeBridges + "--contact-angle-deg 120");
+    EXPECT_NE(none.exitCode, 0);
+    EXPECT_TRUE(contains(none.output, "no law serves"));
     EXPECT_NE(run(choose + "--radius 1").exitCode, 0);
     const auto help = run(choose + "--help");
     EXPECT_EQ(help.exitCode, 0);

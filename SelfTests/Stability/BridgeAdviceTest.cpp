@@ -4,6 +4,7 @@
 
 #include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Species/Adhesion/LiquidBridgeYoungLaplace.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
@@ -66,8 +67,44 @@ TEST(BridgeAdvice, isOneLineWithLawsAndErrors) {
     EXPECT_TRUE(support::isOneSentence(text));
     EXPECT_TRUE(support::contains(text, "LiquidBridgeWillett: "));
     EXPECT_TRUE(support::contains(text, "the cheapest law within 1 % is LiquidBridgeYoungLaplace"));
-    EXPECT_TRUE(support::contains(bridgeAdvice(scene, 10), "it is the cheapest law within 1e+03 %"));
+    EXPECT_TRUE(support::contains(bridgeAdvice(scene, 10), "it is the cheapest law within 1000 %"));
     EXPECT_TRUE(support::isOneSentence(support::refusal([&] { static_cast<void>(bridgeAdvice(scene, 0)); })));
+}
+
+using ExactlyWet = Species<LinearViscoelastic, NoFriction, LiquidBridgeYoungLaplace>;
+
+/// @param law with its options
+std::string adviceFor(LiquidBridgeYoungLaplace law, double tolerance) {
+    ExactlyWet species;
+    static_cast<LiquidBridgeYoungLaplace&>(species) = law;
+    species.setDensity(2500);
+    species.setStiffness(100);
+    species.setDissipation(1e-3);
+    species.setSurfaceTension(0.07);
+    FewGrains<ExactlyWet> scene(species, threeGrains, 1e-6);
+    const std::string text = bridgeAdvice(scene, tolerance);
+    EXPECT_TRUE(support::isOneSentence(text));
+    return text;
+}
+
+// It is not compared with itself under other options.
+TEST(BridgeAdvice, isOfTheLawWithItsOptions) {
+    LiquidBridgeYoungLaplace law;
+    law.setContactAngle(0.4);
+    law.setLiquidBridgeVolume(volume);
+    EXPECT_TRUE(support::contains(adviceFor(law, 1e-6), "no law is within 0.0001 %, and it is the best"));
+    law.setPinned(true);  // at small angles no bridge pushes
+    EXPECT_TRUE(support::contains(adviceFor(law, 0.01), "it is the cheapest law within 1 %"));
+    law.setContactAngle(2);
+    EXPECT_TRUE(support::contains(adviceFor(law, 0.01), "is not compared"));
+    law.setPinned(false);
+    EXPECT_FALSE(support::contains(adviceFor(law, 0.01), "is not compared"));
+    law.setLiquidBridgeVolume(1e-9);  // outside of the table, for small grains
+    law.setContactAngle(0.4);
+    EXPECT_TRUE(support::contains(adviceFor(law, 0.01),
+                                  "the cheapest law within 1 % is LiquidBridgeYoungLaplace+solve"));
+    law.setSolveOutsideTable(true);
+    EXPECT_TRUE(support::contains(adviceFor(law, 0.01), "it is the cheapest law within 1 %"));
 }
 
 TEST(BridgeAdvice, saysThatThereAreNoBridges) {

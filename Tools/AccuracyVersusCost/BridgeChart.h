@@ -16,8 +16,8 @@ namespace pendular {
 
 struct BridgeChartOptions {
     std::filesystem::path file = "bridges.csv";
-    std::size_t bridges = 1000;  // of each population
-    std::uint64_t seed = 1;
+    std::int64_t bridges = 1000;  // of each population
+    std::int64_t seed = 1;
     int runs = 1000;
 };
 
@@ -50,10 +50,10 @@ inline std::string bridgeChartHeader() {
 /// The rows of one population; a law is on the front by the 95th percentile of its force's error.
 inline void writePopulation(CsvFile& file, const NamedPopulation& population,
                             const std::vector<BridgeCost>& costs, const BridgeChartOptions& options) {
-    const auto exact = solveExactly(population.bridges.draw(options.bridges, options.seed));
+    const auto count = static_cast<std::size_t>(options.bridges);
+    const auto exact = solveExactly(population.bridges.draw(count, static_cast<std::uint64_t>(options.seed)));
     file.comment(fmt::format("population {}: {}; {} bridges, {} without exact solution left out",
-                             population.name, population.text, options.bridges,
-                             options.bridges - exact.size()));
+                             population.name, population.text, count, count - exact.size()));
     std::vector<BridgeErrors> errors;
     std::vector<CostAndError> byForce, byPrepare;
     forEachBridgeLaw([&]<class Law>() {
@@ -80,6 +80,7 @@ inline void writePopulation(CsvFile& file, const NamedPopulation& population,
 inline void chartBridges(const BridgeChartOptions& options) {
     checkValue("accuracy-versus-cost", "number of bridges", static_cast<double>(options.bridges), "",
                {1, 1e7});
+    checkValue("accuracy-versus-cost", "seed", static_cast<double>(options.seed), "", {0, 1e18});
     checkValue("accuracy-versus-cost", "runs", options.runs, "", {1, 1e7});
     CsvFile file(options.file, bridgeChartHeader());
     const auto costs = measureBridgeCosts(options.runs);

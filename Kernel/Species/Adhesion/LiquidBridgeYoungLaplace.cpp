@@ -48,7 +48,7 @@ LiquidBridgeYoungLaplace::Interaction<double> LiquidBridgeYoungLaplace::prepare(
     const double leastForce = pinned > 0 ? -100 * forceScale : 0;
     if (solveOutsideTable > 0 && !BridgeTable::contains(bridge)) {
         const auto solved = solveCurve(bridge, radius, forceScale);
-        if (!solved) throw RunError(sentence(bodies, noBridge));
+        if (!solved) throw RunError(sentence(bodies, noBridge) + ".");
         return {solved->curve, leastForce, solved->ruptureDistance};
     }
     return {bridgesAt(contactAngle).curve(clamped(bridge), radius, forceScale), leastForce, range(bodies)};
@@ -68,19 +68,19 @@ double LiquidBridgeYoungLaplace::lateralArea(const Bodies& bodies, double separa
 std::optional<std::string> LiquidBridgeYoungLaplace::objection(const Bodies& bodies) const {
     if (liquidBridgeVolume == 0 || BridgeTable::contains(shape(bodies))) return std::nullopt;
     if (!(solveOutsideTable > 0))
-        return sentence(bodies, fmt::format("the table holds V* from {} to {}, so take another volume or "
-                                            "setSolveOutsideTable(true),",
-                                            BridgeTable::leastVolume, BridgeTable::mostVolume));
+        return sentence(bodies, fmt::format("the table holds V* from {} to {}, and so no bridge",
+                                            BridgeTable::leastVolume, BridgeTable::mostVolume)) +
+               ", so take another volume or setSolveOutsideTable(true).";
     const BridgeScales bridge = scales(bodies);
     if (solveCurve(shape(bodies), bridge.radius, bridge.forceScale)) return std::nullopt;
-    return sentence(bodies, noBridge);
+    return sentence(bodies, noBridge) + ".";
 }
 
 std::string LiquidBridgeYoungLaplace::sentence(const Bodies& bodies, std::string_view what) const {
     const BridgeScales bridge = scales(bodies);
     return fmt::format(
         "{}: {} for contactAngle = {:.6g} rad and V* = liquidBridgeVolume/R^3 = {:.6g} (liquidBridgeVolume = "
-        "{:.6g} m^3, R = {:.6g} m).",
+        "{:.6g} m^3, R = {:.6g} m)",
         name, what, contactAngle, bridge.volume, liquidBridgeVolume, bridge.radius);
 }
 

@@ -82,8 +82,9 @@ TEST(YoungLaplace, objectsToVolumesOutsideOfTheTable) {
         const auto objection = law.objection(bodies);
         ASSERT_TRUE(objection);
         EXPECT_TRUE(support::isOneSentence(*objection));
-        for (const auto part : {"LiquidBridgeYoungLaplace", "contactAngle = 0.5 rad", "liquidBridgeVolume",
-                                "m^3", "1e-07 to 0.5", "setSolveOutsideTable(true)"})
+        for (const auto part :
+             {"LiquidBridgeYoungLaplace", "contactAngle = 0.5 rad", "liquidBridgeVolume", "m^3",
+              "1e-07 to 0.5", "), so take another volume or setSolveOutsideTable(true)."})
             EXPECT_TRUE(support::contains(*objection, part));
         law.setSolveOutsideTable(true);
         EXPECT_FALSE(law.objection(bodies));

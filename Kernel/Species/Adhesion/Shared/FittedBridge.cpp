@@ -22,7 +22,9 @@ std::optional<std::string> objectionToFit(std::string_view law, const PublishedB
             "{:.6g} m), so take another bridge law.",
             law, what, contactAngle, scales.volume, scales.radius);
     };
-    if (!(scales.volume >= leastFittedVolume && scales.volume <= mostFittedVolume))
+    constexpr double rounding = 1e-12;  // of V / R^3, so that the ends of the range are in it
+    if (!(scales.volume >= leastFittedVolume * (1 - rounding) &&
+          scales.volume <= mostFittedVolume * (1 + rounding)))
         return sentence(
             fmt::format("V* must be from {} to {}, which it is not", leastFittedVolume, mostFittedVolume));
     if (!(bridge.ruptureDistance > 0))
