@@ -24,7 +24,7 @@ result() {  # name of the result, program, options...
     "$build/Tools/$program" "$@" --output "$work/$name.csv"
     {
         "$tools/describe-machine.sh"
-        echo "# command: Tools/$program $*"
+        echo "# command: OMP_NUM_THREADS=1 Tools/$program $*; one thread"
         cat "$work/$name.csv"
     } > "$tools/Results/$name.csv"
 }

@@ -22,7 +22,7 @@ namespace pendular {
 struct SceneComparisonOptions {
     std::filesystem::path file = "bridge-scenes.csv";
     scenes::ShearCellOptions cell;
-    std::size_t bedGrains = 10000;
+    std::int64_t bedGrains = 10000;
     int rounds = 9, stepsOfRound = 100;  // of the bed
     int seeds = 3;                       // of the sheared cell
     std::filesystem::path states;        // folder of settled beds; empty: they are not kept
@@ -82,7 +82,8 @@ bool isRefused(Scene& scene, LawInScenes& result) {
 
 /// Times the laws in turn in a settled bed that is wetted, with bridges where grains touch.
 inline void timeBeds(std::vector<LawInScenes>& laws, const SceneComparisonOptions& options) {
-    const scenes::Settled bed = scenes::settledBed(options.bedGrains, options.states, 1);
+    const scenes::Settled bed =
+        scenes::settledBed(static_cast<std::size_t>(options.bedGrains), options.states, 1);
     std::vector<std::function<void()>> stepThrough;  // empty: the law refuses the bed
     forEachSceneLaw([&]<class Law>() {
         using S = SceneSpecies<Law>;
