@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "Drivers/Shared/BenchmarkScenes.h"
 #include "Kernel/Simulation/StateHash.h"
+#include "SelfTests/Scenes/MovingBenchmark.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
 namespace pendular {
@@ -9,14 +9,10 @@ namespace {
 
 using scenes::BenchmarkChoice;
 
-/// The hash when the contacts have been listed anew a few times. The grains are given speeds first, so that
-/// this is soon: along x, in turn to and fro.
+/// The hash when the contacts have been listed anew a few times.
 std::uint64_t hashWith(const BenchmarkChoice& choice, int threads) {
     std::uint64_t hash = 0;
-    scenes::withBenchmarkScene(choice, 1, [&](auto& scene) {
-        scene.setNumberOfThreads(threads);
-        for (std::size_t k = 0; k < scene.particleHandler.getSize(); ++k)
-            scene.particleHandler.getObject(k).setVelocity({k % 2 == 0 ? 0.5 : -0.5, 0, 0});
+    scenes::withMovingBenchmark(choice, threads, [&](auto& scene) {
         scene.initialise();
         while (scene.contacts().rebuildCount() < 4) scene.step();
         hash = stateHash(scene.particleHandler.store());
@@ -33,20 +29,11 @@ class HeavyBenchmarkScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(HeavyBenchmarkScene, hasTheSameBitsForAnyNumberOfThreads) {
     const support::TemporaryFolder folder;
-    BenchmarkChoice choice;
-    choice.scene = GetParam();
-    choice.particles = 400;
-    choice.states = folder.path();
+    const BenchmarkChoice choice = scenes::smallBenchmark(GetParam(), folder.path());
     const std::uint64_t one = hashWith(choice, 1);
     for (const int threads : {2, 3, 8}) EXPECT_EQ(hashWith(choice, threads), one) << threads << " threads";
 }
-INSTANTIATE_TEST_SUITE_P(All, HeavyBenchmarkScene,
-                         testing::Values("bed", "wet-bed", "drum", "penetration", "gas", "polydisperse"),
-                         [](const auto& info) {
-                             std::string name = info.param;
-                             std::erase(name, '-');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, HeavyBenchmarkScene, scenes::benchmarkScenes(), scenes::benchmarkTestName);
 
 }  // namespace
 }  // namespace pendular

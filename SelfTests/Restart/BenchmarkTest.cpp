@@ -1,25 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "Drivers/Shared/BenchmarkScenes.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Scenes/MovingBenchmark.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
 namespace pendular {
 namespace {
-
-using scenes::BenchmarkChoice;
-
-/// A scene of the benchmark, given speeds so that contacts are soon listed anew: along x, in turn to and fro.
-template <class Function>
-void withMovingScene(const BenchmarkChoice& choice, int threads, Function&& function) {
-    scenes::withBenchmarkScene(choice, 1, [&](auto& scene) {
-        scene.setNumberOfThreads(threads);
-        for (std::size_t k = 0; k < scene.particleHandler.getSize(); ++k)
-            scene.particleHandler.getObject(k).setVelocity({k % 2 == 0 ? 0.5 : -0.5, 0, 0});
-        function(scene);
-    });
-}
 
 class HeavyRestartedBenchmark : public testing::TestWithParam<const char*> {};
 
@@ -27,15 +14,12 @@ class HeavyRestartedBenchmark : public testing::TestWithParam<const char*> {};
 /// rebuilds of the list of contacts before and after it.
 TEST_P(HeavyRestartedBenchmark, isInTheSameState) {
     const support::TemporaryFolder folder;
-    BenchmarkChoice choice;
-    choice.scene = GetParam();
-    choice.particles = 400;
-    choice.states = folder.path();
+    const auto choice = scenes::smallBenchmark(GetParam(), folder.path());
     const auto half = folder.path() / "half.h5", whole = folder.path() / "whole.h5",
                restarted = folder.path() / "restarted.h5";
     std::size_t steps = 0;
     std::uint64_t hash = 0;
-    withMovingScene(choice, 1, [&](auto& scene) {
+    scenes::withMovingBenchmark(choice, 1, [&](auto& scene) {
         scene.initialise();
         while (scene.contacts().rebuildCount() < 3) scene.step();
         const std::size_t middle = scene.getNumberOfTimeSteps();
@@ -45,7 +29,7 @@ TEST_P(HeavyRestartedBenchmark, isInTheSameState) {
         hash = stateHash(scene.particleHandler.store());
     });
     for (const int threads : {1, 3})
-        withMovingScene(choice, threads, [&](auto& scene) {
+        scenes::withMovingBenchmark(choice, threads, [&](auto& scene) {
             scene.restartFrom(half);
             scene.initialise();
             for (std::size_t k = 0; k < steps; ++k) scene.step();
@@ -54,13 +38,7 @@ TEST_P(HeavyRestartedBenchmark, isInTheSameState) {
             support::expectSameState(whole, restarted);
         });
 }
-INSTANTIATE_TEST_SUITE_P(All, HeavyRestartedBenchmark,
-                         testing::Values("bed", "wet-bed", "drum", "penetration", "gas", "polydisperse"),
-                         [](const auto& info) {
-                             std::string name = info.param;
-                             std::erase(name, '-');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, HeavyRestartedBenchmark, scenes::benchmarkScenes(), scenes::benchmarkTestName);
 
 }  // namespace
 }  // namespace pendular
