@@ -1,10 +1,14 @@
 /// Accuracy against cost, and where methods fail, as tables for charts.
 
 #include <CLI/CLI.hpp>
+#include <array>
 
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/AccuracyVersusCost/BridgeChart.h"
+#include "Tools/AccuracyVersusCost/BulkChart.h"
+#include "Tools/AccuracyVersusCost/ContactMaps.h"
+#include "Tools/AccuracyVersusCost/CriticalChart.h"
 #include "Tools/AccuracyVersusCost/FailureMap.h"
 #include "Tools/AccuracyVersusCost/TimeChart.h"
 
@@ -15,34 +19,82 @@ int main(int argc, char** argv) {
     BridgeChartOptions chart;
     FailureMapOptions map;
     TimeChartOptions time;
-    bool ofBridges = false, ofFailures = false, ofTime = false;
+    BulkChartOptions bulk;
+    ContactMapOptions contacts;
+    CriticalChartOptions critical;
     std::string output;
-    app.add_flag(
-        "--bridges", ofBridges,
+    const auto addMode = [&](const char* name, const std::string& text) { return app.add_flag(name, text); };
+    CLI::Option* const ofBridges = addMode(
+        "--bridges",
         "liquid bridge laws: errors of force, rupture distance and work of rupture (%) over populations "
         "of bridges, against the time of force and preparation (ns)");
-    app.add_flag("--failure-maps", ofFailures,
-                 "liquid bridge laws: the largest error of the force (%) for each V* and contact angle");
-    app.add_flag("--time", ofTime,
-                 "integrators: errors of collisions (%) over the steps for the time of a contact, and what "
-                 "they cost");
+    CLI::Option* const ofFailures =
+        addMode("--failure-maps",
+                "liquid bridge laws: the largest error of the force (%) for each V* and contact angle");
+    CLI::Option* const ofTime =
+        addMode("--time",
+                "integrators: errors of collisions (%) over the steps for the time of a contact, and what "
+                "they cost");
+    CLI::Option* const ofBulk =
+        addMode("--bulk",
+                "dry laws and time steps: deviations (%) of bulk figures of a poured bed and a rotating drum "
+                "from those of hard Hertz-Mindlin grains, and what they cost");
+    CLI::Option* const ofContacts =
+        addMode("--contact-maps",
+                "dry laws: restitution, pull of dashpots, onset of sliding, and overlaps over the speed");
+    CLI::Option* const ofSteps = addMode(
+        "--critical-steps",
+        "each law: the largest stable time step, measured, against the stability limit that is given (%)");
     app.add_option("--output", output,
-                   "table to write; bridges.csv, failure-maps.csv or time.csv if not given");
-    app.add_option("--count", chart.bridges, "bridges of each population")->capture_default_str();
-    app.add_option("--seed", chart.seed, "of the random bridges")->capture_default_str();
-    app.add_option("--runs", chart.runs, "measurements of time, of which the fastest counts")
-        ->capture_default_str();
-    app.add_option("--volumes", map.volumes, "of a failure map, from V* = 1e-9 to 10")->capture_default_str();
-    app.add_option("--angles", map.angles, "of a failure map, from 0 to 180 degrees")->capture_default_str();
-    app.add_option("--offsets", time.offsets, "begins of a touch within a step")->capture_default_str();
+                   "table to write, or folder of --contact-maps; MODE.csv, or contact-maps, if not given");
+    // An option is refused where its mode is not asked for.
+    const auto add = [&](CLI::Option* mode, const char* name, auto& value, const char* text) {
+        return app.add_option(name, value, text)->capture_default_str()->needs(mode);
+    };
+    add(ofBridges, "--count", chart.bridges, "bridges of each population");
+    add(ofBridges, "--seed", chart.seed, "of the random bridges");
+    add(ofBridges, "--runs", chart.runs, "measurements of time, of which the fastest counts");
+    add(ofFailures, "--volumes", map.volumes, "of a failure map, from V* = 1e-9 to 10");
+    add(ofFailures, "--angles", map.angles, "of a failure map, from 0 to 180 degrees");
+    add(ofTime, "--offsets", time.offsets, "begins of a touch within a step");
+    add(ofContacts, "--map-offsets", contacts.offsets, "begins of a touch within a step");
+    add(ofBulk, "--elastic-modulus-pa", bulk.elasticModulus, "Young's modulus of the reference, Pa");
+    add(ofBulk, "--scene", bulk.scene, "bed, drum or both");
+    const std::array ofBed{
+        add(ofBulk, "--beds", bulk.beds, "beds of each law, from different grains"),
+        add(ofBulk, "--bed-particles", bulk.bedGrains, "grains of the bed"),
+    };
+    const std::array ofDrum{
+        add(ofBulk, "--drums", bulk.drums, "drums of each law, of four measured times each"),
+        add(ofBulk, "--turned-rad", bulk.turned, "angle by which the drum turns while it is measured, rad"),
+    };
+    add(ofBulk, "--rounds", bulk.rounds, "measurements of time, of which the median counts");
     CLI11_PARSE(app, argc, argv);
     return runProgram([&] {
-        if (ofBridges + ofFailures + ofTime != 1)
-            throw InputError("accuracy-versus-cost: give one of --bridges, --failure-maps and --time.");
-        if (!output.empty()) chart.file = map.file = time.file = output;
-        if (ofBridges) chartBridges(chart);
-        else if (ofFailures) mapFailures(map);
-        else chartTime(time);
+        std::size_t modes = 0;
+        for (const CLI::Option* mode : {ofBridges, ofFailures, ofTime, ofBulk, ofContacts, ofSteps})
+            modes += mode->count();
+        if (modes != 1)
+            throw InputError(
+                "accuracy-versus-cost: give one of --bridges, --failure-maps, --time, --bulk, "
+                "--contact-maps and --critical-steps.");
+        const auto refuse = [&](const auto& options, std::string_view scene) {
+            for (const CLI::Option* option : options)
+                if (option->count() > 0)
+                    throw InputError(
+                        fmt::format("accuracy-versus-cost: {} is of another scene than --scene {}.",
+                                    option->get_name(), scene));
+        };
+        if (bulk.scene == "bed") refuse(ofDrum, bulk.scene);
+        if (bulk.scene == "drum") refuse(ofBed, bulk.scene);
+        if (!output.empty())
+            chart.file = map.file = time.file = bulk.file = contacts.folder = critical.file = output;
+        if (*ofBridges) chartBridges(chart);
+        else if (*ofFailures) mapFailures(map);
+        else if (*ofTime) chartTime(time);
+        else if (*ofBulk) chartBulk(bulk);
+        else if (*ofContacts) mapContacts(contacts);
+        else chartCriticalSteps(critical);
         return 0;
     });
 }

@@ -1,6 +1,7 @@
 # Accuracy of the liquid bridge laws against their cost, from the table of Tools/accuracy-versus-cost --bridges.
 #   gnuplot -c bridges.gp TABLE.csv OUTPUT_WITHOUT_SUFFIX
 # OUTPUT.png: the population "wide", against the time of the force and of the preparation; OUTPUT-populations.png: all.
+if (ARGC < 2) exit error "give TABLE.csv OUTPUT_WITHOUT_SUFFIX"
 
 set datafile separator comma
 set encoding utf8

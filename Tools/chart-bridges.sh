@@ -5,15 +5,11 @@
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build="$tools/../build/release" scenes=yes
-while (($# > 0)); do
-    case $1 in
-        --help | -h) sed -n '2,4p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; exit 0 ;;
-        --build) build=$2 ;;
-        --scenes) scenes=$2 ;;
-        *) echo "chart-bridges.sh: there is no option $1; see --help" >&2; exit 2 ;;
-    esac
-    shift 2
-done
+source "$tools/read-options.sh"
+read_options build scenes -- "$@"
+[[ $scenes == yes || $scenes == no ]] || refuse "--scenes is '$scenes'; it must be yes or no"
+require_program "$build/Tools/accuracy-versus-cost"
+[[ $scenes == no ]] || require_program "$build/Tools/bridge-scenes"
 export OMP_NUM_THREADS=1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -23,8 +19,7 @@ result() {  # name of the result, program, options...
     shift 2
     "$build/Tools/$program" "$@" --output "$work/$name.csv"
     {
-        "$tools/describe-machine.sh"
-        echo "# command: OMP_NUM_THREADS=1 Tools/$program $*; one thread"
+        "$tools/describe-machine.sh" "OMP_NUM_THREADS=1 Tools/$program $*; one thread"
         cat "$work/$name.csv"
     } > "$tools/Results/$name.csv"
 }

@@ -10,27 +10,21 @@ set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 particles="25000 250000" runs=3 output=peers bed="" drum="" drum_walls="" build="$tools/../build/release"
 command_line="Tools/compare-peers.sh $*"
-usage() { sed -n '2,8p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; }
-while (($# > 0)); do
-    case $1 in
-        --help | -h) usage; exit 0 ;;
-        --particles) particles=$2 ;;
-        --runs) runs=$2 ;;
-        --output) output=$2 ;;
-        --bed) bed=$(realpath "$2") ;;
-        --drum) drum=$(realpath "$2") ;;
-        --drum-walls) drum_walls=$(realpath "$2") ;;
-        --build) build=$2 ;;
-        *) echo "compare-peers.sh: there is no option $1; see --help" >&2; exit 2 ;;
-    esac
-    if (($# < 2)); then echo "compare-peers.sh: $1 needs a value; see --help" >&2; exit 2; fi
-    shift 2
+source "$tools/read-options.sh"
+read_options particles runs output bed drum drum-walls build -- "$@"
+read -ra sizes <<<"$particles"
+for number in "${sizes[@]:-}"; do require_number particles "$number"; done
+require_number runs "$runs"
+require_file bed "$bed"
+require_file drum "$drum"
+require_file drum-walls "$drum_walls"
+[[ -z $drum || -n $drum_walls ]] || refuse "--drum needs --drum-walls too; see --help"
+require_program "$build/Tools/benchmark-scenes"
+for file in bed drum drum_walls; do
+    path=${!file:+$(realpath "${!file}")}
+    printf -v "$file" %s "$path"
 done
-ours=$(realpath -q "$build/Tools/benchmark-scenes") || true
-if [[ ! -x $ours ]]; then
-    echo "compare-peers.sh: $build/Tools/benchmark-scenes is missing; build first: Tools/run-tests.sh" >&2
-    exit 1
-fi
+ours=$(realpath "$build/Tools/benchmark-scenes")
 mkdir -p "$output"
 output=$(realpath "$output")
 work=$(mktemp -d)
@@ -129,12 +123,11 @@ run_drum() {
     done
 }
 
-for n in $particles; do run_bed "$n"; done
+for n in "${sizes[@]}"; do run_bed "$n"; done
 if [[ -n $drum ]]; then run_drum; fi
 
 {
-    "$tools/describe-machine.sh"
-    echo "# command: $command_line; one thread each; medians of $runs runs in turn"
+    "$tools/describe-machine.sh" "$command_line; one thread each; medians of $runs runs in turn"
     echo "scene,code,particles,threads,steps,median_seconds,million_particle_steps_per_second,lowest,highest,kinetic_energy_J,ours_over_this"
     sort -t, -k1,1 -k3,3n -k2,2 "$raw" | awk -F, '
         function flush(   i, j, v) {

@@ -1,6 +1,7 @@
 # Where the liquid bridge laws fail, from the table of Tools/accuracy-versus-cost --failure-maps.
 #   gnuplot -c failure-maps.gp TABLE.csv OUTPUT.png
 # A panel for each law; the black line surrounds where the rupture distance is wrong by more than 20 %.
+if (ARGC < 2) exit error "give TABLE.csv OUTPUT.png"
 
 set encoding utf8
 set terminal pngcairo size 1060,1000 fontscale 0.68

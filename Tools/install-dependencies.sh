@@ -2,12 +2,22 @@
 # Installs the Debian packages that Pendular is built with, where they are missing.
 #   Tools/install-dependencies.sh           installs
 #   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
+#   With --readers also those with which self-tests read the files of a run; tests that need them are skipped else.
+#   With --fuzz also clang with libFuzzer (preset fuzz).
 set -euo pipefail
 
-if [[ $# -gt 1 || ${1:---check} != --check ]]; then
-    echo "usage: Tools/install-dependencies.sh [--check]" >&2
-    exit 2
-fi
+check=no readers=no fuzz=no
+for option in "$@"; do
+    case $option in
+        --check) check=yes ;;
+        --readers) readers=yes ;;
+        --fuzz) fuzz=yes ;;
+        *)
+            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--fuzz]" >&2
+            exit 2
+            ;;
+    esac
+done
 
 # package | its program, if it has one | what it is for
 packages='git|git|the source code
@@ -19,9 +29,20 @@ libfmt-dev||text
 zlib1g-dev||compressed files for ParaView
 libcli11-dev||command lines of drivers and tools
 libgtest-dev||self-tests
-libhdf5-dev||restart files
+libhdf5-dev||restart files, HDF5 files of fields
 gnuplot-nox|gnuplot|charts
 povray|povray|pictures of grains (Tools/snapshot)'
+if [[ $readers == yes ]]; then
+    packages+='
+python3-h5py||h5py, which reads HDF5 files
+python3-vtk9||VTK, which reads the files for ParaView'
+fi
+if [[ $fuzz == yes ]]; then
+    packages+='
+clang|clang++|fuzz targets
+libclang-rt-dev||fuzz targets: libFuzzer and the sanitizers
+libomp-dev||fuzz targets: OpenMP'
+fi
 
 is_installed() {  # package, program
     if [[ -n $2 ]] && command -v "$2" >/dev/null; then
@@ -62,7 +83,7 @@ if ((${#missing[@]} == 0)); then
     exit 0
 fi
 echo "Missing packages: ${missing[*]}"
-if [[ ${1:-} == --check ]]; then
+if [[ $check == yes ]]; then
     exit 1
 fi
 

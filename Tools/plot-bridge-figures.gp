@@ -1,5 +1,6 @@
 # Figures 3, 4, 5 and 9 of Yang, Sega and Harting (2021) with the exact curves, from the tables of Tools/bridge-figures.
 #   gnuplot -c Tools/plot-bridge-figures.gp FOLDER    FOLDER: its --output; writes FOLDER/figure-3.png and so on
+if (ARGC < 1) exit error "give FOLDER"
 load system("dirname '".ARG0."'")."/../Drivers/Shared/chart.gp"
 
 # Colours of Okabe and Ito; the exact curve is wide and grey, below the others.

@@ -1,6 +1,7 @@
 # The capillary force over the separation, on the way out of a collision, for three models of the bridge.
 #   gnuplot -c plot-figure.gp DATA_FOLDER TITLE OUTPUT_WITHOUT_SUFFIX
 # DATA_FOLDER holds a folder for each model, with force_separation.csv (attraction negative there, positive in the chart).
+if (ARGC < 3) exit error "give DATA_FOLDER TITLE OUTPUT_WITHOUT_SUFFIX"
 
 data(model) = sprintf("%s/%s/force_separation.csv", ARG1, model)
 

@@ -26,6 +26,8 @@ void print(const Hdf5File& file, const std::string& name, const TableShape& shap
     switch (shape.kind) {
         case NumberKind::Float64:
             return printRows<double>(file, name, shape);
+        case NumberKind::Float32:
+            return printRows<float>(file, name, shape);
         case NumberKind::UInt64:
             return printRows<std::uint64_t>(file, name, shape);
         case NumberKind::UInt32:

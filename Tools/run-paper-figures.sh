@@ -2,9 +2,16 @@
 # Installs what is missing, builds Pendular, runs two-particle collisions with three models of the bridge, and
 # draws Figures 3a, 3b, 4a and 4b of Bagheri, Roy and Poeschel, "Discrete Element Simulations of particles
 # interacting via capillary forces using MercuryDPM"; then the curves of Figures 3, 4, 5 and 9 of Yang, Sega and
-# Harting, "Capillary-bridge forces between solid particles", with the exact ones.
+# Harting, "Capillary-bridge forces between solid particles", with the exact ones; then the eight tests of Chung and
+# Ooi, "Benchmark tests for verifying discrete element modelling codes at particle impact level", beside theory.
 #   Tools/run-paper-figures.sh [OUTPUT_FOLDER]     (default: output/paper-figures)
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
+case ${1:-} in
+    -h | --help) print_head; exit 0 ;;
+    -*) refuse "there is no option $1; see --help" ;;
+esac
+(($# <= 1)) || refuse "there is one argument, the output folder, and not $#; see --help"
 mkdir -p "${1:-$(dirname "${BASH_SOURCE[0]}")/../output/paper-figures}"
 output=$(cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../output/paper-figures}" && pwd)
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -12,7 +19,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 Tools/install-dependencies.sh
 echo "== Building (preset release, folder build/release)"
 cmake --preset release
-cmake --build --preset release --parallel "$(getconf _NPROCESSORS_ONLN)" --target TwoParticleCollision bridge-figures
+cmake --build --preset release --parallel "$(getconf _NPROCESSORS_ONLN)" --target TwoParticleCollision bridge-figures impact-figures
 
 models='LiquidBridgeWillett LiquidBridgeClassicalWillett LiquidBridgeBagheri'
 
@@ -41,15 +48,25 @@ draw_figure 3b 0.8 80
 draw_figure 4a 1.0 10
 draw_figure 4b 1.0 80
 
+write_tables() {  # program, output folder
+    build/release/Tools/"$1" --output "$2"
+    local table
+    for table in "$2"/*.csv; do
+        { Tools/describe-machine.sh "Tools/$1, one thread" && cat "$table"; } >"$table.new"
+        mv "$table.new" "$table"
+    done
+}
+
 echo "== Figures 3, 4, 5 and 9 of Yang, Sega and Harting"
 models_output=$output/bridge-models
-build/release/Tools/bridge-figures --output "$models_output"
-for table in "$models_output"/*.csv; do
-    { Tools/describe-machine.sh && echo "# command: Tools/bridge-figures, one thread" && cat "$table"; } >"$table.new"
-    mv "$table.new" "$table"
-done
+write_tables bridge-figures "$models_output"
 gnuplot -c Tools/plot-bridge-figures.gp "$models_output"
 
+echo "== The eight tests of Chung and Ooi"
+impacts_output=$output/chung-ooi
+write_tables impact-figures "$impacts_output"
+gnuplot -c Tools/plot-impact-figures.gp "$impacts_output"
+
 echo
-echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg} $models_output/figure-{3,4,5,9}.png"
-echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv $models_output/figure-{3,4,5,9}.csv"
+echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg} $models_output/figure-{3,4,5,9}.png $impacts_output/test-{1..8}.png"
+echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv $models_output/figure-{3,4,5,9}.csv $impacts_output/test-{1..8}.csv"

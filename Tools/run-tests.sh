@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Pendular and runs its tests, except those labelled `long` (for these: ctest
-# --preset long). With CI=true, warnings are errors, and the tests run a second time under the address and
-# undefined-behaviour sanitizers.
+# --preset long). With CI=true, warnings are errors, the tests run a second time under the address and
+# undefined-behaviour sanitizers, and the readers of files are given random ones, for 20 s each (libFuzzer).
+#   Tools/run-tests.sh
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
+(($# == 0)) || read_options -- "$@"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 jobs=$(getconf _NPROCESSORS_ONLN)
@@ -15,10 +18,12 @@ build_and_test() {  # preset
     ctest --preset "$1" --parallel "$jobs"
 }
 
-Tools/install-dependencies.sh
 if [[ ${CI:-} == true ]]; then
+    Tools/install-dependencies.sh --fuzz --readers
     build_and_test ci
     build_and_test ci-asan-ubsan
+    build_and_test fuzz
 else
+    Tools/install-dependencies.sh
     build_and_test release
 fi

@@ -31,7 +31,9 @@ struct Options {
 void describe(CLI::App& app, Options& o) {
     app.option_defaults()->always_capture_default();
     app.add_option("input", o.input,
-                   "NAME.pvd, NAME-particles-STEP.vtp, or the table of grains of a run that stopped")
+                   "NAME.pvd, NAME-particles-STEP.vtp, or, of grains only, NAME-restart.h5 or the table that "
+                   "a run left "
+                   "that could not go on")
         ->required();
     app.add_option("--output", o.output, "the picture, PNG; with --all, frames get numbers: NAME-0000.png");
     app.add_option(
@@ -164,6 +166,8 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Draws grains as shaded spheres coloured by a field, with liquid bridges, transparent walls and a "
         "legend.\n"
+        "Walls and bridges of a restart file: go on from it to the same end time with --resume\n"
+        "--paraview-interval-s 1, which writes its state as NAME.pvd.\n"
         "A film of a series: snapshot NAME.pvd --all --caption time --output film/frame.png, then\n"
         "ffmpeg -i film/frame-%04d.png film.mp4");
     Options options;

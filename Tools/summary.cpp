@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -33,8 +34,10 @@ public:
         for (std::size_t number = 2; std::getline(lines, line); ++number) {
             const std::size_t last = line.rfind(','), first = line.find(',');
             if (last == line.npos || first == last) input.refuse("line", number, "a column is missing");
-            rows.push_back(
-                {line.substr(0, first), line.substr(first + 1, last - first - 1), line.substr(last + 1)});
+            std::string content = line.substr(first + 1, last - first - 1);
+            if (content.size() > 1 && content.front() == '"' && content.back() == '"')
+                content = content.substr(1, content.size() - 2);
+            rows.push_back({line.substr(0, first), content, line.substr(last + 1)});
         }
     }
 
@@ -46,22 +49,29 @@ public:
     /// What is wrong, a line each; empty if all is well.
     [[nodiscard]] std::vector<std::string> complaints() const {
         std::vector<std::string> found;
-        if (const std::string reason = stopReason(); !reason.empty())
-            found.push_back("it stopped: " + reason);
+        if (value("state") == "stopped by an error") found.push_back("it stopped: " + value("reason"));
         for (const char* finite : {"time", "kinetic energy", "largest speed"})
             if (!std::isfinite(number(finite))) found.push_back(fmt::format("its {} is not finite", finite));
-        if (number("time step") > number("stability limit"))
+        if (isAboveLimit() && !limitIsAccepted())
             found.push_back("its time step is above the stability limit: the results mean nothing");
-        if (const double deepest = number("largest overlap at an output"); deepest > 0.1)
-            found.push_back(fmt::format(
-                "grains overlap by {:.2g} of their radius; contact laws hold up to about 0.1", deepest));
+        if (isOnItsWay() && age() > longestSilence())
+            found.push_back(fmt::format("it was on its way {:.0f} s ago, and may not run any more", age()));
+        for (const Row& row : rows)
+            if (row.quantity == "warning") found.push_back(row.value);
         // Beside the energy that was turned over.
-        const double turned = number("energy lost in dashpots") +
-                              std::abs(number("energy given to friction")) + number("kinetic energy");
+        const double turned = std::abs(number("energy lost")) + number("kinetic energy");
         if (std::abs(number("energy unaccounted for")) > 0.01 * turned)
             found.push_back(fmt::format("{:.2g} J of energy are unaccounted for, beside {:.2g} J turned over",
                                         number("energy unaccounted for"), turned));
         return found;
+    }
+
+    /// What is not wrong, and worth knowing, behind "healthy, and"; empty if there is nothing.
+    [[nodiscard]] std::string remark() const {
+        if (!isAboveLimit() || !limitIsAccepted()) return {};
+        return fmt::format(
+            "; its time step is {:.2f} times the stability limit, which its driver has accepted",
+            number("time step") / number("stability limit"));
     }
 
     /// s, since it was written.
@@ -70,9 +80,23 @@ public:
                                              std::filesystem::last_write_time(path))
             .count();
     }
-    [[nodiscard]] bool isAtItsEnd() const { return value("state") == "at its end"; }
+    /// "at its end"
+    [[nodiscard]] std::string state() const {
+        return isOnItsWay() ? fmt::format("on its way {:.0f} s ago", age()) : value("state");
+    }
 
 private:
+    [[nodiscard]] bool isAboveLimit() const { return number("time step") > number("stability limit"); }
+    [[nodiscard]] bool limitIsAccepted() const {
+        return value("step above the stability limit") == "accepted";
+    }
+    [[nodiscard]] bool isOnItsWay() const { return value("state") == "on its way"; }
+    /// s, for which a run that is on its way may say nothing: ten times as long as it took from one summary
+    /// to the next; at least a minute, for a busy machine, and an hour where there was one summary only.
+    [[nodiscard]] double longestSilence() const {
+        const double interval = number("wall time since the summary before");
+        return std::isfinite(interval) ? std::max(10 * interval, 60.0) : 3600;
+    }
     [[nodiscard]] std::string value(std::string_view quantity) const {
         for (const Row& row : rows)
             if (row.quantity == quantity) return row.value;
@@ -83,22 +107,6 @@ private:
         double result = NAN;
         parseNumber(value(quantity), result);
         return result;
-    }
-    /// The sentence with which the run has stopped, from the state that it left; empty if it has not.
-    [[nodiscard]] std::string stopReason() const {
-        std::string name = path.string();
-        name.replace(name.size() - ending.size(), ending.size(), "-last-state.csv");
-        std::error_code ignored;
-        // A state that is older is one of an earlier run of this name.
-        if (!std::filesystem::exists(name, ignored) ||
-            std::filesystem::last_write_time(name) <
-                std::filesystem::last_write_time(path) - std::chrono::minutes(1))
-            return {};
-        std::istringstream lines(loadInputFile("last state of a run", name).text);
-        std::string line;
-        while (std::getline(lines, line))
-            if (line.starts_with("# ")) return line.substr(2);
-        return "the reason is not known.";
     }
 
     std::filesystem::path path;
@@ -124,10 +132,7 @@ int run(const std::filesystem::path& folder) {
         summary.print();
         const std::vector<std::string> complaints = summary.complaints();
         for (const std::string& complaint : complaints) fmt::print("  NOT WELL: {}\n", complaint);
-        if (complaints.empty())
-            fmt::print("  healthy, {}\n", summary.isAtItsEnd()
-                                              ? std::string("and at its end")
-                                              : fmt::format("and on its way {:.0f} s ago", summary.age()));
+        if (complaints.empty()) fmt::print("  healthy, and {}{}\n", summary.state(), summary.remark());
         healthy = healthy && complaints.empty();
     }
     return healthy ? 0 : 2;

@@ -30,15 +30,17 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--begin-s", o.begin, "begin of the steady part, s after the orifice is opened");
     app.add_option("--end-time-s", o.endTime, "end of each run, s after the orifice is opened");
     app.add_option("--interval-s", o.interval, "time between two rows of discharge.csv, s");
-    addRunOptions(app, o.run, "discharge.csv and flow.csv");
+    addRunOptions(app, o.run, "discharge.csv and flow.csv", "orifice-DIAMETER");
     app.remove_option(app.get_option("--restart"));  // there are several runs, each with a file of its own
 }
 
-void writeTables(const Options& options, const std::vector<Discharge>& runs, const BeverlooLaw& law) {
+void writeCurves(const Options& options, const std::vector<Discharge>& runs) {
     CsvFile curves(options.run.output + "/discharge.csv", "orifice_m,time_s,mass_kg");
     for (const Discharge& run : runs)
         for (const CurvePoint& p : run.curve) curves.row(run.orifice, p.x, p.y);
     curves.close();
+}
+void writeFlows(const Options& options, const std::vector<Discharge>& runs, const BeverlooLaw& law) {
     CsvFile flows(options.run.output + "/flow.csv", "orifice_m,flow_kg/s,change_of_flow,beverloo_kg/s");
     for (const Discharge& run : runs) flows.row(run.orifice, run.flow, run.change, law.flow(run.orifice));
     flows.close();
@@ -53,9 +55,10 @@ void run(const Options& options) {
                                  options.interval, options.run));
         flows.push_back({orifice, runs.back().flow});
     }
+    writeCurves(options, runs);  // also where no law can be fitted
     const BeverlooLaw law =
         fitBeverloo(flows, runs.front().bulkDensity, Hopper::gravity, options.hopper.grainDiameter);
-    writeTables(options, runs, law);
+    writeFlows(options, runs, law);
     if (options.run.quiet) return;
     for (const Discharge& run : runs)
         fmt::print(
@@ -71,13 +74,15 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app(
-        "Grains leave a flat-bottomed hopper through circular orifices: mass over time, and "
-        "Beverloo's law.",
-        "HopperDischarge");
     Options options;
-    describe(app, options);
-    return runDriver(app, options.run, argc, argv, [&] {
+    const DriverProgram driver{
+        .name = "HopperDischarge",
+        .description =
+            "Grains leave a flat-bottomed hopper through circular orifices: mass over time, and "
+            "Beverloo's law.",
+        .options = options.run,
+        .addOptions = [&](CLI::App& app) { describe(app, options); }};
+    return runDriver(driver, argc, argv, [&] {
         checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval);
         checkValue("HopperDischarge", "begin of the steady part", options.begin, "s",
                    {0, options.endTime, true, false});

@@ -1,5 +1,6 @@
 # The mass that has left over time, and the flow against Beverloo's law.
 #   gnuplot -c Drivers/HopperDischarge/plot.gp FOLDER    FOLDER: the driver's --output; writes FOLDER/{discharge,flow}.png
+if (ARGC < 1) exit error "give FOLDER"
 load system("dirname '".ARG0."'")."/../Shared/chart.gp"
 curves = ARG1."/discharge.csv"
 flows = ARG1."/flow.csv"

@@ -1,5 +1,6 @@
 # Restitution along the plane over the angle of incidence, and the spin, with the measurements of Kharaz et al. (2001).
 #   gnuplot -c Drivers/ObliqueImpact/plot.gp FOLDER    FOLDER: the driver's --output; writes FOLDER/{restitution,spin}.png
+if (ARGC < 1) exit error "give FOLDER"
 here = system("dirname '".ARG0."'")
 load here."/../Shared/chart.gp"
 impacts = ARG1."/impacts.csv"

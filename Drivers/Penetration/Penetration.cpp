@@ -99,10 +99,13 @@ PenetrationGrains firstGrains(const Options& options, const BedBox& box) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("A steel sphere hits a bed of grains; gives its depth over time.", "Penetration");
     Options options;
-    describe(app, options);
-    return runDriver(app, options.run, argc, argv, [&] {
+    const DriverProgram driver{
+        .name = "Penetration",
+        .description = "A steel sphere hits a bed of grains; gives its depth over time.",
+        .options = options.run,
+        .addOptions = [&](CLI::App& app) { describe(app, options); }};
+    return runDriver(driver, argc, argv, [&] {
         checkRun("Penetration", options.number, options.endTime, options.interval);
         checkValue("Penetration", "speed", options.speed, "m/s", positive);
         const BedBox box = bedBoxFor(options.number);

@@ -1,5 +1,6 @@
 # The depth and the velocity of the intruder over time.
 #   gnuplot -c Drivers/Penetration/plot.gp FOLDER    FOLDER: the driver's --output; writes FOLDER/depth.png
+if (ARGC < 1) exit error "give FOLDER"
 load system("dirname '".ARG0."'")."/../Shared/chart.gp"
 
 set output ARG1."/depth.png"

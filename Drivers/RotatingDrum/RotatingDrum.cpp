@@ -94,11 +94,14 @@ std::vector<GrainRow> firstGrains(const Options& options, const DrumShape& shape
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Grains of two sizes in a turning drum; counts them in the quarters of the drum over time.",
-                 "RotatingDrum");
     Options options;
-    describe(app, options);
-    return runDriver(app, options.run, argc, argv, [&] {
+    const DriverProgram driver{
+        .name = "RotatingDrum",
+        .description =
+            "Grains of two sizes in a turning drum; counts them in the quarters of the drum over time.",
+        .options = options.run,
+        .addOptions = [&](CLI::App& app) { describe(app, options); }};
+    return runDriver(driver, argc, argv, [&] {
         checkRun("RotatingDrum", options.number, options.endTime, options.interval);
         const DrumShape shape = drumFor(options.number);
         const std::vector<GrainRow> grains = firstGrains(options, shape);

@@ -1,5 +1,6 @@
 # The numbers in the quarters of the drum over time, and a slice of the grains at the end.
 #   gnuplot -c Drivers/RotatingDrum/plot.gp FOLDER    FOLDER: the driver's --output; writes FOLDER/{zones,grains}.png
+if (ARGC < 1) exit error "give FOLDER"
 load system("dirname '".ARG0."'")."/../Shared/chart.gp"
 
 set output ARG1."/zones.png"

@@ -48,7 +48,7 @@ public:
                  {{0.5 * orifice, 0}, {0.5 * hopper.diameter, 0}, {0.5 * hopper.diameter, 2 * top}});
         wallHandler.copyAndAddObject(wall);
         setGravity({0, 0, -Hopper::gravity});
-        setTimeStep(0.2 * stabilityLimit());
+        setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 15));
     }
 
     void actionsAfterTimeStep() override {

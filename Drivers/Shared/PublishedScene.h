@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <span>
 
 #include "Drivers/Shared/GrainRows.h"
@@ -11,7 +12,7 @@
 namespace pendular {
 
 /// What the scenes of the benchmark of Dosta et al. (2024), Comput. Phys. Commun. 296, 109066, have in
-/// common: its materials, its gravity and its time step.
+/// common: its materials and its gravity.
 class PublishedScene : public Simulation<HertzianViscoelasticMindlinSpecies> {
 public:
     using Material = HertzianViscoelasticMindlinSpecies;
@@ -20,12 +21,30 @@ public:
     [[nodiscard]] double kineticEnergy() const { return translationalEnergy(particleHandler.store()); }
 
 protected:
-    /// @param publishedStep s, at the published stiffness; with softer grains the step grows as their contact
-    /// times do, with the square root of the softening (at a given overlap, k_n grows with Young's modulus)
-    PublishedScene(double publishedStep, double softening) {
+    /// Grains of one material and radius (m).
+    struct Kind {
+        PublishedMaterial material;
+        double radius;
+    };
+    /// @param step s, at the published stiffness; with softer grains it grows as their contact times do, with
+    /// the square root of the softening (at a given overlap, k_n grows with Young's modulus)
+    PublishedScene(double step, double softening) {
         addPublishedMaterials(speciesHandler, softening);
         setGravity({0, 0, -9.8});
-        setTimeStep(publishedStep * std::sqrt(softening));
+        setTimeStep(step * std::sqrt(softening));
+    }
+    /// s, at the published stiffness: 0.9 of the stability limit in the densest bed of these grains and steel
+    /// walls. No grains of the scene itself are needed: one that goes on has them from its restart file only,
+    /// and must have the same step.
+    static double stableStep(std::initializer_list<Kind> kinds) {
+        PublishedScene bed(1, 1);
+        for (const Kind& kind : kinds)
+            for (std::size_t k = 0; k <= contactsInDensestBed; ++k)
+                bed.addGrain({kind.radius, Vec3D::Zero()}, kind.material);
+        InfiniteWall wall;
+        wall.set(Vec3D::UnitX(), Vec3D::Zero());
+        bed.addSteelWall(wall);
+        return 0.9 * bed.stabilityLimit();
     }
     void addGrain(const GrainRow& row, PublishedMaterial material, const Vec3D& velocity = Vec3D::Zero()) {
         addGrainRow(particleHandler, static_cast<const Material*>(speciesHandler.getObject(material)), row,

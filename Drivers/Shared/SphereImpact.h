@@ -72,10 +72,15 @@ public:
                 lower.velocity.z() - upper.velocity.z(), stepsPerContact);
     }
 
-    /// Steps until the bodies have parted.
+    /// Steps until the bodies have parted. Throws InputError where they do not: with a restitution of some
+    /// 1e-12 they come to a speed at which they go no further than round-off in a step.
     void finish() {
         initialise();
         do {
+            if (getNumberOfTimeSteps() >= 1000 * stepsOfContact)
+                throw InputError(
+                    "SphereImpact: the bodies have not parted after 1000 times the time of an elastic "
+                    "contact; the restitution must be larger.");
             step();
             deepest = std::max(deepest, overlap());
             strongest = std::max(strongest, particleHandler.getObject(0).getForce().z());
@@ -118,10 +123,14 @@ private:
     void setStep(const ImpactMaterial& values, double radius, double inverseMass, double approach,
                  int stepsPerContact) {
         checkValue("SphereImpact", "speed of approach", approach, "m/s", positive);
+        // Critically damped bodies approach the end of their touch for ever.
+        checkValue("SphereImpact", "restitution", values.restitution, "", positiveUpTo(1));
+        stepsOfContact = static_cast<std::size_t>(stepsPerContact);
         setTimeStep(hertzContactTime(values.modulus, radius, 1 / inverseMass, approach) / stepsPerContact);
         acceptUnstableTimeStep();  // the limit is that of deeper contacts
     }
 
+    std::size_t stepsOfContact = 0;
     double deepest = 0, strongest = 0;
 };
 

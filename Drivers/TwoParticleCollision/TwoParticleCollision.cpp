@@ -78,7 +78,7 @@ public:
         parted = touched && separation > 0 && !bridged;
         forces.row(time, separation, normal, capillary, bridged ? 1 : 0);
         const EnergyLedger& ledger = this->energyLedger();
-        energies.row(time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.adhesionWork,
+        energies.row(time, ledger.kinetic, ledger.elastic, ledger.normalDashpots, ledger.adhesionWork(),
                      ledger.total());
     }
 
@@ -166,11 +166,13 @@ void describe(CLI::App& app, Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Two grains collide head-on and are joined by a liquid bridge until it ruptures.",
-                 "TwoParticleCollision");
     Options options;
-    describe(app, options);
-    return runDriver(app, options.run, argc, argv, [&] {
+    const DriverProgram driver{
+        .name = "TwoParticleCollision",
+        .description = "Two grains collide head-on and are joined by a liquid bridge until it ruptures.",
+        .options = options.run,
+        .addOptions = [&](CLI::App& app) { describe(app, options); }};
+    return runDriver(driver, argc, argv, [&] {
         checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
         checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%",
                    notNegative);

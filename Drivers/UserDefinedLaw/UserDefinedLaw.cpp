@@ -35,10 +35,13 @@ struct SquareWell {
 };
 
 int main(int argc, char** argv) {
-    CLI::App app("Two grains attract each other by a law of this driver.", "UserDefinedLaw");
     RunOptions options{.output = "UserDefinedLaw"};
-    addRunOptions(app, options, "restart files");
-    return runDriver(app, options, argc, argv, [&] {
+    const DriverProgram driver{
+        .name = "UserDefinedLaw",
+        .description = "Two grains attract each other by a law of this driver.",
+        .options = options,
+        .addOptions = [&](CLI::App& app) { addRunOptions(app, options, "what the run writes"); }};
+    return runDriver(driver, argc, argv, [&] {
         Species<HertzianViscoelastic, NoFriction, SquareWell> species;
         species.setDensity(2000);
         species.setEffectiveElasticModulusAndRestitutionCoefficient(1e6, 0.5);
@@ -56,6 +59,7 @@ int main(int argc, char** argv) {
         scene.setTimeStep(1e-6);
         scene.setTimeMax(0.05);
         scene.solve();
+        if (options.quiet) return;
         fmt::print("{}: gap after {} s: {:.4g} m\n", species.getName(), scene.getTimeMax(),
                    (second.getPosition() - scene.particleHandler.getObject(0).getPosition()).norm() - 1e-3);
     });

@@ -16,9 +16,10 @@ struct WetTower : Simulation<HertzianViscoelasticMindlinLiquidBridgeBagheriSpeci
             grain.setPosition({1e-4 * (k % 3), 0, 1.2e-3 + 2.2e-3 * k});
             particleHandler.copyAndAddObject(grain);
         }
-        setGravity({0, 0, -9.81}), setTimeStep(0.1 * stabilityLimit()), setTimeMax(0.3), setSaveCount(5000);
+        setGravity({0, 0, -9.81}), setTimeStep(shortestContactTime() / 30), setTimeMax(0.3), setSaveCount(5000);
     }
     void writeOutput() override {
+        if (isQuiet()) return;
         fmt::print("{:.3f} s, top at {} m\n", getTime(), particleHandler.getObject(9).getPosition().z());
     }
 };

@@ -95,13 +95,19 @@ struct WallGeometry {
     const RotationRecord* rotation;
     const ContactBlock& block;
     const WallPointColumns& points;
+    const Vector<double> wallSpin;  // rad/s
 
     Pack radius;
     Pack distance;  // m, from the centre to the wall
 
     WallGeometry(const TranslationRecord* t, const RotationRecord* r, const ContactBlock& b,
-                 const WallPointColumns& p)
-        : translation(t), rotation(r), block(b), points(p), distance(Pack::load(p.distance.lane.data())) {
+                 const WallPointColumns& p, const Vector<double>& spin)
+        : translation(t),
+          rotation(r),
+          block(b),
+          points(p),
+          wallSpin(spin),
+          distance(Pack::load(p.distance.lane.data())) {
         const auto columns = loadRecords<4>(reinterpret_cast<const double*>(t), 8, b.first.data());
         radius = columns[3];
     }
@@ -122,10 +128,11 @@ struct WallGeometry {
         if constexpr (S::hasTorque) {
             const auto [wx, wy, wz] =
                 loadRecords<3>(reinterpret_cast<const double*>(rotation), 8, block.first.data());
-            g.spinSum = {wx, wy, wz};
-            g.spinLever = (radius - Pack(0.5) * g.overlap) * g.spinSum;
+            const Vector<Pack> own{wx, wy, wz}, wall{Pack(wallSpin.x), Pack(wallSpin.y), Pack(wallSpin.z)};
+            g.spinSum = own + wall;
+            g.spinLever = (radius - Pack(0.5) * g.overlap) * own;  // the wall's is in its velocity
             if constexpr (S::hasContactTorque) {
-                g.spinDifference = g.spinSum;
+                g.spinDifference = own - wall;
                 g.rotationResponse = Pack(2.5) * im;
             }
         }

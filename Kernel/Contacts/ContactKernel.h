@@ -3,6 +3,7 @@
 #include "Kernel/Contacts/ContactGeometry.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactTiming.h"
+#include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Contacts/SampleTiming.h"
 #include "Kernel/Species/Species.h"
 
@@ -32,13 +33,17 @@ public:
     using Adhesion = typename S::Adhesion;
 
     ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactTiming contactTiming,
-                  ContactStore<S>& contactStore)
-        : laws(preparedLaws),
+                  const OverlapWatch& watch, ContactStore<S>& contactStore)
+        : overlaps(watch.part()),
+          laws(preparedLaws),
           timeStep(step),
           implicitStep(contactTiming.implicitForces ? step : 0),
           timing(contactTiming),
           store(contactStore),
           memory(contactStore.memory) {}
+
+    /// Of the contacts that this kernel has computed.
+    OverlapWatch overlaps;
 
     /// @return false if the block needs memory first; it is marked then
     template <class Geometry>
@@ -59,6 +64,8 @@ public:
         }
 
         const ContactGeometry<Pack> g = geometry.complete();
+        if (any(touching & (g.overlap > overlaps.level() * g.effectiveRadius))) [[unlikely]]
+            overlaps.note(bits(touching), g.overlap, g.effectiveRadius);
         // A step of no length, at the start of a scene, finds overlaps that did not begin in it.
         const Mask begins = maskFromBits(timeStep > 0 && timing.timesTouches ? 0xff : 0) & touching &
                             !maskFromBits(state.touching);
@@ -73,14 +80,12 @@ public:
         }
         const LastForces last = loadLastForces(block);
         const NormalPart normal = computeNormal(block, state, g, last, touching, begins, adhesive);
-        Vector<Pack> tangential = zero;
-        Pack slipPower = 0;
-        if constexpr (Friction::acts)
-            tangential = computeFriction(block, g, last, touching, begins, normal, slipPower);
-
         const Pack normalForce = normal.repulsion - adhesive;
+        if constexpr (withLedger) writeSamples(block, g, normal, adhesive, touching, bridged);
+        Vector<Pack> tangential = zero;
+        if constexpr (Friction::acts) tangential = computeFriction(block, g, last, touching, begins, normal);
+
         writeRecords(block, g.normal, normal.contact.overlap, normalForce, tangential);
-        if constexpr (withLedger) writeEnergies(block, g, normal, adhesive, slipPower, touching);
         state.touching = bits(touching);
         state.bridged = bits(bridged);
         state.closing = bits(normal.closing);
@@ -152,7 +157,7 @@ private:
     }
 
     Vector<Pack> computeFriction(std::size_t block, const ContactGeometry<Pack>& g, const LastForces& last,
-                                 Mask touching, Mask begins, const NormalPart& normal, Pack& slipPower) {
+                                 Mask touching, Mask begins, const NormalPart& normal) {
         const Pack approach = dot(g.velocity, g.normal);
         const Vector<Pack> sideways = g.velocity - approach * g.normal;
         // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
@@ -169,23 +174,19 @@ private:
             history.turn({.normal = g.normal,
                           .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
                           .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
-        const Vector<Pack> force =
-            Friction::force(laws.friction, normal.contact, max(normal.repulsion, Pack(0)), slip, history);
-        const Vector<Pack> tangential = select(touching, force, zero);
-        const Vector<Pack> velocity = slip.velocity + response * tangential;
-        slipPower =
-            select(touching, -dot(tangential, velocity), Pack(0));  // no slip where a wall's part is left out
-        if constexpr (S::hasContactTorque)
-            slipPower += computeRotation(block, g, touching, normal, slip, history);
+        const SliderForce<Pack> force = sliderForce<Friction>(laws.friction, normal.contact,
+                                                              max(normal.repulsion, Pack(0)), slip, history);
+        if constexpr (withLedger) writeSample(block, &ContactSample::sliding, force, touching);
+        if constexpr (S::hasContactTorque) computeRotation(block, g, touching, normal, slip, history);
         memory.history.store(block, selectColumns(touching, history));
-        return tangential;
+        return select(touching, force.force, zero);
     }
 
-    /// Writes the contact's own torque; the power (W) that it takes. Velocity and response are those of R*
-    /// times the relative spin, as in computeFriction.
+    /// Writes the contact's own torque. Velocity and response are those of R* times the relative spin, as in
+    /// computeFriction.
     /// @param sliding the times of its Slip are those of the rotation
     template <class History>
-    Pack computeRotation(std::size_t block, const ContactGeometry<Pack>& g, Mask touching,
+    void computeRotation(std::size_t block, const ContactGeometry<Pack>& g, Mask touching,
                          const NormalPart& normal, const Slip<Pack>& sliding, History& history) {
         static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
         auto* base = reinterpret_cast<double*>(&memory.torques[block * Pack::lanes]);
@@ -196,14 +197,15 @@ private:
                                  .timeBefore = sliding.timeBefore,
                                  .timeAfter = sliding.timeAfter,
                                  .response = response};
-        const Vector<Pack> force =
-            select(touching,
-                   Friction::rotationForce(laws.friction, max(normal.repulsion, Pack(0)), g.normal, turning,
-                                           history),
-                   zero);
-        const Vector<Pack> torque = g.effectiveRadius * force;
+        const auto forces =
+            Friction::rotate(laws.friction, max(normal.repulsion, Pack(0)), g.normal, turning, history);
+        if constexpr (withLedger) {
+            writeSample(block, &ContactSample::rolling, forces.rolling, touching);
+            writeSample(block, &ContactSample::torsion, forces.torsion, touching);
+        }
+        const Vector<Pack> torque =
+            g.effectiveRadius * select(touching, forces.rolling.force + forces.torsion.force, zero);
         storeRecords(base, std::array<Pack, 4>{torque.x, torque.y, torque.z, Pack(0)});
-        return select(touching, -dot(force, turning.velocity + response * force), Pack(0));
     }
 
     [[nodiscard]] LastForces loadLastForces(std::size_t block) const {
@@ -231,22 +233,41 @@ private:
         }
     }
 
-    void writeEnergies(std::size_t block, const ContactGeometry<Pack>& g, const NormalPart& normal,
-                       Pack adhesive, Pack slipPower, Mask touching) {
-        Pack given = normal.damping * normal.approach;
-        if constexpr (HasNormalHistory<Normal>) given += normal.elastic;
-        const Pack damping = select(touching, given * normal.approach, Pack(0));
-        const Pack adhesion = -adhesive * normal.approach;
-        const auto& history = memory.normalHistory;
-        const std::size_t at = block * Pack::lanes;
+    /// What the ledger reads of eight contacts, without their friction.
+    void writeSamples(std::size_t block, const ContactGeometry<Pack>& g, const NormalPart& normal,
+                      Pack adhesive, Mask touching, Mask bridged) {
+        const Pack dashpot = normal.repulsion - select(touching, normal.elastic, Pack(0));
         for (int k = 0; k < Pack::lanes; ++k) {
+            const std::size_t at = block * Pack::lanes + static_cast<std::size_t>(k);
+            ContactSample& sample = memory.energies[at].now = {};
+            const bool touches = laneOf(touching, k), joins = laneOf(bridged, k);
+            if (!touches && !joins) continue;
+            sample.touching = touches ? 1 : 0;
+            sample.bridged = joins ? 1 : 0;
+            sample.normal = laneOf(g.normal, k);
+            sample.halfOverlap = 0.5 * normal.contact.overlap[k];
+            sample.effectiveRadius = g.effectiveRadius[k];
+            sample.adhesiveForce = adhesive[k];
+            if (!touches) continue;
             const Contact<double> contact{normal.contact.overlap[k], normal.contact.effectiveRadius[k],
                                           normal.contact.effectiveMass[k]};
-            memory.energies[at + k] = {
-                g.overlap[k] > 0 ? elasticEnergy<Normal>(laws.normal, contact, history.get(at + k)) : 0,
-                damping[k], adhesion[k], slipPower[k]};
+            sample.elasticForce = normal.elastic[k];
+            sample.dashpotForce = dashpot[k];
+            sample.elasticEnergy = elasticEnergy<Normal>(laws.normal, contact, memory.normalHistory.get(at));
         }
     }
+    void writeSample(std::size_t block, SliderSample ContactSample::*part, const SliderForce<Pack>& slider,
+                     Mask touching) {
+        const Vector<Pack> spring = -slider.stiffness * slider.spring, rest = slider.force - spring;
+        const Pack stretch2 = squaredNorm(slider.spring);
+        for (int k = 0; k < Pack::lanes; ++k)
+            if (laneOf(touching, k))
+                memory.energies[block * Pack::lanes + static_cast<std::size_t>(k)].now.*
+                    part = {laneOf(spring, k), laneOf(rest, k), stretch2[k], slider.stiffness[k],
+                            laneOf(slider.slides | slider.slips, k) ? 1.0 : 0.0};
+    }
+    static bool laneOf(Mask mask, int k) { return (bits(mask) >> k & 1) != 0; }
+    static Vector<double> laneOf(const Vector<Pack>& v, int k) { return {v.x[k], v.y[k], v.z[k]}; }
 
     /// A block in which nothing touches or joins any more: its memory and its forces become zero, once.
     void clear(std::size_t block, BlockState& state) {
@@ -256,7 +277,7 @@ private:
         for (int k = 0; k < Pack::lanes; ++k) {
             memory.records[block * Pack::lanes + k] = {};
             if constexpr (S::hasContactTorque) memory.torques[block * Pack::lanes + k] = {};
-            if constexpr (withLedger) memory.energies[block * Pack::lanes + k] = {};
+            if constexpr (withLedger) memory.energies[block * Pack::lanes + k].now = {};
         }
         state.touching = state.bridged = state.closing = 0;
     }

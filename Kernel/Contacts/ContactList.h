@@ -41,7 +41,7 @@ public:
         findWallContacts(grains, old);
         fill(grains, store);
         recall(old, grains, store);
-        listSides(grains.size(), store);
+        store.listSides(grains.size(), store.sides);
     }
 
 private:
@@ -273,7 +273,7 @@ private:
                 if (!entries[c]) return;
                 const std::uint32_t first =
                     grains.identity[store.blocks[c / Pack::lanes].first[c % Pack::lanes]];
-                RememberedContacts<S>::recall(*entries[c], entries[c]->owner != first, store, c);
+                old.recall(*entries[c], entries[c]->owner != first, store, c);
             });
         }
     }
@@ -288,16 +288,6 @@ private:
         if (bucket.wall >= 0) return old.find(first, static_cast<std::uint32_t>(bucket.wall + 1), second);
         const std::uint32_t other = grains.identity[second];
         return old.find(std::min(first, other), 0, std::max(first, other));
-    }
-
-    static void listSides(std::size_t grainCount, ContactStore<S>& store) {
-        const auto forEachSide = [&](auto&& function) {
-            store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-                function(store.blocks[c / Pack::lanes].first[c % Pack::lanes], c, 0u);
-                if (bucket.wall < 0) function(store.blocks[c / Pack::lanes].second[c % Pack::lanes], c, 1u);
-            });
-        };
-        store.sides.list(grainCount, forEachSide, [&](std::uint32_t c) { return store.slotOf(c); });
     }
 
     const SpeciesHandler<S>& species;

@@ -71,6 +71,8 @@ public:
         archive.column<std::uint32_t>("sides", sides);
     }
 
+    friend bool operator==(const ContactSides&, const ContactSides&) = default;
+
 private:
     static bool isMemory(std::uint32_t slot) { return slot >= Pack::lanes; }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "Kernel/Contacts/ContactSample.h"
 #include "Kernel/Contacts/ContactSides.h"
 #include "Kernel/Math/Pack.h"
 #include "Kernel/Particles/ParticleStore.h"
@@ -41,6 +42,10 @@ struct WallPointColumns {
         velocity[2].lane[lane] = point.velocity.z;
         distance.lane[lane] = point.distance;
     }
+    /// m/s
+    [[nodiscard]] Vector<double> velocityAt(std::size_t lane) const {
+        return {velocity[0].lane[lane], velocity[1].lane[lane], velocity[2].lane[lane]};
+    }
 };
 
 /// The state of the eight contacts of a block, one bit a lane.
@@ -73,14 +78,6 @@ struct alignas(32) ForceRecord {
 struct alignas(32) TorqueRecord {
     Vector<double> torque{0, 0, 0};  // N m
     double unused = 0;
-};
-
-/// What one contact did in a step, kept only when a ledger is asked for.
-struct alignas(32) EnergyRecord {
-    double elastic;     // J, stored in the overlap
-    double damping;     // W, lost in the normal dashpot; with a history, given to the elastic part as well
-    double adhesion;    // W, done against the adhesion
-    double tangential;  // W, given to the tangential spring, dashpot and slider
 };
 
 /// How many numbers a Template<T> of nothing but T holds.
@@ -277,6 +274,17 @@ public:
                 if (bitOf(states[c / Pack::lanes].listed, c)) function(bucket, c);
     }
 
+    /// The sides of all listed contacts of so many grains.
+    void listSides(std::size_t grainCount, ContactSides& all) const {
+        const auto forEachSide = [&](auto&& function) {
+            forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+                function(blocks[c / Pack::lanes].first[c % Pack::lanes], c, 0u);
+                if (bucket.wall < 0) function(blocks[c / Pack::lanes].second[c % Pack::lanes], c, 1u);
+            });
+        };
+        all.list(grainCount, forEachSide, [&](std::uint32_t c) { return slotOf(c); });
+    }
+
     void visitState(StateArchive& archive) {
         auto& [list, pairs, bits, memoryOf, m, points, sidesOf, g] = *this;  // a member that is added as well
         archive.column<std::int32_t>("buckets", list);
@@ -285,8 +293,8 @@ public:
         archive.column<std::uint32_t>("slots", memoryOf);
         archive.column<double>("wallPoints", points);
         archive.column<double>("gaps", g);
-        archive.group("memory", [&] { m.visitState(archive); });
-        archive.group("sides", [&] { sidesOf.visitState(archive); });
+        archive.group("memory", [&, &part = m] { part.visitState(archive); });
+        archive.group("sides", [&, &part = sidesOf] { part.visitState(archive); });
     }
 
     /// Bytes of memory that the contacts take.

@@ -6,34 +6,16 @@
 
 #include "Kernel/Contacts/ContactKernel.h"
 #include "Kernel/Contacts/ContactList.h"
+#include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Contacts/SkinChoice.h"
+#include "Kernel/Contacts/StoredContacts.h"
 #include "Kernel/Contacts/WallContacts.h"
+#include "Kernel/Contacts/WallPointSearch.h"
 #include "Kernel/Parallel.h"
+#include "Kernel/Species/DomainLimit.h"
 
 namespace pendular {
-
-/// Energy by kind, summed over all contacts.
-struct ContactEnergies {
-    double elastic = 0;     // J, stored in the normal overlaps
-    double damping = 0;     // W, lost in the normal dashpots
-    double adhesion = 0;    // W, done against the adhesion
-    double tangential = 0;  // W, given to tangential springs, dashpots and sliders
-};
-
-/// One contact as an observer sees it after a step.
-struct ObservedContact {
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
-
-    std::uint32_t particle1;
-    std::uint32_t particle2;  // `none` at a wall
-    int wall;                 // -1: grain with grain
-    double separation;        // m, of the surfaces; negative where they overlap
-    double normalForce;       // N, elastic and damping, repulsion positive
-    double adhesiveForce;     // N, attraction positive
-    bool bridged;
-    Vector<double> shift;  // m, from the centre of particle 1 to that of particle 2 or to the wall's surface
-    Vector<double> force;  // N, on particle 1
-};
 
 /// The contacts of a scene: their list, and the forces of a step.
 template <class S>
@@ -52,6 +34,7 @@ public:
         skin = skinChoice;
         ledger = withLedger;
         unlisted = infinity;
+        overlapWatch = OverlapWatch(overlapLimit<typename S::Mixed>().largest);
     }
 
     /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
@@ -73,8 +56,8 @@ public:
         return true;
     }
 
-    /// After prepare(); the species, the walls and the grains are visited by themselves.
-    void visitState(StateArchive& archive) {
+    /// After prepare(); the species, the walls and the grains are visited by themselves, before.
+    void visitState(StateArchive& archive, const Grains& grains) {
         contacts.visitState(archive);
         archive.record<double>("skin", skin);
         archive.value("stepsListed", stepsListed);
@@ -82,7 +65,15 @@ public:
         archive.value("listedWalls", listedWalls);
         archive.value("unlisted", unlisted);
         archive.value("rebuilds", rebuilds);
-        if (archive.isReading()) prepareLaws();
+        archive.group("overlap", [&] { overlapWatch.visitState(archive); });
+        if (!archive.isReading()) return;
+        archive.require(skin.isPossible(), "skin", "is not that of a list of contacts");
+        archive.require(unlisted >= 0, "unlisted", "is negative or not a number");
+        archive.require(listedGrains <= grains.size(), "listedGrains", "is above the number of grains");
+        archive.require(listedWalls <= walls->getSize(), "listedWalls", "is above the number of walls");
+        StoredContacts<S>(contacts, species->getSize(), listedGrains, *walls, listedWalls)
+            .require(archive, ledger);
+        prepareLaws();
     }
 
     /// Threads for the forces; the results do not depend on it.
@@ -91,8 +82,17 @@ public:
     /// The force records of all contacts, for grains at the end of a step (s) with their predicted
     /// velocities.
     void computeForces(const Grains& grains, double step, ContactTiming timing = {}) {
-        if (ledger) computeAll<true>(grains, step, timing);
-        else computeAll<false>(grains, step, timing);
+        computePairForces(grains, step, timing);
+        computeWallForces(grains, step, timing);
+    }
+    /// The first half of it: grains with grains.
+    void computePairForces(const Grains& grains, double step, ContactTiming timing = {}) {
+        compute(grains, step, timing, 0, firstWallBucket());
+    }
+    /// The second half of it.
+    void computeWallForces(const Grains& grains, double step, ContactTiming timing = {}) {
+        compute(grains, step, timing, firstWallBucket(), contacts.buckets.size());
+        sumWallForces(grains);
     }
 
     [[nodiscard]] const ContactStore<S>& store() const { return contacts; }
@@ -100,99 +100,96 @@ public:
     /// Of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const { return contacts.bytes(); }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
+    /// Of all contacts since the scene began.
+    [[nodiscard]] const OverlapWatch& overlaps() const { return overlapWatch; }
 
-    [[nodiscard]] ContactEnergies energies() const {
-        ContactEnergies sum;
-        if (!ledger) return sum;
-        contacts.forEachListed([&](const Bucket&, std::uint32_t c) {
-            const EnergyRecord& e = contacts.memory.energies[contacts.slotOf(c)];
-            sum.elastic += e.elastic;
-            sum.damping += e.damping;
-            sum.adhesion += e.adhesion;
-            sum.tangential += e.tangential;
+    /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
+    /// step, in the order of the list. Only where a ledger is kept.
+    template <class Function>
+    void forEachEnergyRecord(Function&& function) {
+        contacts.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+            const std::size_t b = c / Pack::lanes, lane = c % Pack::lanes;
+            if (contacts.slots[b] == ContactStore<S>::asleep) return;
+            EnergyRecord& record = contacts.memory.energies[contacts.slotOf(c)];
+            if (!record.now.acts() && !record.last.acts()) return;
+            if (bucket.wall >= 0) {
+                record.now.wallVelocity = contacts.wallPoints[b - contacts.firstWallBlock()].velocityAt(lane);
+                record.now.wallSpin = wallOf(bucket).angularVelocity();
+            }
+            function(bucket, contacts.blocks[b], lane, record);
         });
-        return sum;
     }
 
     [[nodiscard]] ObservedContact observe(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const {
-        const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
-        const BlockState& state = contacts.states[contact / Pack::lanes];
-        const std::size_t lane = contact % Pack::lanes;
-        const TranslationRecord& first = grains.translation[block.first[lane]];
-        ObservedContact seen{grains.identity[block.first[lane]],
-                             ObservedContact::none,
-                             bucket.wall,
-                             0,
-                             contacts.recordOf(contact).normalForce,
-                             0,
-                             (state.bridged >> lane & 1) != 0,
-                             {},
-                             contacts.recordOf(contact).force};
-        if (bucket.wall < 0) {
-            const TranslationRecord& second = grains.translation[block.second[lane]];
-            seen.particle2 = grains.identity[block.second[lane]];
-            seen.shift = periodic.nearest(second.position - first.position);
-            seen.separation = norm(seen.shift) - (first.radius + second.radius);
-        } else {
-            const std::uint32_t part = block.second[lane];
-            WallPoint point;
-            walls->getObject(static_cast<std::size_t>(bucket.wall))
-                .findPoints(first.position, first.radius, {&part, 1}, {&point, 1});
-            seen.separation = point.distance - first.radius;
-            seen.shift = point.distance * point.normal;
-        }
-        if constexpr (S::Adhesion::acts)
-            if (seen.bridged)
-                seen.adhesiveForce = contacts.memory.interaction.get(contacts.slotOf(contact))
-                                         .force(separationFor<typename S::Adhesion>(-seen.separation));
-        seen.normalForce += seen.adhesiveForce;
-        return seen;
+        const Wall* wall = bucket.wall < 0 ? nullptr : &wallOf(bucket);
+        return observeContact(contacts, grains, periodic, bucket, wall, contact);
     }
 
 private:
-    /// Blocks are independent: each writes only its own memory and records.
+    [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
+        return walls->getObject(static_cast<std::size_t>(bucket.wall));
+    }
+    /// Buckets of walls come last.
+    [[nodiscard]] std::size_t firstWallBucket() const {
+        const auto atWall = [](const Bucket& bucket) { return bucket.wall >= 0; };
+        return static_cast<std::size_t>(std::ranges::find_if(contacts.buckets, atWall) -
+                                        contacts.buckets.begin());
+    }
+    void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first,
+                 std::size_t end) {
+        for (std::size_t k = first; k < end; ++k)
+            if (ledger) computeBucket<true>(grains, step, timing, k);
+            else computeBucket<false>(grains, step, timing, k);
+    }
     template <bool withLedger>
-    void computeAll(const Grains& grains, double step, ContactTiming timing) {
+    void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number) {
         const TranslationRecord* translation = grains.translation.data();
         const RotationRecord* rotation = grains.rotation.data();
-        for (std::size_t k = 0; k < contacts.buckets.size(); ++k) {
-            const Bucket& bucket = contacts.buckets[k];
-            ContactKernel<S, withLedger> kernel(laws[k], step, timing, contacts);
-            const auto forEachBlock = [&](auto geometryOf) {
-                std::atomic<bool> allHaveMemory = true;
-                inParts(
-                    bucket.end - bucket.begin, threads,
-                    [&, kernel](int, std::size_t begin, std::size_t end) mutable {
-                        bool all = true;
-                        for (std::size_t b = bucket.begin + begin; b < bucket.begin + end; ++b)
-                            if (contacts.slots[b] != ContactStore<S>::asleep || unlisted > contacts.gaps[b])
-                                all &= kernel.computeBlock(b, geometryOf(b));
-                        if (!all) allHaveMemory = false;
-                    });
-                if (allHaveMemory) return;
-                for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
-                    if (contacts.slots[b] != ContactStore<S>::waking) continue;
-                    wake(b, bucket, grains);
-                    kernel.computeBlock(b, geometryOf(b));
-                }
-            };
-            const auto pairOf = [&]<bool isPeriodic>(std::size_t b) {
-                return PairGeometry<S, isPeriodic>(translation, rotation, contacts.blocks[b], periodic);
-            };
-            if (bucket.wall >= 0) {
-                findWallPoints(grains, bucket, step);
-                forEachBlock([&, first = contacts.firstWallBlock()](std::size_t b) {
-                    return WallGeometry<S>(translation, rotation, contacts.blocks[b],
-                                           contacts.wallPoints[b - first]);
-                });
-            } else if (periodic.any()) {
-                forEachBlock([&](std::size_t b) { return pairOf.template operator()<true>(b); });
-            } else {
-                forEachBlock([&](std::size_t b) { return pairOf.template operator()<false>(b); });
-            }
+        const Bucket& bucket = contacts.buckets[number];
+        const ContactKernel<S, withLedger> kernel(laws[number], step, timing, overlapWatch, contacts);
+        const auto pairOf = [&]<bool isPeriodic>(std::size_t b) {
+            return PairGeometry<S, isPeriodic>(translation, rotation, contacts.blocks[b], periodic);
+        };
+        if (bucket.wall >= 0) {
+            findWallPoints(grains, bucket, step);
+            const Vector<double> spin = wallOf(bucket).angularVelocity();
+            computeBlocks(grains, bucket, kernel, [&, first = contacts.firstWallBlock()](std::size_t b) {
+                return WallGeometry<S>(translation, rotation, contacts.blocks[b],
+                                       contacts.wallPoints[b - first], spin);
+            });
+        } else if (periodic.any()) {
+            computeBlocks(grains, bucket, kernel,
+                          [&](std::size_t b) { return pairOf.template operator()<true>(b); });
+        } else {
+            computeBlocks(grains, bucket, kernel,
+                          [&](std::size_t b) { return pairOf.template operator()<false>(b); });
         }
-        sumWallForces(grains);
+    }
+    /// Blocks are independent: each writes only its own memory and records.
+    template <class Kernel, class GeometryOf>
+    void computeBlocks(const Grains& grains, const Bucket& bucket, const Kernel& kernel,
+                       const GeometryOf& geometryOf) {
+        std::atomic<bool> allHaveMemory = true;
+        watches.assign(static_cast<std::size_t>(threads), overlapWatch.part());
+        inParts(bucket.end - bucket.begin, threads, [&](int part, std::size_t begin, std::size_t end) {
+            Kernel own = kernel;
+            bool all = true;
+            for (std::size_t b = bucket.begin + begin; b < bucket.begin + end; ++b)
+                if (contacts.slots[b] != ContactStore<S>::asleep || unlisted > contacts.gaps[b])
+                    all &= own.computeBlock(b, geometryOf(b));
+            if (!all) allHaveMemory = false;
+            watches[static_cast<std::size_t>(part)] = own.overlaps;
+        });
+        for (const OverlapWatch& watch : watches) overlapWatch.add(watch);
+        if (allHaveMemory) return;
+        Kernel last = kernel;
+        for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
+            if (contacts.slots[b] != ContactStore<S>::waking) continue;
+            wake(b, bucket, grains);
+            last.computeBlock(b, geometryOf(b));
+        }
+        overlapWatch.add(last.overlaps);
     }
 
     void wake(std::size_t block, const Bucket& bucket, const Grains& grains) {
@@ -208,6 +205,11 @@ private:
         }
     }
 
+    void findWallPoints(const Grains& grains, const Bucket& bucket, double step) {
+        wallPoints.find(contacts, grains, bucket, wallOf(bucket),
+                        species->mixture(bucket.species1, bucket.species2), step, threads,
+                        [&](std::size_t block) { wake(block, bucket, grains); });
+    }
     void sumWallForces(const Grains& grains) {
         for (std::size_t w = 0; w < walls->getSize(); ++w) {
             Wall& wall = walls->getObject(w);
@@ -225,72 +227,6 @@ private:
             laws.emplace_back(species->mixture(bucket.species1, bucket.species2));
     }
 
-    struct HandOver {
-        std::size_t from, to;  // contacts
-        Vector<double> oldNormal, newNormal;
-    };
-
-    /// Where the grains of a wall's bucket are nearest to it; the contacts of one grain follow each other.
-    void findWallPoints(const Grains& grains, const Bucket& bucket, double step) {
-        const std::size_t first = bucket.begin * Pack::lanes;
-        std::size_t end = bucket.end * Pack::lanes;
-        while (!contacts.bitOf(contacts.states[(end - 1) / Pack::lanes].listed, end - 1)) --end;
-        const auto grainOf = [&](std::size_t c) {
-            return contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
-        };
-        const auto atNextGrain = [&](std::size_t c) {
-            while (c > first && c < end && grainOf(c) == grainOf(c - 1)) ++c;
-            return c;
-        };
-        handOvers.resize(static_cast<std::size_t>(threads));
-        inParts(end - first, threads, [&](int part, std::size_t from, std::size_t to) {
-            std::vector<HandOver>& own = handOvers[static_cast<std::size_t>(part)];
-            own.clear();
-            findWallPoints(grains, bucket, step, atNextGrain(first + from), atNextGrain(first + to), own);
-        });
-        for (const auto& part : handOvers)
-            for (const HandOver& h : part) {
-                if (!contacts.acts(h.from)) continue;
-                if (contacts.slots[h.to / Pack::lanes] == ContactStore<S>::asleep)
-                    wake(h.to / Pack::lanes, bucket, grains);
-                handOver(contacts, h.from, h.to, h.oldNormal, h.newNormal);
-            }
-    }
-    /// The same for the contacts [c, end), which begin with a grain's first.
-    void findWallPoints(const Grains& grains, const Bucket& bucket, double step, std::size_t c,
-                        std::size_t end, std::vector<HandOver>& found) {
-        const Wall& wall = walls->getObject(static_cast<std::size_t>(bucket.wall));
-        std::vector<std::uint32_t> parts;
-        std::vector<WallPoint> points;
-        Bodies last{-1};
-        double range = 0;
-        while (c < end) {
-            const std::uint32_t grain = contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
-            const std::size_t begin = c;
-            parts.clear();
-            for (; c < end && contacts.blocks[c / Pack::lanes].first[c % Pack::lanes] == grain; ++c)
-                parts.push_back(contacts.blocks[c / Pack::lanes].second[c % Pack::lanes]);
-            points.resize(parts.size());
-            const TranslationRecord& record = grains.translation[grain];
-            if constexpr (S::Adhesion::acts)
-                if (record.radius != last.radius1) {
-                    last = {record.radius};
-                    range = species->mixture(bucket.species1, bucket.species2).range(last);
-                }
-            wall.findPoints(record.position, record.radius + range, parts, points);
-            for (std::size_t k = 0; k < points.size(); ++k) {
-                const WallPoint& point = points[k];
-                contacts.wallPoints[(begin + k) / Pack::lanes - contacts.firstWallBlock()].set(
-                    (begin + k) % Pack::lanes, point);
-                if (point.coveredBy >= 0) {
-                    const auto other = static_cast<std::size_t>(point.coveredBy);
-                    found.push_back({begin + k, begin + other, point.normal, points[other].normal});
-                }
-                refuseCrossing(wall, bucket.wall, record, grains.identity[grain], point, step);
-            }
-        }
-    }
-
     const SpeciesHandler<S>* species = nullptr;
     const WallHandler* walls = nullptr;
     PeriodicBox periodic;
@@ -303,7 +239,9 @@ private:
     bool ledger = false;
     int threads = 1;
     std::size_t rebuilds = 0;
-    std::vector<std::vector<HandOver>> handOvers;  // of each thread
+    WallPointSearch<S> wallPoints;
+    OverlapWatch overlapWatch;
+    std::vector<OverlapWatch> watches;  // of each thread
 };
 
 }  // namespace pendular

@@ -68,6 +68,12 @@ public:
         forEachActing([&](const Entry& entry, std::uint32_t) { entries[next[entry.owner]++] = entry; });
         for (std::size_t k = 0; k < identity.size(); ++k)
             std::sort(entries.begin() + begins[k], entries.begin() + begins[k + 1], isBefore);
+        if (store.memory.energies.empty()) return;
+        energies.resize(entries.size());
+        forEachActing([&](const Entry& entry, std::uint32_t c) {
+            energies[numberOf(*find(entry.owner, entry.wall, entry.other))] =
+                store.memory.energies[store.slotOf(c)];
+        });
     }
 
     [[nodiscard]] std::span<const Entry> of(std::uint32_t owner) const {
@@ -84,7 +90,7 @@ public:
 
     /// Gives all that the contact remembered to a contact of a new store, whose block has memory.
     /// @param exchanged the new body 1 is not the entry's owner
-    static void recall(const Entry& entry, bool exchanged, ContactStore<S>& store, std::size_t to) {
+    void recall(const Entry& entry, bool exchanged, ContactStore<S>& store, std::size_t to) const {
         const std::size_t slot = store.slotOf(to);
         auto history = entry.history;
         if constexpr (requires { history.exchangeBodies(); })
@@ -96,6 +102,10 @@ public:
             store.memory.torques[slot].torque = sign * entry.torque.torque;
         }
         store.memory.interaction.set(slot, entry.interaction);
+        if (!energies.empty()) {
+            EnergyRecord& record = store.memory.energies[slot] = energies[numberOf(entry)];
+            if (exchanged != entry.exchanged) record.exchangeBodies();
+        }
         entry.forces.putInto(store.memory.records[slot]);  // n x F is the same seen from either body
         BlockState& state = store.states[to / Pack::lanes];
         const auto setBit = [&](std::uint8_t& bits, bool value) {
@@ -107,6 +117,9 @@ public:
     }
 
 private:
+    [[nodiscard]] std::size_t numberOf(const Entry& entry) const {
+        return static_cast<std::size_t>(&entry - entries.data());
+    }
     static bool isBefore(const Entry& a, const Entry& b) {
         return a.wall != b.wall ? a.wall < b.wall : a.other < b.other;
     }
@@ -139,7 +152,8 @@ private:
     }
 
     std::vector<std::uint32_t> begins;
-    std::vector<Entry> entries;  // by owner
+    std::vector<Entry> entries;          // by owner
+    std::vector<EnergyRecord> energies;  // of each entry; none unless a ledger is kept
 };
 
 }  // namespace pendular

@@ -51,6 +51,14 @@ public:
                             std::min(2 * chosen, smallestRadius));
     }
 
+    /// Whether the numbers of this choice, out of a restart file, can be those of one.
+    [[nodiscard]] bool isPossible() const {
+        const bool isInRange =
+            smallestRadius == 0 || (chosen >= 0.01 * smallestRadius && chosen <= smallestRadius);
+        return chosen > 0 && isInRange && std::isfinite(rebuildCost) && std::isfinite(farCost) &&
+               rebuildCost >= 0 && farCost >= 0;
+    }
+
 private:
     static constexpr double rebuildOfGrain = 150;   // ns
     static constexpr double rebuildOfContact = 75;  // ns

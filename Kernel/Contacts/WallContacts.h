@@ -33,7 +33,10 @@ void handOver(ContactStore<S>& store, std::size_t from, std::size_t to, const Ve
         memory.torques[next] = memory.torques[old];
         memory.torques[old] = {};
     }
-    if (!memory.energies.empty()) memory.energies[old] = {};
+    if (!memory.energies.empty()) {
+        memory.energies[next] = memory.energies[old];
+        memory.energies[old] = {};
+    }
     const auto moveBit = [&](std::uint8_t& bitsFrom, std::uint8_t& bitsTo) {
         const unsigned bit = bitsFrom >> (from % Pack::lanes) & 1u;
         bitsFrom = static_cast<std::uint8_t>(bitsFrom & ~(bit << (from % Pack::lanes)));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <sstream>
@@ -20,6 +21,9 @@ public:
         return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
     }
 
+    /// Every decade alike, in [low, high); both above 0.
+    double logarithmic(double low, double high) { return low * std::pow(high / low, uniform(0, 1)); }
+
     void visitState(StateArchive& archive) {
         std::stringstream numbers;
         numbers << engine;
@@ -27,6 +31,7 @@ public:
         archive.text("generator", text);
         numbers.str(text);
         numbers >> engine;
+        archive.require(!numbers.fail(), "generator", "is not the state of one");
     }
 
 private:

@@ -15,51 +15,143 @@ namespace pendular {
 namespace {
 
 constexpr std::size_t blockSize = 1 << 17;
-constexpr std::size_t sampleSize = 1 << 12;
 
-std::string deflated(std::span<const std::byte> bytes, int strategy) {
+/// Streams of zlib, one after another, made of parts that are packed or stored. Sources: RFC 1950 (zlib), RFC
+/// 1951 (deflate).
+class Packer {
+public:
+    /// @param strategy of zlib, for the parts that are packed
+    explicit Packer(int strategy) {
+        constexpr int rawDeflate = -15, memoryLevel = 8;
+        if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, rawDeflate, memoryLevel, strategy) != Z_OK)
+            throw std::runtime_error("zlib has no memory");
+    }
+    Packer(const Packer&) = delete;
+    Packer& operator=(const Packer&) = delete;
+    ~Packer() { deflateEnd(&stream); }
+
+    void begin() {
+        out.clear();
+        for (const int byte : {0x78, 0x01}) out.push_back(static_cast<char>(byte));  // packed fast
+        checksum = adler32(0, nullptr, 0);
+    }
+    /// Packed if that gains a quarter. The low bits of positions and velocities are random: to pack them
+    /// takes twenty times as long as to store them, and gains a twentieth.
+    void add(std::span<const std::byte> bytes) {
+        checksum = adler32_z(checksum, dataOf(bytes), bytes.size());
+        if (gainsAQuarter(bytes)) out += packed(bytes);
+        else store(bytes);
+    }
+    std::string finish() {
+        appendStoredBlock({}, true);
+        for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<char>(checksum >> shift & 0xff));
+        return out;
+    }
+
+private:
+    static const Bytef* dataOf(std::span<const std::byte> bytes) {
+        return reinterpret_cast<const Bytef*>(bytes.data());
+    }
+    /// As a sample from four places tells.
+    bool gainsAQuarter(std::span<const std::byte> bytes) {
+        constexpr std::size_t pieces = 4, pieceSize = 256;
+        sample.clear();
+        for (std::size_t k = 0; k < pieces; ++k) {
+            const auto piece = bytes.subspan(k * bytes.size() / pieces / wordSize * wordSize);
+            const auto begin = piece.begin();
+            sample.insert(sample.end(), begin, begin + std::min(pieceSize, bytes.size() / pieces));
+        }
+        return static_cast<double>(packed(sample).size()) < 0.75 * static_cast<double>(sample.size());
+    }
+    /// As blocks of deflate that end with a whole byte, and do not refer to earlier parts.
+    std::string_view packed(std::span<const std::byte> bytes) {
+        constexpr std::size_t endOfFlush = 16;
+        const std::size_t most = deflateBound(&stream, bytes.size()) + endOfFlush;
+        if (room.size() < most) room.resize(most);
+        stream.next_in = const_cast<Bytef*>(dataOf(bytes));
+        stream.avail_in = static_cast<uInt>(bytes.size());
+        stream.next_out = room.data();
+        stream.avail_out = static_cast<uInt>(room.size());
+        if (deflate(&stream, Z_SYNC_FLUSH) != Z_OK || stream.avail_in > 0 || stream.avail_out == 0)
+            throw std::runtime_error("zlib failed");
+        const std::size_t size = room.size() - stream.avail_out;
+        deflateReset(&stream);
+        return {reinterpret_cast<const char*>(room.data()), size};
+    }
+    void store(std::span<const std::byte> bytes) {
+        constexpr std::size_t most = 0xffff;  // bytes in a stored block
+        for (; !bytes.empty(); bytes = bytes.subspan(std::min(most, bytes.size())))
+            appendStoredBlock(bytes.first(std::min(most, bytes.size())), false);
+    }
+    void appendStoredBlock(std::span<const std::byte> bytes, bool isLast) {
+        const std::size_t size = bytes.size();
+        out.push_back(isLast ? 1 : 0);
+        for (const std::size_t word : {size, ~size})
+            for (const int shift : {0, 8}) out.push_back(static_cast<char>(word >> shift & 0xff));
+        out.append(reinterpret_cast<const char*>(bytes.data()), size);
+    }
+
+    static constexpr std::size_t wordSize = 8;
     z_stream stream{};
-    if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, 15, 8, strategy) != Z_OK)
-        throw std::runtime_error("zlib has no memory");
-    std::string out(deflateBound(&stream, bytes.size()), '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    const int result = deflate(&stream, Z_FINISH);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    if (result != Z_STREAM_END) throw std::runtime_error("zlib failed");
-    return out;
-}
-
-/// Positions and velocities have random low bits, in which a search for repeated strings finds nothing: it
-/// would take four times as long and gain a hundredth. A sample tells whether it gains a quarter.
-std::string compressedBlock(std::span<const std::byte> block) {
-    const auto sample = block.first(std::min(block.size(), sampleSize));
-    const bool repeats =
-        deflated(sample, Z_DEFAULT_STRATEGY).size() < 0.75 * static_cast<double>(sample.size());
-    return deflated(block, repeats ? Z_DEFAULT_STRATEGY : Z_HUFFMAN_ONLY);
-}
+    uLong checksum = 0;
+    std::vector<std::byte> sample;
+    std::vector<Bytef> room;
+    std::string out;
+};
 
 void append(std::string& text, std::uint64_t number) {
     text.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
+/// @param chunk the numbers that are there, and zeros up to its size
+std::vector<std::byte> shuffled(std::span<const std::byte> numbers, std::size_t size, std::size_t chunk) {
+    std::vector<std::byte> out(chunk);
+    const std::size_t count = chunk / size;
+    for (std::size_t k = 0; k < numbers.size() / size; ++k)
+        for (std::size_t byte = 0; byte < size; ++byte) out[byte * count + k] = numbers[k * size + byte];
+    return out;
+}
+
 }  // namespace
+
+std::vector<std::string> compressShuffled(std::span<const std::byte> bytes, std::size_t size,
+                                          std::size_t chunk, int threads) {
+    std::vector<std::string> chunks((bytes.size() + chunk - 1) / chunk);
+    inParts(chunks.size(), threads, [&](int, std::size_t begin, std::size_t end) {
+        // Runs of equal bytes are all that sorted bytes repeat: as small as by zlib's whole search, and much
+        // faster.
+        Packer packer(Z_RLE);
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto part = bytes.subspan(k * chunk, std::min(chunk, bytes.size() - k * chunk));
+            const std::vector<std::byte> sorted = shuffled(part, size, chunk);
+            packer.begin();
+            // The bytes of one place: those of the exponents pack well, the last ones of the digits do not.
+            for (std::size_t byte = 0; byte < size; ++byte)
+                packer.add(std::span(sorted).subspan(byte * (chunk / size), chunk / size));
+            chunks[k] = packer.finish();
+        }
+    });
+    return chunks;
+}
 
 std::string compressInBlocks(std::span<const std::byte> bytes, int threads) {
     const std::size_t count = (bytes.size() + blockSize - 1) / blockSize;
     std::vector<std::string> blocks(count);
     inParts(count, threads, [&](int, std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k)
-            blocks[k] = compressedBlock(
-                bytes.subspan(k * blockSize, std::min(blockSize, bytes.size() - k * blockSize)));
+        Packer packer(Z_DEFAULT_STRATEGY);
+        for (std::size_t k = begin; k < end; ++k) {
+            packer.begin();
+            packer.add(bytes.subspan(k * blockSize, std::min(blockSize, bytes.size() - k * blockSize)));
+            blocks[k] = packer.finish();
+        }
     });
     std::string out;
     append(out, count);
     append(out, blockSize);
     append(out, bytes.size() % blockSize);
+    std::size_t size = (3 + count) * sizeof(std::uint64_t);
+    for (const std::string& block : blocks) size += block.size();
+    out.reserve(size);
     for (const std::string& block : blocks) append(out, block.size());
     for (const std::string& block : blocks) out += block;
     return out;

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pendular {
 
@@ -12,6 +13,14 @@ namespace pendular {
 /// each a stream of zlib. Source: the VTK file formats, "Compressed data".
 /// @param threads the bytes do not depend on it
 std::string compressInBlocks(std::span<const std::byte> bytes, int threads = 1);
+
+/// Numbers in chunks, each in the form of the filters "shuffle" and "deflate" of the HDF5 library: the first
+/// bytes of all its numbers, then the second ones, and so on, as a stream of zlib. The last chunk is filled
+/// up with zeros. Source: The HDF Group, "HDF5 file format specification", filter pipeline.
+/// @param size of a number, bytes; @param chunk bytes, a multiple of size
+/// @param threads the bytes do not depend on it
+std::vector<std::string> compressShuffled(std::span<const std::byte> bytes, std::size_t size,
+                                          std::size_t chunk, int threads = 1);
 
 /// The bytes again. Throws std::runtime_error, with the reason, unless the data begins with blocks that hold
 /// exactly `size` bytes.

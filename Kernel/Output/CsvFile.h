@@ -22,11 +22,12 @@ public:
         if (file.flush() == 0) line(header);
     }
 
-    /// One line; numbers with all their digits.
+    /// One line; numbers with all their digits. (Not by fmt::format_to, which is compiled anew in every file
+    /// that uses it: a fifth of the time to compile a driver.)
     template <class... Values>
     void row(const Values&... values) {
         std::string line;
-        (fmt::format_to(std::back_inserter(line), "{},", values), ...);
+        ((line += fmt::format("{},", values)), ...);
         line.back() = '\n';
         file.write(line);
     }

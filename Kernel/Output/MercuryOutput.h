@@ -1,25 +1,12 @@
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Output/FrameFile.h"
 
 namespace pendular {
-
-/// A text to which frames are added; each is on the disk, whole, when add() returns.
-class FrameFile {
-public:
-    /// @param goesOn behind what is there; else anew. Throws InputError if the file cannot be written.
-    FrameFile(std::string path, bool goesOn);
-    void add(std::string_view frame);
-
-private:
-    std::string path;
-    std::shared_ptr<std::FILE> file;
-};
 
 /// The files NAME.data, NAME.fstat and NAME.ene of MercuryDPM, for the tools of its users (XBalls, MercuryCG,
 /// scripts). Given to Simulation::addOutput(); the energies need keepEnergyLedger(). Source of the columns:
@@ -40,17 +27,32 @@ public:
 
     template <class Scene>
     void write(const Scene& scene) {
-        if (!data) open(scene.getName(), scene.getTime() > 0);
+        const std::string beginning = nameIn(scene);
+        const bool goesOn = scene.isRestarted();
         const auto& grains = scene.particleHandler.store();
         const Domain box = domain ? *domain : domainOf(grains);
-        data->add(dataFrame(grains, box, scene.getTime()));
-        if (contactsToo) contacts->add(contactFrame(scene.contacts(), grains, box, scene.getTime()));
+        const auto frame = [&](FrameFile& file, auto&& writeInto) {
+            file.begin(beginning, goesOn);
+            writeInto();
+            file.finish();
+        };
+        frame(data, [&] { writeData(grains, box, scene.getTime()); });
+        if (contactsToo)
+            frame(contacts, [&] { writeContacts(scene.contacts(), grains, box, scene.getTime()); });
         if (!energiesToo) return;
         if (!scene.keepsEnergyLedger())
             throw InputError(
                 "MercuryOutput: the .ene file needs the elastic energy; call keepEnergyLedger(), or "
                 "withEnergies(false) to do without the file.");
-        energies->add(energyLine(grains, scene));
+        frame(energies, [&] { energies.text(energyLine(grains, scene)); });
+    }
+
+    template <class Scene>
+    void visitState(StateArchive& archive, const Scene& scene) {
+        const std::string beginning = nameIn(scene);
+        data.visitState(archive, beginning);
+        if (contactsToo) contacts.visitState(archive, beginning);
+        if (energiesToo) energies.visitState(archive, beginning);
     }
 
 private:
@@ -58,7 +60,10 @@ private:
         Vector<double> lowest, highest;  // m
     };
 
-    void open(const std::string& standardName, bool goesOn);
+    template <class Scene>
+    [[nodiscard]] std::string nameIn(const Scene& scene) const {
+        return name.empty() ? scene.getName() : name;
+    }
 
     template <bool hasSpin>
     static Domain domainOf(const ParticleStore<hasSpin>& grains) {
@@ -75,34 +80,34 @@ private:
     /// N time xmin ymin zmin xmax ymax zmax, then for each grain rx ry rz vx vy vz rad alpha beta gamma omex
     /// omey omez info: the angles are 0 (spheres), the info is the species.
     template <bool hasSpin>
-    static std::string dataFrame(const ParticleStore<hasSpin>& grains, const Domain& box, double time) {
-        std::string text =
-            fmt::format("{} {} {} {}\n", grains.size(), time, words(box.lowest), words(box.highest));
+    void writeData(const ParticleStore<hasSpin>& grains, const Domain& box, double time) {
+        data.text(fmt::format("{} {} {} {}\n", grains.size(), time, words(box.lowest), words(box.highest)));
+        NumberText line;
         for (const std::uint32_t place : grains.place) {
             const TranslationRecord& grain = grains.translation[place];
             Vector<double> spin{0, 0, 0};
             if constexpr (hasSpin) spin = grains.rotation[place].spin;
-            fmt::format_to(std::back_inserter(text), "{} {} {} 0 0 0 {} {}\n", words(grain.position),
-                           words(grain.velocity), grain.radius, words(spin), grains.species[place]);
+            const int species = grains.species[place];
+            data.line(line.of(grain.position, grain.velocity, grain.radius, 0, 0, 0, spin, species));
         }
-        return text;
     }
 
     /// Three lines of header, then time i j cx cy cz delta deltat fn ft nx ny nz tx ty tz: for grains a line
     /// for each of the two. The force on i is fn n + ft t, where n points from j to i. At wall number w, j is
     /// -w - 1, and n and t are reversed, as MercuryDPM does it ("an old bug").
     template <class S>
-    static std::string contactFrame(const ContactSystem<S>& contacts,
-                                    const ParticleStore<S::hasTorque>& grains, const Domain& box,
-                                    double time) {
+    void writeContacts(const ContactSystem<S>& system, const ParticleStore<S::hasTorque>& grains,
+                       const Domain& box, double time) {
         double largest = 0;
         for (const TranslationRecord& grain : grains.translation) largest = std::max(largest, grain.radius);
-        std::string text =
-            fmt::format("# {} 1\n# {} {}\n# {} {} 0 0 0 0\n", time, words(box.lowest), words(box.highest),
-                        grains.size() > 0 ? grains.smallestRadius() : 0, largest);
-        contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            if (!contacts.store().acts(contact)) return;
-            const ObservedContact seen = contacts.observe(grains, bucket, contact);
+        contacts.text(fmt::format("# {} 1\n# {} {}\n# {} {} 0 0 0 0\n", time, words(box.lowest),
+                                  words(box.highest), grains.size() > 0 ? grains.smallestRadius() : 0,
+                                  largest));
+        const std::string timeWord = fmt::format("{} ", time);
+        NumberText bodies, common, directions;
+        system.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+            if (!system.store().acts(contact)) return;
+            const ObservedContact seen = system.observe(grains, bucket, contact);
             const std::uint32_t place = grains.place[seen.particle1];
             const TranslationRecord& first = grains.translation[place];
             const Vector<double> normal = (-1 / norm(seen.shift)) * seen.shift;  // to body 1
@@ -112,25 +117,26 @@ private:
             const double ft = norm(across) > 1e-14 * norm(seen.force) ? norm(across) : 0;
             const Vector<double> tangent = ft > 0 ? (1 / ft) * across : Vector<double>{0, 0, 0};
             double spring = 0;
-            const auto history = contacts.store().memory.history.get(contacts.store().slotOf(contact));
+            const auto history = system.store().memory.history.get(system.store().slotOf(contact));
             if constexpr (requires { history.displacement.x; }) spring = norm(history.displacement);
-            const auto line = [&](std::uint32_t i, std::int64_t j, const Vector<double>& point, double sign) {
-                fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {} {} {}\n", time, i, j,
-                               words(point), 0.0 - seen.separation, spring, fn, ft, words(sign * normal),
-                               words(sign * tangent));
-            };
             // In the middle of the overlap or of the gap; at a wall on its surface.
+            const Vector<double> point =
+                bucket.wall >= 0 ? first.position + seen.shift
+                                 : first.position - (first.radius + 0.5 * seen.separation) * normal;
+            const std::string_view shared = common.of(point, 0.0 - seen.separation, spring, fn, ft);
+            const auto line = [&](std::uint32_t i, std::int64_t j, double sign) {
+                contacts.line(timeWord, bodies.of(i, j), shared,
+                              directions.of(sign * normal, sign * tangent));
+            };
+            const bool moves = first.inverseMass > 0;
             if (bucket.wall >= 0) {
-                if (first.inverseMass > 0)
-                    line(seen.particle1, -std::int64_t{seen.wall} - 1, first.position + seen.shift, -1);
+                if (moves) line(seen.particle1, -std::int64_t{seen.wall} - 1, -1);
                 return;
             }
-            const Vector<double> point = first.position - (first.radius + 0.5 * seen.separation) * normal;
-            if (first.inverseMass > 0) line(seen.particle1, seen.particle2, point, 1);
+            if (moves) line(seen.particle1, seen.particle2, 1);
             if (grains.translation[grains.place[seen.particle2]].inverseMass > 0)
-                line(seen.particle2, seen.particle1, point, -1);
+                line(seen.particle2, seen.particle1, -1);
         });
-        return text;
     }
 
     /// time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM, of the grains that can move.
@@ -149,13 +155,14 @@ private:
         }
         const Vector<double> centre = mass > 0 ? (1 / mass) * moment : Vector<double>{0, 0, 0};
         return fmt::format("{} {} {} {} {} {}\n", scene.getTime(), -dot(toVector(scene.getGravity()), moment),
-                           translation, rotation, scene.energyLedger().elastic, words(centre));
+                           translation, rotation, scene.energyLedger().springs(), words(centre));
     }
 
     std::string name;
     std::optional<Domain> domain;
     bool energiesToo = true, contactsToo = true;
-    std::optional<FrameFile> data, contacts, energies;
+    FrameFile data{".data"}, contacts{".fstat"},
+        energies{".ene", "time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM\n"};
 };
 
 }  // namespace pendular

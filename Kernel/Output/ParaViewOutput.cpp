@@ -1,26 +1,16 @@
 #include "Kernel/Output/ParaViewOutput.h"
 
-#include "Kernel/Walls/WallHandler.h"
-
 namespace pendular {
 
-PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest) {
-    PolyData data;
-    data.kind = PolyData::Cells::Polygons;
-    std::vector<std::int32_t> numbers, species;
-    const std::vector<WallSurface> surfaces = surfacesOf(walls, lowest, highest);
-    for (std::size_t w = 0; w < surfaces.size(); ++w)
-        for (const Polygon& polygon : surfaces[w].polygons) {
-            for (const Vector<double>& corner : polygon) {
-                data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
-                data.points.push_back(corner);
-            }
-            data.ends.push_back(static_cast<std::int32_t>(data.corners.size()));
-            numbers.push_back(static_cast<std::int32_t>(w));
-            species.push_back(walls.getObject(w).species);
-        }
-    data.cellFields = {{"wall", 1, std::move(numbers)}, {"species", 1, std::move(species)}};
-    return data;
+void ParaViewFrames::add(SceneFrame frame, int threads) {
+    const auto write = [&](std::string_view kind, PolyData& data) {
+        data.time = frame.time;
+        writePolyData(series.add(kind, frame.time, frame.step), data, threads);
+    };
+    write("particles", frame.grains);
+    if (frame.contacts) write("contacts", *frame.contacts);
+    if (frame.walls) write("walls", *frame.walls);
+    series.write();
 }
 
 }  // namespace pendular

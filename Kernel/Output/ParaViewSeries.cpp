@@ -6,13 +6,15 @@
 #include <utility>
 
 #include "Kernel/Input/TextFile.h"
+#include "Kernel/InputError.h"
+#include "Kernel/Output/FrameIndex.h"
 #include "Kernel/Output/WrittenBeside.h"
 
 namespace pendular {
 
 namespace {
 
-constexpr std::string_view lineBegin = "<DataSet timestep=\"";
+constexpr std::string_view lineBegin = "<DataSet timestep=\"", lastLine = "</VTKFile>";
 
 std::string escaped(std::string_view text) {
     std::string result;
@@ -48,8 +50,10 @@ std::vector<ParaViewEntry> readParaViewSeries(const std::filesystem::path& path)
     std::vector<ParaViewEntry> entries;
     std::istringstream lines(file.text);
     std::size_t number = 0;
+    bool isWhole = false;
     for (std::string line; std::getline(lines, line);) {
         ++number;
+        isWhole = isWhole || line.starts_with(lastLine);
         if (!line.starts_with(lineBegin)) continue;
         ParaViewEntry entry{0, valueOf(line, "name"), path.parent_path() / valueOf(line, "file")};
         if (!parseNumber(valueOf(line, "timestep"), entry.time) || entry.kind.empty() ||
@@ -58,15 +62,50 @@ std::vector<ParaViewEntry> readParaViewSeries(const std::filesystem::path& path)
         entries.push_back(std::move(entry));
     }
     if (entries.empty()) file.refuse("has no files in it");
+    if (!isWhole) file.refuse(fmt::format("is not whole: it has no line {}", lastLine));
     return entries;
 }
 
-ParaViewSeries::ParaViewSeries(std::string name, double time)
+ParaViewSeries::ParaViewSeries(std::string name, double keptUntil)
     : file(name + ".pvd"), beginning(std::move(name)) {
-    if (!(time > 0) || !std::filesystem::exists(file)) return;
-    entries = readParaViewSeries(file);
-    std::erase_if(entries, [&](const ParaViewEntry& entry) { return entry.time >= time; });
+    std::vector<std::filesystem::path> dropped;
+    const std::vector<ParaViewEntry> former = formerEntries(keptUntil != -INFINITY);
+    for (const ParaViewEntry& entry : former)
+        if (entry.time <= keptUntil) entries.push_back(entry);
+        else if (isOwn(entry)) dropped.push_back(entry.file);
+    // In this order, so that a series never names a file that is not there.
+    std::error_code ignored;
+    if (entries.empty()) std::filesystem::remove(file, ignored);
+    else if (entries.size() < former.size()) write();
+    for (const std::filesystem::path& path : dropped) std::filesystem::remove(path, ignored);
 }
+
+std::vector<ParaViewEntry> ParaViewSeries::formerEntries(bool needed) const {
+    if (!std::filesystem::exists(file)) return {};
+    try {
+        return readParaViewSeries(file);
+    } catch (const InputError&) {
+        if (needed) throw;
+        return {};
+    }
+}
+
+bool ParaViewSeries::isOwn(const ParaViewEntry& entry) const {
+    // Both folders come from that of the series; its name as it was given may have "//" in it.
+    if (entry.file.parent_path() != file.parent_path()) return false;
+    const std::string name = entry.file.filename().string(),
+                      begin = fmt::format("{}-{}-", std::filesystem::path(beginning).filename().string(),
+                                          entry.kind);
+    constexpr std::string_view end = ".vtp";
+    constexpr std::size_t fewestDigits = 9;
+    if (!name.starts_with(begin) || !name.ends_with(end) ||
+        name.size() < begin.size() + fewestDigits + end.size())
+        return false;
+    const std::string step = name.substr(begin.size(), name.size() - begin.size() - end.size());
+    return step.find_first_not_of("0123456789") == step.npos;
+}
+
+void ParaViewSeries::check(const std::string& name) { checkFrameIndex(name + ".pvd", readParaViewSeries); }
 
 std::filesystem::path ParaViewSeries::add(std::string_view kind, double time, std::size_t step) {
     std::filesystem::path path = fmt::format("{}-{}-{:09}.vtp", beginning, kind, step);
@@ -85,7 +124,8 @@ void ParaViewSeries::write() const {
         out.write(fmt::format("{}{}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", lineBegin, entries[k].time,
                               part, escaped(entries[k].kind), escaped(entries[k].file.filename().string())));
     }
-    out.write("</Collection>\n</VTKFile>\n");
+    out.write("</Collection>\n");
+    out.write(fmt::format("{}\n", lastLine));
     out.close();
 }
 

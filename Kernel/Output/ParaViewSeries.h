@@ -21,17 +21,22 @@ std::vector<ParaViewEntry> readParaViewSeries(const std::filesystem::path& path)
 /// NAME.pvd, which ParaView opens as one thing: the files of a run by time.
 class ParaViewSeries {
 public:
-    /// Of a run that goes on at `time` (s), the earlier entries of a series of this name are kept.
-    ParaViewSeries(std::string name, double time);
+    /// Entries of a series of this name up to a time (s) are kept, and the files of later ones removed, if
+    /// they are called as add() calls them. -infinity: a new series, whatever is in the old one.
+    ParaViewSeries(std::string name, double keptUntil);
+    /// Throws InputError if there is a series of this name and it cannot be read.
+    static void check(const std::string& name);
 
     /// The path of the file of one kind ("particles") at a step, NAME-KIND-STEP.vtp, taken into the series.
     std::filesystem::path add(std::string_view kind, double time, std::size_t step);
-    /// s, of the latest entry; -infinity if there is none.
-    [[nodiscard]] double lastTime() const { return entries.empty() ? -INFINITY : entries.back().time; }
     /// Writes the series as it is now.
     void write() const;
 
 private:
+    /// Of a series that is there; none of one that cannot be read, if none of them are needed.
+    [[nodiscard]] std::vector<ParaViewEntry> formerEntries(bool needed) const;
+    [[nodiscard]] bool isOwn(const ParaViewEntry& entry) const;
+
     std::filesystem::path file;
     std::string beginning;
     std::vector<ParaViewEntry> entries;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstring>
@@ -76,6 +77,7 @@ public:
         if (data == text.npos) throw std::runtime_error("is no .vtp file with raw appended data");
         appended = text.substr(data + 1);
         for (const Tag& tag : parseTags(text.substr(0, behind))) take(tag);
+        requireWhole();
     }
 
     PolyData result;
@@ -86,6 +88,20 @@ private:
         else if (tag.name == "Piece") takeCounts(tag);
         else if (tag.name == "DataArray") takeArray(tag);
         else section = tag.name;
+    }
+    /// As many points, cells and values as the file says, in whatever order it says it.
+    void requireWhole() const {
+        const auto fit = [](const std::vector<PolyDataField>& fields, std::size_t count) {
+            return std::all_of(fields.begin(), fields.end(), [&](const PolyDataField& field) {
+                return field.size() == count * field.components;
+            });
+        };
+        const std::size_t there = result.points.size();
+        if (there != points || result.ends.size() != cells || !fit(result.pointFields, there) ||
+            !fit(result.cellFields, cells) ||
+            std::any_of(result.corners.begin(), result.corners.end(),
+                        [&](std::int32_t corner) { return static_cast<std::size_t>(corner) >= there; }))
+            throw std::runtime_error("has arrays of the wrong size");
     }
     void checkForm(const Tag& tag) const {
         const bool little = std::endian::native == std::endian::little;
@@ -136,7 +152,7 @@ private:
                 throw std::runtime_error("has a cell with a corner that is no point");
     }
 
-    [[nodiscard]] PolyDataField field(const Tag& tag, std::size_t count) const {
+    [[nodiscard]] PolyDataField field(const Tag& tag, std::size_t count) {
         PolyDataField read{std::string(valueOf(tag, "Name")), countIn(tag, "NumberOfComponents"), {}};
         if (read.components < 1 || read.components > 9)
             throw std::runtime_error(fmt::format("has {} components in '{}'", read.components, read.name));
@@ -149,10 +165,11 @@ private:
         return read;
     }
     template <class Number>
-    [[nodiscard]] std::vector<Number> numbers(const Tag& tag, std::size_t count) const {
+    [[nodiscard]] std::vector<Number> numbers(const Tag& tag, std::size_t count) {
         const std::size_t offset = countIn(tag, "offset");
-        // Deflate packs 1032 bytes into one at most.
-        if (offset > appended.size() || count * sizeof(Number) / 1032 > appended.size())
+        // Deflate packs 1032 bytes into one at most, and no two arrays share their bytes.
+        unpacked += count * sizeof(Number);
+        if (offset > appended.size() || unpacked / 1032 > appended.size())
             throw std::runtime_error("ends too early");
         const std::string bytes = decompressBlocks(appended.substr(offset), count * sizeof(Number));
         std::vector<Number> read(count);
@@ -163,6 +180,7 @@ private:
     std::string_view appended;
     std::string_view section;
     std::size_t points = 0, cells = 0;
+    std::size_t unpacked = 0;  // bytes, of all arrays so far
     Tag connectivity;
 };
 

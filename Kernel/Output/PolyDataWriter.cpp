@@ -30,8 +30,9 @@ public:
         xml += fmt::format(
             "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
             "offset=\"{}\"/>\n",
-            typeName<Number>(), name, components, appended.size());
-        appended += compressInBlocks(std::as_bytes(numbers), threads);
+            typeName<Number>(), name, components, appendedSize);
+        appended.push_back(compressInBlocks(std::as_bytes(numbers), threads));
+        appendedSize += appended.back().size();
     }
     void addFields(std::string_view section, const std::vector<PolyDataField>& fields) {
         xml += fmt::format("<{}>\n", section);
@@ -54,7 +55,7 @@ public:
         WrittenBeside file(path);
         file.write(xml);
         file.write("<AppendedData encoding=\"raw\">\n_");
-        file.write(appended);
+        for (const std::string& array : appended) file.write(array);
         file.write("\n</AppendedData>\n</VTKFile>\n");
         file.close();
     }
@@ -66,7 +67,9 @@ private:
     }
 
     int threads;
-    std::string xml, appended;
+    std::string xml;
+    std::vector<std::string> appended;
+    std::size_t appendedSize = 0;  // bytes
 };
 
 }  // namespace

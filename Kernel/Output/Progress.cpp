@@ -1,9 +1,22 @@
 #include "Kernel/Output/Progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <string>
+
 namespace pendular {
+
+namespace {
+
+/// Characters in a line of the terminal; 80 where it does not say.
+std::size_t terminalWidth() {
+    winsize size{};
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
 
 Progress::Progress(double endTime, double time, std::size_t step)
     : end(endTime),
@@ -14,8 +27,11 @@ Progress::Progress(double endTime, double time, std::size_t step)
       interval(terminal ? std::chrono::milliseconds(250) : std::chrono::minutes(1)),
       nextShown(started + interval) {}
 
-Progress::~Progress() {
+Progress::~Progress() { endLine(); }
+
+void Progress::endLine() {
     if (terminal && shown) fmt::print(stderr, "\n");
+    shown = false;
 }
 
 bool Progress::isDue(std::size_t step) {
@@ -30,15 +46,16 @@ bool Progress::isDue(std::size_t step) {
 void Progress::print(double time, std::size_t step, const RunNumbers& numbers) {
     const double elapsed = std::chrono::duration<double>(Clock::now() - started).count();
     const double part = end > firstTime ? (time - firstTime) / (end - firstTime) : 1;
-    const double left = part > 0 ? elapsed * (1 - part) / part : 0;
+    const double left = part > 0 ? std::max(elapsed * (1 - part) / part, 0.0) : 0;
     const double rate = static_cast<double>(step - firstStep) / elapsed;
-    fmt::print(
-        stderr,
-        "{}{:5.1f} %  {:.4g} of {:.4g} s  {:.3g} steps/s  {:.3g} million particle steps/s  {} contacts  "
-        "{:.3g} J  {:.0f} s left{}",
-        terminal ? "\r" : "", end > 0 ? 100 * time / end : 100, time, end, rate,
-        1e-6 * rate * static_cast<double>(numbers.grains), numbers.contacts, numbers.kineticEnergy, left,
-        terminal ? "   " : "\n");
+    // What matters most comes first: on the terminal the line is cut, as one that wraps cannot be renewed.
+    std::string line = fmt::format(
+        "{:5.1f} %  {:.4g} of {:.4g} s  {:.0f} s left  {:.3g} steps/s  {:.3g} million particle steps/s  {} "
+        "contacts  {:.3g} J",
+        end > 0 ? 100 * time / end : 100, time, end, left, rate,
+        1e-6 * rate * static_cast<double>(numbers.grains), numbers.contacts, numbers.kineticEnergy);
+    if (terminal) line.resize(terminalWidth() - 1, ' ');
+    fmt::print(stderr, "{}{}{}", terminal ? "\r" : "", line, terminal ? "" : "\n");
     shown = true;
 }
 

@@ -27,6 +27,13 @@ public:
     /// To be called after each step: whether show() is to be called. It looks at the clock some twenty times
     /// a second.
     [[nodiscard]] bool isDue(std::size_t step);
+    /// Where something was shown: how far the run is at its end, and the end of the line.
+    template <class Measure>
+    void finish(double time, std::size_t step, Measure&& measure) {
+        if (!shown) return;
+        print(time, step, measure());
+        endLine();
+    }
     /// @param measure gives the RunNumbers
     template <class Measure>
     void show(double time, std::size_t step, Measure&& measure) {
@@ -39,6 +46,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    void endLine();
     void print(double time, std::size_t step, const RunNumbers& numbers);
 
     double end, firstTime;  // s

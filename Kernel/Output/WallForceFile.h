@@ -1,32 +1,71 @@
 #pragma once
 
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Output/TimedTable.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 
-/// The forces on walls over time, as a table: a row for each wall that keeps its forces, each time write() is
-/// called.
+/// NAME-wall-forces.csv: the forces of the grains on each wall of a scene over time, and their torques, about
+/// the origin unless the driver has given keepForces() another point. Given to Simulation::addOutput(). From
+/// then on all walls keep their forces; one that comes later, also in setupInitialConditions(), does from the
+/// first output on, in which it has no row. A scene without walls gets no file.
 class WallForceFile {
 public:
-    /// Throws InputError if the file cannot be written.
-    explicit WallForceFile(std::filesystem::path path)
-        : file(std::move(path),
-               "time_s,wall,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm") {}
+    /// @param time s, between two outputs at least, where they are due more often
+    explicit WallForceFile(double time = 0) : table("WallForceFile", time) {}
 
-    void write(double time, const WallHandler& walls) {
-        for (std::size_t w = 0; w < walls.getSize(); ++w) {
-            const Wall& wall = walls.getObject(w);
+    template <class Scene>
+    void prepare(Scene& scene) const {
+        keepAll(scene.wallHandler);
+    }
+
+    template <class Scene>
+    void write(Scene& scene) {
+        const double time = scene.getTime();
+        if (!table.isDue(time)) return;
+        for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w) {
+            const Wall& wall = scene.wallHandler.getObject(w);
             if (!wall.keepsForces()) continue;
             const Vec3D force = wall.getForce(), torque = wall.getTorque();
-            file.row(time, w, force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z());
+            tableOf(scene).row(time, w, force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z());
         }
+        keepAll(scene.wallHandler);
+        table.wroteAt(time);
     }
-    /// Completes the file under its name.
-    void close() { file.close(); }
+    template <class Scene>
+    void complete(const Scene& scene) {
+        tableOf(scene).close();
+    }
+
+    template <class Scene>
+    void visitState(StateArchive& archive, Scene& scene) {
+        keepAll(scene.wallHandler);
+        table.visitState(archive, pathOf(scene), header, scene.getTime());
+    }
 
 private:
-    CsvFile file;
+    static void keepAll(WallHandler& walls) {
+        for (std::size_t w = 0; w < walls.getSize(); ++w) {
+            Wall& wall = walls.getObject(w);
+            if (wall.keepsForces()) continue;
+            const Vec3D force = wall.getForce(), torque = wall.getTorque();  // of a restart file
+            wall.keepForces(true, wall.getTorquePoint());
+            wall.setForce(toVector(force), toVector(torque));
+        }
+    }
+    template <class Scene>
+    static std::filesystem::path pathOf(const Scene& scene) {
+        return scene.getName() + "-wall-forces.csv";
+    }
+    template <class Scene>
+    RunTable& tableOf(const Scene& scene) {
+        return table.at(pathOf(scene), header);
+    }
+
+    static constexpr const char* header =
+        "time_s,wall,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm";
+
+    TimedTable table;
 };
 
 }  // namespace pendular

@@ -11,6 +11,21 @@
 
 namespace pendular {
 
+void cutBack(const std::filesystem::path& file, std::uintmax_t bytes) {
+    std::error_code problem;
+    if (!std::filesystem::exists(file, problem)) return;
+    const std::uintmax_t there = std::filesystem::file_size(file);
+    if (there < bytes)
+        throw InputError(
+            fmt::format("The file {} has {} bytes and had {} when the restart file was written: bring it "
+                        "back, or give another folder for the output.",
+                        file.string(), there, bytes));
+    std::filesystem::resize_file(file, bytes, problem);
+    if (problem)
+        throw InputError(fmt::format("The file {} cannot be cut to its length at the restart: {}.",
+                                     file.string(), problem.message()));
+}
+
 WrittenBeside::WrittenBeside(std::filesystem::path path)
     : target(std::move(path)), beside(target.string() + ".part") {
     open("wb");
@@ -21,16 +36,7 @@ WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
     namespace fs = std::filesystem;
     std::error_code problem;
     if (!fs::exists(beside, problem) && fs::exists(target, problem)) fs::rename(target, beside, problem);
-    if (fs::exists(beside)) {
-        const std::uintmax_t there = fs::file_size(beside);
-        if (there < bytes)
-            throw InputError(fmt::format(
-                "The file {} has {} bytes and had {} when the restart file was written: bring it back, "
-                "or give another folder for the output.",
-                beside.string(), there, bytes));
-        fs::resize_file(beside, bytes, problem);
-        if (problem) fail("cannot be cut to its length at the restart");
-    }
+    cutBack(beside, bytes);
     open("ab");
 }
 

@@ -7,6 +7,10 @@
 
 namespace pendular {
 
+/// Cuts off what follows the first bytes of a file. Throws InputError where there is less; does nothing where
+/// there is no file.
+void cutBack(const std::filesystem::path& file, std::uintmax_t bytes);
+
 /// A file that is written beside its name, as NAME.part, and renamed when it is complete, so that no reader
 /// meets half a file. Folders that are missing are made.
 class WrittenBeside {

@@ -83,6 +83,11 @@ public:
                                          identity, getSize()));
         return {grains, static_cast<std::uint32_t>(identity)};
     }
+    void visitState(StateArchive& archive) {
+        grains.visitState(archive);
+        for (const std::uint16_t index : grains.species)
+            archive.require(index < species.getSize(), "species", "has one that the scene has not");
+    }
     [[nodiscard]] Grains& store() { return grains; }
     [[nodiscard]] const Grains& store() const { return grains; }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "Kernel/LargePages.h"
@@ -111,9 +112,31 @@ public:
         archive.column<std::uint16_t>("species", s);
         archive.column<std::uint32_t>("identity", i);
         archive.column<std::uint32_t>("place", p);
+        requireWhole(archive);
     }
 
 private:
+    void requireWhole(const StateArchive& archive) const {
+        constexpr std::string_view rows = "has another number of rows than particles/translation";
+        const std::size_t count = size();
+        archive.require(rotation.size() == (hasSpin ? count : 0), "rotation", rows);
+        archive.require(acceleration.size() == count, "acceleration", rows);
+        archive.require(earlier.empty() || earlier.size() == count, "earlier", rows);
+        archive.require(species.size() == count, "species", rows);
+        archive.require(identity.size() == count, "identity", rows);
+        archive.require(place.size() == count, "place", rows);
+        archive.requireFinite("translation", translation);
+        archive.requireFinite("rotation", rotation);
+        archive.requireFinite("acceleration", acceleration);
+        archive.requireFinite("earlier", earlier);
+        for (const TranslationRecord& grain : translation)
+            archive.require(grain.radius > 0 && grain.inverseMass >= 0, "translation",
+                            "has a radius or a mass that is not positive");
+        for (std::size_t k = 0; k < count; ++k)
+            archive.require(identity[k] < count && place[identity[k]] == k, "place",
+                            "is not the inverse of particles/identity");
+    }
+
     template <class Value>
     static void permute(std::vector<Value>& column, const std::vector<std::uint32_t>& order) {
         std::vector<Value> sorted;

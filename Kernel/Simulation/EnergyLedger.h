@@ -1,6 +1,9 @@
 #pragma once
 
-#include "Kernel/Contacts/ContactSystem.h"
+#include <array>
+#include <string_view>
+
+#include "Kernel/Particles/ParticleStore.h"
 
 namespace pendular {
 
@@ -27,45 +30,82 @@ double kineticEnergy(const ParticleStore<hasSpin>& grains) {
     return sum;
 }
 
-/// The energy of a scene by kind, in J. total() stays constant but for the error of the time steps.
+/// The energy of a scene by mechanism, in J. EnergyAccount says how it is kept.
 struct EnergyLedger {
-    double kinetic = 0;
-    double elastic = 0;     // stored in the normal overlaps
-    double potential = 0;   // in the field of gravity
-    double dissipated = 0;  // lost in the normal dashpots, and in plastic contacts, since the start
-    double adhesionWork =
-        0;  // done against bridges since the start: negative while they have given more than they took
-    double tangential = 0;  // given to tangential springs, dashpots and sliders since the start
+    // What there is now.
+    double kinetic = 0;            // spin included
+    double potential = 0;          // in the field of gravity
+    double elastic = 0;            // in the normal overlaps
+    double tangentialElastic = 0;  // in the tangential springs
+    double rollingElastic = 0;
+    double torsionElastic = 0;
+    /// Net work done against the adhesions and bridges that act; negative in most contacts.
+    double adhesive = 0;
 
-    [[nodiscard]] double total() const {
-        return kinetic + elastic + potential + dissipated + adhesionWork + tangential;
+    // What has been lost since the start.
+    double normalDashpots = 0;
+    double plastic = 0;  // with its error of the time steps
+    double tangentialDashpots = 0;
+    double sliding = 0;
+    double rolling = 0;  // sliders and dashpots
+    double torsion = 0;
+    double brokenAdhesion = 0;  // net work done against adhesions and bridges that have broken
+    /// Of tangential springs whose stiffness follows the overlap while they are stretched, for which the laws
+    /// have no force: lost as contacts open, negative as they close.
+    double stiffening = 0;
+
+    // What the scene has been given since the start.
+    double walls = 0;   // by walls that move, and by grains that are held and move
+    double driver = 0;  // where a driver changes velocities, places or the gravity
+
+    /// Work of conservative forces that is not found as stored energy: it falls with the time step, but for
+    /// springs that the integrator feeds (the README of Kernel/Motion).
+    double stepError = 0;
+
+    double carried = 0;  // of the potential energy, by grains that have gone round a periodic scene
+    Vector<double> gravityBefore{0, 0, 0};  // m/s^2, in the last step
+
+    /// In all springs.
+    [[nodiscard]] double springs() const {
+        return elastic + tangentialElastic + rollingElastic + torsionElastic;
     }
-
-    /// Takes in the end of a step (s): powers are summed by the trapezoidal rule.
-    /// @param withHistory the damping is all that the normal law was given: what of it can be got back is not
-    /// lost
-    void add(const ContactEnergies& now, double step, bool withHistory = false) {
-        elastic = now.elastic;
-        dissipated += 0.5 * step * (last.damping + now.damping);
-        if (withHistory && step > 0) dissipated -= now.elastic - last.elastic;
-        adhesionWork += 0.5 * step * (last.adhesion + now.adhesion);
-        tangential += 0.5 * step * (last.tangential + now.tangential);
-        last = now;
+    [[nodiscard]] double stored() const { return springs() + adhesive; }
+    [[nodiscard]] double lost() const {
+        return normalDashpots + plastic + tangentialDashpots + sliding + rolling + torsion + brokenAdhesion +
+               stiffening;
     }
+    /// Constant but for the error of the time steps.
+    [[nodiscard]] double total() const { return kinetic + potential + stored() + lost() - walls - driver; }
+    /// Constant but for round-off.
+    [[nodiscard]] double closed() const { return total() + stepError; }
+    /// Net work done against adhesions and bridges: negative while they have given more than they took.
+    [[nodiscard]] double adhesionWork() const { return adhesive + brokenAdhesion; }
 
-    /// Takes note that grains have gone round a periodic scene, to places where their potential energy is
-    /// lower by this (J): what the field gave them on their way stays in the account.
-    void goRound(double lower) { carried += lower; }
-
-    template <bool hasSpin>
-    void measureGrains(const ParticleStore<hasSpin>& grains, const Vector<double>& gravity) {
-        kinetic = kineticEnergy(grains);
-        potential = carried + potentialEnergy(grains, gravity);
+    struct Entry {
+        std::string_view name;
+        double EnergyLedger::*member;
+    };
+    static constexpr auto entries() {
+        using L = EnergyLedger;
+        return std::to_array<Entry>({{"kinetic", &L::kinetic},
+                                     {"potential", &L::potential},
+                                     {"elastic", &L::elastic},
+                                     {"tangential_elastic", &L::tangentialElastic},
+                                     {"rolling_elastic", &L::rollingElastic},
+                                     {"torsion_elastic", &L::torsionElastic},
+                                     {"adhesive", &L::adhesive},
+                                     {"lost_in_normal_dashpots", &L::normalDashpots},
+                                     {"lost_plastic", &L::plastic},
+                                     {"lost_in_tangential_dashpots", &L::tangentialDashpots},
+                                     {"lost_in_sliding", &L::sliding},
+                                     {"lost_in_rolling", &L::rolling},
+                                     {"lost_in_torsion", &L::torsion},
+                                     {"lost_in_broken_adhesion", &L::brokenAdhesion},
+                                     {"lost_in_stiffening", &L::stiffening},
+                                     {"given_by_walls", &L::walls},
+                                     {"given_by_driver", &L::driver},
+                                     {"step_error", &L::stepError}});
     }
-
-private:
-    ContactEnergies last;
-    double carried = 0;  // J
 };
 
 }  // namespace pendular

@@ -30,6 +30,7 @@ int printCurrentException() {
 }  // namespace
 
 int runProgram(const std::function<int()>& body) {
+    hearRestartSignal();
     try {
         return body();
     } catch (...) {

@@ -36,7 +36,19 @@ extern "C" void takeNote(int signal) {
         return;
     }
     stopSignal.store(signal, std::memory_order_relaxed);
-    for (const int next : {SIGINT, SIGTERM}) std::signal(next, SIG_DFL);  // a second one ends the program
+    for (const int next : {SIGINT, SIGTERM}) {  // a second one ends the program, unless it is ignored
+        struct sigaction now {};
+        sigaction(next, nullptr, &now);
+        if (now.sa_handler == takeNote) std::signal(next, SIG_DFL);
+    }
+}
+
+struct sigaction noteTaking() {
+    struct sigaction action {};
+    action.sa_handler = takeNote;
+    action.sa_flags = SA_RESTART;  // a signal makes no system call fail
+    sigemptyset(&action.sa_mask);
+    return action;
 }
 
 double secondsBetween(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
@@ -50,13 +62,18 @@ void setWallTimeLimit(double seconds) {
     wallTimeLimit = seconds;
 }
 
+void hearRestartSignal() {
+    struct sigaction before {};
+    sigaction(SIGUSR1, nullptr, &before);
+    if (before.sa_handler != SIG_DFL) return;
+    const struct sigaction action = noteTaking();
+    sigaction(SIGUSR1, &action, nullptr);
+}
+
 RunControl::RunControl(const RestartSchedule& given) : restarts(given) {
     if (wallTimeLimit == 0 && restarts.interval == 0) nextLook = std::numeric_limits<std::size_t>::max();
     if (listening.runs++ > 0) return;
-    struct sigaction action {};
-    action.sa_handler = takeNote;
-    action.sa_flags = SA_RESTART;  // a signal makes no system call fail
-    sigemptyset(&action.sa_mask);
+    const struct sigaction action = noteTaking();
     for (std::size_t k = 0; k < signals.size(); ++k) {
         sigaction(signals[k], nullptr, &listening.before[k]);
         // What the parent has told us to ignore (nohup, a job in the background) stays so.
@@ -72,7 +89,8 @@ RunControl::~RunControl() {
 void RunControl::lookAtClock(std::size_t steps) {
     const auto now = Clock::now();
     const double elapsed = secondsBetween(lastLooked, now);
-    const double rate = static_cast<double>(steps - std::min(steps, lastLook)) / (elapsed + 1e-6);  // steps/s
+    const std::size_t done = steps - std::min(steps, lastLook.value_or(steps));
+    const double rate = static_cast<double>(done) / (elapsed + 1e-6);  // steps/s
     nextLook = steps + 1 + static_cast<std::size_t>(0.05 * rate);
     lastLook = steps;
     lastLooked = now;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +24,10 @@ struct RestartSchedule {
 /// Ends whatever run this program is in, as SIGTERM does, when the program has run for this time (s of the
 /// clock on the wall).
 void setWallTimeLimit(double seconds);
+
+/// From now on SIGUSR1 is heard also outside of a run, which it would end by default: the next run writes the
+/// restart file at its begin. A program that ignores it goes on to do so.
+void hearRestartSignal();
 
 /// Listens, for as long as it lives, to what is asked of a run from outside. SIGINT, SIGTERM and the limit of
 /// wall time end the run after the step, the first two at once when they come a second time; SIGUSR1 writes a
@@ -51,7 +56,8 @@ private:
 
     RestartSchedule restarts;
     bool outOfTime = false, restartDue = false;
-    std::size_t nextLook = 0, lastLook = 0;  // steps
+    std::size_t nextLook = 0;             // steps
+    std::optional<std::size_t> lastLook;  // steps; a run that goes on does not begin at 0
     Clock::time_point lastLooked = Clock::now(), lastRestart = lastLooked;
 };
 

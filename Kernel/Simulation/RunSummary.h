@@ -1,15 +1,22 @@
 #pragma once
 
-#include "Kernel/Output/CsvFile.h"
+#include <optional>
+
 #include "Kernel/Simulation/EnergyLedger.h"
 #include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/StepTimes.h"
+#include "Kernel/Simulation/SummaryRows.h"
 
 namespace pendular {
 
 /// NAME-summary.csv, written anew at outputs, once a second at most, and at the end: what runs, with which
-/// species and values, how far it is, and what tells whether it is healthy. Tools/summary shows it. Given to
+/// species and values, how far it is, where its time went, and what tells whether it is healthy.
+/// Tools/summary shows it. At the end of a run, whatever ended it, it is printed on standard error as well,
+/// but for the species, and with it what the laws were not made for; a quiet scene prints nothing. Given to
 /// Simulation::addOutput(); the time by part of the step is measured from then on.
+///
+/// Times are those of this program; all else is of the scene since it began, also before a restart.
 class RunSummary {
 public:
     template <class Scene>
@@ -19,85 +26,157 @@ public:
 
     template <class Scene>
     void write(const Scene& scene) {
-        if (Clock::now() >= next) complete(scene);
+        const Clock::time_point now = Clock::now();
+        if (now < next) return;
+        next = now + std::chrono::seconds(1);
+        SummaryRows rows = rowsOf(scene);
+        if (written)
+            rows.addNumber("wall time since the summary before",
+                           std::chrono::duration<double>(now - *written).count(), "s");
+        written = now;
+        writeFile(scene, std::move(rows));
     }
 
     template <class Scene>
     void complete(const Scene& scene) {
-        next = Clock::now() + std::chrono::seconds(1);
-        CsvFile file(scene.getName() + "-summary.csv", "quantity,value,unit");
-        writeRun(file, scene);
-        writeHealth(file, scene);
-        writeSpecies(file, scene.speciesHandler);
-        const StepTimes& times = scene.stepTimes();
-        for (std::size_t part = 0; part < StepTimes::names.size(); ++part)
-            file.row(fmt::format("wall time: {}", StepTimes::names[part]), times.seconds(part), "s");
-        file.close();
+        const SummaryRows rows = rowsOf(scene);
+        writeFile(scene, rows);
+        if (scene.isQuiet()) return;
+        fmt::print(stderr, "Summary of the run\n");
+        rows.print(stderr);
+        for (const std::string& warning : warnings(scene)) fmt::print(stderr, "Warning: {}.\n", warning);
     }
 
 private:
     template <class Scene>
-    static void writeRun(CsvFile& file, const Scene& scene) {
-        const bool atEnd = scene.getTime() >= scene.getTimeMax() * (1 - 1e-12) || !scene.continueSolve();
-        file.row("name", scene.getName(), "");
-        file.row("state", atEnd ? "at its end" : "on its way", "");
-        file.row("time", scene.getTime(), "s");
-        file.row("end time", scene.getTimeMax(), "s");
-        file.row("steps", scene.getNumberOfTimeSteps(), "");
-        file.row("time step", scene.getTimeStep(), "s");
-        file.row("stability limit",
-                 sceneStabilityLimit(scene.speciesHandler, scene.particleHandler.store(), scene.wallHandler),
-                 "s");
-        file.row("threads", scene.getNumberOfThreads(), "");
-        file.row("grains", scene.particleHandler.getSize(), "");
-        file.row("walls", scene.wallHandler.getSize(), "");
-        const Vec3D g = scene.getGravity();
-        file.row("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");
+    static SummaryRows rowsOf(const Scene& scene) {
+        SummaryRows rows;
+        addRun(rows, scene);
+        addHealth(rows, scene);
+        addDomain(rows, scene);
+        addTimes(rows, scene);
+        return rows;
     }
 
     template <class Scene>
-    void writeHealth(CsvFile& file, const Scene& scene) {
+    static void writeFile(const Scene& scene, SummaryRows rows) {
+        addSpecies(rows, scene.speciesHandler);
+        for (const std::string& warning : warnings(scene)) rows.add("warning", warning);
+        CsvFile file(scene.getName() + "-summary.csv", "quantity,value,unit");
+        rows.write(file);
+        file.close();
+    }
+
+    template <class Scene>
+    static void addRun(SummaryRows& rows, const Scene& scene) {
+        const bool atEnd = scene.getTime() >= scene.getTimeMax() * (1 - 1e-12) || !scene.continueSolve();
+        const bool stopped = !scene.stopSentence().empty();
+        rows.add("name", scene.getName());
+        rows.add("state", stopped ? (scene.wasAskedToStop() ? "asked to stop" : "stopped by an error")
+                          : atEnd ? "at its end"
+                                  : "on its way");
+        if (stopped) rows.add("reason", scene.stopSentence());
+        rows.addNumber("time", scene.getTime(), "s");
+        rows.addNumber("end time", scene.getTimeMax(), "s");
+        rows.add("steps", scene.getNumberOfTimeSteps());
+        if (scene.getFirstStep() > 0) rows.add("restarted after steps", scene.getFirstStep());
+        rows.addNumber("time step", scene.getTimeStep(), "s");
+        rows.addNumber("stability limit",
+                       sceneStabilityLimit(scene.speciesHandler, scene.particleHandler.store(),
+                                           scene.wallHandler, scene.getIntegrator()),
+                       "s");
+        if (scene.acceptsUnstableTimeStep()) rows.add("step above the stability limit", "accepted");
+        rows.add("threads", scene.getNumberOfThreads());
+        rows.add("grains", scene.particleHandler.getSize());
+        rows.add("walls", scene.wallHandler.getSize());
+        const Vec3D g = scene.getGravity();
+        rows.add("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");
+    }
+
+    template <class Scene>
+    static void addHealth(SummaryRows& rows, const Scene& scene) {
         const auto& grains = scene.particleHandler.store();
-        const auto& contacts = scene.contacts();
         std::size_t touching = 0, bridged = 0;
-        contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            if (!contacts.store().acts(contact)) return;
-            const ObservedContact seen = contacts.observe(grains, bucket, contact);
-            const auto radius = [&](std::uint32_t k) { return grains.translation[grains.place[k]].radius; };
-            double smaller = radius(seen.particle1);
-            if (bucket.wall < 0) smaller = std::min(smaller, radius(seen.particle2));
-            deepest = std::max(deepest, -seen.separation / smaller);
-            touching += seen.separation < 0 ? 1 : 0;
-            bridged += seen.bridged ? 1 : 0;
-        });
+        for (const BlockState& state : scene.contacts().store().states) {
+            touching += static_cast<std::size_t>(std::popcount(state.touching));
+            bridged += static_cast<std::size_t>(std::popcount(state.bridged));
+        }
         double speed2 = 0;
         for (const TranslationRecord& grain : grains.translation)
             speed2 = std::max(speed2, squaredNorm(grain.velocity));
-        file.row("touching contacts", touching, "");
-        file.row("bridges", bridged, "");
-        file.row("lists of contacts made", contacts.rebuildCount(), "");
-        file.row("largest overlap at an output", deepest, "of the smaller radius");
-        file.row("largest speed", std::sqrt(speed2), "m/s");
-        file.row("kinetic energy", kineticEnergy(grains), "J");
+        rows.add("touching contacts", touching);
+        rows.add("bridges", bridged);
+        rows.add("lists of contacts made", scene.contacts().rebuildCount());
+        rows.addNumber("largest speed", std::sqrt(speed2), "m/s");
+        rows.addNumber("kinetic energy", kineticEnergy(grains), "J");
         if (!scene.keepsEnergyLedger()) return;
         const EnergyLedger& ledger = scene.energyLedger();
-        if (isFirst) firstTotal = ledger.total();
-        isFirst = false;
-        file.row("energy lost in dashpots", ledger.dissipated, "J");
-        file.row("energy given to friction", ledger.tangential, "J");
-        file.row("energy unaccounted for", ledger.total() - firstTotal, "J");
+        for (const auto& entry : EnergyLedger::entries())
+            rows.addNumber(fmt::format("energy: {}", entry.name), ledger.*entry.member, "J");
+        rows.addNumber("energy lost", ledger.lost(), "J");
+        rows.addNumber("energy unaccounted for", scene.energyUnaccountedFor(), "J");
+    }
+
+    template <class Scene>
+    static void addDomain(SummaryRows& rows, const Scene& scene) {
+        const OverlapWatch& overlaps = scene.contacts().overlaps();
+        rows.addNumber("largest overlap met", overlaps.largestOverlap(), "of the effective radius");
+        rows.add("evaluations out of domain", overlaps.countAbove());
+        if (!broken(scene).empty()) rows.add("bridges out of domain now", bridgesOut(scene));
+    }
+    /// A sentence for each domain that the scene has left; no commas in it.
+    template <class Scene>
+    static std::vector<std::string> warnings(const Scene& scene) {
+        std::vector<std::string> found;
+        const OverlapWatch& overlaps = scene.contacts().overlaps();
+        const OverlapLimit limit = overlapLimitOf(scene.speciesHandler);
+        if (overlaps.countAbove() > 0)
+            found.push_back(fmt::format(
+                "{}: overlaps were above {} of the effective radius in {} evaluations of contacts and the "
+                "largest was {:.3g}; take stiffer grains or lower speeds and loads",
+                limit.law, limit.largest, overlaps.countAbove(), overlaps.largestOverlap()));
+        for (const BrokenLimit& b : broken(scene))
+            found.push_back(
+                fmt::format("{} ({} bridges now out of its domain)", b.text(), bridgesOut(scene)));
+        return found;
+    }
+    template <class S>
+    static constexpr OverlapLimit overlapLimitOf(const SpeciesHandler<S>&) {
+        return overlapLimit<typename S::Mixed>();
+    }
+    template <class Scene>
+    static std::vector<BrokenLimit> broken(const Scene& scene) {
+        return brokenLimits(scene.speciesHandler, scene.particleHandler.store(), scene.wallHandler);
+    }
+    template <class Scene>
+    static std::size_t bridgesOut(const Scene& scene) {
+        return countBridgesOutOfDomain(scene.contacts(), scene.speciesHandler, scene.particleHandler.store());
+    }
+
+    template <class Scene>
+    static void addTimes(SummaryRows& rows, const Scene& scene) {
+        const StepTimes& times = scene.stepTimes();
+        const double total = times.total();
+        const auto seconds = times.seconds();
+        rows.addNumber("wall time", total, "s");
+        for (std::size_t part = 0; part < StepTimes::names.size(); ++part) {
+            if (part == static_cast<std::size_t>(StepTimes::Part::Ledger) && !scene.keepsEnergyLedger())
+                continue;
+            rows.addNumber(fmt::format("wall time: {}", StepTimes::names[part]), seconds[part], "s",
+                           fmt::format(" ({:.1f} %)", 100 * seconds[part] / total));
+        }
     }
 
     template <class S>
-    static void writeSpecies(CsvFile& file, const SpeciesHandler<S>& handler) {
-        file.row("species", S::name, "");
+    static void addSpecies(SummaryRows& rows, const SpeciesHandler<S>& handler) {
+        rows.add("species", S::name);
         for (std::size_t k = 0; k < handler.getSize(); ++k) {
             const auto owner = fmt::format("species {}", k);
-            file.row(owner + ": density", handler.getObject(k)->getDensity(), "kg/m^3");
+            rows.add(owner + ": density", handler.getObject(k)->getDensity(), "kg/m^3");
             const auto index = static_cast<int>(k);
             handler.mixture(index, index).forEachLaw([&]<class Law>(const Law& law) {
                 for (const auto& field : Law::fields())
-                    file.row(fmt::format("{}: {}", owner, field.name), law.*field.member, field.unit);
+                    rows.add(fmt::format("{}: {}", owner, field.name), law.*field.member, field.unit);
             });
         }
     }
@@ -105,9 +184,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     Clock::time_point next = Clock::now();
-    double deepest = 0;     // of the smaller radius
-    double firstTotal = 0;  // J
-    bool isFirst = true;
+    std::optional<Clock::time_point> written;  // the last one
 };
 
 }  // namespace pendular

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -9,8 +10,8 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/RunError.h"
-#include "Kernel/Species/TimeStepAdvice.h"
 
 namespace pendular {
 
@@ -63,34 +64,56 @@ void forEachExtremePair(const SpeciesHandler<S>& species, const ParticleStore<S:
     }
 }
 
+/// The contacts that a grain of the scene can have. A wall may touch it at up to three places (the corner of
+/// a mesh).
+inline std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
+    return std::clamp<std::size_t>(grains + 3 * walls.getSize(), 2, contactsInDensestBed + 1) - 1;
+}
+
 /// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains.
 template <class S>
 double sceneStabilityLimit(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
-                           const WallHandler& walls) {
+                           const WallHandler& walls,
+                           const Integrator& integrator = integrators::predictedVelocityVerlet) {
+    const std::size_t contacts = mostContacts(grains.size(), walls);
     double limit = infinity;
     forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double mass) {
-        limit = std::min(limit, stabilityLimit(laws, bodies, mass));
+        limit = std::min(limit, stabilityLimit(laws, bodies, mass, integrator, contacts));
     });
     return limit;
+}
+
+/// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without
+/// grains.
+template <class S>
+double shortestHalfPeriod(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
+                          const WallHandler& walls) {
+    double shortest = infinity;
+    forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double mass) {
+        shortest = std::min(shortest, halfPeriod(laws, bodies, mass));
+    });
+    return shortest;
 }
 
 /// Throws InputError if a law cannot serve bodies of the scene, or if the time step (s) is above the
 /// stability limit.
 template <class S>
 void checkScene(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
-                const WallHandler& walls, double timeStep) {
+                const WallHandler& walls, double timeStep, const Integrator& integrator) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
         static_cast<void>(
             species.getObject(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
     forEachExtremePair(species, grains, walls, [](const auto& laws, const Bodies& bodies, double) {
         if (const auto objection = laws.objection(bodies)) throw InputError(*objection);
     });
-    const double limit = sceneStabilityLimit(species, grains, walls);
+    const double limit = sceneStabilityLimit(species, grains, walls, integrator);
     if (timeStep > limit)
-        throw InputError(fmt::format(
-            "Simulation: time step = {:.6g} s is above the stability limit of the stiffest contact; it "
-            "must be at most {:.6g} s (advice: {:.2g} s), unless acceptUnstableTimeStep() is called.",
-            timeStep, limit, 0.2 * limit));
+        throw InputError(
+            fmt::format("Simulation: time step = {:.6g} s is above the stability limit of the stiffest "
+                        "contacts in a dense "
+                        "bed; it must be at most {:.6g} s (for accuracy {:.2g} s), unless "
+                        "acceptUnstableTimeStep() is called.",
+                        timeStep, limit, std::min(limit, 0.04 * shortestHalfPeriod(species, grains, walls))));
 }
 
 /// Throws InputError if the scene repeats itself so soon that a grain could meet two images of another: a

@@ -52,9 +52,7 @@ std::vector<BridgeCase> BridgeRange::draw(std::size_t count, std::uint64_t seed)
         }
     }
     UniformRandom random(seed);
-    const auto between = [&](const Range& range) {
-        return range.lowest * std::pow(range.highest / range.lowest, random.uniform(0, 1));
-    };
+    const auto between = [&](const Range& range) { return random.logarithmic(range.lowest, range.highest); };
     while (bridges.size() < count) {
         const double r1 = between(radius), r2 = between(radius);
         const bool wall = walls && bridges.size() % 4 == 0;

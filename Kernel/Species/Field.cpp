@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Kernel/InputError.h"
+#include "Kernel/Species/DomainLimit.h"
 
 namespace pendular {
 
@@ -18,6 +19,11 @@ std::string Range::text(std::string_view unit) const {
     if (std::isinf(highest)) return low + " and finite";
     return fmt::format("{} and {} {}{}{}", low, highestIncluded ? "at most" : "less than", highest, space,
                        unit);
+}
+
+std::string DomainLimit::text() const {
+    return fmt::format("{} = {:.4g}{}{}; it is made for {}", quantity, value, unit.empty() ? "" : " ", unit,
+                       range.text(unit));
 }
 
 void checkValue(std::string_view owner, std::string_view field, double value, std::string_view unit,

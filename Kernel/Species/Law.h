@@ -58,6 +58,17 @@ struct Slip {
     T response = T(0);   // m/s per N on body 1
 };
 
+/// What a spring with dashpot and slider gives, and how: of the force, -stiffness x spring is the spring's
+/// part.
+template <class T>
+struct SliderForce {
+    Vector<T> force;   // N
+    Vector<T> spring;  // m, at the moment of the force
+    T stiffness;       // N/m
+    MaskOf<T> slides;  // the force was cut
+    MaskOf<T> slips;   // the spring was shortened
+};
+
 /// The memory of a law that remembers nothing.
 template <class T>
 struct NoHistory {};
@@ -152,6 +163,22 @@ concept HasFrictionForce = requires(const typename Law::Prepared p, const Contac
 /// Stands for any normal law where a concept asks for a function of one.
 struct AnyNormalLaw {};
 
+/// The same force with how it comes about, from laws that say so in a function slide() with the arguments of
+/// force(); of others all work is taken for that of sliding.
+template <class Law, class T, class History>
+[[gnu::always_inline]] inline SliderForce<T> sliderForce(const typename Law::Prepared& p,
+                                                         const Contact<T>& contact, T normalForce,
+                                                         const Slip<T>& slip, History& history) {
+    if constexpr (requires { Law::slide(p, contact, normalForce, slip, history); })
+        return Law::slide(p, contact, normalForce, slip, history);
+    else
+        return {Law::force(p, contact, normalForce, slip, history),
+                {T(0), T(0), T(0)},
+                T(0),
+                normalForce == normalForce,
+                normalForce == normalForce};
+}
+
 /// `acts` is false for the law that does nothing: its species have no tangential force, no torque and no
 /// spin.
 template <class Law>
@@ -169,6 +196,7 @@ concept FrictionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<declty
 /// tangential force:
 ///     rotationForce(p, normalForce, normal, turning, history): the torque on body 1 over the effective
 ///     radius (N), `turning` the motion of the effective radius times the relative spin (rad/s x m);
+///     rotate(...), with the same arguments: the two parts of it, as RotationForces;
 ///     rotationStiffness(p): of the stiffest of its springs (N/m).
 template <class Law>
 concept HasContactTorque = requires {

@@ -70,7 +70,8 @@ public:
             });
         archive.same("countOfPairsWithOwnValues", own.size());
         for (const auto& [pair, laws] : own)
-            archive.group(fmt::format("{}-{}", pair.first, pair.second), [&] { visitFields(archive, laws); });
+            archive.group(fmt::format("{}-{}", pair.first, pair.second),
+                          [&, &values = laws] { visitFields(archive, values); });
     }
 
 private:

@@ -37,29 +37,103 @@ inline double linearContactTime(double stiffness, double dissipation, double eff
 /// with it.
 inline constexpr double largestSoundOverlap = 0.05;
 
-/// The time step (s) above which the contact of two grains is no longer integrated stably: 2 / omega for the
-/// stiffest of its oscillations at the largest sound overlap, the normal one, k_n / m*, and the tangential
-/// one, 7/2 k_t / m* (a solid sphere's spin adds 5/2 / m), those of rolling and torsion, at most 5/2 k / m*,
-/// halved because the stiffest oscillation of a grain
-/// among many neighbours is up to twice as fast.
+/// A spring and a dashpot against one kind of motion of a contact.
+struct SpringAndDashpot {
+    double spring = 0;   // N/m, or 1/s^2 over a mass
+    double dashpot = 0;  // kg/s, or 1/s over a mass
+
+    /// s; infinite without a spring
+    [[nodiscard]] double relaxation() const { return spring > 0 ? dashpot / spring : infinity; }
+    friend SpringAndDashpot operator*(double factor, const SpringAndDashpot& s) {
+        return {factor * s.spring, factor * s.dashpot};
+    }
+    friend SpringAndDashpot operator+(const SpringAndDashpot& a, const SpringAndDashpot& b) {
+        return {a.spring + b.spring, a.dashpot + b.dashpot};
+    }
+    friend SpringAndDashpot larger(const SpringAndDashpot& a, const SpringAndDashpot& b) {
+        return {std::max(a.spring, b.spring), std::max(a.dashpot, b.dashpot)};
+    }
+};
+
+/// How stiff a contact is against approach, sliding, rolling and torsion (the latter two of the effective
+/// radius times the relative spin).
+struct ContactStiffness {
+    SpringAndDashpot normal, sliding, rolling, torsion;
+
+    /// s, of the least damped spring of friction
+    [[nodiscard]] double shortestRelaxation() const {
+        return std::min({sliding.relaxation(), rolling.relaxation(), torsion.relaxation()});
+    }
+};
+
+/// The stiffness of two bodies at the largest sound overlap, whose friction sticks. Laws of friction and
+/// torque are asked for their force: a dashpot answers a speed, a spring the way; one without a coefficient
+/// of friction has neither. An attraction that changes with the overlap (JKR's neck) adds its slope.
 /// @param effectiveMass kg, m1 m2 / (m1 + m2)
 template <class Mixed>
-double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveMass) {
+ContactStiffness contactStiffness(const Mixed& laws, const Bodies& bodies, double effectiveMass) {
     using Normal = typename Mixed::Normal;
     using Friction = typename Mixed::Friction;
-    const double overlap = largestSoundOverlap * std::min(bodies.radius1, bodies.radius2);
-    const double radius = bodies.effectiveRadius();
-    const Contact<double> contact{overlap, radius, effectiveMass};
+    using Adhesion = typename Mixed::Adhesion;
+    const Contact<double> contact{largestSoundOverlap * std::min(bodies.radius1, bodies.radius2),
+                                  bodies.effectiveRadius(), effectiveMass};
     const auto& normal = static_cast<const Normal&>(laws);
-    double stiffness = Normal::stiffness(normal.prepare(), contact);
-    if constexpr (Friction::acts)
-        stiffness =
-            std::max(stiffness,
-                     3.5 * Friction::stiffness(static_cast<const Friction&>(laws).prepare(normal), contact));
-    if constexpr (HasContactTorque<Friction>)
-        stiffness = std::max(
-            stiffness, 2.5 * Friction::rotationStiffness(static_cast<const Friction&>(laws).prepare(normal)));
-    return std::sqrt(effectiveMass / stiffness);
+    const auto prepared = normal.prepare();
+    typename NormalHistoryOf<Normal>::template type<double> history{};
+    ContactStiffness found;
+    found.normal = {Normal::stiffness(prepared, contact),
+                    normalForce<Normal>(prepared, contact, history).damping};
+    if constexpr (requires { requires Adhesion::readsOverlap; }) {
+        const auto interaction = static_cast<const Adhesion&>(laws).prepare(bodies);
+        const double shift = 1e-4 * contact.overlap;
+        found.normal.spring +=
+            (interaction.force(shift - contact.overlap) - interaction.force(-shift - contact.overlap)) /
+            (2 * shift);
+    }
+    if constexpr (Friction::acts) {
+        constexpr double sticking = 1e100;  // N
+        const auto friction = static_cast<const Friction&>(laws).prepare(normal);
+        const auto ask = [](auto&& force) {
+            const double dashpot = norm(force(0.0)), both = norm(force(1.0));
+            return SpringAndDashpot{both - dashpot, dashpot};
+        };
+        const Vector<double> along{1, 0, 0}, across{0, 1, 0};
+        found.sliding = ask([&](double time) {
+            typename Friction::template History<double> springs{};
+            return Friction::force(friction, contact, sticking, Slip<double>{across, time, 0}, springs);
+        });
+        if constexpr (HasContactTorque<Friction>) {
+            const auto turning = [&](const Vector<double>& velocity) {
+                return ask([&](double time) {
+                    typename Friction::template History<double> springs{};
+                    return Friction::rotationForce(friction, sticking, along, Slip<double>{velocity, time, 0},
+                                                   springs);
+                });
+            };
+            found.rolling = turning(across);
+            found.torsion = turning(along);
+        }
+    }
+    return found;
+}
+
+/// The square of R* over the smaller radius: 1/4 of equal grains, 1 at a wall. It is at most this share of
+/// 5/2 / m* by which a torque of the contact's own moves R* times the relative spin.
+inline double squaredLeverOfRotation(const Bodies& bodies) {
+    const double lever = bodies.effectiveRadius() / std::min(bodies.radius1, bodies.radius2);
+    return lever * lever;
+}
+
+/// Half a period (s) of the fastest oscillation of a pair at the largest sound overlap, without damping: the
+/// time that a touch lasts, pi / omega, or less where sliding (7/2 k_t / m*) or rolling is stiffer.
+/// @param effectiveMass kg, m1 m2 / (m1 + m2)
+template <class Mixed>
+double halfPeriod(const Mixed& laws, const Bodies& bodies, double effectiveMass) {
+    const ContactStiffness contact = contactStiffness(laws, bodies, effectiveMass);
+    const double turn = 2.5 * squaredLeverOfRotation(bodies);
+    const double stiffest = std::max({contact.normal.spring, 3.5 * contact.sliding.spring,
+                                      turn * contact.rolling.spring, turn * contact.torsion.spring});
+    return std::numbers::pi * std::sqrt(effectiveMass / stiffest);
 }
 
 }  // namespace pendular

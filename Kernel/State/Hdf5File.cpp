@@ -3,75 +3,24 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 
-#include "Kernel/InputError.h"
+#include "Kernel/State/Hdf5Fault.h"
 
 #ifdef PENDULAR_HAS_HDF5
-    #include <hdf5.h>
-
     #include <algorithm>
     #include <array>
     #include <utility>
+
+    #include "Kernel/State/Hdf5Library.h"
 #endif
 
 namespace pendular {
 
-void Hdf5File::fail(std::string_view what) const {
-    const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : std::string();
-    throw InputError(fmt::format("The file {} {}{}.", place.string(), what, reason));
-}
+void Hdf5File::fail(std::string_view what) const { hdf5::refuse(place, what); }
 
 #ifdef PENDULAR_HAS_HDF5
 
-static_assert(sizeof(hid_t) == sizeof(std::int64_t));
-
-namespace {
-
-/// An object of the library, closed at the end of the scope.
-class Object {
-public:
-    Object(hid_t identity, herr_t (*closing)(hid_t)) : id(identity), close(closing) {}
-    Object(const Object&) = delete;
-    Object& operator=(const Object&) = delete;
-    ~Object() { close(id); }
-    operator hid_t() const { return id; }
-
-private:
-    hid_t id;
-    herr_t (*close)(hid_t);
-};
-
-hid_t nativeType(NumberKind kind) {
-    switch (kind) {
-        case NumberKind::Float64:
-            return H5T_NATIVE_DOUBLE;
-        case NumberKind::UInt64:
-            return H5T_NATIVE_UINT64;
-        case NumberKind::UInt32:
-            return H5T_NATIVE_UINT32;
-        case NumberKind::Int32:
-            return H5T_NATIVE_INT32;
-        case NumberKind::UInt16:
-            return H5T_NATIVE_UINT16;
-        case NumberKind::UInt8:
-            return H5T_NATIVE_UINT8;
-    }
-    return -1;
-}
-
-/// The library prints no messages of its own, and does not try to complete files when the program ends (a
-/// full disk is not less full then).
-void makeQuiet() {
-    static const bool once = [] {
-        H5dont_atexit();
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-        return true;
-    }();
-    static_cast<void>(once);
-}
-
-}  // namespace
+using hdf5::makeQuiet, hdf5::nativeType, hdf5::Object;
 
 bool Hdf5File::isAvailable() { return true; }
 
@@ -98,10 +47,16 @@ Hdf5File::Id Hdf5File::check(Id result, std::string_view what) const {
 
 void Hdf5File::writeDataset(const std::string& name, Id type, Id space, const void* data) {
     errno = 0;
-    const Object links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(links, 1);
-    const Object creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(creation, false);  // equal states make equal files
+    static const hid_t links = [] {
+        const hid_t list = H5Pcreate(H5P_LINK_CREATE);
+        H5Pset_create_intermediate_group(list, 1);
+        return list;
+    }();
+    static const hid_t creation = [] {
+        const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+        H5Pset_obj_track_times(list, false);  // equal states make equal files
+        return list;
+    }();
     const Object set(
         check(H5Dcreate2(file, name.c_str(), type, space, links, creation, H5P_DEFAULT), "cannot be written"),
         H5Dclose);
@@ -148,11 +103,21 @@ Hdf5File::Id Hdf5File::openDataset(const std::string& name) const {
 std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
     const Object set(openDataset(name), H5Dclose), type(H5Dget_type(set), H5Tclose),
         space(H5Dget_space(set), H5Sclose);
-    std::array<hsize_t, 2> extent{};
-    if (H5Sget_simple_extent_ndims(space) != 2) return {};
+    std::array<hsize_t, 2> extent{0, 1};
+    if (const int axes = H5Sget_simple_extent_ndims(space); axes != 1 && axes != 2) return {};
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-    for (const NumberKind kind : {NumberKind::Float64, NumberKind::UInt64, NumberKind::UInt32,
-                                  NumberKind::Int32, NumberKind::UInt16, NumberKind::UInt8})
+    // Of a table that promises more than there is nothing is believed. Deflate packs 1032 bytes into one.
+    const double promised = static_cast<double>(extent[0]) * static_cast<double>(extent[1]) *
+                            static_cast<double>(H5Tget_size(type)),
+                 there = static_cast<double>(std::filesystem::file_size(place));
+    const auto isPacked = [&] {  // to ask takes longer than all the rest
+        return H5Pget_nfilters(Object(H5Dget_create_plist(set), H5Pclose)) > 0;
+    };
+    if (promised > there && (promised > 1032 * there || !isPacked()))
+        fail(fmt::format("has fewer bytes than {} is to have numbers", name));
+    for (const NumberKind kind :
+         {NumberKind::Float64, NumberKind::Float32, NumberKind::UInt64, NumberKind::UInt32, NumberKind::Int32,
+          NumberKind::UInt16, NumberKind::UInt8})
         if (H5Tget_class(type) == H5Tget_class(nativeType(kind)) &&
             H5Tget_size(type) == H5Tget_size(nativeType(kind)) &&
             (H5Tget_class(type) != H5T_INTEGER || H5Tget_sign(type) == H5Tget_sign(nativeType(kind))))
@@ -169,7 +134,11 @@ void Hdf5File::read(const std::string& name, const TableShape& shape, void* numb
 
 std::string Hdf5File::readText(const std::string& name) const {
     const Object set(openDataset(name), H5Dclose), type(H5Dget_type(set), H5Tclose);
-    if (H5Tget_class(type) != H5T_STRING) fail(fmt::format("has no text {}", name));
+    const Object space(H5Dget_space(set), H5Sclose);
+    constexpr std::size_t longest = std::size_t{1} << 20;  // bytes
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+        H5Sget_simple_extent_npoints(space) != 1 || H5Tget_size(type) > longest)
+        fail(fmt::format("has no text {}", name));
     std::string text(H5Tget_size(type), '\0');
     check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
           fmt::format("cannot be read at {}", name));
@@ -186,7 +155,7 @@ void Hdf5File::close() {
 bool Hdf5File::isAvailable() { return false; }
 Hdf5File::Hdf5File(std::filesystem::path path, Access) : place(std::move(path)) {
     errno = 0;
-    fail("cannot be used: this build of Pendular has no HDF5 library");
+    fail(hdf5::isMissing);
 }
 Hdf5File::~Hdf5File() = default;
 void Hdf5File::write(const std::string&, const TableShape&, const void*) {}

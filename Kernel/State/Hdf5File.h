@@ -10,7 +10,7 @@
 
 namespace pendular {
 
-enum class NumberKind { Float64, UInt64, UInt32, Int32, UInt16, UInt8 };
+enum class NumberKind { Float64, Float32, UInt64, UInt32, Int32, UInt16, UInt8 };
 
 /// A table of numbers of one kind, row by row.
 struct TableShape {
@@ -42,7 +42,7 @@ public:
     /// The names of all tables and texts, sorted.
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] bool holds(const std::string& name) const;
-    /// Nothing if a text has this name.
+    /// Nothing if a text has this name. A list is a table of one column.
     [[nodiscard]] std::optional<TableShape> shapeOf(const std::string& name) const;
     void read(const std::string& name, const TableShape& shape, void* numbers) const;
     [[nodiscard]] std::string readText(const std::string& name) const;

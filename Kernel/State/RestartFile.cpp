@@ -94,7 +94,13 @@ unsigned long long checksumOfRest(Descriptor& file) {
     }
 }
 
-void seal(const fs::path& path) {
+void syncFolderOf(const fs::path& path) {
+    Descriptor(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY).sync();
+}
+
+}  // namespace
+
+void sealRestartFile(const fs::path& path) {
     Descriptor file(path, O_RDWR);
     Seal::Block block;
     static_cast<void>(file.read(block.data(), block.size()));
@@ -103,12 +109,6 @@ void seal(const fs::path& path) {
     file.writeAtBegin(block.data(), block.size());
     file.sync();
 }
-
-void syncFolderOf(const fs::path& path) {
-    Descriptor(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY).sync();
-}
-
-}  // namespace
 
 void requireRestartFiles() {
     if (!Hdf5File::isAvailable())
@@ -127,7 +127,7 @@ void writeRestartFile(const fs::path& path, const std::function<void(StateArchiv
         StateArchive archive(file, StateArchive::Direction::Write);
         visit(archive);
         file.close();
-        seal(beside);
+        sealRestartFile(beside);
         fs::rename(beside, path);
         syncFolderOf(path);
     } catch (const std::exception& problem) {
@@ -155,10 +155,10 @@ void checkRestartFile(const fs::path& path) {
     const int found = std::sscanf(text.data(), "Pendular restart file\nformat %d\nbytes %llu\nchecksum %llx",
                                   &seal.format, &seal.bytes, &seal.checksum);
     if (found < 1) refuse("is not a restart file of Pendular, or its begin is damaged");
-    if (seal.format > restartFormat)
+    if (seal.format >= 1 && seal.format != restartFormat)
         refuse(
-            fmt::format("has the format {}, and this version of Pendular reads formats up to {}: take the "
-                        "version that wrote it, or a newer one",
+            fmt::format("has the format {}, and this version of Pendular reads the format {}: take the "
+                        "version that wrote it",
                         seal.format, restartFormat));
     constexpr std::string_view advice = "take another one, or begin the run anew";
     const std::uintmax_t size = fs::file_size(path);

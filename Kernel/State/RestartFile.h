@@ -7,8 +7,8 @@
 
 namespace pendular {
 
-/// The format of restart files that this version writes; it reads this one and all before it.
-inline constexpr int restartFormat = 1;
+/// The format of restart files that this version writes, and the only one that it reads.
+inline constexpr int restartFormat = 3;
 
 /// Throws InputError in a build without the HDF5 library, in which there are no restart files.
 void requireRestartFiles();
@@ -18,6 +18,10 @@ void requireRestartFiles();
 /// is.
 /// @param visit visits all that the file is to hold
 void writeRestartFile(const std::filesystem::path& path, const std::function<void(StateArchive&)>& visit);
+
+/// Makes a restart file of an HDF5 file with its room in front: writes the format and the checksum of what
+/// the file holds now there, and waits until all is on the disk. writeRestartFile() does it.
+void sealRestartFile(const std::filesystem::path& path);
 
 /// Throws InputError unless the file is a whole and undamaged restart file of a format that is known.
 void checkRestartFile(const std::filesystem::path& path);

@@ -13,6 +13,15 @@ void StateArchive::refuseMissing(std::string_view name) const {
         file.path().string(), fullName(name)));
 }
 
+void StateArchive::refuse(std::string_view name, std::string_view whatIsWrong) const {
+    if (isReading())
+        throw InputError(fmt::format(
+            "The restart file {} is not consistent: {} {}; take another one, or begin the run anew.",
+            file.path().string(), fullName(name), whatIsWrong));
+    throw InputError(
+        fmt::format("The state cannot be kept for a restart: {} {}.", fullName(name), whatIsWrong));
+}
+
 std::size_t StateArchive::rowsOf(std::string_view name, const TableShape& row) const {
     const std::string full = fullName(name);
     const auto shape = file.holds(full) ? file.shapeOf(full) : std::nullopt;
@@ -38,7 +47,7 @@ void StateArchive::same(std::string_view name, std::string_view text) {
     if (!isReading()) return file.write(fullName(name), text);
     std::string kept;
     this->text(name, kept);
-    expectSame(name, kept, std::string(text), {});
+    expectSame(name, kept, std::string(text), {}, "a run goes on with the values it began with");
 }
 
 void StateArchive::expectEqual(std::string_view name, bool equal) const {
@@ -50,13 +59,13 @@ void StateArchive::expectEqual(std::string_view name, bool equal) const {
 }
 
 void StateArchive::expectSame(std::string_view name, const std::string& kept, const std::string& now,
-                              std::string_view unit) const {
+                              std::string_view unit, std::string_view advice) const {
     if (kept == now) return;
     const std::string space = unit.empty() ? "" : " ";
     throw InputError(
         fmt::format("The restart file {} does not fit this scene: {} is {}{}{} in the file and {}{}{} in the "
-                    "scene; a run goes on with the values it began with.",
-                    file.path().string(), fullName(name), kept, space, unit, now, space, unit));
+                    "scene; {}.",
+                    file.path().string(), fullName(name), kept, space, unit, now, space, unit, advice));
 }
 
 /// With all its digits: two numbers that are shown alike are equal, and so are two that are not set.

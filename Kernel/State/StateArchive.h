@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -17,6 +20,7 @@ namespace pendular {
 template <class Number>
 constexpr NumberKind kindOf() {
     if constexpr (std::is_same_v<Number, double>) return NumberKind::Float64;
+    else if constexpr (std::is_same_v<Number, float>) return NumberKind::Float32;
     else if constexpr (std::is_same_v<Number, bool>) return NumberKind::UInt8;
     else if constexpr (std::is_signed_v<Number>) {
         static_assert(sizeof(Number) == 4);
@@ -44,6 +48,9 @@ public:
     StateArchive(Hdf5File& stateFile, Direction way) : file(stateFile), direction(way) {}
 
     [[nodiscard]] bool isReading() const { return direction == Direction::Read; }
+    [[nodiscard]] bool isWriting() const { return direction == Direction::Write; }
+    /// Whether a file that is read has something of this name.
+    [[nodiscard]] bool holds(std::string_view name) const { return file.holds(fullName(name)); }
 
     /// All that is visited within the function is in this group.
     template <class Function>
@@ -73,18 +80,44 @@ public:
     }
     template <class Number>
     requires std::is_arithmetic_v<Number>
-    void value(std::string_view name, Number& number) { record<Number>(name, number); }
+    void value(std::string_view name, Number& number) {
+        if constexpr (std::is_same_v<Number, bool>) {
+            std::uint8_t byte = number ? 1 : 0;
+            record<std::uint8_t>(name, byte);
+            require(byte <= 1, name, "is neither 0 nor 1");
+            number = byte == 1;
+        } else {
+            record<Number>(name, number);
+        }
+    }
     void text(std::string_view name, std::string& content);
+
+    /// What must hold of a state that is whole. Throws InputError, with the name and what is wrong with it,
+    /// where it does not: the content of a file is checked before anything uses it, and that of a scene
+    /// before a good file is replaced.
+    void require(bool holds, std::string_view name, std::string_view whatIsWrong) const {
+        if (!holds) refuse(name, whatIsWrong);
+    }
+    template <class Record>
+    void requireFinite(std::string_view name, const std::vector<Record>& records) const {
+        require(std::all_of(records.begin(), records.end(), isFinite<Record>), name, notFinite);
+    }
+    template <class Record>
+    void requireFinite(std::string_view name, const Record& record) const {
+        require(isFinite<Record>(record), name, notFinite);
+    }
 
     /// What a scene must set as it was when the file was written: a species' parameter, a wall's shape.
     /// Reading throws InputError where it is not so.
+    /// @param advice ends the sentence: what to do
     template <class Number>
     requires std::is_arithmetic_v<Number>
-    void same(std::string_view name, Number number, std::string_view unit = {}) {
+    void same(std::string_view name, Number number, std::string_view unit = {},
+              std::string_view advice = "a run goes on with the values it began with") {
         if (!isReading()) return value(name, number);
         Number kept{};
         value(name, kept);
-        expectSame(name, shown(kept), shown(number), unit);
+        expectSame(name, shown(kept), shown(number), unit, advice);
     }
     void same(std::string_view name, std::string_view text);
     template <class Number, RecordOf<Number> Record>
@@ -105,11 +138,19 @@ private:
     [[nodiscard]] std::string fullName(std::string_view name) const { return prefix + std::string(name); }
     /// The rows of a table of the file, which has this kind and these columns.
     [[nodiscard]] std::size_t rowsOf(std::string_view name, const TableShape& row) const;
+    static constexpr std::string_view notFinite = "has a number that is not finite";
+    template <RecordOf<double> Record>
+    static bool isFinite(const Record& record) {
+        std::array<double, sizeof(Record) / sizeof(double)> numbers;
+        std::memcpy(numbers.data(), &record, sizeof(Record));
+        return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+    }
+    [[noreturn]] void refuse(std::string_view name, std::string_view whatIsWrong) const;
     [[noreturn]] void refuseMissing(std::string_view name) const;
     void transfer(std::string_view name, const TableShape& shape, void* numbers);
     void expectEqual(std::string_view name, bool equal) const;
     void expectSame(std::string_view name, const std::string& kept, const std::string& now,
-                    std::string_view unit) const;
+                    std::string_view unit, std::string_view advice) const;
     static std::string shown(double number);
     static std::string shown(std::integral auto number) { return std::to_string(number); }
 

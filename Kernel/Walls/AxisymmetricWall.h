@@ -21,6 +21,7 @@ public:
     /// @param direction of the axis, of any length; @param point on the axis where the height is 0, m
     /// @param polyline at least two points; consecutive ones differ
     void set(const Vec3D& direction, const Vec3D& point, std::vector<ProfilePoint> polyline);
+    [[nodiscard]] std::size_t partCount() const override { return 2 * (profile.size() - 1); }
 
 protected:
     void listInBody(const Vector<double>& centre, double reach,

@@ -36,7 +36,8 @@ bool isLess(const Point& a, const Point& b) {
 }
 
 /// For each vertex the first one within a distance (m) of it, itself or one that stands for itself.
-std::vector<Index> joinClose(std::span<const Point> vertices, double distance) {
+/// @param origin near to them: the numbers of cells stay small
+std::vector<Index> joinClose(std::span<const Point> vertices, double distance, const Point& origin) {
     using Cell = std::array<std::int64_t, 3>;
     const double inverseSize =
         1 / (1024 * distance);  // few vertices lie so near to a face that two cells are looked into
@@ -44,7 +45,7 @@ std::vector<Index> joinClose(std::span<const Point> vertices, double distance) {
     std::map<Cell, std::vector<Index>> cells;
     std::vector<Index> same(vertices.size());
     for (Index v = 0; v < vertices.size(); ++v) {
-        const Point p = vertices[v];
+        const Point p = vertices[v] - origin;
         same[v] = v;
         const Cell low{cellOf(p.x - distance), cellOf(p.y - distance), cellOf(p.z - distance)};
         const Cell high{cellOf(p.x + distance), cellOf(p.y + distance), cellOf(p.z + distance)};
@@ -53,7 +54,8 @@ std::vector<Index> joinClose(std::span<const Point> vertices, double distance) {
                 for (std::int64_t z = low[2]; z <= high[2]; ++z)
                     if (const auto found = cells.find({x, y, z}); found != cells.end())
                         for (const Index other : found->second)
-                            if (norm(vertices[other] - p) <= distance) same[v] = std::min(same[v], other);
+                            if (norm(vertices[other] - vertices[v]) <= distance)
+                                same[v] = std::min(same[v], other);
         if (same[v] == v) cells[{cellOf(p.x), cellOf(p.y), cellOf(p.z)}].push_back(v);
     }
     return same;
@@ -104,10 +106,11 @@ private:
                 box.include(all.back());
             }
         made.size = given.empty() ? 0 : norm(box.highest - box.lowest);
+        if (!(made.size > 0)) throw InputError("TriangleWall: there is no triangle with an area.");
         vertices = all;
         std::sort(vertices.begin(), vertices.end(), isLess);
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        const std::vector<Index> same = joinClose(vertices, meshTolerance * made.size);
+        const std::vector<Index> same = joinClose(vertices, meshTolerance * made.size, box.lowest);
         for (std::size_t t = 0; t < given.size(); ++t) {
             std::array<Index, 3> corner;
             for (std::size_t k = 0; k < 3; ++k)

@@ -26,6 +26,21 @@ struct Pose {
     [[nodiscard]] Vector<double> placeBack(const Vector<double>& point) const {
         return turnBack(point - shift);
     }
+    /// First the other placement, then this one.
+    [[nodiscard]] Pose after(const Pose& first) const {
+        Pose both;
+        for (int k = 0; k < 3; ++k) both.column[k] = turn(first.column[k]);
+        both.shift = place(first.shift);
+        return both;
+    }
+    [[nodiscard]] Pose inverse() const {
+        Pose back;
+        back.column[0] = {column[0].x, column[1].x, column[2].x};
+        back.column[1] = {column[0].y, column[1].y, column[2].y};
+        back.column[2] = {column[0].z, column[1].z, column[2].z};
+        back.shift = turnBack(Vector<double>{0, 0, 0} - shift);
+        return back;
+    }
 };
 
 /// How a rigid body moves: the velocity of a point x is linear + spin x (x - point).

@@ -51,24 +51,41 @@ double SurfaceExtent::displacement(const Pose& from, const Pose& to) const {
     return turned == 0 ? carried : carried + turned * radius;
 }
 
-void RigidWall::setVelocity(const Vec3D& value) {
-    steady.linear = checkedVector("Wall", "velocity", value, "m/s");
+void RigidWall::beginSteadyMotion() {
+    if (isInRun()) {
+        if (!followsFunction) steady = velocityAt(now);
+        began = now;
+        origin = pose;
+    }
+    followsFunction = false;
     atRest = false;
-    moveTo(0);
+}
+
+void RigidWall::setVelocity(const Vec3D& value) {
+    const Vector<double> linear = checkedVector("Wall", "velocity", value, "m/s");
+    beginSteadyMotion();
+    steady.linear = linear;
+    placeAt(began);
 }
 
 void RigidWall::setAngularVelocity(const Vec3D& spin, const Vec3D& point) {
-    steady.spin = checkedVector("Wall", "angular velocity", spin, "rad/s");
-    steady.point = checkedVector("Wall", "point of the angular velocity", point, "m");
-    atRest = false;
-    moveTo(0);
+    const Vector<double> turning = checkedVector("Wall", "angular velocity", spin, "rad/s"),
+                         through = checkedVector("Wall", "point of the angular velocity", point, "m");
+    beginSteadyMotion();
+    steady.spin = turning;
+    steady.point = through;
+    placeAt(began);
 }
 
 void RigidWall::setMotion(std::function<Eigen::Isometry3d(double)> poseOfTime) {
     if (!poseOfTime) throw InputError("Wall: the function of the motion is empty.");
     motion = std::move(poseOfTime);
+    followsFunction = true;
+    steady = {};
     atRest = false;
-    moveTo(0);
+    const double time = isInRun() ? now : 0;
+    origin = isInRun() ? displacementAt(time).inverse().after(pose) : Pose();
+    placeAt(time);
 }
 
 void RigidWall::setSurfaceVelocity(const Vec3D& value) {
@@ -88,21 +105,23 @@ Eigen::Isometry3d RigidWall::askedPose(double time) const {
     return asked;
 }
 
-Pose RigidWall::poseAt(double time) const {
-    if (motion) return Pose(askedPose(time));
+Pose RigidWall::displacementAt(double time) const {
+    if (followsFunction) return Pose(askedPose(time));
+    const double elapsed = time - began;
     const Vec3D spin = toEigen(steady.spin), point = toEigen(steady.point);
     const double rate = spin.norm();
     Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-    if (rate > 0) result.linear() = Eigen::AngleAxisd(rate * time, spin / rate).toRotationMatrix();
-    result.translation() = point - result.linear() * point + time * toEigen(steady.linear);
+    if (rate > 0) result.linear() = Eigen::AngleAxisd(rate * elapsed, spin / rate).toRotationMatrix();
+    result.translation() = point - result.linear() * point + elapsed * toEigen(steady.linear);
     return Pose(result);
 }
 
 RigidVelocity RigidWall::velocityAt(double time) const {
-    if (!motion) return {steady.linear, steady.spin, steady.point + time * steady.linear};
+    if (!followsFunction) return {steady.linear, steady.spin, steady.point + (time - began) * steady.linear};
     const double h = differenceInterval;
     const Eigen::Isometry3d before = askedPose(time - h), after = askedPose(time + h);
-    const Eigen::Vector3d linear = (after.translation() - before.translation()) / (2 * h);
+    const Eigen::Vector3d point = toEigen(origin.shift);  // which is at pose.shift now
+    const Eigen::Vector3d linear = (after * point - before * point) / (2 * h);
     // The skew part of R(t + h) R(t - h)^T is sin(angle) n; for small angles the angle itself.
     const Eigen::Matrix3d turn = after.linear() * before.linear().transpose();
     const Eigen::Vector3d spin(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
@@ -110,20 +129,44 @@ RigidVelocity RigidWall::velocityAt(double time) const {
 }
 
 void RigidWall::visitState(StateArchive& archive) {
+    bool hasMoved = isInRun();  // not where a wall was added in this step
+    double lastMoved = hasMoved ? now : 0;
     Wall::visitState(archive);
     visitShape(archive);
-    archive.same("hasMotionFunction", static_cast<bool>(motion));
+    archive.same(
+        "hasMotionFunction", static_cast<bool>(motion), {},
+        "a scene that goes on gives a wall its function by setMotion() when it is set up, also where "
+        "the wall got it during the run, and gives none to a wall that had none");
+    archive.value("followsFunction", followsFunction);
+    archive.require(motion || !followsFunction, "followsFunction", "is 1, and there is no function");
     archive.value("atRest", atRest);
+    archive.value("hasMoved", hasMoved);
+    archive.value("lastMoved", lastMoved);
+    archive.value("motionBegan", began);
+    archive.record<double>("motionOrigin", origin);
     archive.record<double>("steadyMotion", steady);
     archive.record<double>("surfaceVelocity", surfaceVelocity);
     archive.record<double>("pose", pose);
     archive.record<double>("velocity", velocity);
+    archive.requireFinite("lastMoved", lastMoved);
+    archive.requireFinite("motionBegan", began);
+    archive.requireFinite("motionOrigin", origin);
+    archive.requireFinite("steadyMotion", steady);
+    archive.requireFinite("surfaceVelocity", surfaceVelocity);
+    archive.requireFinite("pose", pose);
+    archive.requireFinite("velocity", velocity);
+    now = hasMoved ? lastMoved : unset;
 }
 
 double RigidWall::moveTo(double time) {
-    if (atRest) return 0;
+    now = time;
+    return atRest ? 0 : placeAt(time);
+}
+
+/// Returns how far (m) any point of the surface has moved.
+double RigidWall::placeAt(double time) {
     const Pose last = pose;
-    pose = poseAt(time);
+    pose = displacementAt(time).after(origin);
     velocity = velocityAt(time);
     return given ? extent().displacement(last, pose) : 0;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 #include "Kernel/Walls/Pose.h"
@@ -9,7 +10,7 @@ namespace pendular {
 
 /// A wall that is a rigid body with a prescribed motion. The shape is given in the body's own frame, which is
 /// that of the scene at time 0 unless setMotion() says otherwise; it never changes, so that a mesh is
-/// searched by one tree for ever.
+/// searched by one tree for ever. The motion may be set anew during a run: the wall goes on from where it is.
 class RigidWall : public Wall {
 public:
     template <class S>
@@ -18,12 +19,15 @@ public:
     }
     [[nodiscard]] bool isSet() const { return given; }
 
+    // These replace a function that setMotion() has given.
     /// @param velocity m/s; with an angular velocity, that of its point
     void setVelocity(const Vec3D& velocity);
-    /// @param spin rad/s, about an axis through a point (m) that moves with setVelocity()
+    /// @param spin rad/s, about an axis through a point (m; where it is now) that moves with setVelocity()
     void setAngularVelocity(const Vec3D& spin, const Vec3D& point);
-    /// @param pose from the body's own frame to the scene, by the time (s). Its velocities are taken from
-    /// differences over 1e-6 s before and after: to 1e-7 of them up to 100 Hz.
+    /// @param pose from the body's own frame to the scene, by the time (s). During a run, the wall is moved
+    /// from where it is by what the function changes from then on; a restart file does not keep a function,
+    /// so the scene that goes on has to be set up with it. Its velocities are taken from differences over
+    /// 1e-6 s before and after: to 1e-7 of them up to 100 Hz.
     void setMotion(std::function<Eigen::Isometry3d(double)> pose);
     /// The surface runs with this velocity (m/s, in the body's frame) while the shape stays: a conveyor belt.
     void setSurfaceVelocity(const Vec3D& velocity);
@@ -37,6 +41,7 @@ public:
     void listParts(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const final;
+    [[nodiscard]] Vector<double> angularVelocity() const final { return velocity.spin; }
     [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const final;
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const final;
 
@@ -56,13 +61,21 @@ protected:
     bool given = false;
 
 private:
-    [[nodiscard]] Pose poseAt(double time) const;
+    /// By which the motion has displaced the wall from its origin at a time (s).
+    [[nodiscard]] Pose displacementAt(double time) const;
     [[nodiscard]] RigidVelocity velocityAt(double time) const;
     [[nodiscard]] Eigen::Isometry3d askedPose(double time) const;
+    [[nodiscard]] bool isInRun() const { return !std::isnan(now); }
+    void beginSteadyMotion();
+    double placeAt(double time);
 
     bool atRest = true;
-    RigidVelocity steady;  // at time 0
+    double now = unset;    // s, of the last moveTo(); not a number before the run
+    double began = 0;      // s, when the steady motion was set
+    Pose origin;           // where the wall is when the motion displaces it by nothing
+    RigidVelocity steady;  // at the time `began`
     std::function<Eigen::Isometry3d(double)> motion;
+    bool followsFunction = false;             // and not `steady`
     Vector<double> surfaceVelocity{0, 0, 0};  // m/s, in the body's frame
     Pose pose;
     RigidVelocity velocity;

@@ -22,6 +22,7 @@ public:
 
     [[nodiscard]] std::size_t getNumberOfTriangles() const;
     [[nodiscard]] std::size_t getNumberOfParts() const;
+    [[nodiscard]] std::size_t partCount() const override { return getNumberOfParts(); }
     /// Triangles without area, and repeated ones.
     [[nodiscard]] std::size_t getNumberLeftOut() const;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,6 +33,8 @@ class Wall {
 public:
     virtual ~Wall() = default;
 
+    [[nodiscard]] virtual std::size_t partCount() const { return 1; }
+
     /// Appends the parts that a sphere with this centre may touch while its centre is within `reach` (m) of
     /// them.
     virtual void listParts(const Vector<double>& centre, double reach,
@@ -53,6 +56,8 @@ public:
     /// Moves the wall to where it is at a time (s); returns how far (m) any point of its surface can have
     /// moved.
     virtual double moveTo(double /*time*/) { return 0; }
+    /// rad/s, with which the surface turns against the grains.
+    [[nodiscard]] virtual Vector<double> angularVelocity() const { return {0, 0, 0}; }
 
     /// The wall as polygons, for pictures; a shape that gives none is not seen.
     [[nodiscard]] virtual WallSurface surface(const SceneSphere& /*around*/) const { return {}; }
@@ -77,6 +82,7 @@ public:
     virtual void visitState(StateArchive& archive) {
         archive.same("species", species);
         archive.record<double>("force", kept);
+        archive.requireFinite("force", kept);
     }
 
     int species = -1;

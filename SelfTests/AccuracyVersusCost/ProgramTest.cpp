@@ -2,14 +2,14 @@
 
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "BuildFolders.h"
 #include "Kernel/Species/BridgeLaws.h"
+#include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"
-#include "SelfTests/Support/TemporaryFile.h"
+#include "SelfTests/Support/TestFolder.h"
 #include "Tools/AccuracyVersusCost/BridgePopulations.h"
 
 namespace pendular {
@@ -17,43 +17,16 @@ namespace {
 
 using support::contentOf;
 using support::expectOneSentence;
-using support::TemporaryFolder;
+using support::Row;
+using support::rowsOf;
+using support::TestFolder;
 
 support::ProgramResult runTool(const std::string& arguments) {
     return support::run(folders::tools.string() + "/" + arguments);
 }
 
-using Row = std::map<std::string, std::string>;
-
-/// The rows of a table, by the names of its columns.
-std::vector<Row> rowsOf(const std::string& table) {
-    const auto cells = [](const std::string& line) {
-        std::vector<std::string> parts;
-        std::istringstream stream(line + ",");
-        for (std::string cell; std::getline(stream, cell, ',');) parts.push_back(cell);
-        return parts;
-    };
-    std::istringstream lines(table);
-    std::vector<std::string> names;
-    std::vector<Row> rows;
-    for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("#")) continue;
-        const auto parts = cells(line);
-        if (names.empty()) {
-            names = parts;
-            continue;
-        }
-        EXPECT_EQ(parts.size(), names.size()) << line;
-        for (std::size_t k = 0; k < std::min(parts.size(), names.size()); ++k) {
-            if (k == 0) rows.emplace_back();
-            rows.back()[names[k]] = parts[k];
-        }
-    }
-    return rows;
-}
-
 TEST(AccuracyVersusCost, chartsEveryLawForEveryPopulation) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string file = (folder.path() / "bridges.csv").string();
     const auto result = runTool("accuracy-versus-cost --bridges --count 5 --runs 1 --output " + file);
     ASSERT_EQ(result.exitCode, 0) << result.output;
@@ -82,7 +55,7 @@ TEST(AccuracyVersusCost, chartsEveryLawForEveryPopulation) {
 }
 
 TEST(AccuracyVersusCost, mapsEveryLaw) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string file = (folder.path() / "maps.csv").string();
     const auto result =
         runTool("accuracy-versus-cost --failure-maps --volumes 4 --angles 3 --output " + file);
@@ -94,7 +67,7 @@ TEST(AccuracyVersusCost, mapsEveryLaw) {
 }
 
 TEST(AccuracyVersusCost, refusesInOneSentence) {
-    expectOneSentence(runTool("accuracy-versus-cost"), "one of --bridges, --failure-maps and --time");
+    expectOneSentence(runTool("accuracy-versus-cost"), "give one of");
     expectOneSentence(runTool("accuracy-versus-cost --bridges --failure-maps"), "one of");
     expectOneSentence(runTool("accuracy-versus-cost --bridges --count 0"), "number of bridges = 0");
     expectOneSentence(runTool("accuracy-versus-cost --bridges --runs 0"), "runs = 0");
@@ -103,7 +76,16 @@ TEST(AccuracyVersusCost, refusesInOneSentence) {
                       "/dev/null/table.csv");
     expectOneSentence(runTool("bridge-scenes --seeds 0"), "seeds = 0");
     expectOneSentence(runTool("bridge-scenes --contact-angle-deg 200"), "contact-angle-deg = 200");
+    expectOneSentence(runTool("accuracy-versus-cost --bulk --beds 1"), "beds = 1");
+    expectOneSentence(runTool("accuracy-versus-cost --bulk --scene hopper"), "hopper");
+    expectOneSentence(runTool("accuracy-versus-cost --bulk --scene drum --beds 5"), "--beds is of another");
+    expectOneSentence(runTool("accuracy-versus-cost --bulk --scene bed --drums 3"), "--drums is of another");
+    expectOneSentence(runTool("accuracy-versus-cost --contact-maps --map-offsets 0"), "map-offsets = 0");
     EXPECT_NE(runTool("accuracy-versus-cost --brigdes").exitCode, 0);
+    // An option of another mode.
+    const auto other = runTool("accuracy-versus-cost --time --beds 3");
+    EXPECT_NE(other.exitCode, 0);
+    EXPECT_NE(other.output.find("--beds requires --bulk"), std::string::npos) << other.output;
 }
 
 TEST(AccuracyVersusCost, hasHelp) {
@@ -114,10 +96,57 @@ TEST(AccuracyVersusCost, hasHelp) {
     }
 }
 
+// Whatever the size: the first law is its own reference; a softer law takes longer steps, friction costs
+// time, and a smooth bed has more contacts.
+TEST(HeavyBulkChart, hasEveryLaw) {
+    const TestFolder folder;
+    const std::string file = (folder.path() / "bulk.csv").string();
+    const auto result = runTool(
+        "accuracy-versus-cost --bulk --elastic-modulus-pa 1e6 --scene bed --beds 2 --bed-particles 150 "
+        "--rounds 1 --output " +
+        file);
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    auto rows = rowsOf(contentOf(file));
+    ASSERT_EQ(rows.size(), 10 * 7);
+    EXPECT_EQ(rows[0]["deviation_percent"], "0");
+    double rough = 0, smooth = 0;
+    for (Row& row : rows) {
+        EXPECT_TRUE(std::isfinite(std::stod(row["mean"]))) << row["law"] << row["figure"];
+        EXPECT_GT(std::stod(row["million_particle_steps_per_second"]), 0);
+        if (row["figure"] == "vertical_stress_over_weight") {
+            EXPECT_NEAR(std::stod(row["mean"]), 1, 0.02);
+        }
+        if (row["figure"] != "coordination") continue;
+        if (row["law"] == "Hertz-Mindlin" && rough == 0) rough = std::stod(row["mean"]);
+        if (row["law"] == "Hertz without friction") smooth = std::stod(row["mean"]);
+    }
+    EXPECT_GT(smooth, rough);
+}
+
+// Five collisions by three integrators. The default is the measure of cost; with 500 steps each errs less
+// than with 5.
+TEST(HeavyTimeChart, hasEveryCollisionAndIntegrator) {
+    const TestFolder folder;
+    const std::string file = (folder.path() / "time.csv").string();
+    const auto result = runTool("accuracy-versus-cost --time --offsets 1 --output " + file);
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    std::map<std::string, std::pair<double, double>> firstAndLast;  // %
+    for (Row& row : rowsOf(contentOf(file))) {
+        const double error = std::stod(row["parting_error_percent"]);
+        firstAndLast.try_emplace(row["collision"] + " " + row["integrator"], error, 0).first->second.second =
+            error;
+        if (row["integrator"] == "PredictedVelocityVerlet") {
+            EXPECT_EQ(std::stod(row["cost_in_default_steps"]), std::stod(row["steps_per_contact"]));
+        }
+    }
+    EXPECT_EQ(firstAndLast.size(), 5u * 3u);
+    for (const auto& [name, errors] : firstAndLast) EXPECT_LT(errors.second, errors.first) << name;
+}
+
 // Wet grains hold together by more than dry ones of the same motion; a bed with walls is refused by a law
 // without them.
 TEST(HeavyBridgeScenes, haveEveryLaw) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string file = (folder.path() / "scenes.csv").string();
     const auto result = runTool(
         "bridge-scenes --particles 100 --rounds 1 --seeds 2 --strain-before 0.3 --strain 0.02 --states \"\" "

@@ -2,7 +2,7 @@
 
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Scenes/MovingBenchmark.h"
-#include "SelfTests/Support/TemporaryFile.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -28,7 +28,7 @@ std::uint64_t hashWith(const BenchmarkChoice& choice, int threads) {
 class HeavyBenchmarkScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(HeavyBenchmarkScene, hasTheSameBitsForAnyNumberOfThreads) {
-    const support::TemporaryFolder folder;
+    const support::TestFolder folder;
     const BenchmarkChoice choice = scenes::smallBenchmark(GetParam(), folder.path());
     const std::uint64_t one = hashWith(choice, 1);
     for (const int threads : {2, 3, 8}) EXPECT_EQ(hashWith(choice, threads), one) << threads << " threads";

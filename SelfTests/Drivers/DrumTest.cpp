@@ -107,6 +107,17 @@ TEST(HeavyDrum, carriesItsGrainsUpOnTheSideToWhichTheBottomMoves) {
     }
 }
 
+/// A run that goes on is set up without grains, and must have the step of the one that began.
+TEST(Drum, takesAStableStepThatItsGrainsDoNotChange) {
+    for (const std::size_t number : {120u, 1000u}) {
+        const DrumShape drum = drumFor(number);
+        DrumScene scene(looseDrumGrains(number, drum), drum, 100);
+        EXPECT_LE(scene.getTimeStep(), 0.9 * scene.stabilityLimit() * (1 + 1e-12));
+        EXPECT_GT(scene.getTimeStep(), 0.8 * scene.stabilityLimit());
+        EXPECT_EQ(DrumScene({}, drum, 100).getTimeStep(), scene.getTimeStep());
+    }
+}
+
 TEST(Drum, countsAGrainInItsQuarter) {
     const std::vector<GrainRow> grains{{1e-3, Vec3D(0.01, 0, 0.01)},
                                        {2e-3, Vec3D(-0.01, 0, 0.01)},

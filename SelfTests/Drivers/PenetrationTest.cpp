@@ -78,6 +78,18 @@ TEST(Penetration, bedSettlesInItsBox) {
     EXPECT_TRUE(contains(text, "bed is 1"));
 }
 
+/// A run that goes on is set up without grains, and must have the step of the one that began.
+TEST(Penetration, takesAStableStepThatItsGrainsDoNotChange) {
+    for (const std::size_t grains : {120u, 5000u}) {
+        const BedBox box = bedBoxFor(grains);
+        const PenetrationGrains first{looseBed(grains, box), GrainRow{box.intruderRadius, Vec3D(0, 0, 1)}};
+        PenetrationScene scene(first, box, 5, softening), settling({first.bed, {}}, box, 0, softening);
+        EXPECT_LE(scene.getTimeStep(), 0.9 * scene.stabilityLimit() * (1 + 1e-12));
+        EXPECT_LE(settling.getTimeStep(), 0.9 * settling.stabilityLimit() * (1 + 1e-12));
+        EXPECT_EQ(PenetrationScene({}, box, 5, softening).getTimeStep(), scene.getTimeStep());
+    }
+}
+
 /// Before it meets the bed, the intruder falls: z = z0 - v t - g t^2/2. Verlet is exact for it but for
 /// rounding, some 1e-16 of z a step over 60 steps.
 TEST(Penetration, intruderFallsFreelyUntilItMeetsTheBed) {

@@ -1,4 +1,5 @@
 #include "Kernel/Math/Pack.h"
+#include "Kernel/Math/Vector.h"
 
 #include <gtest/gtest.h>
 #include <cstring>
@@ -364,6 +365,24 @@ void expectStored(std::size_t offset) {
         const std::size_t place = k - offset;
         EXPECT_EQ(memory.value[k], inside ? values[place % columns][place / columns] : before.value[k]) << k;
     }
+}
+
+/// As the sum of the contacts of a grain makes force and torque.
+struct TwoVectors {
+    Vector<double> first, second;
+};
+[[gnu::noinline]] TwoVectors vectorsOfSum(const std::vector<Pack>& terms, const Pack& weight) {
+    Pack sum = 0;
+    for (const Pack& term : terms) sum += term * weight;
+    const auto lanes = sum.toLanes();
+    return {{lanes[0], lanes[1], lanes[2]}, {lanes[4], lanes[5], lanes[6]}};
+}
+
+// g++ 12.2 with -ftree-slp-vectorize gives the second vector the x of the first one's z.
+TEST(Pack, twoVectorsOfItsLanesHaveTheRightOnes) {
+    const auto sums = vectorsOfSum({Pack::fromLanes({1, 2, 3, 4, 5, 6, 7, 8})}, Pack(1));
+    EXPECT_EQ(sums.first, (Vector<double>{1, 2, 3}));
+    EXPECT_EQ(sums.second, (Vector<double>{5, 6, 7}));
 }
 
 TEST(Records, storeTransposesBackAndTouchesNothingElse) {

@@ -228,14 +228,19 @@ TEST(ParaView, seesAContactThroughAPeriodicFaceAsAShortLine) {
 
 TEST(ParaView, hasOneSeriesOfARunThatGoesOn) {
     const TestFolder folder;
-    ParaViewSeries first(folder.name(), 0);
+    ParaViewSeries first(folder.name(), -INFINITY);
+    std::filesystem::create_directories(folder.path());
     for (const int k : {0, 1, 2, 3}) {
+        std::ofstream(folder.path() / fmt::format("run-walls-{:09}.vtp", 10 * k)) << "a wall";
         EXPECT_EQ(first.add("particles", 0.5 * k, 10 * k).filename(),
                   fmt::format("run-particles-{:09}.vtp", 10 * k));
         first.add("walls", 0.5 * k, 10 * k);
     }
     first.write();
-    ParaViewSeries second(folder.name(), 1.0);  // from step 20 on
+    ParaViewSeries second(folder.name(), 0.5);  // from step 10 on
+    for (const int k : {0, 1, 2, 3})
+        EXPECT_EQ(std::filesystem::exists(folder.path() / fmt::format("run-walls-{:09}.vtp", 10 * k)),
+                  k <= 1);
     second.add("particles", 1.0, 20);
     second.write();
     std::ifstream file(folder.name() + ".pvd");
@@ -252,7 +257,7 @@ TEST(ParaView, hasOneSeriesOfARunThatGoesOn) {
     EXPECT_EQ(read[3].time, 0.5);
     EXPECT_EQ(read[3].kind, "walls");
     EXPECT_EQ(read[3].file, folder.path() / "run-walls-000000010.vtp");
-    EXPECT_EQ(ParaViewSeries(folder.name(), 0).add("a", 0, 0).filename(), "run-a-000000000.vtp");
+    EXPECT_EQ(ParaViewSeries(folder.name(), -INFINITY).add("a", 0, 0).filename(), "run-a-000000000.vtp");
 }
 
 TEST(ParaView, writesOneFrameInAnInterval) {

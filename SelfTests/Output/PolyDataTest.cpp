@@ -80,7 +80,7 @@ TEST(Compression, givesBackTheBytesOfAnyLength) {
             if (repeats && size > 100000) {
                 EXPECT_LT(packed.size(), size / 50);
             }
-            // A byte of noise cannot be packed: 5 bytes for 16383, 11 for the stream, and the table.
+            // Noise is stored: 5 bytes for 65535, 11 for the stream, and the table.
             EXPECT_LT(packed.size(), size + size / 1000 + 100);
             EXPECT_THROW(decompressBlocks(packed, size + 1), std::runtime_error);
             if (size > 0) {

@@ -114,6 +114,7 @@ protected:
         scene.setTimeMax(600 * 0x1p-17);
         scene.setSaveCount(300);
         scene.addOutput(ParaViewOutput());
+        if (Hdf5File::isAvailable()) scene.keepRestartFile();
         scene.solve();
     }
     support::ProgramResult draw(const std::string& options) const {
@@ -191,6 +192,29 @@ TEST_F(Snapshot, drawsATableOfGrains) {
     expectOneSentence(drawTable("0,0,1e-3,0,0\n"), "line 3: a number is missing");
     expectOneSentence(drawTable("0,0,large,0,0,0\n"), "'large' is no number of a column");
     expectOneSentence(drawTable(""), "has no column radius_m with numbers");
+}
+
+/// The restart file of the run's end has the grains of its last frame, by places of the store for identities.
+TEST_F(Snapshot, drawsTheGrainsOfARestartFile) {
+    if (!Hdf5File::isAvailable()) GTEST_SKIP() << "This build has no HDF5 library: no restart files.";
+    ASSERT_EQ(draw("-restart.h5 --field velocity_m_per_s.z --caption time --scene-only").exitCode, 0);
+    const std::string text = support::contentOf(scene);
+    EXPECT_EQ(count(text, "\nsphere {"), 32u);
+    EXPECT_TRUE(contains(text, fmt::format("\"t = {:.4g} s\"", 600 * 0x1p-17)));
+    const auto sorted = [](const PolyData& grains) {
+        std::vector<std::array<double, 5>> rows;
+        for (std::size_t k = 0; k < grains.points.size(); ++k) {
+            const Vector<double>& p = grains.points[k];
+            rows.push_back({p.x, p.y, p.z, static_cast<float>(grains.pointField("radius_m")->at(k)),
+                            static_cast<float>(grains.pointField("velocity_m_per_s")->at(3 * k + 2))});
+        }
+        std::sort(rows.begin(), rows.end());
+        return rows;
+    };
+    EXPECT_EQ(sorted(readRestartState(folder.name() + "-restart.h5").grains),
+              sorted(readPolyData(folder.name() + "-particles-000000600.vtp")));
+    std::filesystem::resize_file(folder.name() + "-restart.h5", 5000);
+    expectOneSentence(draw("-restart.h5 --scene-only"), "-restart.h5");
 }
 
 TEST_F(Snapshot, refusesInOneSentence) {

@@ -25,7 +25,7 @@ struct PlanarImpact {
     /// The equations of Hertz's and Mindlin's laws (Thornton et al. (2023), equations 4.1 to 4.8), a spring
     /// cut at Coulomb's limit with its dashpot beside it, by steps so short that their first order does not
     /// matter. Solid spheres: I = 2/5 m r^2.
-    [[nodiscard]] End solve(int steps = 400000) const {
+    [[nodiscard]] End solve(int steps = 100000) const {
         const double contactTime =
             2.87 * std::pow(std::pow(1 / (inverseMass * modulus), 2) / (radius * approach), 0.2);
         const double h = 1.5 * contactTime / steps, mass = 1 / inverseMass;

@@ -210,7 +210,7 @@ void expectEnergyIsKept(const Vec3D& gravity) {
     const double perCollision = 2 * std::pow(frequency, 3) / 6 * 2 * (2.0 / 3.0) * energy / grains;
     const double now = std::pow(frequency, 2) / 4 * gas.energyLedger().elastic;
     EXPECT_GT(collisions, 2 * grains);
-    EXPECT_EQ(gas.energyLedger().dissipated, 0);
+    EXPECT_EQ(gas.energyLedger().lost(), 0);
     EXPECT_NEAR(gas.energyLedger().total(), total, collisions * perCollision + now);
     EXPECT_LT(collisions * perCollision, 1e-3 * energy);
 }

@@ -121,12 +121,34 @@ TEST(TwoParticleCollision, writesItsTwoTables) {
                       "stability limit");
     expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --time-step-s -1"),
                       "time step = -1 s");
-    expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --speed-m/s 50 --output " +
-                          folder.string()),
-                      "overlap by");
+    expectOneSentence(
+        run(drivers + "/TwoParticleCollision/TwoParticleCollision --quiet --speed-m/s 50 --output " +
+            folder.string()),
+        "overlap by");
     expectOneSentence(run(drivers + "/TwoParticleCollision/TwoParticleCollision --output /proc/nowhere"),
-                      "cannot be written");
+                      "no files can be written");
     std::filesystem::remove_all(folder);
+}
+
+/// Those that have their options read by Tools/read-options.sh.
+TEST(Scripts, refuseOptionsInOneSentence) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(source / "Tools")) {
+        const std::string script = entry.path().string(), name = entry.path().filename().string();
+        if (entry.path().extension() != ".sh" ||
+            contentOf(script).find("\nread_options ") == std::string::npos)
+            continue;
+        ++count;
+        for (const std::string arguments : {"--build", "--build --help"})
+            EXPECT_EQ(run(script + " " + arguments).output, name + ": --build needs a value; see --help\n");
+        const Result unknown = run(script + " --no-such 1"), help = run(script + " --help");
+        EXPECT_EQ(unknown.output, name + ": there is no option --no-such; see --help\n");
+        EXPECT_EQ(unknown.exitCode, 2);
+        EXPECT_EQ(help.exitCode, 0);
+        EXPECT_NE(help.output.find("\n  Tools/" + name + " ["), std::string::npos) << help.output;
+        EXPECT_EQ(help.output.find("set -euo"), std::string::npos);
+    }
+    EXPECT_GE(count, 5);
 }
 
 TEST(UserDefinedLaw, runs) {

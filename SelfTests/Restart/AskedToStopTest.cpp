@@ -1,6 +1,8 @@
 // Runs that are asked to stop, or whose disk is full: their files are complete, and a restart goes on as if
 // nothing had been.
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 
 #include "SelfTests/Restart/ChildRun.h"
@@ -95,6 +97,29 @@ TEST_F(AskedToStop, aSecondTimeEndsAtOnce) {
     }
 }
 
+/// As of a job in the background, whose parent has SIGINT ignored: it stays so also after SIGTERM.
+TEST_F(AskedToStop, aSecondTimeByAnIgnoredSignalGoesOn) {
+    const Child child(part, [&] {
+        std::signal(SIGINT, SIG_IGN);
+        WaitingRun(part, 20).solve();
+    });
+    waitForChild();
+    child.send(SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    child.send(SIGINT);
+    letGoOn();
+    EXPECT_EQ(child.wait(), 143);
+}
+
+/// The clock is looked at after the first step also where a run goes on from a late one.
+TEST(RunControl, hearsTheClockOfARunThatGoesOn) {
+    constexpr std::size_t first = 10'000'000;
+    RunControl control({.kept = true, .interval = 0.01});
+    EXPECT_EQ(control.request(first), RunControl::Request::None);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(control.request(first + 1), RunControl::Request::WriteRestart);
+}
+
 TEST_F(AskedToStop, byTheWallClockDoesAsOnSigterm) {
     const Child child(part, [&] {
         setWallTimeLimit(1e-6);
@@ -110,7 +135,6 @@ TEST_F(AskedToStop, byTheWallClockDoesAsOnSigterm) {
 TEST_F(AskedToStop, forARestartFileOnlyWritesItAndGoesOn) {
     const Child child(part, [&] { WaitingRun(part, 100).solve(); });
     waitForChild();
-    EXPECT_FALSE(std::filesystem::exists(part / "run-restart.h5"));
     child.send(SIGUSR1);
     letGoOn();
     EXPECT_EQ(child.wait(), 0) << printed();
@@ -129,13 +153,29 @@ TEST_F(AskedToStop, writesARestartFileOnSigusr1AtOnce) {
         run.solve();
     });
     waitForChild();
+    const std::string atBegin = contentOf(part / "run-restart.h5");
     child.send(SIGUSR1);
     letGoOn();
     // After step 100, or, where the child was slow to hear it, 101.
-    EXPECT_TRUE(waitUntil([&] { return std::filesystem::exists(part / "run-restart.h5"); }));
+    EXPECT_TRUE(waitUntil([&] { return contentOf(part / "run-restart.h5") != atBegin; }));
     child.send(SIGKILL);
     EXPECT_EQ(child.wait(), -SIGKILL);
     expectGoesOnAsIfNothingHadBeen();
+}
+
+/// Between the begin of the program and that of the run the signal ends neither: the run writes the file at
+/// once.
+TEST_F(AskedToStop, forARestartFileBeforeTheRunBeginsGetsIt) {
+    const Child child(part, [&] {
+        std::raise(SIGUSR1);
+        WaitingRun(part, 1).solve();
+    });
+    waitForChild();
+    EXPECT_TRUE(std::filesystem::exists(part / "run-restart.h5"));
+    letGoOn();
+    EXPECT_EQ(child.wait(), 0) << printed();
+    runUndisturbed(whole, wholeRun);
+    expectSameRun(whole, part);
 }
 
 /// A limit of the size of files stands for a full disk: both make a write fail, for the one with EFBIG, for
@@ -165,6 +205,53 @@ TEST_F(AskedToStop, byAFullDiskKeepsTheLastCompleteFile) {
         EXPECT_TRUE(contentOf(part / "run-restart.h5") == before) << share;
         EXPECT_FALSE(std::filesystem::exists(part / "run-restart.h5.part"));
     }
+    expectGoesOnAsIfNothingHadBeen();
+}
+
+/// A full disk indeed: a file system in memory, with room for the files there are and a part of the next.
+/// Only this process sees it; it is gone when the process ends.
+bool mountSmallDisk(const std::filesystem::path& folder, std::uintmax_t bytes) {
+    return unshare(CLONE_NEWNS) == 0 && mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+           mount("tmpfs", folder.c_str(), "tmpfs", 0, fmt::format("size={}", bytes).c_str()) == 0;
+}
+
+TEST_F(AskedToStop, byASmallFileSystemKeepsTheLastCompleteFiles) {
+    constexpr int notAllowed = 77;
+    const auto before = folder.path() / "before", left = folder.path() / "left";
+    runUndisturbed(before, 70);
+    const std::string good = contentOf(before / "run-restart.h5");
+    // What the file system has besides the files there are, as a share of the restart file; four pages are
+    // for the table and for itself.
+    for (const double room : {0.0, 0.02, 0.5, 0.8}) {
+        std::filesystem::remove_all(part);
+        std::filesystem::remove_all(left);
+        const auto bytes = static_cast<std::uintmax_t>((1 + room) * static_cast<double>(good.size())) + 16384;
+        const Child child(part, [&] {
+            if (!mountSmallDisk(part, bytes)) _exit(notAllowed);
+            std::filesystem::copy(before, part);
+            try {
+                KeptRun run(part, 120);
+                run.setRestartCount(100);
+                run.solve();
+            } catch (...) {
+                std::filesystem::copy(part, left);
+                throw;
+            }
+        });
+        const int code = child.wait();
+        if (code == notAllowed)
+            GTEST_SKIP() << "This user may not mount a file system: a full disk is tested by a limit only.";
+        EXPECT_EQ(code, 1) << room;
+        const std::string lines = printed();
+        EXPECT_NE(lines.find("No space left on device; the restart file of before is kept.\n"),
+                  std::string::npos)
+            << lines;
+        EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1) << lines;
+        EXPECT_TRUE(contentOf(left / "run-restart.h5") == good) << room;
+        EXPECT_FALSE(std::filesystem::exists(left / "run-restart.h5.part"));
+    }
+    std::filesystem::remove_all(part);
+    std::filesystem::rename(left, part);
     expectGoesOnAsIfNothingHadBeen();
 }
 

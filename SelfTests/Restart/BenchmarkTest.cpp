@@ -3,7 +3,7 @@
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/MovingBenchmark.h"
-#include "SelfTests/Support/TemporaryFile.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -13,7 +13,7 @@ class HeavyRestartedBenchmark : public testing::TestWithParam<const char*> {};
 /// All steps in one go, and some, a restart, also with another number of threads, and the others. There are
 /// rebuilds of the list of contacts before and after it.
 TEST_P(HeavyRestartedBenchmark, isInTheSameState) {
-    const support::TemporaryFolder folder;
+    const support::TestFolder folder;
     const auto choice = scenes::smallBenchmark(GetParam(), folder.path());
     const auto half = folder.path() / "half.h5", whole = folder.path() / "whole.h5",
                restarted = folder.path() / "restarted.h5";

@@ -131,8 +131,8 @@ TEST(Restart, aroundARelistingIsBitForBit) {
         expectSameAfterRestart(box<Wet>(3), middle, at + 300);
 }
 
-/// All else that a run changes: an energy ledger, walls that move and keep forces, one that the driver sets
-/// in motion during the run, gravity that it turns, a periodic direction, random numbers and a counter of its
+/// All else that a run changes: an energy ledger, walls that move and keep forces, whose motion the driver
+/// sets anew during the run, gravity that it turns, a periodic direction, random numbers and a counter of its
 /// own.
 class Everything : public SettlingBox<Wet> {
 public:
@@ -152,7 +152,8 @@ public:
         AxisymmetricWall cone;
         cone.setSpecies(material);
         cone.set({0, 0, 1}, {0.5 * edge, 0.5 * edge, 0}, {{2e-3, 7.5e-3}, {4e-3, 7e-3}});
-        wallHandler.copyAndAddObject(cone);
+        cone.setMotion(shake);
+        shaken = wallHandler.copyAndAddObject(cone);
         speciesHandler.getMixedObject(0, 1)->setSlidingFrictionCoefficient(0.25);
     }
     void actionsAfterTimeStep() override {
@@ -162,7 +163,12 @@ public:
             particleHandler.getObject(step % particleHandler.getSize()).setVelocity({kick, 0, 0});
             ++kicks;
         }
+        if (step == 120) shaken->setVelocity({0, 0, -0.01});
+        if (step == 180) shaken->setMotion(shake);  // from where it is then
         if (step == 250) moved->setSurfaceVelocity({0, 0.1, 0});
+        if (step == 270) moved->setVelocity({0.01, 0, 0.005});
+        if (step == 330) moved->setAngularVelocity({0, -15, 0}, {3e-3, 0, 0});
+        if (step == 350) shaken->setVelocity({0, 0, -0.01});
         if (step == 300) setGravity({1, 0, -9.7});
     }
     void visitState(StateArchive& archive) override {
@@ -171,9 +177,17 @@ public:
     }
     std::size_t kicks = 0;
 
+    /// m: of the cone, from where its function alone would have it.
+    [[nodiscard]] double coneBelow() const {
+        return shake(getTime()).translation().z() - shaken->getPose().shift.z;
+    }
+
 private:
+    static Eigen::Isometry3d shake(double time) {
+        return Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1e-5 * std::sin(1000 * time)));
+    }
     UniformRandom random{7};
-    RigidWall* moved = nullptr;
+    RigidWall *moved = nullptr, *shaken = nullptr;
 };
 
 TEST(Restart, ofAllThatARunChangesIsBitForBit) {
@@ -184,11 +198,47 @@ TEST(Restart, ofAllThatARunChangesIsBitForBit) {
     };
     Everything probe;
     probe.initialise();
+    runTo(probe, 200);
+    // It sank at 0.01 m/s for 60 steps of 2^-17 s, 4.578 um, in which its function would have lifted it by
+    // 1e-5 m (sin(1.3733) - sin(0.9155)) = 1.877 um.
+    EXPECT_NEAR(probe.coneBelow(), 6.454e-6, 1e-9);
     runTo(probe, 400);
     EXPECT_GT(probe.wallHandler.getObject(6).getForce().norm(), 0) << "the paddle meets grains";
-    EXPECT_NE(probe.energyLedger().dissipated, 0);
+    EXPECT_NE(probe.energyLedger().normalDashpots, 0);
+    EXPECT_NE(probe.energyLedger().walls, 0);
     EXPECT_EQ(probe.kicks, 4u);
-    for (const std::size_t middle : {200, 260, 400}) expectSameAfterRestart(make, middle, 700);
+    for (const std::size_t middle : {200, 260, 300, 400}) expectSameAfterRestart(make, middle, 700);
+}
+
+/// A plate comes in after some steps, and moves from the step after that on. A scene that goes on is set up
+/// with it.
+class LatePlate : public SettlingBox<Smooth> {
+public:
+    static constexpr std::size_t added = 5;  // step
+    LatePlate() : SettlingBox<Smooth>(2) {}
+    void setupInitialConditions() override {
+        if (isRestarted()) addPlate();
+    }
+    void actionsAfterTimeStep() override {
+        if (getNumberOfTimeSteps() == added) addPlate();
+        if (getNumberOfTimeSteps() == added + 1) plate->setVelocity({0, 0, 0.01});
+    }
+
+private:
+    void addPlate() {
+        InfiniteWall wall;
+        wall.setSpecies(speciesHandler.getObject(0));
+        wall.set({0, 0, -1}, {0, 0, 5e-5});  // m: below the lowest grains
+        plate = wallHandler.copyAndAddObject(wall);
+    }
+    RigidWall* plate = nullptr;
+};
+
+/// Also at the end of the step that adds it: it has not been moved to any time yet.
+TEST(Restart, withAWallThatWasAddedIsBitForBit) {
+    const auto make = [](int) { return std::make_unique<LatePlate>(); };
+    for (const std::size_t middle : {LatePlate::added, LatePlate::added + 1, std::size_t{100}})
+        expectSameAfterRestart(make, middle, 300);
 }
 
 /// Equal states make equal files, but for nothing.

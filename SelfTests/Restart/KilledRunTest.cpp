@@ -1,7 +1,11 @@
 // Runs that are killed at any moment, also while they write, leave a whole state.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "Kernel/Math/Random.h"
+#include "Kernel/State/RestartFile.h"
 #include "SelfTests/Restart/ChildRun.h"
 
 namespace pendular {

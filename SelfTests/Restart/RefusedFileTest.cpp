@@ -3,10 +3,12 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/State/RestartFile.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -115,15 +117,16 @@ TEST_F(RestartFile, withAnyDamagedByteIsRefused) {
     EXPECT_TRUE(contains(refusalBy(), "damaged"));
 }
 
-TEST_F(RestartFile, ofANewerFormatIsRefused) {
-    std::string bytes = bytesOf(file);
-    const std::string current = fmt::format("format {}\n", restartFormat);
-    ASSERT_NE(bytes.find(current), std::string::npos);
-    bytes.replace(bytes.find(current), current.size(), fmt::format("format {}\n", restartFormat + 1));
-    writeBytes(file, bytes);
-    const std::string text = refusalBy();
-    EXPECT_TRUE(contains(text, fmt::format("has the format {}", restartFormat + 1)));
-    EXPECT_TRUE(contains(text, "take the version that wrote it"));
+TEST_F(RestartFile, ofAnotherFormatIsRefused) {
+    const std::string bytes = bytesOf(file), current = fmt::format("format {}\n", restartFormat);
+    const std::size_t at = bytes.find(current);
+    ASSERT_NE(at, std::string::npos);
+    for (const int other : {restartFormat - 1, restartFormat + 1}) {
+        writeBytes(file, std::string(bytes).replace(at, current.size(), fmt::format("format {}\n", other)));
+        const std::string text = refusalBy();
+        EXPECT_TRUE(contains(text, fmt::format("has the format {}", other)));
+        EXPECT_TRUE(contains(text, "take the version that wrote it"));
+    }
 }
 
 TEST_F(RestartFile, ofAnotherKindIsRefused) {
@@ -153,7 +156,43 @@ TEST_F(RestartFile, ofOtherValuesIsRefused) {
     EXPECT_TRUE(contains(refusalBy(slower), "timeStep is"));
     Box<Smooth> account;
     account.keepEnergyLedger();
-    EXPECT_TRUE(contains(refusalBy(account), "ledgerKept"));
+    const std::string text = refusalBy(account);
+    EXPECT_TRUE(contains(text, "ledgerKept is 0 in the file and 1 in the scene"));
+    EXPECT_TRUE(contains(text, "give --energy-interval-s (or keepEnergyLedger()) as it was"));
+}
+
+/// Content that no run writes, under a checksum that fits.
+TEST_F(RestartFile, withAnEnergyAtTheStartThatIsNoNumberIsRefused) {
+    Box<Smooth> scene, again;
+    scene.keepEnergyLedger(), again.keepEnergyLedger();
+    scene.initialise();
+    const double atStart = scene.energyLedger().total(), none = std::numeric_limits<double>::quiet_NaN();
+    for (int k = 0; k < 20; ++k) scene.step();
+    scene.writeRestart(file);
+    std::string bytes = bytesOf(file);
+    const auto raw = [](const double& x) {
+        return std::string(reinterpret_cast<const char*>(&x), sizeof(double));
+    };
+    const std::size_t at = bytes.find(raw(atStart));
+    ASSERT_NE(at, std::string::npos);
+    writeBytes(file, bytes.replace(at, sizeof(double), raw(none)));
+    sealRestartFile(file);
+    EXPECT_TRUE(contains(refusalBy(again), "energyAtStart has a number that is not finite"));
+}
+
+TEST_F(RestartFile, withALargestOverlapThatNoRunMeetsIsRefused) {
+    for (double largest : {-1e-3, std::numeric_limits<double>::quiet_NaN()}) {
+        std::uint64_t above = 0;
+        const auto refused = refusal([&] {
+            writeRestartFile(file, [&](StateArchive& archive) {
+                archive.value("largest", largest);
+                archive.value("above", above);
+            });
+            readRestartFile(file, [](StateArchive& archive) { OverlapWatch(0.1).visitState(archive); });
+        });
+        EXPECT_TRUE(
+            contains(refused, largest < 0 ? "largest is negative" : "largest has a number that is not"));
+    }
 }
 
 TEST_F(RestartFile, ofOtherWallsIsRefused) {
@@ -166,6 +205,21 @@ TEST_F(RestartFile, ofOtherWallsIsRefused) {
     Box<Smooth> moved;
     dynamic_cast<InfiniteWall&>(moved.wallHandler.getObject(2)).set({0, 0, 1}, {0, 0, 1});
     EXPECT_TRUE(contains(refusalBy(moved), "walls/2/normal is not the same"));
+}
+
+/// A file is not replaced by a state from which no run goes on.
+TEST_F(RestartFile, isNotReplacedByAStateThatIsNotFinite) {
+    const std::string good = bytesOf(file);
+    Box<Smooth> scene;
+    scene.restartFrom(file);
+    scene.initialise();
+    scene.particleHandler.store().translation[3].velocity.y = std::numeric_limits<double>::quiet_NaN();
+    const std::string text = refusal([&] { scene.writeRestart(file); });
+    EXPECT_TRUE(isOneSentence(text));
+    EXPECT_TRUE(contains(text,
+                         "particles/translation has a number that is not finite; the restart file of "
+                         "before is kept"));
+    EXPECT_TRUE(bytesOf(file) == good);
 }
 
 TEST_F(RestartFile, ofAnotherDriverIsRefused) {

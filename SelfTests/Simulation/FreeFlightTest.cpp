@@ -78,8 +78,8 @@ TYPED_TEST(FreeFlight, keepsTheEnergyToRoundOff) {
                 1e-15 * energy);
     for (int k = 0; k < steps; ++k) scene.step();
     EXPECT_NEAR(scene.energyLedger().total(), energy, 10 * roundOff * energy);
-    EXPECT_EQ(scene.energyLedger().dissipated, 0);
-    EXPECT_EQ(scene.energyLedger().elastic, 0);
+    EXPECT_EQ(scene.energyLedger().lost(), 0);
+    EXPECT_EQ(scene.energyLedger().stored(), 0);
 }
 
 TYPED_TEST(FreeFlight, ofAFixedGrainIsNone) {

@@ -60,7 +60,7 @@ public:
             addWall(Vec3D::Unit(axis), length * Vec3D::Unit(axis), smooth);
         }
         setGravity({0, 0, -9.81});
-        setTimeStep(0.3 * stabilityLimit());
+        setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 10));
     }
     static constexpr double length = edge * spacing;
 

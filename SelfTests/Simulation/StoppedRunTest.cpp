@@ -224,7 +224,7 @@ TEST(LastState, isNotWrittenByARunThatEnds) {
     scene.setName(folder.name());
     scene.setTimeMax(0.01);
     EXPECT_EQ(stopOf(scene), "");
-    EXPECT_FALSE(std::filesystem::exists(folder.path()));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
     EXPECT_TRUE(contains(support::refusal([&] { scene.setName(""); }), "name is empty"));
 }
 

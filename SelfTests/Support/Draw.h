@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "Kernel/Math/EigenConversion.h"
@@ -16,9 +15,7 @@ public:
 
     double uniform(double lowest, double highest) { return random.uniform(lowest, highest); }
     /// Every decade alike.
-    double logarithmic(double lowest, double highest) {
-        return lowest * std::exp(uniform(0, std::log(highest / lowest)));
-    }
+    double logarithmic(double lowest, double highest) { return random.logarithmic(lowest, highest); }
     bool oneIn(int count) { return uniform(0, count) < 1; }
     /// A unit vector.
     Vector<double> direction() { return toVector(random.direction()); }

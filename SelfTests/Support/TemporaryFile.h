@@ -24,18 +24,4 @@ public:
     std::filesystem::path path;
 };
 
-/// A folder that lives as long as the test, with what is in it.
-class TemporaryFolder {
-public:
-    TemporaryFolder() : marker(".marker", ""), folder(marker.path.string() + "-folder") {
-        std::filesystem::create_directories(folder);
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(folder); }
-    [[nodiscard]] const std::filesystem::path& path() const { return folder; }
-
-private:
-    TemporaryFile marker;  // whose name nobody else has
-    std::filesystem::path folder;
-};
-
 }  // namespace pendular::support

@@ -1,21 +1,21 @@
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <filesystem>
+#include <initializer_list>
+#include <stdexcept>
 #include <string>
 
 namespace pendular::support {
 
-/// The name of a folder of a test's own, also where others run beside it; what is in it is gone when the test
-/// ends.
+/// A new folder of a test's own, also where others run beside it; it is gone at the end, with what is in it.
 class TestFolder {
 public:
-    TestFolder()
-        : place(std::filesystem::path(testing::TempDir()) / ("pendular-test-" + std::to_string(getpid()))) {
-        std::filesystem::remove_all(place);
-    }
+    /// Where the system has files for a while.
+    TestFolder() : TestFolder({std::filesystem::temp_directory_path()}) {}
+    /// In memory where the system has such a place: for files that are written often.
+    static TestFolder inMemory() { return TestFolder({"/dev/shm", std::filesystem::temp_directory_path()}); }
     TestFolder(const TestFolder&) = delete;
     TestFolder& operator=(const TestFolder&) = delete;
     ~TestFolder() {
@@ -26,8 +26,21 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const { return place; }
     /// What the names of files in it begin with.
     [[nodiscard]] std::string name() const { return (place / "run").string(); }
+    /// For drivers.
+    [[nodiscard]] std::string option() const { return "--output " + place.string(); }
 
 private:
+    /// In the first of these folders in which one can be made.
+    explicit TestFolder(std::initializer_list<std::filesystem::path> parents) {
+        for (const std::filesystem::path& parent : parents) {
+            std::string name = (parent / "pendular-XXXXXX").string();
+            if (!mkdtemp(name.data())) continue;
+            place = name;
+            return;
+        }
+        throw std::runtime_error("There is no folder for temporary files.");
+    }
+
     std::filesystem::path place;
 };
 

@@ -1,12 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
+#include <algorithm>
 
-#include "BuildFolders.h"
 #include "Kernel/Output/WallForceFile.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/InfiniteWall.h"
+#include "SelfTests/Support/CsvRows.h"
+#include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Walls/WallScene.h"
 
 namespace pendular {
@@ -94,40 +95,36 @@ TYPED_TEST(WallForces, atRestAreTheWeight) {
     EXPECT_LT((wall->getTorque() - Vec3D(-3e-3 * weight, 2e-3 * weight, 0)).norm(), 1e-9 * weight * 5);
 }
 
-TEST(WallForcesFile, hasARowForEachWallThatKeepsThem) {
+TEST(WallForceFile, hasARowForEachWall) {
+    const support::TestFolder folder;
     WallScene<Dry> scene(heap(), material<Dry>(), gravity);
     addWalls(scene);
     InfiniteWall lid;
     lid.set({0, 0, 1}, {0, 0, 0.02});
-    const InfiniteWall* unasked = scene.add(lid);
-    const auto path = folders::binary / "SelfTests/wall-forces.csv";
+    const InfiniteWall* untouched = scene.add(lid);
+    scene.setName(folder.name());
+    WallForceFile file;
+    file.prepare(scene);
     scene.initialise();
-    {
-        WallForceFile file(path);
-        for (int k = 0; k < 3; ++k) {
-            scene.steps(500);
-            file.write(scene.getTime(), scene.wallHandler);
-        }
-        file.close();
+    for (int k = 0; k < 3; ++k) {
+        scene.steps(10000);
+        file.write(scene);
     }
-    EXPECT_EQ(unasked->getForce().norm(), 0);
-    std::ifstream stream(path);
-    std::string line;
-    std::getline(stream, line);
-    EXPECT_EQ(line, "time_s,wall,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm");
-    int rows = 0;
-    std::vector<double> last;
-    while (std::getline(stream, line)) {
-        last.clear();
-        std::stringstream cells(line);
-        for (std::string cell; std::getline(cells, cell, ',');) last.push_back(std::stod(cell));
-        EXPECT_EQ(last.size(), 8u);
-        EXPECT_EQ(last[1], rows % 2);
-        ++rows;
+    file.complete(scene);
+    EXPECT_EQ(untouched->getForce().norm(), 0);
+    const std::string table = support::contentOf(folder.path() / "run-wall-forces.csv");
+    EXPECT_EQ(table.substr(0, table.find('\n')),
+              "time_s,wall,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm");
+    const auto rows = support::numbersOf(table);
+    ASSERT_EQ(rows.size(), 9u);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        ASSERT_EQ(rows[k].size(), 8u);
+        EXPECT_EQ(rows[k][1], static_cast<double>(k % 3));
     }
-    EXPECT_EQ(rows, 6);
-    EXPECT_EQ(last[4], scene.wallHandler.getObject(1).getForce().z());
-    std::filesystem::remove(path);
+    EXPECT_TRUE(std::ranges::any_of(rows, [](const auto& row) { return row[4] < 0; }))
+        << "grains fall on them";
+    for (std::size_t w = 0; w < 3; ++w)
+        EXPECT_EQ(rows[6 + w][4], scene.wallHandler.getObject(w).getForce().z());
 }
 
 }  // namespace

@@ -140,11 +140,57 @@ TEST(Motion, surfacesThatAreCarriedIntoThemselvesDoNotMove) {
     plane.set({0, 0, -1}, {0, 0, 0});
     plane.setAngularVelocity({0, 0, 7}, {0.3, 0.2, 0});
     plane.setVelocity({3, 1, 0});
+    InfiniteWall rising = plane, tilting = plane;
     EXPECT_LT(farthest(plane), 1e-12);
-    plane.setVelocity({3, 1, 0.5});
-    EXPECT_NEAR(farthest(plane), 0.5 * 0.999, 1e-9);
-    plane.setAngularVelocity({0.1, 0, 0}, {0, 0, 0});  // an infinite plane that tilts sweeps any distance
-    EXPECT_TRUE(std::isinf(farthest(plane)));
+    rising.setVelocity({3, 1, 0.5});
+    EXPECT_NEAR(farthest(rising), 0.5 * 0.999, 1e-9);
+    tilting.setAngularVelocity({0.1, 0, 0}, {0, 0, 0});  // an infinite plane that tilts sweeps any distance
+    EXPECT_TRUE(std::isinf(farthest(tilting)));
+}
+
+/// Of a wall that is moved by each kind of motion in turn, as rigid motions that follow each other; points
+/// and velocities are of a metre and a few m/s, so that round-off is some 1e-15.
+TEST(Motion, goesOnFromWhereItIsWhenItIsSetAnew) {
+    TriangleWall wall = mesh(box(at(-0.4, -0.3, -0.2), at(0.3, 0.4, 0.5)));
+    wall.moveTo(0);
+    double time = 0;  // s
+    Eigen::Isometry3d passed = Eigen::Isometry3d::Identity();
+    const auto expectMoves = [&](const std::function<Eigen::Isometry3d(double)>& since, double tolerance) {
+        EXPECT_LT(wall.moveTo(time), 1e-14) << "it stays where it is at " << time;
+        for (const double elapsed : {0.0, 0.13, 0.29}) {
+            EXPECT_LT(wall.moveTo(time + elapsed), 5);
+            for (const Vec3D& x : {Vec3D(0, 0, 0), Vec3D(0.3, -0.7, 0.5), Vec3D(-1, 0.2, 0.4)}) {
+                const auto placeAt = [&](double t) -> Vec3D { return since(t) * (passed * x); };
+                const Vec3D place = placeAt(elapsed);
+                EXPECT_LT((toEigen(wall.getPose().place(toVector(x))) - place).norm(), 1e-14);
+                const double h = 1e-6;  // see expectMoves above
+                const Vec3D velocity = (placeAt(elapsed + h) - placeAt(elapsed - h)) / (2 * h);
+                EXPECT_LT((wall.getVelocityAt(place) - velocity).norm(), tolerance);
+            }
+        }
+        time += 0.29;
+        passed = since(0.29) * passed;
+    };
+    const Vec3D none = Vec3D::Zero();
+    const auto shifted = [&](double t) { return steadyPose(t, shiftVelocity, Vec3D(0, 0, 1e-300), none); };
+    const double steady = 2e-9;
+    wall.moveTo(time = 1.5);  // it was at rest until now
+    wall.setVelocity(shiftVelocity);
+    expectMoves(shifted, steady);
+    wall.setAngularVelocity(spin, pivot);
+    expectMoves([&](double t) { return steadyPose(t, shiftVelocity, spin, pivot); }, steady);
+    const Vec3D back{-0.1, 0.4, 0.2}, carried = pivot + 0.29 * shiftVelocity;
+    wall.setVelocity(back);
+    expectMoves([&](double t) { return steadyPose(t, back, spin, carried); }, steady);
+    wall.setMotion(tumbling);
+    const double begin = time;
+    // The wall takes differences as well: of times of 2 s, rounded to 4e-16 s, at 10 m/s, here and there.
+    expectMoves([&](double t) { return tumbling(begin + t) * tumbling(begin).inverse(); }, 2e-8);
+    wall.setVelocity(shiftVelocity);
+    expectMoves(shifted, steady);
+    wall.setAngularVelocity(spin, pivot);
+    wall.setVelocity(none);
+    expectMoves([&](double t) { return steadyPose(t, none, spin, pivot); }, steady);
 }
 
 TEST(Motion, aConveyorBeltTakesAGrainAlong) {

@@ -41,6 +41,7 @@ public:
                        const Vec3D& gravity = Vec3D::Zero(), double timeStep = step)
         : scenes::FewGrains<S>(species, grains, timeStep) {
         this->setGravity(gravity);
+        this->acceptUnstableTimeStep();  // the limit is for overlaps of 5 %, these have 1 % at most
     }
     template <class Shape>
     Shape* add(Shape wall) {

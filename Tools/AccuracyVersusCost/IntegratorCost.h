@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <memory>
 
 #include "Drivers/Shared/BedMaterial.h"
@@ -10,6 +9,7 @@
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
+#include "Tools/AccuracyVersusCost/Statistics.h"
 
 namespace pendular {
 
@@ -35,11 +35,11 @@ public:
         setIntegrator(integrator);
         initialise();
     }
-    /// Seconds for some steps.
+    /// Seconds of the processor for some steps.
     double time(int steps = 20) {
-        const auto start = std::chrono::steady_clock::now();
+        const double start = processorTime();
         for (int k = 0; k < steps; ++k) step();
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return processorTime() - start;
     }
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,6 +13,7 @@
 #include "Kernel/Output/CsvFile.h"
 #include "Kernel/Species/BridgeLaws.h"
 #include "Tools/AccuracyVersusCost/ShearCell.h"
+#include "Tools/AccuracyVersusCost/Statistics.h"
 
 // What a bridge law costs, and what its error does, in a whole scene.
 
@@ -38,28 +38,6 @@ void forEachSceneLaw(Function&& function) {
     forEachBridgeLaw(function);
 }
 
-/// Seconds that the processor has spent on this program: others do not count.
-inline double processorTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-inline double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-/// A mean, and its standard error from the scatter.
-struct MeanAndError {
-    double mean = unset, error = unset;
-};
-inline MeanAndError meanOf(const std::vector<double>& values) {
-    if (values.size() < 2) return {values.empty() ? unset : values[0], unset};
-    const auto count = static_cast<double>(values.size());
-    double mean = 0, squares = 0;
-    for (const double value : values) mean += value / count;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    return {mean, std::sqrt(squares / (count * (count - 1)))};
-}
-
 /// What is measured of one law.
 struct LawInScenes {
     std::string_view law;
@@ -68,14 +46,15 @@ struct LawInScenes {
     std::vector<double> shearStress{}, capillaryTension{}, coordination{};
 };
 
-/// Sets a scene up; keeps the reason if the law refuses it.
+/// Sets a scene up; keeps the reason if the law refuses it, once for all seeds.
 template <class Scene>
-bool isRefused(Scene& scene, LawInScenes& result) {
+bool isRefused(Scene&& scene, LawInScenes& result) {
     try {
         scene.initialise();
         return false;
     } catch (const InputError& refusal) {
-        result.refusals.emplace_back(refusal.what());
+        if (std::ranges::find(result.refusals, refusal.what()) == result.refusals.end())
+            result.refusals.emplace_back(refusal.what());
         return true;
     }
 }
@@ -126,14 +105,6 @@ inline std::vector<LawInScenes> compareInScenes(const SceneComparisonOptions& op
             [&]<class Law>() { shear<Law>(*law++, options.cell, static_cast<std::uint64_t>(seed)); });
     }
     return laws;
-}
-
-/// The median over the rounds of the times / those of another law in the same round.
-inline double timeOver(const std::vector<double>& times, const std::vector<double>& reference) {
-    std::vector<double> ratios;
-    for (std::size_t k = 0; k < std::min(times.size(), reference.size()); ++k)
-        ratios.push_back(times[k] / reference[k]);
-    return ratios.empty() ? unset : median(ratios);
 }
 
 inline void writeScenes(const SceneComparisonOptions& options) {

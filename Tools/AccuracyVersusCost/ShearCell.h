@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 #include <vector>
 
@@ -47,7 +48,7 @@ public:
         width = options.across * edge;
         this->setPeriodic(0, 0, width), this->setPeriodic(1, 0, width);
         addGrains(edge, seed);
-        this->setTimeStep(0.3 * this->stabilityLimit());
+        this->setTimeStep(std::min(this->stabilityLimit(), this->shortestContactTime() / 10));
     }
 
     /// To be called after initialise().

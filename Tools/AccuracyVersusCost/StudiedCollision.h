@@ -8,12 +8,13 @@ namespace pendular {
 
 /// How two equal grains meet: one comes from the left along x, the other is its mirror image.
 struct Encounter {
-    double radius = 1e-3;  // m
-    double speed = 0.2;    // m/s, of approach
-    double slip = 0;       // m/s, relative, across the line of centres
-    double spin = 0;       // rad/s, of both
-    double gap = 0;        // m, of the surfaces at the begin
-    double reach = 0;      // m: parted when the surfaces are so far from each other
+    double radius = 1e-3;       // m
+    double speed = 0.2;         // m/s, of approach
+    double slip = 0;            // m/s, relative, across the line of centres
+    double spin = 0;            // rad/s, of both
+    double gap = 0;             // m, of the surfaces at the begin
+    double reach = 0;           // m: parted when the surfaces are so far from each other
+    double longest = infinity;  // s, after which grains that have not parted stay together
 };
 
 /// What is left of an encounter.
@@ -42,15 +43,18 @@ public:
         this->setTimeStep(step);
         this->setIntegrator(integrator);
         this->acceptUnstableTimeStep();
+        this->setQuiet();  // one of hundreds, whose limits are those that are looked for
     }
 
-    /// Steps until the grains have parted; they must have touched.
+    /// Steps until the grains have parted; they must have touched. Nothing is left of the motion of grains
+    /// that stay together.
     Aftermath finish() {
         this->initialise();
         bool touched = false;
         while (!touched || separation() < encounter.reach) {
             this->step();
             touched = touched || separation() < 0;
+            if (this->getTime() > encounter.longest) return {0, 0, 0, 0};
         }
         const auto grain = this->particleHandler.getObject(1);
         const Vec3D velocity = grain.getVelocity(), spin = grain.getAngularVelocity();
@@ -58,12 +62,13 @@ public:
         return {2 * velocity.x(), -2 * velocity.y(), rim, 0.5 * velocity.squaredNorm() + 0.2 * rim * rim};
     }
 
-private:
+    /// m, of the surfaces; negative while they overlap.
     double separation() {
         return this->particleHandler.getObject(1).getPosition().x() -
                this->particleHandler.getObject(0).getPosition().x() - 2 * encounter.radius;
     }
 
+private:
     Encounter encounter;
 };
 

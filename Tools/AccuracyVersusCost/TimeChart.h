@@ -88,6 +88,17 @@ inline CollisionCase<HertzianViscoelasticLiquidBridgeYoungLaplaceSpecies> wet() 
     return {"wet", species, encounter, hertzianTime(encounter)};
 }
 
+/// Fine powder: grains of 10 um radius whose neck takes about a quarter of the energy. It forms at the touch,
+/// and snaps beyond it at 5/9 of the largest pull.
+inline CollisionCase<HertzianViscoelasticJKRSpecies> sticky(double restitution = 0.9) {
+    auto species = hertzian<HertzianViscoelasticJKRSpecies>(restitution);
+    species.setWorkOfAdhesion(0.05);
+    species.setAdhesionModulus(species.getEffectiveElasticModulus());
+    Encounter encounter{.radius = 1e-5, .speed = 0.1};
+    encounter.reach = 1.01 * species.range(Bodies{encounter.radius, encounter.radius});
+    return {"JKR", species, encounter, hertzianTime(encounter)};
+}
+
 }  // namespace collisions
 
 /// Largest errors over the offsets: of the speed of parting and of the spin as shares of the speed of
@@ -109,6 +120,7 @@ template <class S>
 Aftermath finish(CollisionCase<S> studied, double steps, double offset, const Integrator& integrator) {
     const double step = studied.contactTime / steps;
     studied.encounter.gap = offset * step * studied.encounter.speed;
+    studied.encounter.longest = 1000 * studied.contactTime;
     return StudiedCollision<S>(studied.species, studied.encounter, step, integrator).finish();
 }
 
@@ -149,6 +161,7 @@ inline void chartTime(const TimeChartOptions& options) {
     writeCollision(file, collisions::hertz(), costs, options);
     writeCollision(file, collisions::oblique(), costs, options);
     writeCollision(file, collisions::wet(), costs, options);
+    writeCollision(file, collisions::sticky(), costs, options);
     file.close();
 }
 

@@ -1,7 +1,9 @@
 # Speed of each code on each scene, as bars.   gnuplot -c peers.gp TABLE.csv CHART.png
+if (ARGC < 2) exit error "give TABLE.csv CHART.png"
 set datafile separator comma
 set datafile commentschars "#"
 set terminal pngcairo size 1100,620 fontscale 1.2
+set rmargin 8
 set output ARG2
 set style data histogram
 set style fill solid 0.9

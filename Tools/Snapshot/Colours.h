@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "Kernel/Output/FieldName.h"
+
 namespace pendular::snapshot {
 
 /// sRGB, each from 0 to 1.
@@ -49,24 +51,9 @@ inline constexpr std::array<unsigned, 7> namedColours{0xe69f00, 0x56b4e9, 0x009e
 
 /// "velocity_m_per_s" as a person writes it: "velocity (m/s)".
 inline std::string label(std::string_view field) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> units{{{"_m_per_s", "m/s"},
-                                                                                  {"_rad_per_s", "rad/s"},
-                                                                                  {"_m3", "m^3"},
-                                                                                  {"_m", "m"},
-                                                                                  {"_N", "N"},
-                                                                                  {"_Pa", "Pa"},
-                                                                                  {"_J", "J"},
-                                                                                  {"_K", "K"},
-                                                                                  {"_Nm", "N m"}}};
-    std::string name(field), unit;
-    for (const auto& [ending, written] : units)
-        if (field.ends_with(ending)) {
-            name = field.substr(0, field.size() - ending.size());
-            unit = fmt::format(" ({})", written);
-            break;
-        }
+    auto [name, unit] = splitFieldName(field);
     std::replace(name.begin(), name.end(), '_', ' ');
-    return name + unit;
+    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
 }
 
 /// Three to nine round numbers in [lowest, highest]: multiples of 1, 2 or 5 times a power of ten.

@@ -7,6 +7,8 @@
 #include "Kernel/Input/TextFile.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Output/PolyData.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/State/RestartFile.h"
 #include "Tools/Snapshot/Colours.h"
 
 namespace pendular::snapshot {
@@ -64,6 +66,29 @@ inline Frame readTable(const std::filesystem::path& path) {
     return frame;
 }
 
+/// The grains of a restart file, in the order of their places; their walls and bridges are not drawn.
+inline Frame readRestartState(const std::filesystem::path& path) {
+    double timeStep = 0;
+    std::uint64_t steps = 0;
+    std::vector<TranslationRecord> grains;
+    readRestartFile(path, [&](StateArchive& archive) {
+        archive.value("timeStep", timeStep);
+        archive.value("steps", steps);
+        archive.group("particles", [&] { archive.column<double>("translation", grains); });
+    });
+    Frame frame;
+    frame.grains.time = timeStep * static_cast<double>(steps);
+    std::vector<double> radii, velocities;
+    for (const TranslationRecord& grain : grains) {
+        const Vector<double>& v = grain.velocity;
+        frame.grains.points.push_back(grain.position);
+        radii.push_back(grain.radius);
+        velocities.insert(velocities.end(), {v.x, v.y, v.z});
+    }
+    frame.grains.pointFields = {{"radius_m", 1, radii}, {"velocity_m_per_s", 3, velocities}};
+    return frame;
+}
+
 /// The files of particles that are meant by a file: those of a series, in order, or the one.
 inline std::vector<std::filesystem::path> framesOf(const std::filesystem::path& path) {
     if (path.extension() != ".pvd") return {path};
@@ -76,6 +101,7 @@ inline std::vector<std::filesystem::path> framesOf(const std::filesystem::path& 
 }
 
 inline Frame readAny(const std::filesystem::path& path) {
+    if (path.extension() == ".h5") return readRestartState(path);
     return path.extension() == ".csv" ? readTable(path) : readFrame(path);
 }
 

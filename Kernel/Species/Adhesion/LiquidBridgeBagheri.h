@@ -36,6 +36,7 @@ struct LiquidBridgeBagheri : LiquidBridge<LiquidBridgeBagheri> {
         "theta up to 90 degrees; V* below 4.5 at 10, 1.2 at 30, 0.42 at 50, 0.18 at 60, 0.017 at 80, 0.0053 "
         "at "
         "90 degrees and above 1e-9";
+    static constexpr Range madeForVolume{1e-9, infinity};  // V*
 
     double rawFit = 0;
 

@@ -18,6 +18,8 @@ struct LiquidBridgeChen : FittedBridge<LiquidBridgeChen> {
     static constexpr std::string_view domain =
         "V* from 1e-7 to about 0.5 and theta below about 50 degrees, wherever the arc is concave and "
         "attracts";
+    static constexpr Range madeForVolume{1e-7, 0.5};  // V*
+    static constexpr double madeForAngle = 50;        // degrees
 
     [[nodiscard]] PublishedBridge published(const Bodies& bodies) const;
 };

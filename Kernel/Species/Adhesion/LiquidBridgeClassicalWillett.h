@@ -42,6 +42,8 @@ struct LiquidBridgeClassicalWillett : LiquidBridge<LiquidBridgeClassicalWillett>
     static constexpr std::string_view name = "LiquidBridgeClassicalWillett";
     static constexpr std::string_view summary = "liquid bridge, full fit of Willett et al. (2000)";
     static constexpr std::string_view domain = "V* from about 1e-5 to 1 and theta up to 50 degrees";
+    static constexpr Range madeForVolume{1e-5, 1};  // V*
+    static constexpr double madeForAngle = 50;      // degrees
 
     template <class T>
     using Interaction = LiquidBridgeClassicalWillettInteraction<T>;

@@ -30,6 +30,7 @@ struct LiquidBridgeLambert : LiquidBridge<LiquidBridgeLambert> {
     static constexpr std::string_view summary = "liquid bridge, Derjaguin's force (Lambert et al., 2008)";
     static constexpr std::string_view domain =
         "the limit of small bridges, V* below about 1e-4, theta below 90 degrees";
+    static constexpr Range madeForVolume = positiveUpTo(1e-4);  // V*
 
     template <class T>
     using Interaction = LiquidBridgeLambertInteraction<T>;

@@ -15,6 +15,7 @@ struct LiquidBridgeLian : FittedBridge<LiquidBridgeLian> {
     static constexpr std::string_view domain =
         "V* from 1e-9 to 1, wherever the toroid attracts; unequal spheres and walls by Derjaguin's R; small "
         "and medium bridges to some per cent";
+    static constexpr Range madeForVolume{1e-9, 1};  // V*
 
     /// At the dimensionless volume V* = V / R^3.
     [[nodiscard]] PublishedBridge published(double volume) const;

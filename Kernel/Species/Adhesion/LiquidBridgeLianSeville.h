@@ -35,6 +35,8 @@ struct LiquidBridgeLianSeville : LiquidBridge<LiquidBridgeLianSeville> {
     static constexpr std::string_view domain =
         "V* from 1e-6 to about 0.1 and theta up to about 50 degrees: 1 % at contact; apart 4 % in "
         "the median and 15 % in 19 of 20; attractive below 90 degrees";
+    static constexpr Range madeForVolume{1e-6, 0.1};  // V*
+    static constexpr double madeForAngle = 50;        // degrees
 
     template <class T>
     using Interaction = LiquidBridgeLianSevilleInteraction<T>;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Species/Adhesion/Shared/FittedBridge.h"
+#include "Kernel/Species/Adhesion/LiquidBridgePietschRumpf.h"
 
 namespace pendular {
 
@@ -12,9 +12,14 @@ struct LiquidBridgeMegiasAlguacil : FittedBridge<LiquidBridgeMegiasAlguacil> {
     static constexpr std::string_view summary =
         "liquid bridge, toroid of Megias-Alguacil and Gauckler (2009)";
     static constexpr std::string_view domain = "as LiquidBridgePietschRumpf, to which it is equivalent";
+    static constexpr Range madeForVolume{1e-9, 1};  // V*
 
     /// At the dimensionless volume V* = V / R^3.
-    [[nodiscard]] PublishedBridge published(double volume) const;
+    [[nodiscard]] PublishedBridge published(double volume) const {
+        LiquidBridgePietschRumpf equivalent;
+        equivalent.contactAngle = contactAngle;
+        return equivalent.published(volume);
+    }
 };
 
 }  // namespace pendular

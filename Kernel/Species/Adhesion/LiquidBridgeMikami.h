@@ -38,6 +38,12 @@ struct LiquidBridgeMikami : LiquidBridge<LiquidBridgeMikami> {
         const BridgeScales bridge = scales(bodies);
         return (0.99 + 0.62 * contactAngle) * std::pow(bridge.volume, 0.34) * bridge.radius;
     }
+    /// Below the smallest volume at an angle above 0, the force at contact grows with the angle.
+    [[nodiscard]] std::vector<DomainLimit> domainLimits(const Bodies& bodies) const {
+        if (liquidBridgeVolume == 0) return {};
+        return {{"V*", scales(bodies).volume, {contactAngle > 0 ? 0.059 : 1e-4, 0.1}},
+                {"ratio of the radii", bodies.radius2 / bodies.radius1, {1, 1}}};
+    }
     [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const {
         if (liquidBridgeVolume == 0) return std::nullopt;
         if (auto angle = LiquidBridge::objection(bodies)) return angle;

@@ -16,6 +16,7 @@ struct LiquidBridgePietschRumpf : FittedBridge<LiquidBridgePietschRumpf> {
     static constexpr std::string_view domain =
         "V* from 1e-9 to 1, wherever the toroid attracts; unequal spheres and walls by Derjaguin's R; poor "
         "towards rupture";
+    static constexpr Range madeForVolume{1e-9, 1};  // V*
 
     /// At the dimensionless volume V* = V / R^3.
     [[nodiscard]] PublishedBridge published(double volume) const;

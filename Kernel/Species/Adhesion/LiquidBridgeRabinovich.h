@@ -15,6 +15,7 @@ struct LiquidBridgeRabinovich : FittedBridge<LiquidBridgeRabinovich> {
         "liquid bridge, Derjaguin's force and the pull of the rim (Rabinovich et al., 2005)";
     static constexpr std::string_view domain =
         "small bridges, V* from 1e-9 to about 0.01, theta below 90 degrees";
+    static constexpr Range madeForVolume{1e-9, 0.01};  // V*
 
     /// At the dimensionless volume V* = V / R^3.
     [[nodiscard]] PublishedBridge published(double volume) const;

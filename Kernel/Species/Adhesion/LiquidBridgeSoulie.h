@@ -36,6 +36,15 @@ struct LiquidBridgeSoulie : LiquidBridge<LiquidBridgeSoulie> {
                 .ruptureDistance = range(bodies)};
     }
     [[nodiscard]] double range(const Bodies&) const { return lianRupture(liquidBridgeVolume, contactAngle); }
+    /// Below the smallest volume at an angle above 0, the force at contact grows with the angle. Walls are
+    /// refused.
+    [[nodiscard]] std::vector<DomainLimit> domainLimits(const Bodies& bodies) const {
+        const double larger = std::max(bodies.radius1, bodies.radius2);
+        if (liquidBridgeVolume == 0 || std::isinf(larger)) return {};
+        return {{"V/r2^3",
+                 liquidBridgeVolume / (larger * larger * larger),
+                 {contactAngle > 0 ? 0.0015 : 1e-4, 0.1}}};
+    }
     [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const;
 };
 

@@ -19,6 +19,7 @@ struct LiquidBridgeWeigert : FittedBridge<LiquidBridgeWeigert> {
         "bridges are much too "
         "strong at a distance; unequal "
         "spheres and walls by Derjaguin's R";
+    static constexpr Range madeForVolume{0.01, 0.3};  // V*
 
     /// At the dimensionless volume V* = V / R^3.
     [[nodiscard]] PublishedBridge published(double volume) const;

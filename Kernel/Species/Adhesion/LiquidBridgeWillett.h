@@ -29,6 +29,8 @@ struct LiquidBridgeWillett : LiquidBridge<LiquidBridgeWillett> {
     static constexpr std::string_view domain =
         "small bridges between wetted grains, V* below about 0.001 and theta below 50 degrees; attractive "
         "below 90 degrees";
+    static constexpr Range madeForVolume = positiveUpTo(1e-3);  // V*
+    static constexpr double madeForAngle = 50;                  // degrees
 
     template <class T>
     using Interaction = LiquidBridgeWillettInteraction<T>;

@@ -30,8 +30,8 @@ struct LiquidBridgeYoungLaplace : LiquidBridge<LiquidBridgeYoungLaplace> {
     static constexpr std::string_view domain =
         "V* from 1e-7 to 0.5, all contact angles, all radii and walls: up to 0.95 of the true rupture "
         "distance "
-        "the force is exact to 0.1 % (0.2 % below V* = 1e-6), from there to 0.999 of it mostly to 4 %, at "
-        "worst to 24 %";
+        "the force is exact to 0.1 % (0.2 % below V* = 1e-6; from 60 degrees to 90, where it passes through "
+        "zero, to 0.85 % of the bridge's largest), from there to 0.999 of it mostly to 4 %, at worst to 24 %";
 
     double pinned = 0;
     double solveOutsideTable = 0;
@@ -50,6 +50,8 @@ struct LiquidBridgeYoungLaplace : LiquidBridge<LiquidBridgeYoungLaplace> {
               "1: outside of the table solve the equation, some 0.3 ms for each new bridge; 0: refuse",
               "this project"}});
     }
+    /// Above some 120 degrees each new touch of pinned bridges gives energy: the bridge forms there, and
+    /// pushes.
     void setPinned(bool value) { pinned = value ? 1 : 0; }
     void setSolveOutsideTable(bool value) { solveOutsideTable = value ? 1 : 0; }
 

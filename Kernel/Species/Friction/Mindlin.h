@@ -15,22 +15,12 @@ struct Mindlin : MindlinSpring<Mindlin> {
         "overlap small against the radius; no partial slip below the limit";
 
     template <class T>
-    using History = TangentialSpring<T>;
-
-    using Prepared = PreparedSpring;
-    template <class Normal>
-    [[nodiscard]] Prepared prepare(const Normal&) const {
-        return prepareSpring();
-    }
-
-    /// On body 1 (N).
-    template <class T>
-    static Vector<T> force(const Prepared& p, const Contact<T>& contact, T normalForce, const Slip<T>& slip,
-                           TangentialSpring<T>& spring) {
+    [[gnu::always_inline]] static SliderForce<T> slide(const Prepared& p, const Contact<T>& contact,
+                                                       T normalForce, const Slip<T>& slip,
+                                                       TangentialSpring<T>& spring) {
         const T limit = p.coefficient * max(normalForce, T(0));
         return slideSpring(springStiffness(p, contact), springDamping(p, contact), limit, limit, slip,
-                           spring.displacement)
-            .force;
+                           spring.displacement);
     }
 };
 

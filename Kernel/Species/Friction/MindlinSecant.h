@@ -17,26 +17,18 @@ struct MindlinSecant : MindlinSpring<MindlinSecant> {
         "short contacts of one sense of slip, as single collisions; not for lasting contacts, in which it "
         "stores ways that a real contact has lost";
 
+    /// The spring takes the velocity with the force as it is after the cut.
     template <class T>
-    using History = TangentialSpring<T>;
-
-    using Prepared = PreparedSpring;
-    template <class Normal>
-    [[nodiscard]] Prepared prepare(const Normal&) const {
-        return prepareSpring();
-    }
-
-    /// On body 1 (N). The spring takes the velocity with the force as it is after the cut.
-    template <class T>
-    static Vector<T> force(const Prepared& p, const Contact<T>& contact, T normalForce, const Slip<T>& slip,
-                           TangentialSpring<T>& spring) {
+    [[gnu::always_inline]] static SliderForce<T> slide(const Prepared& p, const Contact<T>& contact,
+                                                       T normalForce, const Slip<T>& slip,
+                                                       TangentialSpring<T>& spring) {
         const T limit = p.coefficient * max(normalForce, T(0));
         Vector<T> shortened = spring.displacement;
-        const Vector<T> force =
-            slideSpring(springStiffness(p, contact), springDamping(p, contact), limit, limit, slip, shortened)
-                .force;
-        spring.displacement += (slip.timeBefore + slip.timeAfter) * (slip.velocity + slip.response * force);
-        return force;
+        const SliderForce<T> result = slideSpring(springStiffness(p, contact), springDamping(p, contact),
+                                                  limit, limit, slip, shortened);
+        spring.displacement +=
+            (slip.timeBefore + slip.timeAfter) * (slip.velocity + slip.response * result.force);
+        return result;
     }
 };
 

@@ -29,12 +29,13 @@ struct SlidingFriction : LinearSpring<SlidingFriction>, StickSlip<SlidingFrictio
         return {prepareSpring(), staticFrictionRatio};
     }
 
-    /// On body 1 (N).
     template <class T>
-    static Vector<T> force(const Prepared& p, const Contact<T>& contact, T normalForce, const Slip<T>& slip,
-                           StickSlipSpring<T>& spring) {
-        return slide(p.staticRatio, springStiffness(p.spring, contact), springDamping(p.spring, contact),
-                     p.spring.coefficient * max(normalForce, T(0)), slip, spring);
+    [[gnu::always_inline]] static SliderForce<T> slide(const Prepared& p, const Contact<T>& contact,
+                                                       T normalForce, const Slip<T>& slip,
+                                                       StickSlipSpring<T>& spring) {
+        return StickSlip::slide(p.staticRatio, springStiffness(p.spring, contact),
+                                springDamping(p.spring, contact),
+                                p.spring.coefficient * max(normalForce, T(0)), slip, spring);
     }
     static double stiffness(const Prepared& p, const Contact<double>&) { return p.spring.stiffness; }
 };

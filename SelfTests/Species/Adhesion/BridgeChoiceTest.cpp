@@ -2,8 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <map>
 #include <numbers>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "BuildFolders.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
 #include "Kernel/Species/BridgeChoice.h"
 #include "Kernel/Species/BridgeLaws.h"
@@ -92,6 +99,28 @@ TEST(BridgeChoice, everyLawOfTheKernelIsAChoice) {
         EXPECT_TRUE(choices[k].error() > 0) << names[k];
     }
     EXPECT_FALSE(nominalBridgeCost("MyOwnLaw"));
+}
+
+// The table of costs repeats the measured ones: forces to the two figures that it gives, 5 %, and
+// preparations, which repeat to a tenth from one measurement to the next, to that.
+TEST(BridgeChoice, nominalCostsAreThoseOfTheMeasuredTable) {
+    std::ifstream table(folders::source / "Tools/Results/bridges.csv");
+    std::map<std::string, std::pair<double, double>> measured;  // ns; of force and preparation
+    for (std::string line; std::getline(table, line);) {
+        std::vector<std::string> cells;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+        if (cells.size() < 5 || cells[1] != "equal spheres") continue;
+        const std::size_t last = cells.size() - 1;  // the two after the times say what is on the front
+        measured[cells[0]] = {std::stod(cells[last - 3]), std::stod(cells[last - 2])};
+    }
+    const double unit = measured.at("LiquidBridgeBagheri").first;
+    forEachBridgeLaw([&]<class Law>() {
+        const BridgeLawCost cost = nominalBridgeCost(Law::name).value();
+        const auto [force, prepare] = measured.at(std::string(Law::name));
+        EXPECT_NEAR(cost.force * unit / force, 1, 0.05) << Law::name;
+        EXPECT_NEAR(cost.prepare * unit / prepare, 1, 0.12) << Law::name;
+    });
 }
 
 TEST(BridgeChoice, aRangeHasItsExtremesAndNothingBeyond) {

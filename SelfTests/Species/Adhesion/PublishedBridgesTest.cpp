@@ -165,6 +165,31 @@ TEST(PublishedBridges, errInTheCoreAsMuchAsIsKnown) {
     EXPECT_LT(medianErrorInCore<LiquidBridgeYoungLaplace>(), 0.0002);
 }
 
+/// The force over R gamma by Weigert and Ripperger's equations as YADE's capillary law writes them, in the
+/// diameter d, the radii r1 of the meridian and r2 of the neck, and the pressure 1/r1 - 1/r2.
+double weigertForce(double volume, double gap, double theta) {
+    const double d = 2;  // R = 1
+    const double sine4 =
+        volume / (0.12 * std::pow(d, 3) * (1 + 6 * gap / d) * (1 + 1.1 * std::sin(theta)));  // equation 15
+    const double beta = std::asin(std::pow(sine4, 0.25));
+    const double r1 = (d * (1 - std::cos(beta)) + gap) / (2 * std::cos(beta + theta));  // equation 5
+    const double r2 = d / 2 * std::sin(beta) + r1 * (std::sin(beta + theta) - 1);       // equation 6
+    const double ofPressure = pi / 4 * d * d * std::pow(std::sin(beta), 2) * (1 / r1 - 1 / r2);
+    return ofPressure + pi * d * std::sin(beta) * std::sin(beta + theta);  // equations 21 and 22
+}
+
+TEST(PublishedBridges, weigertsForceIsThatOfItsEquations) {
+    for (const double volume : {0.01, 0.05, 0.2})
+        for (const double theta : {0.0, 0.3, 0.6}) {
+            const auto published = model<LiquidBridgeWeigert>(volume, theta).publishedFor(equalSpheres);
+            for (const double share : {0.0, 0.2, 0.5, 0.9}) {
+                const double gap = share * published.ruptureDistance;
+                EXPECT_NEAR(published.force(gap) / weigertForce(volume, gap, theta), 1, 1e-12)
+                    << volume << ' ' << theta << ' ' << gap;
+            }
+        }
+}
+
 TEST(PublishedBridges, objectInOneSentenceWhereTheyCannotServe) {
     const auto expectObjection = [](const auto& law, const Bodies& bodies, std::string_view part) {
         const auto objection = law.objection(bodies);

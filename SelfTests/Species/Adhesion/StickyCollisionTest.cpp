@@ -80,6 +80,8 @@ TEST(StickyCollision, jkrCostsWhatThorntonAndNingGive) {
         const double range = law.range(Bodies{radius, radius2});
         const double late = 1.5 * 0.2 * effective * 3.1416 * approach.speed * approach.step;
         EXPECT_NEAR(energyTaken(scene, range, 40000) / cost, 1, 2 * late / cost + 1e-3);
+        EXPECT_NEAR(scene.energyLedger().brokenAdhesion / cost, 1, 2 * late / cost + 1e-3);
+        EXPECT_EQ(scene.energyLedger().adhesive, 0);
     }
 }
 
@@ -104,6 +106,7 @@ TEST(StickyCollision, irreversibleAdhesionCostsItsRamp) {
     law.setAdhesionStiffness(100);
     Collision<Sticky<IrreversibleAdhesive>> scene(elastic(law), approachFor(law, 0.2, 2e-7));
     EXPECT_NEAR(energyTaken(scene, law.range(Bodies{radius, radius}), 40000) / (2e-3 * 2e-3 / 200), 1, 3e-3);
+    EXPECT_NEAR(scene.energyLedger().brokenAdhesion / (2e-3 * 2e-3 / 200), 1, 3e-3);
 }
 
 // What acts alike on approach and parting costs nothing. Velocity Verlet keeps the energy to the second order
@@ -115,6 +118,8 @@ TEST(StickyCollision, reversibleAdhesionAndDMTCostNothing) {
         const double energy = 0.5 * scene.scene.reducedMass() * 0.2 * 0.2;
         EXPECT_NEAR(energyTaken(scene, law.range(Bodies{radius, radius}), 40000) / energy, 0, 1e-4)
             << Law::name;
+        EXPECT_EQ(scene.energyLedger().lost(), 0);
+        EXPECT_EQ(scene.energyLedger().stored(), 0);
     };
     ReversibleAdhesive ramp;
     ramp.setAdhesionForceMax(2e-3);

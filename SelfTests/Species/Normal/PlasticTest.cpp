@@ -153,7 +153,7 @@ TEST(Plastic, restitutionIsTheShareOfTheEnergyThatUnloadingGivesBack) {
         const double before = 0.5 * approach.reducedMass() * speed * speed;
         EXPECT_NEAR(scene.finishTouch().restitution, 0.5, 1e-3);
         EXPECT_NEAR(scene.energyLedger().total() / before, 1, 1e-3);
-        EXPECT_NEAR(scene.energyLedger().dissipated / before, 0.75, 2e-3);
+        EXPECT_NEAR(scene.energyLedger().plastic / before, 0.75, 2e-3);
     }
     for (const double plasticity : {0.0, 0.3, 0.7}) {
         Species<HertzianPlasticViscoelastic> species;

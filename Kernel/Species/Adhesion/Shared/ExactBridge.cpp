@@ -11,16 +11,14 @@ namespace pendular {
 
 std::vector<BridgeCase> BridgePopulation::draw(std::size_t count, std::uint64_t seed) const {
     UniformRandom random(seed);
-    const auto logarithmic = [&](const Range& range) {
-        return range.lowest * std::pow(range.highest / range.lowest, random.uniform(0, 1));
-    };
+    const auto between = [&](const Range& range) { return random.logarithmic(range.lowest, range.highest); };
     std::vector<BridgeCase> bridges(count);
     for (BridgeCase& bridge : bridges) {
-        bridge.bodies.radius1 = logarithmic(radius);
-        bridge.bodies.radius2 = logarithmic(radius);
+        bridge.bodies.radius1 = between(radius);
+        bridge.bodies.radius2 = between(radius);
         if (random.uniform(0, 1) < wallShare) bridge.bodies.radius2 = infinity;
         const double length = 2 * bridge.bodies.effectiveRadius();  // R
-        bridge.volume = logarithmic(dimensionlessVolume) * length * length * length;
+        bridge.volume = between(dimensionlessVolume) * length * length * length;
         bridge.contactAngle = random.uniform(contactAngle.lowest, contactAngle.highest);
     }
     return bridges;

@@ -5,7 +5,9 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
 
 namespace pendular {
@@ -68,6 +70,18 @@ struct LiquidBridge {
     [[nodiscard]] std::optional<std::string> objection(const Bodies&) const {
         if (liquidBridgeVolume == 0) return std::nullopt;
         return objectionAboveRightAngle(Model::name, contactAngle);
+    }
+    /// Of the volume V* and the contact angle (degrees) for which Model says that it is made:
+    /// `madeForVolume`, `madeForAngle`.
+    [[nodiscard]] std::vector<DomainLimit> domainLimits(const Bodies& bodies) const {
+        std::vector<DomainLimit> limits;
+        if (liquidBridgeVolume == 0) return limits;
+        if constexpr (requires { Model::madeForVolume; })
+            limits.push_back({"V*", scales(bodies).volume, Model::madeForVolume});
+        if constexpr (requires { Model::madeForAngle; })
+            limits.push_back({"contact angle", contactAngle * 180 / std::numbers::pi,
+                              fromZeroTo(Model::madeForAngle), "degrees"});
+        return limits;
     }
 
 private:

@@ -55,6 +55,13 @@ struct LinearSpring {
         return T(p.damping);
     }
 
+    /// On body 1 (N).
+    template <class T, class OfLaw, class Memory>
+    [[gnu::always_inline]] static Vector<T> force(const OfLaw& p, const Contact<T>& contact, T normalForce,
+                                                  const Slip<T>& slip, Memory& history) {
+        return Law::slide(p, contact, normalForce, slip, history).force;
+    }
+
     [[nodiscard]] double range(const Bodies&) const { return 0; }
 
 private:

@@ -21,6 +21,7 @@ inline double computeEffectiveShearModulus(double elasticModulus, double poisson
 template <class Law>
 struct MindlinSpring {
     static constexpr bool acts = true;
+    static constexpr double largestOverlap = 0.1;  // of the effective radius, as in Hertz's theory
 
     double effectiveShearModulus = unset;  // G*, Pa
     double slidingDissipation = unset;     // beta_t
@@ -74,6 +75,14 @@ struct MindlinSpring {
         return {8 * effectiveShearModulus, springFactor,
                 slidingDissipation * std::sqrt(8 * effectiveShearModulus), slidingFrictionCoefficient};
     }
+    using Prepared = PreparedSpring;
+    template <class Normal>
+    [[nodiscard]] Prepared prepare(const Normal&) const {
+        return prepareSpring();
+    }
+    template <class T>
+    using History = TangentialSpring<T>;
+
     /// N/m
     template <class T>
     [[gnu::always_inline]] static T springStiffness(const PreparedSpring& p, const Contact<T>& contact) {
@@ -86,6 +95,13 @@ struct MindlinSpring {
     }
     static double stiffness(const PreparedSpring& p, const Contact<double>& contact) {
         return p.springFactor * p.stiffnessFactor * contact.contactRadius;
+    }
+
+    /// On body 1 (N).
+    template <class T, class OfLaw, class Memory>
+    [[gnu::always_inline]] static Vector<T> force(const OfLaw& p, const Contact<T>& contact, T normalForce,
+                                                  const Slip<T>& slip, Memory& history) {
+        return Law::slide(p, contact, normalForce, slip, history).force;
     }
 
     [[nodiscard]] double range(const Bodies&) const { return 0; }

@@ -23,6 +23,12 @@ struct RollingTorsionSpring {
     void exchangeBodies() { rolling.exchangeBodies(); }
 };
 
+/// Their forces: the torque on body 1 over R*.
+template <class T>
+struct RotationForces {
+    SliderForce<T> rolling, torsion;
+};
+
 /// Springs, dashpots and sliders against rolling and torsion: each gives a force F = -(k s + g v), at most mu
 /// times the normal force, of the way s of R* times the relative turn, and the torque R* F on body 1, the
 /// opposite one on body 2. Law is the law derived from this.
@@ -103,33 +109,34 @@ struct RollingTorsion {
                 {torsionStiffness, torsionDissipation, torsionFrictionCoefficient}};
     }
 
-    /// The torque on body 1 over R* (N).
+    /// The torque on body 1 over R* (N), by its two parts.
     /// @param normal unit, from body 1 to body 2; @param turning of R* times the relative spin
     template <class T>
-    [[gnu::always_inline]] static Vector<T> rotationForce(const PreparedRotation& p, T normalForce,
-                                                          const Vector<T>& normal, const Slip<T>& turning,
-                                                          RollingTorsionSpring<T>& spring) {
+    [[gnu::always_inline]] static RotationForces<T> turnSprings(const PreparedRotation& p, T normalForce,
+                                                                const Vector<T>& normal,
+                                                                const Slip<T>& turning,
+                                                                RollingTorsionSpring<T>& spring) {
         const T limit = max(normalForce, T(0));
         Slip<T> torsion = turning, rolling = turning;
         torsion.velocity = dot(turning.velocity, normal) * normal;
         rolling.velocity = turning.velocity - torsion.velocity;
         Vector<T> twist = spring.torsion * normal;
-        const Vector<T> force = slide(p.rolling, limit, rolling, spring.rolling.displacement) +
-                                slide(p.torsion, limit, torsion, twist);
+        const RotationForces<T> forces{turnSpring(p.rolling, limit, rolling, spring.rolling.displacement),
+                                       turnSpring(p.torsion, limit, torsion, twist)};
         spring.torsion = dot(twist, normal);
-        return force;
+        return forces;
     }
     /// The stiffer of the two springs, N/m.
-    static double rotationStiffness(const PreparedRotation& p) {
+    static double stiffestOf(const PreparedRotation& p) {
         return std::max(p.rolling.stiffness, p.torsion.stiffness);
     }
 
 private:
     template <class T>
-    [[gnu::always_inline]] static Vector<T> slide(const PreparedSlider& p, T normalForce, const Slip<T>& slip,
-                                                  Vector<T>& spring) {
+    [[gnu::always_inline]] static SliderForce<T> turnSpring(const PreparedSlider& p, T normalForce,
+                                                            const Slip<T>& slip, Vector<T>& spring) {
         const T limit = p.coefficient * normalForce;
-        return slideSpring(T(p.stiffness), T(p.damping), limit, limit, slip, spring).force;
+        return slideSpring(T(p.stiffness), T(p.damping), limit, limit, slip, spring);
     }
     void set(double RollingTorsion::*member, double value) {
         setField(static_cast<Law&>(*this), member, value);

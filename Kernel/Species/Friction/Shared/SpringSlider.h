@@ -4,13 +4,6 @@
 
 namespace pendular {
 
-/// What a spring with dashpot and slider gives, and whether it slides.
-template <class T>
-struct SliderForce {
-    Vector<T> force;  // N
-    MaskOf<T> slides;
-};
-
 /// The force of spring and dashpot, -(k s + g v), and at most the limit (N) where it is larger than the
 /// threshold (N). Spring and dashpot are implicit in the velocity at the end of the step: two grains follow
 /// the trapezoidal rule. A spring whose own force is larger than the limit is shortened until it is not:
@@ -37,7 +30,7 @@ template <class T>
     const auto over = spring2 > most * most;
     if (any(over)) stretched = select(over, most / sqrt(max(spring2, T(smallest))), T(1)) * stretched;
     spring = stretched + slip.timeAfter * velocity;
-    return {force, slides};
+    return {force, stretched, stiffness, slides, over};
 }
 
 }  // namespace pendular

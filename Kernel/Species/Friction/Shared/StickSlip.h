@@ -33,13 +33,13 @@ struct StickSlip {
 
     /// @param limit of the sliding contact, N
     template <class T>
-    [[gnu::always_inline]] static Vector<T> slide(double ratio, T stiffness, T damping, T limit,
-                                                  const Slip<T>& slip, StickSlipSpring<T>& spring) {
+    [[gnu::always_inline]] static SliderForce<T> slide(double ratio, T stiffness, T damping, T limit,
+                                                       const Slip<T>& slip, StickSlipSpring<T>& spring) {
         const T threshold = select(spring.slides > T(0), limit, ratio * limit);
         const SliderForce<T> result =
             slideSpring(stiffness, damping, threshold, limit, slip, spring.displacement);
         spring.slides = select(result.slides, T(1), T(0));
-        return result.force;
+        return result;
     }
 };
 

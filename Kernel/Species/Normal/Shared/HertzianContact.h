@@ -51,6 +51,10 @@ struct HertzianContact {
         return 1.5 * p.stiffnessFactor * contact.contactRadius;
     }
     static constexpr double elasticExponent = 1.5;
+    /// Of the effective radius. Hertz takes the bodies for paraboloids: at the rim of a contact of radius a =
+    /// sqrt(R* d) a sphere is deeper by the share a^2 / (4 r^2), which at a wall is then 2.5 %, between equal
+    /// spheres 0.6 %.
+    static constexpr double largestOverlap = 0.1;
 
     [[nodiscard]] double range(const Bodies&) const { return 0; }
 };

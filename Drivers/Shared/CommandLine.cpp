@@ -1,0 +1,66 @@
+#include "Drivers/Shared/CommandLine.h"
+
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/State/RestartFile.h"
+
+namespace pendular {
+
+void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const std::string& run) {
+    app.add_option("--output", o.output, "folder for " + files)->capture_default_str();
+    app.add_option("--threads", o.threads, "OpenMP threads; the results do not depend on their number")
+        ->capture_default_str();
+    auto* resume =
+        app.add_flag("--resume", o.resume,
+                     "go on from the restart file in the output folder; if there is none, begin anew, "
+                     "which removes the frames of a former run; give the "
+                     "other options as before (end, intervals and threads may change, but "
+                     "--energy-interval-s not from 0 or to 0)");
+    app.add_option("--restart", o.restart, "go on from this restart file")->excludes(resume);
+    app.add_option("--restart-interval-s", o.restartInterval,
+                   "time on the clock from one restart file to the next, s; 0: at the begin and the end "
+                   "only. One is also "
+                   "written on SIGINT, SIGTERM (the run ends), and SIGUSR1 (it goes on)")
+        ->capture_default_str();
+    app.add_option(
+        "--wall-time", o.wallTime,
+        "time on the clock, hours:minutes:seconds, after which the run ends as on SIGTERM; no limit if "
+        "not given");
+    const auto addInterval = [&](const char* name, double& interval, const std::string& between,
+                                 const std::string& file, const std::string& none = "none") {
+        app.add_option(name, interval,
+                       fmt::format("time between two {} ({}{} in the folder), s, which are written when "
+                                   "output is due; 0: {}",
+                                   between, run, file, none))
+            ->capture_default_str();
+    };
+    addInterval("--paraview-interval-s", o.paraViewInterval, "frames for ParaView", ".pvd");
+    addInterval("--hdf5-interval-s", o.hdf5Interval, "frames for h5py and MATLAB", "-fields.h5");
+    addInterval("--energy-interval-s", o.energyInterval, "rows of the energy by mechanism", "-energy.csv",
+                "none, and no account is kept");
+    addInterval("--wall-force-interval-s", o.wallForceInterval, "outputs of the forces on the walls",
+                "-wall-forces.csv");
+    app.add_flag("--quiet", o.quiet, "print nothing but errors");
+}
+
+int runDriver(const DriverProgram& driver, int argc, char** argv, const std::function<void()>& body) {
+    CLI::App app(driver.description, driver.name);
+    driver.addOptions(app);
+    CLI11_PARSE(app, argc, argv);
+    return runProgram([&] {
+        const RunOptions& o = driver.options;
+        checkValue(driver.name, "number of threads", o.threads, "", {1, 4096});
+        checkValue(driver.name, "restart interval", o.restartInterval, "s", notNegative);
+        checkValue(driver.name, "ParaView interval", o.paraViewInterval, "s", notNegative);
+        checkValue(driver.name, "HDF5 interval", o.hdf5Interval, "s", notNegative);
+        checkValue(driver.name, "energy interval", o.energyInterval, "s", notNegative);
+        checkValue(driver.name, "wall force interval", o.wallForceInterval, "s", notNegative);
+        if (!o.wallTime.empty()) setWallTimeLimit(secondsOf(o.wallTime));
+        if (o.resume || !o.restart.empty()) requireRestartFiles();
+        if (!o.restart.empty()) checkRestartFile(o.restart);
+        requireOutputFolder(driver.name, o.output);
+        body();
+        return 0;
+    });
+}
+
+}  // namespace pendular

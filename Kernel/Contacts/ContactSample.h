@@ -1,0 +1,56 @@
+#pragma once
+
+#include "Kernel/Math/Vector.h"
+
+namespace pendular {
+
+/// A spring with dashpot and slider at the end of a step.
+struct SliderSample {
+    Vector<double> spring{0, 0, 0};  // N, force of the spring on body 1
+    Vector<double> rest{0, 0, 0};    // N, what the force is besides: the dashpot's, if it does not slide
+    double stretch2 = 0;             // m^2, of the spring
+    double stiffness = 0;            // N/m
+    double slides = 0;               // 1 or 0
+
+    /// J
+    [[nodiscard]] double stored() const { return 0.5 * stiffness * stretch2; }
+    void exchangeBodies() {
+        spring = -1.0 * spring;
+        rest = -1.0 * rest;
+    }
+};
+
+/// What a contact does at the end of a step, by mechanism; all zero where it does not act.
+struct ContactSample {
+    double touching = 0, bridged = 0;      // 1 or 0
+    Vector<double> normal{0, 0, 0};        // unit, from body 1 to body 2
+    Vector<double> wallVelocity{0, 0, 0};  // m/s, of a wall's surface
+    Vector<double> wallSpin{0, 0, 0};      // rad/s, of a wall
+    double halfOverlap = 0;                // m
+    double effectiveRadius = 0;            // m
+    double elasticForce = 0;               // N, repulsion of the normal law
+    double dashpotForce = 0;               // N, repulsion
+    double adhesiveForce = 0;              // N, attraction
+    double elasticEnergy = 0;              // J, that the overlap gives back
+    SliderSample sliding;
+    SliderSample rolling, torsion;  // torques on body 1 over the effective radius
+
+    [[nodiscard]] bool acts() const { return touching + bridged > 0; }
+    void exchangeBodies() {
+        normal = -1.0 * normal;
+        for (SliderSample* slider : {&sliding, &rolling, &torsion}) slider->exchangeBodies();
+    }
+};
+
+/// What a ledger of the energy reads of a contact; kept only when one is asked for.
+struct EnergyRecord {
+    ContactSample now, last;  // at the end of this step and of the one before
+    double adhesionWork = 0;  // J, done against the adhesion since it began to act
+
+    void exchangeBodies() {
+        now.exchangeBodies();
+        last.exchangeBodies();
+    }
+};
+
+}  // namespace pendular

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Walls/Wall.h"
+
+namespace pendular {
+
+/// One contact as an observer sees it after a step.
+struct ObservedContact {
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    std::uint32_t particle1;
+    std::uint32_t particle2;  // `none` at a wall
+    int wall;                 // -1: grain with grain
+    double separation;        // m, of the surfaces; negative where they overlap
+    double normalForce;       // N, elastic and damping, repulsion positive
+    double adhesiveForce;     // N, attraction positive
+    bool bridged;
+    Vector<double> shift;  // m, from the centre of particle 1 to that of particle 2 or to the wall's surface
+    Vector<double> force;  // N, on particle 1
+};
+
+/// @param wall of the bucket; null between grains
+template <class S>
+ObservedContact observeContact(const ContactStore<S>& contacts, const ParticleStore<S::hasTorque>& grains,
+                               const PeriodicBox& periodic, const Bucket& bucket, const Wall* wall,
+                               std::uint32_t contact) {
+    const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
+    const BlockState& state = contacts.states[contact / Pack::lanes];
+    const std::size_t lane = contact % Pack::lanes;
+    const TranslationRecord& first = grains.translation[block.first[lane]];
+    ObservedContact seen{grains.identity[block.first[lane]],
+                         ObservedContact::none,
+                         bucket.wall,
+                         0,
+                         contacts.recordOf(contact).normalForce,
+                         0,
+                         (state.bridged >> lane & 1) != 0,
+                         {},
+                         contacts.recordOf(contact).force};
+    if (bucket.wall < 0) {
+        const TranslationRecord& second = grains.translation[block.second[lane]];
+        seen.particle2 = grains.identity[block.second[lane]];
+        seen.shift = periodic.nearest(second.position - first.position);
+        seen.separation = norm(seen.shift) - (first.radius + second.radius);
+    } else {
+        const std::uint32_t part = block.second[lane];
+        WallPoint point;
+        wall->findPoints(first.position, first.radius, {&part, 1}, {&point, 1});
+        seen.separation = point.distance - first.radius;
+        seen.shift = point.distance * point.normal;
+    }
+    if constexpr (S::Adhesion::acts)
+        if (seen.bridged)
+            seen.adhesiveForce = contacts.memory.interaction.get(contacts.slotOf(contact))
+                                     .force(separationFor<typename S::Adhesion>(-seen.separation));
+    seen.normalForce += seen.adhesiveForce;
+    return seen;
+}
+
+}  // namespace pendular

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <vector>
+
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/WallContacts.h"
+#include "Kernel/Parallel.h"
+#include "Kernel/Walls/Wall.h"
+
+namespace pendular {
+
+/// Where grains are nearest to a wall, for the contacts of its bucket; and which of these contacts goes on as
+/// that with another part of the wall.
+template <class S>
+class WallPointSearch {
+public:
+    using Grains = ParticleStore<S::hasTorque>;
+
+    /// The contacts of one grain follow each other in the bucket.
+    /// @param laws between the grains and the wall; @param step s; @param wake gives memory to a block
+    template <class Wake>
+    void find(ContactStore<S>& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,
+              const typename S::Mixed& laws, double step, int threads, Wake&& wake) {
+        const std::size_t first = bucket.begin * Pack::lanes;
+        std::size_t end = bucket.end * Pack::lanes;
+        while (!contacts.bitOf(contacts.states[(end - 1) / Pack::lanes].listed, end - 1)) --end;
+        const auto atNextGrain = [&](std::size_t c) {
+            while (c > first && c < end && grainOf(contacts, c) == grainOf(contacts, c - 1)) ++c;
+            return c;
+        };
+        handOvers.resize(static_cast<std::size_t>(threads));
+        inParts(end - first, threads, [&](int part, std::size_t from, std::size_t to) {
+            std::vector<HandOver>& own = handOvers[static_cast<std::size_t>(part)];
+            own.clear();
+            findPart(contacts, grains, bucket, wall, laws, step, atNextGrain(first + from),
+                     atNextGrain(first + to), own);
+        });
+        for (const auto& part : handOvers)
+            for (const HandOver& h : part) {
+                if (!contacts.acts(h.from)) continue;
+                if (contacts.slots[h.to / Pack::lanes] == ContactStore<S>::asleep) wake(h.to / Pack::lanes);
+                handOver(contacts, h.from, h.to, h.oldNormal, h.newNormal);
+            }
+    }
+
+private:
+    struct HandOver {
+        std::size_t from, to;  // contacts
+        Vector<double> oldNormal, newNormal;
+    };
+
+    static std::uint32_t grainOf(const ContactStore<S>& contacts, std::size_t c) {
+        return contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
+    }
+
+    /// The same for the contacts [c, end), which begin with a grain's first.
+    static void findPart(ContactStore<S>& contacts, const Grains& grains, const Bucket& bucket,
+                         const Wall& wall, [[maybe_unused]] const typename S::Mixed& laws, double step,
+                         std::size_t c, std::size_t end, std::vector<HandOver>& found) {
+        std::vector<std::uint32_t> parts;
+        std::vector<WallPoint> points;
+        [[maybe_unused]] Bodies last{-1};
+        double range = 0;
+        while (c < end) {
+            const std::uint32_t grain = grainOf(contacts, c);
+            const std::size_t begin = c;
+            parts.clear();
+            for (; c < end && grainOf(contacts, c) == grain; ++c)
+                parts.push_back(contacts.blocks[c / Pack::lanes].second[c % Pack::lanes]);
+            points.resize(parts.size());
+            const TranslationRecord& record = grains.translation[grain];
+            if constexpr (S::Adhesion::acts)
+                if (record.radius != last.radius1) {
+                    last = {record.radius};
+                    range = laws.range(last);
+                }
+            wall.findPoints(record.position, record.radius + range, parts, points);
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                const WallPoint& point = points[k];
+                contacts.wallPoints[(begin + k) / Pack::lanes - contacts.firstWallBlock()].set(
+                    (begin + k) % Pack::lanes, point);
+                if (point.coveredBy >= 0) {
+                    const auto other = static_cast<std::size_t>(point.coveredBy);
+                    found.push_back({begin + k, begin + other, point.normal, points[other].normal});
+                }
+                refuseCrossing(wall, bucket.wall, record, grains.identity[grain], point, step);
+            }
+        }
+    }
+
+    std::vector<std::vector<HandOver>> handOvers;  // of each thread
+};
+
+}  // namespace pendular

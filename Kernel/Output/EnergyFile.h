@@ -1,0 +1,62 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "Kernel/Output/TimedTable.h"
+
+namespace pendular {
+
+/// NAME-energy.csv: the energy of a scene by mechanism over time. Given to Simulation::addOutput(), which
+/// then keeps the ledger.
+class EnergyFile {
+public:
+    /// @param time s, between two rows at least, where outputs are due more often
+    explicit EnergyFile(double time = 0) : table("EnergyFile", time) {}
+
+    template <class Scene>
+    void prepare(Scene& scene) const {
+        scene.keepEnergyLedger();
+    }
+
+    template <class Scene>
+    void write(const Scene& scene) {
+        const double time = scene.getTime();
+        if (!table.isDue(time)) return;
+        const auto& ledger = scene.energyLedger();
+        std::string row = fmt::format("{}", time);
+        for (const auto& entry : ledger.entries()) row += fmt::format(",{}", ledger.*entry.member);
+        tableOf(scene).row(row);
+        table.wroteAt(time);
+    }
+    template <class Scene>
+    void complete(const Scene& scene) {
+        tableOf(scene).close();
+    }
+
+    template <class Scene>
+    void visitState(StateArchive& archive, const Scene& scene) {
+        table.visitState(archive, pathOf(scene), headerOf(scene.energyLedger()), scene.getTime());
+    }
+
+private:
+    template <class Scene>
+    static std::filesystem::path pathOf(const Scene& scene) {
+        return scene.getName() + "-energy.csv";
+    }
+    template <class Ledger>
+    static std::string headerOf(const Ledger& ledger) {
+        std::string columns = "time_s";
+        for (const auto& entry : ledger.entries()) columns += fmt::format(",{}_J", entry.name);
+        return columns;
+    }
+    template <class Scene>
+    RunTable& tableOf(const Scene& scene) {
+        return table.at(pathOf(scene), headerOf(scene.energyLedger()));
+    }
+
+    TimedTable table;
+};
+
+}  // namespace pendular

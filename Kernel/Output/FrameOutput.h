@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "Kernel/Output/SceneFields.h"
+#include "Kernel/State/StateArchive.h"
+
+namespace pendular {
+
+/// Frames of a scene at intervals, in the files of a Series. Given to Simulation::addOutput().
+///
+/// A Series has a constructor (name, keptUntil), which keeps the frames of an earlier part of the run up to
+/// that time (s; -infinity: none) and removes later ones; add(SceneFrame, threads); the path indexOf(name) of
+/// the file that lists the frames; prepare(), which throws InputError if this build cannot write it; and
+/// check(name), which throws InputError if that file is there and cannot be gone on with.
+template <class Series>
+class FrameOutput {
+public:
+    /// @param beginning what the names of files begin with; the name of the simulation if empty
+    explicit FrameOutput(std::string beginning = {}) : name(std::move(beginning)) {}
+
+    /// One frame in so much time (s) at most, where outputs are due more often.
+    FrameOutput& withInterval(double seconds) {
+        checkValue("Output of frames", "interval", seconds, "s", notNegative);
+        return interval = seconds, *this;
+    }
+    /// A number or a Vec3D of each grain, by its identity; the name ends with the unit.
+    template <class Function>
+    FrameOutput& addField(const std::string& fieldName, Function valueOf) {
+        return content.addField(fieldName, std::move(valueOf)), *this;
+    }
+    /// The field stress_Pa of each grain as well; see grainStresses().
+    FrameOutput& withStress(bool yes = true) { return content.stress = yes, *this; }
+    /// The contacts, which are the larger part of a large scene's; on by default.
+    FrameOutput& withContacts(bool yes = true) { return content.contacts = yes, *this; }
+    /// Fields of 64 bits, as the run has them; 32 by default. Positions always have 64.
+    FrameOutput& withDoubles(bool yes = true) { return content.doubles = yes, *this; }
+
+    template <class Scene>
+    void prepare(const Scene&) const {
+        Series::prepare();
+    }
+
+    template <class Scene>
+    void write(const Scene& scene) {
+        // Times are products of rounded numbers.
+        if (scene.getTime() < last + interval * (1 - 1e-9)) return;
+        if (!series) series.emplace(nameIn(scene), keptUntil(scene));
+        series->add(content.of(scene), scene.getNumberOfThreads());
+        last = scene.getTime();
+    }
+
+    /// The time of the last frame, so that a run that goes on repeats none and leaves none out.
+    template <class Scene>
+    void visitState(StateArchive& archive, const Scene& scene) {
+        const std::string entry = Series::indexOf(nameIn(scene)).filename().string() + "-last-time";
+        isKnown = archive.isWriting() || archive.holds(entry);
+        if (isKnown) archive.value(entry, last);
+        if (archive.isReading()) Series::check(nameIn(scene));
+    }
+
+private:
+    template <class Scene>
+    [[nodiscard]] std::string nameIn(const Scene& scene) const {
+        return name.empty() ? scene.getName() : name;
+    }
+    /// A restart file that knows nothing of this output was written by a run without it.
+    template <class Scene>
+    [[nodiscard]] double keptUntil(const Scene& scene) const {
+        if (!scene.isRestarted()) return -INFINITY;
+        return isKnown ? last : scene.getTime();
+    }
+
+    FrameContent content;
+    std::optional<Series> series;
+    std::string name;
+    double interval = 0;      // s
+    double last = -INFINITY;  // s, of the last frame
+    bool isKnown = false;     // `last`, from a restart file
+};
+
+}  // namespace pendular

@@ -1,0 +1,230 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Output/PolyData.h"
+
+namespace pendular {
+
+/// The grains as points: radius, velocity, spin, force (of contacts and weight), species, identity.
+/// @tparam Real of the fields; positions are doubles
+template <std::floating_point Real = float, bool hasSpin>
+PolyData grainPoints(const ParticleStore<hasSpin>& grains) {
+    PolyData data;
+    std::vector<Real> radius, velocity, spin, force;
+    std::vector<std::int32_t> species, identity;
+    const auto append = [](std::vector<Real>& column, const Vector<double>& v) {
+        for (const double part : {v.x, v.y, v.z}) column.push_back(static_cast<Real>(part));
+    };
+    const std::size_t count = grains.size();
+    data.points.reserve(count), data.corners.reserve(count);
+    radius.reserve(count), species.reserve(count), identity.reserve(count);
+    velocity.reserve(3 * count), force.reserve(3 * count);
+    if constexpr (hasSpin) spin.reserve(3 * count);
+    for (const std::uint32_t place : grains.place) {
+        const TranslationRecord& grain = grains.translation[place];
+        data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
+        data.points.push_back(grain.position);
+        radius.push_back(static_cast<Real>(grain.radius));
+        append(velocity, grain.velocity);
+        if constexpr (hasSpin) append(spin, grains.rotation[place].spin);
+        // Not kept for a grain held in place.
+        append(force, grain.inverseMass > 0 ? (1 / grain.inverseMass) * grains.acceleration[place]
+                                            : Vector<double>{0, 0, 0});
+        species.push_back(grains.species[place]);
+        identity.push_back(static_cast<std::int32_t>(grains.identity[place]));
+    }
+    if (!data.corners.empty()) data.ends = {static_cast<std::int32_t>(data.corners.size())};
+    data.pointFields = {{"radius_m", 1, std::move(radius)}, {"velocity_m_per_s", 3, std::move(velocity)}};
+    if constexpr (hasSpin) data.pointFields.push_back({"spin_rad_per_s", 3, std::move(spin)});
+    data.pointFields.push_back({"force_N", 3, std::move(force)});
+    data.pointFields.push_back({"species", 1, std::move(species)});
+    data.pointFields.push_back({"identity", 1, std::move(identity)});
+    return data;
+}
+
+/// The mean stress in each grain (Pa, tension positive), in the order of identities:
+/// sigma = sum over its contacts of l f / V, with the branch l (m) from the centre to the contact point, the
+/// force f (N) on the grain and its volume V (m^3). Source: Love, "A Treatise on the Mathematical Theory of
+/// Elasticity" (1927); Weber, Bull. Liaison Ponts Chauss. 20 (1966). The contact point lies in the middle of
+/// the overlap or of the gap.
+template <std::floating_point Real = float, class S>
+PolyDataField grainStresses(const ContactSystem<S>& contacts, const ParticleStore<S::hasTorque>& grains) {
+    std::vector<std::array<double, 9>> sums(grains.size());
+    const auto radius = [&](std::uint32_t identity) {
+        return grains.translation[grains.place[identity]].radius;
+    };
+    const auto add = [&](std::uint32_t identity, const Vector<double>& branch, const Vector<double>& force) {
+        const double parts[] = {force.x, force.y, force.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+            sums[identity][k] += branch.x * parts[k];
+            sums[identity][3 + k] += branch.y * parts[k];
+            sums[identity][6 + k] += branch.z * parts[k];
+        }
+    };
+    contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (!contacts.store().acts(contact)) return;
+        const ObservedContact seen = contacts.observe(grains, bucket, contact);
+        const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
+        const double half = 0.5 * seen.separation;
+        add(seen.particle1, (radius(seen.particle1) + half) * normal, seen.force);
+        if (bucket.wall < 0) add(seen.particle2, -(radius(seen.particle2) + half) * normal, -seen.force);
+    });
+    std::vector<Real> numbers;
+    for (std::uint32_t k = 0; k < sums.size(); ++k)
+        for (const double sum : sums[k]) numbers.push_back(static_cast<Real>(sum / sphereMass(radius(k), 1)));
+    return {"stress_Pa", 9, std::move(numbers)};
+}
+
+/// The contacts that have a force as lines, from centre to centre (of the nearest image) or to the wall's
+/// surface. The first points are the centres of all grains, in the order of identities. The forces are those
+/// on particle1; particle2 is -1 at a wall, and wall is -1 between grains.
+template <std::floating_point Real = float, class S>
+PolyData contactLines(const ContactSystem<S>& contacts, const ParticleStore<S::hasTorque>& grains,
+                      const SpeciesHandler<S>& species) {
+    PolyData data;
+    data.kind = PolyData::Cells::Lines;
+    for (const std::uint32_t place : grains.place) data.points.push_back(grains.translation[place].position);
+    std::size_t count = 0;
+    contacts.store().forEachListed(
+        [&](const Bucket&, std::uint32_t contact) { count += contacts.store().acts(contact) ? 1 : 0; });
+    std::vector<Real> force, normal, adhesive, overlap, volume;
+    std::vector<std::int32_t> bridged, first, second, wall;
+    force.reserve(3 * count), data.corners.reserve(2 * count);
+    for (auto* column : {&normal, &adhesive, &overlap}) column->reserve(count);
+    for (auto* column : {&bridged, &first, &second, &wall, &data.ends}) column->reserve(count);
+    const bool isPeriodic = contacts.periodicBox().any();
+    contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (!contacts.store().acts(contact)) return;
+        const ObservedContact seen = contacts.observe(grains, bucket, contact);
+        const auto end = [&] { return data.points[seen.particle1] + seen.shift; };
+        const bool isImage = bucket.wall < 0 && isPeriodic &&
+                             norm(end() - data.points[seen.particle2]) > 0.5 * norm(seen.shift);
+        data.corners.push_back(static_cast<std::int32_t>(seen.particle1));
+        if (bucket.wall < 0 && !isImage) {
+            data.corners.push_back(static_cast<std::int32_t>(seen.particle2));
+        } else {
+            data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
+            data.points.push_back(end());
+        }
+        data.ends.push_back(static_cast<std::int32_t>(data.corners.size()));
+        for (const double part : {seen.force.x, seen.force.y, seen.force.z})
+            force.push_back(static_cast<Real>(part));
+        normal.push_back(static_cast<Real>(seen.normalForce));
+        adhesive.push_back(static_cast<Real>(seen.adhesiveForce));
+        overlap.push_back(static_cast<Real>(-seen.separation));
+        if constexpr (requires(typename S::Mixed laws) { laws.liquidBridgeVolume; })
+            volume.push_back(
+                seen.bridged
+                    ? static_cast<Real>(species.mixture(bucket.species1, bucket.species2).liquidBridgeVolume)
+                    : Real{0});
+        bridged.push_back(seen.bridged ? 1 : 0);
+        first.push_back(static_cast<std::int32_t>(seen.particle1));
+        second.push_back(bucket.wall < 0 ? static_cast<std::int32_t>(seen.particle2) : -1);
+        wall.push_back(bucket.wall);
+    });
+    data.cellFields = {{"force_N", 3, std::move(force)},
+                       {"normal_force_N", 1, std::move(normal)},
+                       {"adhesive_force_N", 1, std::move(adhesive)},
+                       {"overlap_m", 1, std::move(overlap)},
+                       {"bridged", 1, std::move(bridged)},
+                       {"particle1", 1, std::move(first)},
+                       {"particle2", 1, std::move(second)},
+                       {"wall", 1, std::move(wall)}};
+    if constexpr (requires(typename S::Mixed laws) { laws.liquidBridgeVolume; })
+        data.cellFields.push_back({"bridge_volume_m3", 1, std::move(volume)});
+    return data;
+}
+
+/// The walls as polygons, with their numbers and species; see surfacesOf().
+PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest);
+
+/// What a frame shows of a scene.
+struct SceneFrame {
+    std::size_t step = 0;
+    double time = 0;  // s
+    PolyData grains;
+    std::optional<PolyData> contacts, walls;
+};
+
+/// Which fields a frame has.
+class FrameContent {
+public:
+    bool stress = false, contacts = true;
+    bool doubles = false;  // fields of 64 bits, not of 32
+
+    /// A number or a Vec3D of each grain, by its identity; the name ends with the unit.
+    template <class Function>
+    void addField(const std::string& name, Function valueOf) {
+        added.push_back([name, valueOf = std::move(valueOf)](std::size_t count, bool inDoubles) {
+            return inDoubles ? fieldOf<double>(name, valueOf, count) : fieldOf<float>(name, valueOf, count);
+        });
+    }
+
+    template <class Scene>
+    [[nodiscard]] SceneFrame of(const Scene& scene) const {
+        return doubles ? frameOf<double>(scene) : frameOf<float>(scene);
+    }
+
+private:
+    template <class Real, class Function>
+    static PolyDataField fieldOf(const std::string& name, const Function& valueOf, std::size_t count) {
+        PolyDataField field{name, 1, {}};
+        std::vector<Real> numbers;
+        for (std::size_t identity = 0; identity < count; ++identity) {
+            const auto value = valueOf(identity);
+            if constexpr (requires { value.x(); }) {
+                field.components = 3;
+                for (int axis = 0; axis < 3; ++axis) numbers.push_back(static_cast<Real>(value[axis]));
+            } else {
+                numbers.push_back(static_cast<Real>(value));
+            }
+        }
+        field.numbers = std::move(numbers);
+        return field;
+    }
+
+    template <class Real, class Scene>
+    [[nodiscard]] SceneFrame frameOf(const Scene& scene) const {
+        const auto& store = scene.particleHandler.store();
+        SceneFrame frame{scene.getNumberOfTimeSteps(), scene.getTime(), grainPoints<Real>(store), {}, {}};
+        for (const auto& field : added) frame.grains.pointFields.push_back(field(store.size(), doubles));
+        if (stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
+        if (contacts) frame.contacts = contactLines<Real>(scene.contacts(), store, scene.speciesHandler);
+        if (scene.wallHandler.getSize() > 0) {
+            const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox());
+            frame.walls = wallPolygons(scene.wallHandler, lowest, highest);
+        }
+        return frame;
+    }
+
+    /// Around all grains and the periods of the scene.
+    template <bool hasSpin>
+    static std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore<hasSpin>& grains,
+                                                               const PeriodicBox& periodic) {
+        Vector<double> lowest{infinity, infinity, infinity}, highest = -lowest;
+        for (const TranslationRecord& grain : grains.translation)
+            for (const auto axis : axes) {
+                // A gap to a plane of a few radii belongs to the scene.
+                lowest.*axis = std::min(lowest.*axis, grain.position.*axis - 2 * grain.radius);
+                highest.*axis = std::max(highest.*axis, grain.position.*axis + 2 * grain.radius);
+            }
+        for (const auto axis : axes) {
+            if (!(lowest.*axis <= highest.*axis)) lowest.*axis = highest.*axis = 0;  // no grains
+            if (!(periodic.length.*axis > 0)) continue;
+            lowest.*axis = periodic.lowest.*axis;
+            highest.*axis = periodic.lowest.*axis + periodic.length.*axis;
+        }
+        return {lowest, highest};
+    }
+    static constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+
+    std::vector<std::function<PolyDataField(std::size_t, bool)>> added;
+};
+
+}  // namespace pendular

@@ -1,0 +1,100 @@
+#include "Kernel/Simulation/ContactAccount.h"
+
+namespace pendular {
+namespace {
+
+/// How the two bodies of a contact move against each other.
+struct RelativeMotion {
+    double approach;         // m/s
+    Vector<double> slip;     // m/s, at the contact point
+    Vector<double> turning;  // m/s, effective radius times relative spin
+};
+
+RelativeMotion relativeMotion(const ContactSample& sample, const BodyMotion& first, const BodyMotion& second,
+                              bool isWall) {
+    const Vector<double> velocity = first.velocity - (isWall ? sample.wallVelocity : second.velocity);
+    Vector<double> lever = (first.radius - sample.halfOverlap) * first.spin;
+    if (!isWall) lever += (second.radius - sample.halfOverlap) * second.spin;
+    return {dot(velocity, sample.normal), velocity + cross(lever, sample.normal),
+            sample.effectiveRadius * (first.spin - (isWall ? sample.wallSpin : second.spin))};
+}
+
+/// W, that bodies which are held give to the contact: the force on each times its velocity, reversed.
+double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMotion& second, bool isWall) {
+    const Vector<double> tangential = s.sliding.spring + s.sliding.rest;
+    const Vector<double> force =
+        (s.adhesiveForce - s.elasticForce - s.dashpotForce) * s.normal + tangential;  // on body 1
+    const Vector<double> leverless = cross(s.normal, tangential);
+    const Vector<double> own =
+        s.effectiveRadius * (s.rolling.spring + s.rolling.rest + s.torsion.spring + s.torsion.rest);
+    if (isWall) return dot(force, s.wallVelocity) + dot(own, s.wallSpin);
+    double given = 0;
+    if (first.isHeld)
+        given -=
+            dot(force, first.velocity) + dot((first.radius - s.halfOverlap) * leverless + own, first.spin);
+    if (second.isHeld)
+        given +=
+            dot(force, second.velocity) - dot((second.radius - s.halfOverlap) * leverless - own, second.spin);
+    return given;
+}
+
+/// The entries of one spring with dashpot and slider.
+struct SliderEntries {
+    double &stored, &dashpot, &slider;
+};
+
+/// @param before, after: velocities (m/s) against which the forces of the two samples work
+void addSlider(const SliderSample& last, const SliderSample& now, const Vector<double>& before,
+               const Vector<double>& after, bool lasts, double step, SliderEntries entries,
+               EnergyLedger& account) {
+    const double half = 0.5 * step;
+    (last.slides > 0 ? entries.slider : entries.dashpot) -= half * dot(last.rest, before);
+    (now.slides > 0 ? entries.slider : entries.dashpot) -= half * dot(now.rest, after);
+
+    const double work = -half * (dot(last.spring, before) + dot(now.spring, after));
+    // The stored energy k s^2/2 changes by the way, and by the stiffness.
+    const double byStiffness =
+        lasts ? 0.25 * (now.stiffness - last.stiffness) * (now.stretch2 + last.stretch2) : 0;
+    const double missing = work - (now.stored() - last.stored() - byStiffness);
+    (now.slides + last.slides > 0 ? entries.slider : account.stepError) += missing;
+    account.stiffening -= byStiffness;
+    entries.stored += now.stored();
+}
+
+}  // namespace
+
+void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion& second,
+                const ContactKind& kind, double step, EnergyLedger& account) {
+    const ContactSample &last = record.last, &now = record.now;
+    const RelativeMotion before = relativeMotion(last, first, second, kind.isWall);
+    const RelativeMotion after = relativeMotion(now, first, second, kind.isWall);
+    const double half = 0.5 * step;
+    const auto against = [&](double ContactSample::*force) {
+        return half * (last.*force * before.approach + now.*force * after.approach);
+    };
+    account.walls +=
+        half * (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall));
+
+    account.elastic += now.elasticEnergy;
+    (kind.isPlastic ? account.plastic : account.stepError) +=
+        against(&ContactSample::elasticForce) - (now.elasticEnergy - last.elasticEnergy);
+    account.normalDashpots += against(&ContactSample::dashpotForce);
+
+    record.adhesionWork -= against(&ContactSample::adhesiveForce);
+    if (now.bridged > 0) account.adhesive += record.adhesionWork;
+    else {
+        (kind.adhesionFormsAtContact ? account.brokenAdhesion : account.stepError) += record.adhesionWork;
+        record.adhesionWork = 0;
+    }
+
+    const bool lasts = last.touching > 0 && now.touching > 0;
+    addSlider(last.sliding, now.sliding, before.slip, after.slip, lasts, step,
+              {account.tangentialElastic, account.tangentialDashpots, account.sliding}, account);
+    addSlider(last.rolling, now.rolling, before.turning, after.turning, lasts, step,
+              {account.rollingElastic, account.rolling, account.rolling}, account);
+    addSlider(last.torsion, now.torsion, before.turning, after.turning, lasts, step,
+              {account.torsionElastic, account.torsion, account.torsion}, account);
+    record.last = record.now;
+}
+
+}  // namespace pendular

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "Kernel/Contacts/ContactSample.h"
+#include "Kernel/Simulation/EnergyLedger.h"
+
+namespace pendular {
+
+/// The mean motion in a step of a body that a contact joins.
+struct BodyMotion {
+    Vector<double> velocity{0, 0, 0};  // m/s
+    Vector<double> spin{0, 0, 0};      // rad/s
+    double radius = 0;                 // m
+    bool isHeld = false;               // a wall, or a grain without motion of its own
+};
+
+/// What the laws of a contact say of its energy.
+struct ContactKind {
+    bool isWall = false;
+    bool isPlastic = false;               // the normal law has a history
+    bool adhesionFormsAtContact = false;  // else it is a function of the separation, which loses nothing
+};
+
+/// Adds to an account what one contact did in a step (s), and makes the present sample the last one.
+void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion& second,
+                const ContactKind& kind, double step, EnergyLedger& account);
+
+}  // namespace pendular

@@ -1,0 +1,138 @@
+#pragma once
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/Integrator.h"
+#include "Kernel/Simulation/ContactAccount.h"
+
+namespace pendular {
+
+/// Keeps the ledger of the energy. In a step h of velocity Verlet the kinetic energy of a grain changes by
+/// exactly h/2 (F + F+) . (v + v+)/2, with the forces and velocities at its begin and at its end; with spins
+/// and torques alike. The work of each force of each contact is summed by the same formula, so that the
+/// account closes to round-off for any number of steps, and what elastic forces did but is not found as
+/// stored energy is told apart as the error of the time steps. Sums are made in the order of the contacts, by
+/// one thread.
+template <class S>
+class EnergyAccount {
+public:
+    using Grains = ParticleStore<S::hasTorque>;
+
+    /// Before the grains move by a step (s); without length at the start of a run.
+    void begin(const Grains& grains, const Vector<double>& gravity, double step, EnergyLedger& ledger) {
+        atBegin = ledger;
+        potential = potentialEnergy(grains, gravity);
+        if (step == 0) ledger.gravityBefore = gravity;
+        if (step > 0)
+            ledger.driver +=
+                kineticEnergy(grains) - ledger.kinetic + (potential + ledger.carried - ledger.potential);
+        before.resize(grains.size());
+        for (std::size_t k = 0; k < grains.size(); ++k) before[grains.identity[k]] = motionOf(grains, k);
+    }
+
+    /// Where the step failed.
+    void takeBack(EnergyLedger& ledger) const { ledger = atBegin; }
+
+    /// When the grains have moved.
+    void moved(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
+        const double now = potentialEnergy(grains, gravity);
+        ledger.stepError -= now - potential;
+        potential = now;
+    }
+
+    /// When grains may have gone round a periodic scene, to places where their potential energy is lower:
+    /// what the field gave them on their way stays in the account.
+    void wentRound(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
+        ledger.carried += potential - potentialEnergy(grains, gravity);
+    }
+
+    /// At the end of the step.
+    void finish(const Grains& grains, ContactSystem<S>& contacts, const Vector<double>& gravity, double step,
+                const Integrator& scheme, EnergyLedger& ledger) {
+        ledger.stepError -= workBesidesContacts(grains, gravity, step, scheme, ledger.gravityBefore);
+        EnergyLedger account;  // of this step: small sums are added up before they meet large ones
+        contacts.forEachEnergyRecord(
+            [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane, EnergyRecord& record) {
+                const ContactKind kind{.isWall = bucket.wall >= 0,
+                                       .isPlastic = HasNormalHistory<typename S::Normal>,
+                                       .adhesionFormsAtContact = formsAtContact()};
+                addContact(record, meanMotion(grains, block.first[lane]),
+                           kind.isWall ? BodyMotion{} : meanMotion(grains, block.second[lane]), kind, step,
+                           account);
+            });
+        takeOver(account, step > 0, ledger);  // overlaps at the start are there without work
+        ledger.kinetic = kineticEnergy(grains);
+        ledger.potential = ledger.carried + potentialEnergy(grains, gravity);
+        ledger.gravityBefore = gravity;
+    }
+
+private:
+    /// Of a grain at the begin of the step.
+    struct Motion {
+        Vector<double> velocity, acceleration;     // m/s, m/s^2
+        Vector<double> spin, angularAcceleration;  // rad/s, rad/s^2
+    };
+
+    static constexpr bool formsAtContact() {
+        if constexpr (S::Adhesion::acts) return S::Adhesion::formsAtContact;
+        else return false;
+    }
+
+    static Motion motionOf(const Grains& grains, std::size_t k) {
+        Motion motion{grains.translation[k].velocity, grains.acceleration[k], {0, 0, 0}, {0, 0, 0}};
+        if constexpr (S::hasTorque) {
+            motion.spin = grains.rotation[k].spin;
+            motion.angularAcceleration = grains.rotation[k].angularAcceleration;
+        }
+        return motion;
+    }
+
+    BodyMotion meanMotion(const Grains& grains, std::size_t k) const {
+        const Motion &then = before[grains.identity[k]], now = motionOf(grains, k);
+        return {0.5 * (then.velocity + now.velocity), 0.5 * (then.spin + now.spin),
+                grains.translation[k].radius, grains.translation[k].inverseMass == 0};
+    }
+
+    /// J, of the field of gravity, and of what an integrator other than velocity Verlet adds to the mean of
+    /// the two accelerations.
+    double workBesidesContacts(const Grains& grains, const Vector<double>& gravity, double step,
+                               const Integrator& scheme, const Vector<double>& gravityBefore) const {
+        double sum = 0;
+        for (std::size_t k = 0; k < grains.size(); ++k) {
+            const TranslationRecord& grain = grains.translation[k];
+            if (grain.inverseMass == 0) continue;
+            const BodyMotion mean = meanMotion(grains, k);
+            sum += 0.5 * step / grain.inverseMass * dot(gravityBefore + gravity, mean.velocity);
+            if (!scheme.remembersEarlier()) continue;
+            const Motion &then = before[grains.identity[k]], now = motionOf(grains, k);
+            const Vector<double> gained =
+                now.velocity - then.velocity - (0.5 * step) * (then.acceleration + now.acceleration);
+            sum += dot(gained, mean.velocity) / grain.inverseMass;
+            if constexpr (S::hasTorque) {
+                const Vector<double> turned =
+                    now.spin - then.spin -
+                    (0.5 * step) * (then.angularAcceleration + now.angularAcceleration);
+                sum += dot(turned, mean.spin) / grains.rotation[k].inverseInertia;
+            }
+        }
+        return sum;
+    }
+
+    /// Replaces what is stored, and adds what a step has lost and given.
+    static void takeOver(const EnergyLedger& account, bool isStep, EnergyLedger& ledger) {
+        using L = EnergyLedger;
+        for (double L::*stored :
+             {&L::elastic, &L::tangentialElastic, &L::rollingElastic, &L::torsionElastic, &L::adhesive})
+            ledger.*stored = account.*stored;
+        if (!isStep) return;
+        for (double L::*summed :
+             {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding, &L::rolling, &L::torsion,
+              &L::brokenAdhesion, &L::stiffening, &L::walls, &L::stepError})
+            ledger.*summed += account.*summed;
+    }
+
+    std::vector<Motion> before;  // by identity
+    EnergyLedger atBegin;
+    double potential = 0;        // J, at the places where the grains are
+};
+
+}  // namespace pendular

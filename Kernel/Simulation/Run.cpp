@@ -1,0 +1,205 @@
+#include "Kernel/Simulation/Run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "Kernel/InputError.h"
+#include "Kernel/RunError.h"
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/Species/Field.h"
+#include "Kernel/State/RestartFile.h"
+
+namespace pendular {
+
+namespace {
+
+std::string_view withoutFullStop(std::string_view sentence) {
+    return sentence.substr(0, sentence.size() - (sentence.ends_with('.') ? 1 : 0));
+}
+
+}  // namespace
+
+Run::Run() : timeStep(unset) {
+    reportUncaughtExceptions();
+    hearRestartSignal();
+}
+
+void Run::setName(std::string beginning) {
+    if (beginning.empty())
+        throw InputError("Simulation: name is empty; it must have at least one character.");
+    name = std::move(beginning);
+}
+
+void Run::setTimeStep(double step) {
+    checkValue("Simulation", "time step", step, "s", positive);
+    timeStep = step;
+}
+
+void Run::setTimeMax(double end) {
+    checkValue("Simulation", "maximum time", end, "s", notNegative);
+    timeMax = end;
+}
+
+void Run::requireTimeStep() const { checkValue("Simulation", "time step", timeStep, "s", positive); }
+
+void Run::keepRestartFile(bool keep) {
+    if (keep) requireRestartFiles();
+    restarts.kept = keep;
+}
+
+void Run::setRestartInterval(double seconds) {
+    checkValue("Simulation", "restart interval", seconds, "s", notNegative);
+    restarts.interval = seconds;
+}
+
+void Run::writeRestart(const std::filesystem::path& file) {
+    const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+    writeRestartFile(file, [&](StateArchive& archive) { visitAll(archive); });
+    if (isOwnRestartFile(file)) restartFileSteps = steps;
+    times.enter(before);
+}
+
+void Run::readRestart() {
+    readRestartFile(restartSource, [&](StateArchive& archive) { visitAll(archive); });
+    if (isOwnRestartFile(restartSource)) restartFileSteps = steps;
+    firstStep = steps;
+}
+
+void Run::visitSteps(StateArchive& archive) {
+    archive.same("timeStep", timeStep, "s");
+    archive.value("steps", steps);
+}
+
+void Run::visitOutputs(StateArchive& archive) {
+    // The outputs first: they refuse damaged indices of frames before the driver takes its own state.
+    archive.group("outputs", [&] {
+        for (const KeptOutput& output : outputs)
+            if (output.visitState) output.visitState(archive);
+    });
+    archive.group("driver", [&] { visitState(archive); });
+}
+
+/// By any of its paths.
+bool Run::isOwnRestartFile(const std::filesystem::path& file) const {
+    std::error_code ignored;
+    return std::filesystem::equivalent(file, restartFile(), ignored);
+}
+
+void Run::solve() {
+    RunControl control(restarts);
+    initialise();
+    try {
+        begin();
+        stepToTheEnd(control);
+    } catch (const RunError& error) {
+        stopped = error.what();
+        throw RunError(withLastState(error.what()));
+    } catch (const RunStopped&) {
+        throw;
+    } catch (const std::exception& problem) {  // a full disk
+        stopped = problem.what();
+        askedToStop = false;
+        completeWhatCanBe();
+        throw;
+    }
+}
+
+/// From here on the restart file is one of this run: what goes on mixes no two runs.
+void Run::begin() {
+    const bool keepsOther = restarts.kept && !(isRestarted() && isOwnRestartFile(restartSource));
+    if (keepsOther) std::filesystem::remove(restartFile());
+    if (!isRestarted()) writeAll();
+    if (keepsOther) writeRestart(restartFile());
+}
+
+void Run::stepToTheEnd(RunControl& control) {
+    std::optional<Progress> progress;
+    if (!quiet) progress.emplace(timeMax, getTime(), steps);
+    const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
+    const auto isAskedToStop = [&] {
+        const RunControl::Request request = control.request(steps);
+        if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());
+        return request == RunControl::Request::Stop;
+    };
+    bool stops = isAskedToStop();
+    while (!stops && steps < last && continueSolve()) {
+        step();
+        if (saveCount > 0 && steps % saveCount == 0) writeAll();
+        if (progress && progress->isDue(steps))
+            progress->show(getTime(), steps, [this] { return numbers(); });
+        stops = isAskedToStop();
+    }
+    if (progress) progress->finish(getTime(), steps, [this] { return numbers(); });
+    // Before the last output: a run that goes on from here knows nothing of one that is not due.
+    if (restarts.kept) writeRestart(restartFile());
+    if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
+    if (stops) throw stop();
+    completeAll();
+}
+
+/// Completes the files of a run that was asked to stop; returns what ends it.
+RunStopped Run::stop() {
+    const RunStopped reason =
+        RunControl::stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string());
+    stopped = reason.what();
+    askedToStop = true;
+    completeAll();
+    return reason;
+}
+
+void Run::step() {
+    times.beginStep();
+    actionsBeforeTimeStep();
+    advanceByStep();
+    ++steps;
+    actionsAfterTimeStep();
+    times.endStep();
+}
+
+void Run::writeAll() {
+    const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+    for (const KeptOutput& output : outputs) output.write();
+    writeOutput();
+    times.enter(before);
+}
+
+void Run::completeAll() {
+    completeOutputs();
+    completeOutput();
+}
+
+void Run::completeOutputs() {
+    for (const KeptOutput& output : outputs)
+        if (output.complete) output.complete();
+}
+
+/// Completes the outputs as far as that is possible: the error that ends the run is the one to tell.
+void Run::completeWhatCanBe() {
+    for (const KeptOutput& output : outputs) {
+        try {
+            if (output.complete) output.complete();
+        } catch (const std::exception&) {}
+    }
+}
+
+/// Writes the state as it is, and adds to a sentence where it is.
+std::string Run::withLastState(std::string sentence) {
+    const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
+    try {
+        writeLastState(grains, contacts, sentence);
+        writeAll();
+        completeOutputs();
+    } catch (const std::exception& problem) {
+        return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
+                           problem.what());
+    }
+    const std::string restart = restartFileSteps ? fmt::format("; the state after {} steps is in {}",
+                                                               *restartFileSteps, restartFile().string())
+                                                 : "";
+    return fmt::format("{}; the last whole step is in {} and {}{}.", withoutFullStop(sentence), grains,
+                       contacts, restart);
+}
+
+}  // namespace pendular

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Kernel/Output/Progress.h"
+#include "Kernel/Simulation/RunControl.h"
+#include "Kernel/Simulation/StepTimes.h"
+#include "Kernel/State/StateArchive.h"
+
+namespace pendular {
+
+/// The course of a simulation, whatever its species: its steps, outputs and restart files, and what ends it.
+/// Simulation derives from it.
+class Run {
+public:
+    Run();
+    virtual ~Run() = default;
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+
+    virtual void actionsBeforeTimeStep() {}
+    virtual void actionsAfterTimeStep() {}
+    /// Called at the start, after every saveCount steps and at the end.
+    virtual void writeOutput() {}
+    /// Called when the run has ended, or was asked to stop: files are to be completed here.
+    virtual void completeOutput() {}
+    /// What the driver itself remembers from step to step, for restart files (StateArchive says how).
+    virtual void visitState(StateArchive& /*archive*/) {}
+    /// The run ends when this returns false.
+    [[nodiscard]] virtual bool continueSolve() const { return true; }
+
+    /// What the names of files begin with that a run writes by itself; a folder may be in it.
+    void setName(std::string beginning);
+    /// @param step s
+    void setTimeStep(double step);
+    /// @param end s
+    void setTimeMax(double end);
+    /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
+    void setSaveCount(std::size_t steps) { saveCount = steps; }
+    /// Keeps a restart file, NAME-restart.h5: written at the begin of the run, in the place of one that an
+    /// earlier run left, at its end, and when it is asked to stop.
+    /// Throws InputError where this build of Pendular cannot write one.
+    void keepRestartFile(bool keep = true);
+    /// Writes it also after so many steps; 0: does not.
+    void setRestartCount(std::size_t steps) { restarts.count = steps; }
+    /// Writes it also whenever this time (s of the clock on the wall) has passed; 0: does not.
+    void setRestartInterval(double seconds);
+    /// Goes on from a restart file instead of beginning: initialise() then takes the grains, and all else
+    /// that changes in a run, from it. The scene is set up as it was, but for its grains, which are ignored;
+    /// the end time, outputs and threads may be others.
+    void restartFrom(std::filesystem::path file) { restartSource = std::move(file); }
+    [[nodiscard]] bool isRestarted() const { return !restartSource.empty(); }
+    [[nodiscard]] std::filesystem::path restartFile() const { return name + "-restart.h5"; }
+    /// Writes the state after the last step. Throws InputError if that fails.
+    void writeRestart(const std::filesystem::path& file);
+    /// Shows no progress, no warning and no summary.
+    void setQuiet(bool beQuiet = true) { quiet = beQuiet; }
+    /// Measures the time by part of the step.
+    void measureStepTimes(bool measure = true) { times.measure(measure); }
+
+    [[nodiscard]] const std::string& getName() const { return name; }
+    [[nodiscard]] double getTime() const { return static_cast<double>(steps) * timeStep; }
+    [[nodiscard]] double getTimeStep() const { return timeStep; }
+    [[nodiscard]] double getTimeMax() const { return timeMax; }
+    [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
+    [[nodiscard]] bool isQuiet() const { return quiet; }
+    /// The sentence with which the run ended before its time; empty if it did not.
+    [[nodiscard]] const std::string& stopSentence() const { return stopped; }
+    /// Whether it was asked to end, and may go on: not an error.
+    [[nodiscard]] bool wasAskedToStop() const { return askedToStop; }
+    /// Steps that had been done when this program began: 0 unless it goes on from a restart file.
+    [[nodiscard]] std::size_t getFirstStep() const { return firstStep; }
+    [[nodiscard]] const StepTimes& stepTimes() const { return times; }
+
+    /// Sets up, and steps until the maximum time. A run that cannot go on ends with a RunError; the grains
+    /// and contacts at the end of the last whole step are then in NAME-last-state.csv and
+    /// NAME-last-contacts.csv, and writeOutput() was called once more. A run that SIGINT, SIGTERM or the
+    /// limit of wall time asks to stop ends with RunStopped, its files complete and at one time.
+    void solve();
+    /// Checks the scene and computes the forces at its start, or takes them from the restart file. solve()
+    /// calls it; a driver that steps by itself does.
+    virtual void initialise() = 0;
+    void step();
+    /// What the outputs and writeOutput() write; a driver that steps by itself calls it.
+    void writeAll();
+    /// What completes the outputs; a driver that steps by itself calls it at its end.
+    void completeAll();
+
+protected:
+    /// What addOutput() was given; complete and visitState may be empty.
+    struct KeptOutput {
+        std::function<void()> write, complete;
+        std::function<void(StateArchive&)> visitState;
+    };
+    void keepOutput(KeptOutput output) { outputs.push_back(std::move(output)); }
+
+    /// Throws InputError.
+    void requireTimeStep() const;
+    void readRestart();
+    /// What a restart file holds of the run itself; its numbers, and what its outputs and the driver remember.
+    void visitSteps(StateArchive& archive);
+    void visitOutputs(StateArchive& archive);
+    StepTimes::Part enter(StepTimes::Part part) { return times.enter(part); }
+
+private:
+    /// A step of the scene. Where it throws, the scene is as it was before the step.
+    virtual void advanceByStep() = 0;
+    /// All that a restart file holds.
+    virtual void visitAll(StateArchive& archive) = 0;
+    virtual void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
+                                const std::string& remark) = 0;
+    [[nodiscard]] virtual RunNumbers numbers() const = 0;
+
+    void begin();
+    void stepToTheEnd(RunControl& control);
+    [[nodiscard]] RunStopped stop();
+    void completeOutputs();
+    void completeWhatCanBe();
+    [[nodiscard]] bool isOwnRestartFile(const std::filesystem::path& file) const;
+    [[nodiscard]] std::string withLastState(std::string sentence);
+
+    std::string name = "pendular";
+    std::vector<KeptOutput> outputs;
+    StepTimes times;
+    double timeStep, timeMax = 0;  // s
+    std::size_t saveCount = 0;
+    std::size_t steps = 0, firstStep = 0;
+    RestartSchedule restarts;
+    std::optional<std::size_t> restartFileSteps;  // in restartFile(), if it is of this run
+    std::filesystem::path restartSource;          // empty: a run from its beginning
+    std::string stopped;                          // why; empty: it is not
+    bool askedToStop = false;
+    bool quiet = false;
+};
+
+}  // namespace pendular

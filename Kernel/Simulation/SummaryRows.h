@@ -1,0 +1,50 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "Kernel/Output/CsvFile.h"
+
+namespace pendular {
+
+/// The rows of a summary: a quantity, its value and its unit.
+class SummaryRows {
+public:
+    template <class Value>
+    void add(std::string quantity, const Value& value, std::string_view unit = {}) {
+        std::string text = fmt::format("{}", value), shown = withUnit(text, unit);
+        rows.push_back({std::move(quantity), std::move(text), std::string(unit), std::move(shown)});
+    }
+    /// With fewer digits for eyes.
+    /// @param behind is shown behind the unit
+    void addNumber(std::string quantity, double value, std::string_view unit, std::string_view behind = {}) {
+        add(std::move(quantity), value, unit);
+        rows.back().shown = withUnit(fmt::format("{:.4g}", value), unit).append(behind);
+    }
+
+    /// Text with commas is quoted.
+    void write(CsvFile& file) const {
+        for (const Row& row : rows)
+            file.row(row.quantity, row.value.find(',') == row.value.npos ? row.value : '"' + row.value + '"',
+                     row.unit);
+    }
+    void print(std::FILE* to) const {
+        for (const Row& row : rows) fmt::print(to, "  {:<28} {}\n", row.quantity, row.shown);
+    }
+
+private:
+    static std::string withUnit(const std::string& value, std::string_view unit) {
+        return unit.empty() ? value : fmt::format("{} {}", value, unit);
+    }
+
+    struct Row {
+        std::string quantity, value, unit, shown;
+    };
+    std::vector<Row> rows;
+};
+
+}  // namespace pendular

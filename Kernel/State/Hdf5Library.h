@@ -1,0 +1,60 @@
+#pragma once
+
+// For the sources that call the HDF5 library, and for no others.
+
+#include <hdf5.h>
+
+#include <cstdint>
+
+#include "Kernel/State/Hdf5File.h"
+
+namespace pendular::hdf5 {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+/// An object of the library, closed at the end of the scope.
+class Object {
+public:
+    Object(hid_t identity, herr_t (*closing)(hid_t)) : id(identity), close(closing) {}
+    Object(const Object&) = delete;
+    Object& operator=(const Object&) = delete;
+    ~Object() { close(id); }
+    operator hid_t() const { return id; }
+
+private:
+    hid_t id;
+    herr_t (*close)(hid_t);
+};
+
+inline hid_t nativeType(NumberKind kind) {
+    switch (kind) {
+        case NumberKind::Float64:
+            return H5T_NATIVE_DOUBLE;
+        case NumberKind::Float32:
+            return H5T_NATIVE_FLOAT;
+        case NumberKind::UInt64:
+            return H5T_NATIVE_UINT64;
+        case NumberKind::UInt32:
+            return H5T_NATIVE_UINT32;
+        case NumberKind::Int32:
+            return H5T_NATIVE_INT32;
+        case NumberKind::UInt16:
+            return H5T_NATIVE_UINT16;
+        case NumberKind::UInt8:
+            return H5T_NATIVE_UINT8;
+    }
+    return -1;
+}
+
+/// The library prints no messages of its own, and does not try to complete files when the program ends (a
+/// full disk is not less full then).
+inline void makeQuiet() {
+    static const bool once = [] {
+        H5dont_atexit();
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+        return true;
+    }();
+    static_cast<void>(once);
+}
+
+}  // namespace pendular::hdf5

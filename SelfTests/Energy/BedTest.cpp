@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Scenes/SettlingBox.h"
+
+// Beds on a floor that shakes: grains of two sizes, six walls, thousands of touches that begin, slide and
+// end. However many steps, what the floor has given is found again, to round-off.
+
+namespace pendular {
+namespace {
+
+using Dry = Species<HertzianViscoelastic, Mindlin>;
+using Linear = Species<LinearViscoelastic, SlidingFriction>;
+using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
+
+/// 112 grains on a floor that is shaken at 50 Hz with twice the acceleration of gravity.
+template <class S>
+struct ShakenBed : scenes::SettlingBox<S> {
+    explicit ShakenBed(bool ledger = true) : scenes::SettlingBox<S>(7) {
+        const double frequency = 2 * std::numbers::pi * 50, way = 2 * 9.81 / (frequency * frequency);
+        dynamic_cast<RigidWall&>(this->wallHandler.getObject(5)).setMotion([=](double time) {
+            return Eigen::Isometry3d(Eigen::Translation3d(0, 0, way * (1 - std::cos(frequency * time))));
+        });
+        this->keepEnergyLedger(ledger);
+        this->initialise();
+    }
+};
+
+/// All numbers of an account, without their signs, J.
+double turnedOver(const EnergyLedger& ledger) {
+    double sum = 0;
+    for (const auto& entry : EnergyLedger::entries()) sum += std::abs(ledger.*entry.member);
+    return sum;
+}
+
+// Each step rounds each number of the account, and the motion of each grain, by up to 2^-53 of it; the signs
+// are at random. After N steps that is sqrt(N) 2^-53 of all that was turned over, five times of which the
+// account must never exceed.
+template <class S>
+void expectCloses(int steps) {
+    ShakenBed<S> bed;
+    const EnergyLedger& ledger = bed.energyLedger();
+    const double start = ledger.closed();
+    const auto drift = [&](int n) {
+        return std::abs(ledger.closed() - start) / (std::sqrt(n) * 0x1p-53 * turnedOver(ledger));
+    };
+    double largest = 0;
+    for (int n = 1; n <= steps; ++n) {
+        bed.step();
+        if (n % 1000 == 0) largest = std::max(largest, drift(n));
+    }
+    EXPECT_LT(largest, 5);
+    testing::Test::RecordProperty("drift over that of round-off", std::to_string(largest));
+    // Most of what the floor has given has been lost, and little in the steps. The shares are no theory: they
+    // say only that each of these is at work, and that the error of the steps is not what is lost.
+    EXPECT_GT(ledger.lost(), 0.9 * (ledger.walls + start - ledger.kinetic - ledger.potential));
+    EXPECT_LT(std::abs(ledger.stepError), 0.01 * ledger.lost());
+    for (const double lost : {ledger.normalDashpots, ledger.sliding}) EXPECT_GT(lost, 0.05 * ledger.lost());
+    if constexpr (S::Adhesion::acts) {
+        EXPECT_GT(ledger.brokenAdhesion, 0);
+    }
+}
+
+template <class S>
+class HeavyBedLedger : public testing::Test {};
+template <class S>
+class LongBedLedger : public testing::Test {};
+using Beds = testing::Types<Dry, Linear, Wet>;
+TYPED_TEST_SUITE(HeavyBedLedger, Beds);
+TYPED_TEST_SUITE(LongBedLedger, Beds);
+
+TYPED_TEST(HeavyBedLedger, closesOverAHundredThousandSteps) { expectCloses<TypeParam>(100000); }
+TYPED_TEST(LongBedLedger, closesOverAMillionSteps) { expectCloses<TypeParam>(1000000); }
+
+// The same bits for any number of threads; a ledger changes no bit of the motion.
+TEST(BedLedger, doesNotDependOnThreadsAndChangesNothing) {
+    ShakenBed<Dry> one, three, without(false);
+    three.setNumberOfThreads(3);
+    for (int k = 0; k < 2000; ++k) one.step(), three.step(), without.step();
+    EXPECT_EQ(stateHash(one.particleHandler.store()), stateHash(without.particleHandler.store()));
+    for (const auto& entry : EnergyLedger::entries())
+        EXPECT_EQ(one.energyLedger().*entry.member, three.energyLedger().*entry.member) << entry.name;
+    EXPECT_GT(one.energyLedger().sliding, 0);
+}
+
+}  // namespace
+}  // namespace pendular

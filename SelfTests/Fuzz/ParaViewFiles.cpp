@@ -1,0 +1,59 @@
+#include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Output/PolyData.h"
+#include "SelfTests/Fuzz/Target.h"
+
+namespace pendular::fuzz {
+
+namespace {
+
+std::string grains() {
+    PolyData data;
+    data.time = 0.25;
+    data.points = {{0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 2e-3}};
+    data.corners = {0, 1, 2};
+    data.ends = {1, 2, 3};
+    data.pointFields = {{"radius_m", 1, std::vector<float>{1, 2, 3}},
+                        {"force_N", 3, std::vector<double>(9, 0.5)},
+                        {"species", 1, std::vector<std::int32_t>{0, 1, 0}}};
+    return written("grains.vtp", [&](const auto& path) { writePolyData(path, data); });
+}
+
+std::string series() {
+    return written("run.pvd", [](const std::filesystem::path& path) {
+        ParaViewSeries list((path.parent_path() / "run").string(), 0);
+        for (const std::size_t step : {0, 100}) {
+            list.add("particles", 1e-3 * static_cast<double>(step), step);
+            list.add("a <\"kind\"> & more", 1e-3 * static_cast<double>(step), step);
+        }
+        list.write();
+    });
+}
+
+/// What is read has the sizes that it says.
+void readPoly(const std::filesystem::path& path) {
+    const PolyData data = readPolyData(path);
+    for (const auto& [fields, cells] :
+         {std::pair{&data.pointFields, false}, std::pair{&data.cellFields, true}})
+        for (const PolyDataField& field : *fields) {
+            if (field.size() % field.components != 0) throw std::logic_error("a field has half a value");
+            if (!cells && field.size() > 0) static_cast<void>(field.at(field.size() - 1));
+        }
+    for (const std::int32_t corner : data.corners)
+        static_cast<void>(data.points.at(static_cast<std::size_t>(corner)));
+}
+
+}  // namespace
+
+Target polyData() {
+    return {"PolyData", [] { return std::vector{grains()}; },
+            [](std::string_view bytes) { return takesFile("grains.vtp", bytes, readPoly); }};
+}
+
+Target paraViewSeries() {
+    return {"ParaViewSeries", [] { return std::vector{series()}; },
+            [](std::string_view bytes) {
+                return takesFile("run.pvd", bytes, [](const auto& path) { readParaViewSeries(path); });
+            }};
+}
+
+}  // namespace pendular::fuzz

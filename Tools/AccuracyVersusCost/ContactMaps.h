@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+
+#include "Tools/AccuracyVersusCost/AttractionMap.h"
+#include "Tools/AccuracyVersusCost/ImpactSpeedMap.h"
+#include "Tools/AccuracyVersusCost/RestitutionMap.h"
+#include "Tools/AccuracyVersusCost/SlidingOnsetMap.h"
+
+namespace pendular {
+
+struct ContactMapOptions {
+    std::filesystem::path folder = "contact-maps";
+    int offsets = 16;  // begins of the touch within a step
+};
+
+/// Where contact laws fail: a table for each question. contact-maps.gp draws them.
+inline void mapContacts(const ContactMapOptions& options) {
+    checkValue("accuracy-versus-cost", "map-offsets", options.offsets, "", {1, 1e6});
+    std::error_code problem;
+    std::filesystem::create_directories(options.folder, problem);
+    if (problem)
+        throw InputError(fmt::format("accuracy-versus-cost: cannot make the folder {}: {}.",
+                                     options.folder.string(), problem.message()));
+    mapRestitution(options.folder / "restitution.csv", options.offsets);
+    mapAttraction(options.folder / "normal-force.csv", options.folder / "attraction.csv");
+    mapSlidingOnset(options.folder / "sliding-onset.csv");
+    mapImpactSpeed(options.folder / "impact-speed.csv");
+}
+
+}  // namespace pendular

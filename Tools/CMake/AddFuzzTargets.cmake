@@ -1,0 +1,49 @@
+# One program, FuzzReaders, made of what is in SelfTests/Fuzz/ but its test, and a run of some seconds for each of
+# its targets (ctest --preset fuzz; label fuzz). What a run finds and learns stays in the folder Fuzz/TARGET.
+
+set(PENDULAR_FUZZ_SECONDS 20 CACHE STRING "How long ctest runs each fuzz target, s")
+
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    message(FATAL_ERROR "PENDULAR_FUZZ needs clang++, which has libFuzzer (package clang): take --preset fuzz.")
+endif()
+
+enable_testing()
+file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/SelfTests/Fuzz/*.cpp")
+list(FILTER sources EXCLUDE REGEX "Test\\.cpp$")
+# The kernel without the solver of bridges, which is half of the compiler's time and reads no files.
+set(readerSources ${kernelSources})
+list(FILTER readerSources EXCLUDE REGEX "/Kernel/Capillary/|/BridgeChoice|/Adhesion/LiquidBridge[^B]|/Adhesion/Shared/")
+list(APPEND readerSources "${PROJECT_SOURCE_DIR}/Kernel/Species/Adhesion/Shared/LiquidBridge.cpp")
+add_library(FuzzedKernel STATIC ${readerSources})
+set(kernel "$<TARGET_PROPERTY:PendularKernel,INTERFACE")
+target_compile_features(FuzzedKernel PUBLIC cxx_std_20)
+target_compile_options(FuzzedKernel PUBLIC "${kernel}_COMPILE_OPTIONS>")
+target_include_directories(FuzzedKernel PUBLIC "${kernel}_INCLUDE_DIRECTORIES>")
+target_link_libraries(FuzzedKernel PUBLIC Eigen3::Eigen fmt::fmt ZLIB::ZLIB $<TARGET_NAME_IF_EXISTS:OpenMP::OpenMP_CXX>
+    $<$<BOOL:${hdf5Found}>:${HDF5_LIBRARY}>)
+add_executable(FuzzReaders ${sources})
+target_link_libraries(FuzzReaders PRIVATE FuzzedKernel)
+target_link_options(FuzzReaders PRIVATE -fsanitize=fuzzer)
+add_warnings(FuzzReaders)
+
+# Per input: 5 s, 256 MiB in one piece and 2 GiB in all. max_len: no more than a few times the largest seed.
+function(pendular_add_fuzz_run target maxLength)
+    set(corpus "${PROJECT_BINARY_DIR}/Fuzz/${target}")
+    add_test(NAME Fuzz/${target}
+             COMMAND FuzzReaders --target=${target} "--seeds=${corpus}" "${corpus}" "-artifact_prefix=${corpus}-"
+                     -max_total_time=${PENDULAR_FUZZ_SECONDS} -max_len=${maxLength} -timeout=5
+                     -malloc_limit_mb=256 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 ${ARGN})
+    set_tests_properties(Fuzz/${target} PROPERTIES LABELS fuzz)
+endfunction()
+
+set(dictionaries "${PROJECT_SOURCE_DIR}/SelfTests/Fuzz")
+pendular_add_fuzz_run(GrainFile 1024)
+pendular_add_fuzz_run(TriangleRows 1024)
+pendular_add_fuzz_run(StlFile 2048 "-dict=${dictionaries}/stl.dict")
+pendular_add_fuzz_run(PolyData 8192 "-dict=${dictionaries}/paraview.dict")
+pendular_add_fuzz_run(ParaViewSeries 2048 "-dict=${dictionaries}/paraview.dict")
+if(hdf5Found)
+    pendular_add_fuzz_run(Hdf5Index 128)
+    pendular_add_fuzz_run(RestartFile 16384 "-dict=${dictionaries}/restart.dict")
+    pendular_add_fuzz_run(RestartContent 256)
+endif()

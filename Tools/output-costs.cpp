@@ -1,0 +1,149 @@
+/// Measures what a frame of a bed takes in each format of files: bytes, and time beside that of 1000 steps.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <CLI/CLI.hpp>
+
+#include "Drivers/Shared/BenchmarkScenes.h"
+#include "Kernel/Output/Hdf5Output.h"
+#include "Kernel/Output/LastState.h"
+#include "Kernel/Output/MercuryOutput.h"
+#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Simulation/Program.h"
+
+using namespace pendular;
+
+namespace {
+
+struct Options {
+    scenes::BenchmarkChoice bed;
+    std::size_t steps = 300;
+    std::string folder = "output-costs";
+    int threads = 1;
+};
+
+/// Seconds of a processor that this program has taken so far: other programs lengthen the time on the clock,
+/// but not this one.
+double processorTime() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+template <class Function>
+double processorTimeOf(Function&& function) {
+    const double before = processorTime();
+    function();
+    return processorTime() - before;
+}
+
+/// s of a processor: the least of so many calls. What else runs on the machine can only add to it.
+template <class Function>
+double leastTimeOf(std::size_t calls, Function&& function) {
+    double least = infinity;
+    for (std::size_t k = 0; k < calls; ++k) least = std::min(least, processorTimeOf(function));
+    return least;
+}
+
+constexpr std::size_t framesTimed = 15, stepsTogether = 10;
+
+using Scene = Simulation<HertzianViscoelasticMindlinSpecies>;
+
+/// Writes frames of a scene in one format after the other, into a folder for each.
+class FormatCosts {
+public:
+    /// @param stepTime s of a processor
+    FormatCosts(Scene& measured, std::filesystem::path outputFolder, double stepTime)
+        : scene(measured), folder(std::move(outputFolder)), step(stepTime) {}
+
+    /// A row of the table.
+    template <class Output>
+    void row(const std::string& format, bool withContacts, const Output& output) {
+        const auto own = folder / fmt::format("{}{}", format, withContacts ? "-contacts" : "");
+        scene.setName((own / "frame").string());
+        const double least = leastTimeOf(framesTimed, [&] {
+            Output fresh = output;
+            fresh.write(scene);
+        });
+        std::uintmax_t bytes = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(own)) bytes += entry.file_size();
+        fmt::print("Pendular,{},{},{},{},{:.4g},{:.3g}\n", format, withContacts ? "yes" : "no",
+                   scene.particleHandler.getSize(), bytes, least, 0.1 * least / step);
+    }
+
+private:
+    Scene& scene;
+    std::filesystem::path folder;
+    double step;  // s
+};
+
+/// Tables as a run leaves them that cannot go on.
+struct Tables {
+    bool withContacts;
+
+    void write(const Scene& scene) const {
+        const auto& grains = scene.particleHandler.store();
+        writeGrains(scene.getName() + "-grains.csv", grains, "grains");
+        if (withContacts)
+            writeContacts(scene.getName() + "-contacts.csv", scene.contacts(), grains, "contacts");
+    }
+};
+
+void measure(Scene& scene, const Options& options) {
+    scene.setNumberOfThreads(options.threads);
+    scene.initialise();
+    const double stepsTime = leastTimeOf((options.steps + stepsTogether - 1) / stepsTogether, [&] {
+        for (std::size_t k = 0; k < stepsTogether; ++k) scene.step();
+    });
+    FormatCosts costs(scene, options.folder, stepsTime / stepsTogether);
+    fmt::print("writer,format,contacts,grains,bytes,processor_time_s,percent_of_1000_steps\n");
+    for (const bool contacts : {false, true}) {
+        for (const bool doubles : {false, true}) {
+            const char* bits = doubles ? "64" : "32";
+            costs.row(fmt::format("vtp-{}", bits), contacts,
+                      ParaViewOutput().withContacts(contacts).withDoubles(doubles));
+            if (Hdf5File::isAvailable())
+                costs.row(fmt::format("hdf5-{}", bits), contacts,
+                          Hdf5Output().withContacts(contacts).withDoubles(doubles));
+        }
+        costs.row("mercury", contacts, MercuryOutput().withEnergies(false).withContacts(contacts));
+        costs.row("csv", contacts, Tables{contacts});
+    }
+}
+
+int run(const Options& options) {
+    checkValue("output-costs", "steps", static_cast<double>(options.steps), "", {1, 1e12});
+    checkValue("output-costs", "number of threads", options.threads, "", {1, 4096});
+    std::error_code problem;
+    if (std::filesystem::exists(options.folder, problem))
+        throw InputError(
+            fmt::format("output-costs: the folder {} exists; give the name of a new one.", options.folder));
+    scenes::withSceneOf<HertzianViscoelasticMindlinSpecies>(options.bed, options.threads,
+                                                            [&](auto& scene) { measure(scene, options); });
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Prints a row of CSV for each format of files: the bytes of a frame of a bed, and the processor time "
+        "that it takes, beside that of 1000 steps; both are the least of many.");
+    Options o;
+    o.bed.particles = 250000;
+    app.option_defaults()->always_capture_default();
+    app.add_option("--particles", o.bed.particles, "number of grains, about")->check(CLI::PositiveNumber);
+    app.add_option("--positions", o.bed.positions,
+                   "file of rows radius x y z (m): the bed of Dosta et al. (2024), repeated along x; made by "
+                   "the program if not given, which takes minutes");
+    app.add_option("--states", o.bed.states, "folder in which beds are kept that the program made");
+    app.add_option("--steps", o.steps, "steps that are timed, in tens: the fastest ten count")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--threads", o.threads, "OpenMP threads");
+    app.add_option("--output", o.folder, "new folder for the frames");
+    CLI11_PARSE(app, argc, argv);
+    return runProgram([&] { return run(o); });
+}
