@@ -3,17 +3,17 @@
 #   Tools/install-dependencies.sh           installs
 #   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
 #   With --readers also those with which self-tests read the files of a run; tests that need them are skipped else.
-#   With --fuzz also clang with libFuzzer (preset fuzz).
+#   With --clang also clang, with libFuzzer and OpenMP (presets asan-ubsan, tsan and fuzz).
 set -euo pipefail
 
-check=no readers=no fuzz=no
+check=no readers=no clang=no
 for option in "$@"; do
     case $option in
         --check) check=yes ;;
         --readers) readers=yes ;;
-        --fuzz) fuzz=yes ;;
+        --clang) clang=yes ;;
         *)
-            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--fuzz]" >&2
+            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--clang]" >&2
             exit 2
             ;;
     esac
@@ -37,11 +37,11 @@ if [[ $readers == yes ]]; then
 python3-h5py||h5py, which reads HDF5 files
 python3-vtk9||VTK, which reads the files for ParaView'
 fi
-if [[ $fuzz == yes ]]; then
+if [[ $clang == yes ]]; then
     packages+='
-clang|clang++|fuzz targets
-libclang-rt-dev||fuzz targets: libFuzzer and the sanitizers
-libomp-dev||fuzz targets: OpenMP'
+clang|clang++|sanitizers and fuzz targets
+libclang-rt-dev||libFuzzer and the sanitizers
+libomp-dev||threads'
 fi
 
 is_installed() {  # package, program

@@ -19,7 +19,10 @@ build_and_test() {  # preset
 }
 
 if [[ ${CI:-} == true ]]; then
-    Tools/install-dependencies.sh --fuzz --readers
+    if command -v ccache >/dev/null; then  # what another clone has compiled is found again, whatever its folder
+        export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
+    fi
+    Tools/install-dependencies.sh --clang --readers
     build_and_test ci
     build_and_test ci-asan-ubsan
     build_and_test fuzz
