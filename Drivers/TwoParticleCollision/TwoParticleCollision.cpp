@@ -57,7 +57,7 @@ public:
         this->setSaveCount(1);
         this->keepEnergyLedger();
         if constexpr (BridgeLaw<Adhesion>)
-            if (options.adviceTolerance > 0)
+            if (options.adviceTolerance > 0 && !options.run.quiet)
                 fmt::print("{}\n", bridgeAdvice(*this, 0.01 * options.adviceTolerance));
     }
 

@@ -99,6 +99,7 @@ TEST(TwoParticleCollisionAdvice, isALineAtSetUpWhereAskedFor) {
     EXPECT_TRUE(contains(advised.output, "the cheapest law within 5 % is LiquidBridgeYoungLaplace"));
     const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
     EXPECT_EQ(lines(advised.output), lines(silent.output) + 1);
+    EXPECT_EQ(run(collision + " --advise-within-percent 5 --quiet").output, "");
     expectOneSentence(run(collision + " --advise-within-percent -5"), "advise-within-percent = -5 %");
 }
 
