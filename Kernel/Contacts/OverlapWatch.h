@@ -51,9 +51,8 @@ public:
     [[nodiscard]] std::uint64_t countAbove() const { return above; }
 
     void visitState(StateArchive& archive) {
-        archive.value("largest", largest);
+        archive.finite("largest", largest);
         archive.value("above", above);
-        archive.requireFinite("largest", largest);
         archive.require(largest >= 0, "largest", "is negative");
         setThreshold();
     }

@@ -13,7 +13,7 @@ namespace pendular {
 class EnergyFile {
 public:
     /// @param time s, between two rows at least, where outputs are due more often
-    explicit EnergyFile(double time = 0) : table("EnergyFile", time) {}
+    explicit EnergyFile(double time = 0) : table("EnergyFile", "-energy.csv", time) {}
 
     template <class Scene>
     void prepare(Scene& scene) const {
@@ -27,33 +27,25 @@ public:
         const auto& ledger = scene.energyLedger();
         std::string row = fmt::format("{}", time);
         for (const auto& entry : ledger.entries()) row += fmt::format(",{}", ledger.*entry.member);
-        tableOf(scene).row(row);
+        table.of(scene, headerOf(ledger)).row(row);
         table.wroteAt(time);
     }
     template <class Scene>
     void complete(const Scene& scene) {
-        tableOf(scene).close();
+        table.of(scene, headerOf(scene.energyLedger())).close();
     }
 
     template <class Scene>
     void visitState(StateArchive& archive, const Scene& scene) {
-        table.visitState(archive, pathOf(scene), headerOf(scene.energyLedger()), scene.getTime());
+        table.visitState(archive, scene, headerOf(scene.energyLedger()));
     }
 
 private:
-    template <class Scene>
-    static std::filesystem::path pathOf(const Scene& scene) {
-        return scene.getName() + "-energy.csv";
-    }
     template <class Ledger>
     static std::string headerOf(const Ledger& ledger) {
         std::string columns = "time_s";
         for (const auto& entry : ledger.entries()) columns += fmt::format(",{}_J", entry.name);
         return columns;
-    }
-    template <class Scene>
-    RunTable& tableOf(const Scene& scene) {
-        return table.at(pathOf(scene), headerOf(scene.energyLedger()));
     }
 
     TimedTable table;

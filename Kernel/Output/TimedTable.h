@@ -14,30 +14,38 @@ namespace pendular {
 /// the rows of earlier times that are there.
 class TimedTable {
 public:
+    /// @param ending of the file's name, after that of the scene
     /// @param time s, between two outputs at least, where they are due more often
-    TimedTable(std::string_view owner, double time) : interval(time) {
+    TimedTable(std::string_view owner, std::string_view ending, double time)
+        : nameEnding(ending), interval(time) {
         checkValue(owner, "interval", time, "s", notNegative);
     }
 
     /// @param time s; times are products of rounded numbers
     [[nodiscard]] bool isDue(double time) const { return time >= last + interval * (1 - 1e-9); }
     void wroteAt(double time) { last = time; }
-    RunTable& at(const std::filesystem::path& path, const std::string& header) {
-        if (!table) table = std::make_unique<RunTable>(path, header);
+    template <class Scene>
+    RunTable& of(const Scene& scene, const std::string& header) {
+        if (!table) table = std::make_unique<RunTable>(pathOf(scene), header);
         return *table;
     }
     /// The table, and the time of its last rows, from which the next interval is counted.
-    /// @param time s, of the scene
-    void visitState(StateArchive& archive, const std::filesystem::path& path, const std::string& header,
-                    double time) {
-        RunTable& rows = at(path, header);
-        const std::string entry = path.filename().string() + "-last-time";
-        if (archive.isReading() && !archive.holds(entry)) return rows.goOnFrom(time);
+    template <class Scene>
+    void visitState(StateArchive& archive, const Scene& scene, const std::string& header) {
+        RunTable& rows = of(scene, header);
+        const std::string entry = pathOf(scene).filename().string() + "-last-time";
+        if (archive.isReading() && !archive.holds(entry)) return rows.goOnFrom(scene.getTime());
         archive.value(entry, last);
         rows.visitState(archive);
     }
 
 private:
+    template <class Scene>
+    [[nodiscard]] std::filesystem::path pathOf(const Scene& scene) const {
+        return scene.getName() + nameEnding;
+    }
+
+    std::string nameEnding;
     std::unique_ptr<RunTable> table;
     double interval;          // s
     double last = -INFINITY;  // s, of the last rows

@@ -6,13 +6,13 @@
 namespace pendular {
 
 /// NAME-wall-forces.csv: the forces of the grains on each wall of a scene over time, and their torques, about
-/// the origin unless the driver has given keepForces() another point. Given to Simulation::addOutput(). From
-/// then on all walls keep their forces; one that comes later, also in setupInitialConditions(), does from the
-/// first output on, in which it has no row. A scene without walls gets no file.
+/// the origin unless the driver has given keepForces() another point. Given to Simulation::addOutput(). All
+/// walls keep their forces; one that is added during the run does from the next output on, in which it has no
+/// row. A scene without walls gets no file.
 class WallForceFile {
 public:
     /// @param time s, between two outputs at least, where they are due more often
-    explicit WallForceFile(double time = 0) : table("WallForceFile", time) {}
+    explicit WallForceFile(double time = 0) : table("WallForceFile", "-wall-forces.csv", time) {}
 
     template <class Scene>
     void prepare(Scene& scene) const {
@@ -27,39 +27,28 @@ public:
             const Wall& wall = scene.wallHandler.getObject(w);
             if (!wall.keepsForces()) continue;
             const Vec3D force = wall.getForce(), torque = wall.getTorque();
-            tableOf(scene).row(time, w, force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z());
+            table.of(scene, header)
+                .row(time, w, force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z());
         }
         keepAll(scene.wallHandler);
         table.wroteAt(time);
     }
     template <class Scene>
     void complete(const Scene& scene) {
-        tableOf(scene).close();
+        table.of(scene, header).close();
     }
 
     template <class Scene>
     void visitState(StateArchive& archive, Scene& scene) {
-        keepAll(scene.wallHandler);
-        table.visitState(archive, pathOf(scene), header, scene.getTime());
+        table.visitState(archive, scene, header);
     }
 
 private:
     static void keepAll(WallHandler& walls) {
         for (std::size_t w = 0; w < walls.getSize(); ++w) {
             Wall& wall = walls.getObject(w);
-            if (wall.keepsForces()) continue;
-            const Vec3D force = wall.getForce(), torque = wall.getTorque();  // of a restart file
-            wall.keepForces(true, wall.getTorquePoint());
-            wall.setForce(toVector(force), toVector(torque));
+            if (!wall.keepsForces()) wall.keepForces(true, wall.getTorquePoint());
         }
-    }
-    template <class Scene>
-    static std::filesystem::path pathOf(const Scene& scene) {
-        return scene.getName() + "-wall-forces.csv";
-    }
-    template <class Scene>
-    RunTable& tableOf(const Scene& scene) {
-        return table.at(pathOf(scene), header);
     }
 
     static constexpr const char* header =

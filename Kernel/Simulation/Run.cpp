@@ -165,6 +165,11 @@ void Run::writeAll() {
     times.enter(before);
 }
 
+void Run::prepareOutputs() {
+    for (const KeptOutput& output : outputs)
+        if (output.prepare) output.prepare();
+}
+
 void Run::completeAll() {
     completeOutputs();
     completeOutput();

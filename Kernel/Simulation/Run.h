@@ -91,17 +91,19 @@ public:
     void completeAll();
 
 protected:
-    /// What addOutput() was given; complete and visitState may be empty.
+    /// What addOutput() was given; all but write may be empty.
     struct KeptOutput {
-        std::function<void()> write, complete;
-        std::function<void(StateArchive&)> visitState;
+        std::function<void()> write, prepare = {}, complete = {};
+        std::function<void(StateArchive&)> visitState = {};
     };
     void keepOutput(KeptOutput output) { outputs.push_back(std::move(output)); }
+    void prepareOutputs();
 
     /// Throws InputError.
     void requireTimeStep() const;
     void readRestart();
-    /// What a restart file holds of the run itself; its numbers, and what its outputs and the driver remember.
+    /// What a restart file holds of the run itself; its numbers, and what its outputs and the driver
+    /// remember.
     void visitSteps(StateArchive& archive);
     void visitOutputs(StateArchive& archive);
     StepTimes::Part enter(StepTimes::Part part) { return times.enter(part); }

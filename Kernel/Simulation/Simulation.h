@@ -27,12 +27,16 @@ public:
     WallHandler wallHandler;
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
-    /// it has a function prepare(), that is called at once; visitState(archive, *this) is what it remembers.
+    /// it has a function prepare(), that is called at once, and again when the scene is set up;
+    /// visitState(archive, *this) is what it remembers.
     template <class Output>
     void addOutput(Output output) {
-        if constexpr (requires { output.prepare(*this); }) output.prepare(*this);
         const auto kept = std::make_shared<Output>(std::move(output));
-        KeptOutput calls{.write = [this, kept] { kept->write(*this); }, .complete = {}, .visitState = {}};
+        KeptOutput calls{.write = [this, kept] { kept->write(*this); }};
+        if constexpr (requires { kept->prepare(*this); }) {
+            kept->prepare(*this);
+            calls.prepare = [this, kept] { kept->prepare(*this); };
+        }
         if constexpr (requires { kept->complete(*this); })
             calls.complete = [this, kept] { kept->complete(*this); };
         if constexpr (requires(StateArchive archive) { kept->visitState(archive, *this); })
@@ -93,6 +97,7 @@ public:
 
     void initialise() override {
         setupInitialConditions();
+        prepareOutputs();
         requireTimeStep();
         speciesHandler.mixAll();
         if (isRestarted()) return readRestart();
@@ -129,8 +134,8 @@ private:
 
     /// When species, walls and grains are known.
     void prepare() {
-        checkScene<S>(speciesHandler, particleHandler.store(), wallHandler, unstableAccepted ? 0 : getTimeStep(),
-                      integrator);
+        checkScene<S>(speciesHandler, particleHandler.store(), wallHandler,
+                      unstableAccepted ? 0 : getTimeStep(), integrator);
         checkPeriodicLengths<S>(speciesHandler, particleHandler.store(), wallHandler, periodic);
         contactSystem.prepare(speciesHandler, wallHandler, periodic, SkinChoice::byCost(smallestRadius),
                               ledgerKept);
@@ -168,15 +173,11 @@ private:
                      "the energy ledger is kept from the begin of a run to its end or not at all, so give "
                      "--energy-interval-s (or keepEnergyLedger()) as it was: above 0 where the file has 1, 0 "
                      "where it has 0");
-        archive.record<double>("gravity", gravity);
-        archive.record<double>("periodic", periodic);
-        archive.record<double>("ledger", ledger);
-        archive.value("energyAtStart", energyAtStart);
+        archive.finite("gravity", gravity);
+        archive.finite("periodic", periodic);
+        archive.finite("ledger", ledger);
+        archive.finite("energyAtStart", energyAtStart);
         archive.value("smallestRadius", smallestRadius);
-        archive.requireFinite("gravity", gravity);
-        archive.requireFinite("periodic", periodic);
-        archive.requireFinite("ledger", ledger);
-        archive.requireFinite("energyAtStart", energyAtStart);
         archive.require(smallestRadius > 0, "smallestRadius", "is not positive");
         archive.group("particles", [&] { particleHandler.visitState(archive); });
     }

@@ -78,6 +78,12 @@ public:
     void record(std::string_view name, Record& numbers) {
         transfer(name, {kindOf<Number>(), 1, sizeof(Record) / sizeof(Number)}, &numbers);
     }
+    /// Numbers that a state which is whole has finite.
+    template <RecordOf<double> Record>
+    void finite(std::string_view name, Record& numbers) {
+        record<double>(name, numbers);
+        requireFinite(name, numbers);
+    }
     template <class Number>
     requires std::is_arithmetic_v<Number>
     void value(std::string_view name, Number& number) {

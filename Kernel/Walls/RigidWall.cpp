@@ -141,20 +141,13 @@ void RigidWall::visitState(StateArchive& archive) {
     archive.require(motion || !followsFunction, "followsFunction", "is 1, and there is no function");
     archive.value("atRest", atRest);
     archive.value("hasMoved", hasMoved);
-    archive.value("lastMoved", lastMoved);
-    archive.value("motionBegan", began);
-    archive.record<double>("motionOrigin", origin);
-    archive.record<double>("steadyMotion", steady);
-    archive.record<double>("surfaceVelocity", surfaceVelocity);
-    archive.record<double>("pose", pose);
-    archive.record<double>("velocity", velocity);
-    archive.requireFinite("lastMoved", lastMoved);
-    archive.requireFinite("motionBegan", began);
-    archive.requireFinite("motionOrigin", origin);
-    archive.requireFinite("steadyMotion", steady);
-    archive.requireFinite("surfaceVelocity", surfaceVelocity);
-    archive.requireFinite("pose", pose);
-    archive.requireFinite("velocity", velocity);
+    archive.finite("lastMoved", lastMoved);
+    archive.finite("motionBegan", began);
+    archive.finite("motionOrigin", origin);
+    archive.finite("steadyMotion", steady);
+    archive.finite("surfaceVelocity", surfaceVelocity);
+    archive.finite("pose", pose);
+    archive.finite("velocity", velocity);
     now = hasMoved ? lastMoved : unset;
 }
 

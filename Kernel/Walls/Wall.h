@@ -81,8 +81,7 @@ public:
     /// What a run has changed, and what must be as it was when the run began.
     virtual void visitState(StateArchive& archive) {
         archive.same("species", species);
-        archive.record<double>("force", kept);
-        archive.requireFinite("force", kept);
+        archive.finite("force", kept);
     }
 
     int species = -1;
