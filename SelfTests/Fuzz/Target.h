@@ -27,13 +27,14 @@ Target triangleRows();
 Target stlFile();
 Target polyData();
 Target paraViewSeries();
+Target summaryTable();
 Target hdf5Index();
 Target restartFile();
 Target restartContent();
 
 inline std::vector<Target> allTargets() {
-    return {grainFile(),      triangleRows(), stlFile(),     polyData(),
-            paraViewSeries(), hdf5Index(),    restartFile(), restartContent()};
+    return {grainFile(),    triangleRows(), stlFile(),     polyData(),      paraViewSeries(),
+            summaryTable(), hdf5Index(),    restartFile(), restartContent()};
 }
 
 inline void writeBytes(const std::filesystem::path& path, std::string_view bytes) {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pendular {
+
+/// A summary that a run has written about itself (NAME-summary.csv, by RunSummary), read again.
+class SummaryFile {
+public:
+    static constexpr std::string_view ending = "-summary.csv";
+
+    struct Row {
+        std::string quantity, value, unit;
+    };
+
+    /// Throws InputError.
+    explicit SummaryFile(const std::filesystem::path& file);
+
+    [[nodiscard]] const std::vector<Row>& rows() const { return all; }
+    /// What is wrong, a line each; empty if all is well.
+    [[nodiscard]] std::vector<std::string> complaints() const;
+    /// What is not wrong, and worth knowing, behind "healthy, and"; empty if there is nothing.
+    [[nodiscard]] std::string remark() const;
+    /// "at its end"
+    [[nodiscard]] std::string state() const;
+
+private:
+    /// s, since it was written.
+    [[nodiscard]] double age() const;
+    [[nodiscard]] bool isAboveLimit() const;
+    [[nodiscard]] bool limitIsAccepted() const;
+    [[nodiscard]] bool isOnItsWay() const;
+    [[nodiscard]] double longestSilence() const;
+    [[nodiscard]] std::string value(std::string_view quantity) const;
+    [[nodiscard]] double number(std::string_view quantity) const;
+
+    std::filesystem::path path;
+    std::vector<Row> all;
+};
+
+}  // namespace pendular
