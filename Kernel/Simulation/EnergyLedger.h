@@ -59,7 +59,9 @@ struct EnergyLedger {
     double driver = 0;  // where a driver changes velocities, places or the gravity
 
     /// Work of conservative forces that is not found as stored energy: it falls with the time step, but for
-    /// springs that the integrator feeds (the README of Kernel/Motion).
+    /// springs that the integrator feeds (the README of Kernel/Motion), and for an attraction without
+    /// hysteresis (ReversibleAdhesive, DMT) that acts already at the start: its energy is counted from there,
+    /// and what it had is in this entry from when the pair first leaves its range.
     double stepError = 0;
 
     double carried = 0;  // of the potential energy, by grains that have gone round a periodic scene

@@ -93,6 +93,16 @@ private:
         mixed.forEachLaw([](auto& law) { unsetFields(law); });
         return mixed;
     }
+    /// What no user has set, neither for the pair nor for its species, and a law takes from the normal law,
+    /// it takes from that of the pair.
+    template <class Law>
+    static void deriveFromPair(Law& pair, const Law& a, const Law& b, const typename S::Normal& normal) {
+        Law derived = pair;
+        if constexpr (requires { derived.deriveUnset(normal); }) derived.deriveUnset(normal);
+        for (const auto& field : Law::fields())
+            if (!isSet(a.*field.member) && !isSet(b.*field.member))
+                pair.*field.member = derived.*field.member;
+    }
     Mixed mixtureOf(const S& a, const S& b) const {
         const auto found = own.find(std::minmax({a.getIndex(), b.getIndex()}));
         Mixed result = found == own.end()
@@ -102,6 +112,7 @@ private:
         using F = typename S::Friction;
         using A = typename S::Adhesion;
         static_cast<N&>(result) = mixLaws<N>(result, a, b);
+        if (found != own.end()) deriveFromPair<F>(result, all[indexOf(a)], all[indexOf(b)], result);
         static_cast<F&>(result) = mixLaws<F>(result, a, b);
         // What no user has set and an adhesion law takes from the normal law, it takes from that of the pair.
         static_cast<A&>(result) = mixLaws<A>(result, all[indexOf(a)], all[indexOf(b)]);

@@ -225,6 +225,22 @@ TEST(Mixing, slidingDissipationFollowsTheNormalOneWhenThatIsSetAnew) {
     EXPECT_EQ(handler.mixture(0, 0).getSlidingDissipation(), std::sqrt(2.0 / 3.0) * 0.3);
 }
 
+// Equation 4.8 with the dissipation that the pair itself has; a factor that a species has been given counts.
+TEST(Mixing, slidingDissipationOfAPairFollowsThePairsOwnNormalOne) {
+    for (const bool oneIsSet : {false, true}) {
+        SpeciesHandler<Wet> handler;
+        handler.copyAndAddObject(material(5e6, 0.35, 0.9, 0.5, 0));
+        auto* b = handler.copyAndAddObject(material(5e6, 0.35, 0.9, 0.5, 0));
+        if (oneIsSet) b->setSlidingDissipation(0.5);
+        handler.getMixedObject(0, 1)->setRestitutionCoefficient(0.1);
+        handler.mixAll();
+        const double ofSpecies = handler.mixture(0, 0).getSlidingDissipation(),
+                     ofPair = std::sqrt(2.0 / 3.0) * handler.mixture(0, 1).getDissipation();
+        EXPECT_GT(ofPair, 10 * ofSpecies);
+        EXPECT_EQ(handler.mixture(0, 1).getSlidingDissipation(), oneIsSet ? 0.5 * (ofSpecies + 0.5) : ofPair);
+    }
+}
+
 // The dashpot of the linear law has a dimension: nothing follows from it.
 TEST(Mixing, slidingDissipationOfALinearSpeciesIsTheUsersTask) {
     Species<LinearViscoelastic, Mindlin> species;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -42,8 +43,10 @@ protected:
 // The dashpots go with the overlap to a power of at least 1/4, but for the linear one: the sum over samples
 // errs with n^(-5/4) at both ends of the touch, in units of the dashpot's share of a contact of n steps. Of
 // the linear one the begin errs with 2 (L h)^2, L h = z pi/n, at most e^(-pi z / sqrt(1 - z^2)) of the speed:
-// below n^(-5/4) too. What has no rebound has none at any step.
+// below n^(-5/4) too. What has no rebound has none at any step. The README of Kernel/Species/Normal promises
+// less, as it is seen.
 TEST_F(HeavyContactMaps, restitutionConvergesToTheSetOne) {
+    const std::map<std::string, double> readme{{"10", 0.01}, {"20", 0.0025}, {"50", 0.0005}};
     int compared = 0, withoutRebound = 0;
     for (const Row& row : rows("restitution.csv")) {
         if (!isOfDefault(row)) continue;
@@ -55,6 +58,10 @@ TEST_F(HeavyContactMaps, restitutionConvergesToTheSetOne) {
             ++withoutRebound;
         } else {
             EXPECT_LT(std::abs(number(row, "restitution_error")), bound) << which;
+            const auto said = readme.find(row.at("steps_per_elastic_contact"));
+            if (said != readme.end()) {
+                EXPECT_LT(std::abs(number(row, "restitution_error")), said->second) << which;
+            }
             EXPECT_EQ(row.at("parted"), "1") << which;
             ++compared;
         }
@@ -95,16 +102,15 @@ TEST_F(HeavyContactMaps, pullBeginsWhereTheoryHasIt) {
     EXPECT_EQ(compared, 2 * 16);
 }
 
-// Without a dashpot nothing pulls, and no force is larger than the largest.
+// Without a dashpot nothing pulls.
 TEST_F(HeavyContactMaps, elasticContactsDoNotPull) {
+    int compared = 0;
     for (const Row& row : rows("attraction.csv"))
         if (row.at("dashpot_restitution") == "1") {
             EXPECT_EQ(number(row, "largest_pull_over_largest_push"), 0) << row.at("law");
+            ++compared;
         }
-    for (const Row& row : rows("normal-force.csv")) {
-        EXPECT_LE(number(row, "force_over_largest"), 1);
-        EXPECT_GT(number(row, "force_over_largest"), -0.5) << row.at("law");
-    }
+    EXPECT_GT(compared, 0);
 }
 
 // The push grows to 3/2 of that of the onset in 100 periods. Its begin leaves an oscillation of the friction
@@ -187,13 +193,16 @@ TEST_F(HeavyContactMaps, eachSpeedIsSoundOrCountedOrRefused) {
 TEST_F(HeavyContactMaps, steelYieldsAtJohnsonsSpeed) {
     const double modulus = 0.5 * 2.1e11 / (1 - 0.29 * 0.29), radius = 5e-4;
     const double mass = 0.5 * 4.0 / 3 * pi * 1e-9 * 7850;
+    int compared = 0;
     for (const Row& row : rows("impact-speed.csv"))
         if (row.at("grain") == "steel") {
+            ++compared;
             const double speed = number(row, "yield_speed_m_per_s");
             EXPECT_NEAR(
                 0.5 * mass * speed * speed * std::pow(modulus, 4) / (std::pow(radius, 3) * std::pow(1e9, 5)),
                 53, 0.6);
         }
+    EXPECT_GT(compared, 0);
 }
 
 }  // namespace

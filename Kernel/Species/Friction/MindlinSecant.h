@@ -8,7 +8,9 @@ namespace pendular {
 /// touch, and stays so long where the contact slides; the force alone is cut at Coulomb's limit. So a grain
 /// that slid and turns back is pushed on by friction until it has come back as far as the spring is long.
 /// Source: the displacement x - x_0 of the force balance model of wet particle-wall collisions, equations 17
-/// to 21 and 27, after Di Renzo and Di Maio (2004), Chem. Eng. Sci. 59, 525.
+/// to 24, after Di Renzo and Di Maio (2004), Chem. Eng. Sci. 59, 525. That model has springFactor = 1 and the
+/// dashpot of the normal direction: slidingDissipation = sqrt(k_n/k_t) times the normal one. Unset, both are
+/// those of Mindlin.
 struct MindlinSecant : MindlinSpring<MindlinSecant> {
     static constexpr std::string_view name = "MindlinSecant";
     static constexpr std::string_view summary =
