@@ -47,6 +47,7 @@ void writeFlows(const Options& options, const std::vector<Discharge>& runs, cons
 }
 
 void run(const Options& options) {
+    for (const double orifice : options.orifices) options.run.forget(dischargeName(orifice));
     const std::vector<GrainRow> grains = settledHopperGrains(options.hopper, options.run);
     std::vector<Discharge> runs;
     std::vector<CurvePoint> flows;

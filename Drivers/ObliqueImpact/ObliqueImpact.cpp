@@ -62,16 +62,14 @@ public:
             for (const auto& path : paths) kept = std::min(kept, rowsIn(path, options));
         }
         if (!options.energy) leaveNoEnergy(energy);
-        impacts.emplace(paths[0],
-                        "spring_factor,incidence_deg,normal_restitution,tangential_restitution,spin_rad/s,"
-                        "rebound_of_contact_deg",
-                        bytesOf(paths[0], kept));
+        open(impacts, paths[0],
+             "spring_factor,incidence_deg,normal_restitution,tangential_restitution,spin_rad/s,"
+             "rebound_of_contact_deg");
         if (options.energy)
-            energies.emplace(energy,
-                             "spring_factor,incidence_deg,kinetic_before_J,kinetic_after_J,elastic_left_J,"
-                             "lost_in_normal_dashpots_J,lost_in_tangential_dashpots_J,lost_in_sliding_J,"
-                             "lost_in_stiffening_J,step_error_J,balance_J",
-                             bytesOf(energy, kept));
+            open(energies, energy,
+                 "spring_factor,incidence_deg,kinetic_before_J,kinetic_after_J,elastic_left_J,"
+                 "lost_in_normal_dashpots_J,lost_in_tangential_dashpots_J,lost_in_sliding_J,"
+                 "lost_in_stiffening_J,step_error_J,balance_J");
     }
     [[nodiscard]] std::size_t rows() const { return kept; }  // of a run of before
     void close() {
@@ -82,6 +80,11 @@ public:
     std::optional<CsvFile> impacts, energies;
 
 private:
+    /// A table that has rows to be kept is gone on with; else a complete one stays until the new one is.
+    void open(std::optional<CsvFile>& table, const std::filesystem::path& path, std::string_view header) {
+        if (kept > 0) table.emplace(path, header, bytesOf(path, kept));
+        else table.emplace(path, header);
+    }
     /// The lines that have their end, of the table that is not complete if there is one: CsvFile goes on
     /// with that.
     static std::vector<std::string> linesOf(const std::filesystem::path& table) {
@@ -164,6 +167,8 @@ void impact(const Options& options, std::size_t number, Tables& tables) {
 /// A run that was asked to stop leaves tables with the impacts so far; --resume goes on with the others.
 void run(const Options& options) {
     checkValue("ObliqueImpact", "restitution", options.restitution, "", positiveUpTo(1));
+    for (const double angle : options.angles)  // the command line lets nan through
+        checkValue("ObliqueImpact", "angle of incidence", angle, "degrees", {0.001, 89.999});
     for (std::size_t k = 0; k < options.impacts(); k += options.angles.size())
         sceneOf(options, k);  // refuses what no scene takes, before a table is touched
     Tables tables(options);

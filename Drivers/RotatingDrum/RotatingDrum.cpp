@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
         .addOptions = [&](CLI::App& app) { describe(app, options); }};
     return runDriver(driver, argc, argv, [&] {
         checkRun("RotatingDrum", options.number, options.endTime, options.interval);
+        checkValue("RotatingDrum", "speed", options.speed, "rad/s", anyFinite);
         const DrumShape shape = drumFor(options.number);
         const std::vector<GrainRow> grains = firstGrains(options, shape);
         if (options.walls.empty()) run(options, grains, shape);

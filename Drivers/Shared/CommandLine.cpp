@@ -57,6 +57,7 @@ int runDriver(const DriverProgram& driver, int argc, char** argv, const std::fun
         if (!o.wallTime.empty()) setWallTimeLimit(secondsOf(o.wallTime));
         if (o.resume || !o.restart.empty()) requireRestartFiles();
         if (!o.restart.empty()) checkRestartFile(o.restart);
+        if (o.hdf5Interval > 0) Hdf5Frames::prepare();
         requireOutputFolder(driver.name, o.output);
         body();
         return 0;

@@ -171,6 +171,9 @@ struct Discharge {
     double change;                  // of the flow from the first half of the steady part to the second, of 1
 };
 
+/// Of the run through one orifice, what its files begin with.
+inline std::string dischargeName(double orifice) { return fmt::format("orifice-{:g}", orifice); }
+
 /// Lets grains out of a hopper.
 /// @param begin s, of the steady part; @param end s, of the run; @param interval s, between points
 inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grains, double orifice,
@@ -179,10 +182,12 @@ inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grain
     Discharge result{orifice, scene.bulkDensity(), {}, 0, 0};
     checkValue("HopperScene", "bulk density", result.bulkDensity, "kg/m^3", positive);
     scene.keepCurve(&result.curve);
-    options.apply(scene, fmt::format("orifice-{:g}", orifice));
+    options.apply(scene, dischargeName(orifice));
     scene.setTimeMax(end);
     scene.setSaveCount(stepsOf(interval, scene.getTimeStep()));
     scene.solve();
+    // A run that was resumed may have gone on to a later end.
+    std::erase_if(result.curve, [&](const CurvePoint& p) { return p.x > end + scene.getTimeStep(); });
 
     const auto after = [&](double time) {
         return std::find_if(result.curve.begin(), result.curve.end(),

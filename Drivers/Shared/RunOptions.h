@@ -40,6 +40,11 @@ struct RunOptions {
         const std::filesystem::path own = std::filesystem::path(output) / (run + "-restart.h5");
         return resume && std::filesystem::exists(own) ? own : std::filesystem::path();
     }
+    /// Removes the restart file of an earlier run of this name, unless the run is to go on from it.
+    void forget(const std::string& run) const {
+        if (!resume && !output.empty())
+            std::filesystem::remove(std::filesystem::path(output) / (run + "-restart.h5"));
+    }
     /// What they say of a run that makes the initial state. It keeps only a restart file of its own, from
     /// which --resume goes on, and not from one that an earlier run has left.
     template <class S>

@@ -74,6 +74,7 @@ public:
         StoredContacts<S>(contacts, species->getSize(), listedGrains, *walls, listedWalls)
             .require(archive, ledger);
         prepareLaws();
+        sumWallForces(grains);  // also those that the run of the file did not keep
     }
 
     /// Threads for the forces; the results do not depend on it.

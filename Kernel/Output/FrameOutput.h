@@ -51,12 +51,18 @@ public:
         last = scene.getTime();
     }
 
+    /// Of a run that goes on from a file that knows no frames, and that has no output any more: its end.
+    template <class Scene>
+    void complete(const Scene& scene) {
+        if (scene.isRestarted() && !isKnown && !series) write(scene);
+    }
+
     /// The time of the last frame, so that a run that goes on repeats none and leaves none out.
     template <class Scene>
     void visitState(StateArchive& archive, const Scene& scene) {
         const std::string entry = Series::indexOf(nameIn(scene)).filename().string() + "-last-time";
-        isKnown = archive.isWriting() || archive.holds(entry);
-        if (isKnown) archive.value(entry, last);
+        if (archive.isReading()) isKnown = archive.holds(entry);
+        if (isKnown || series) archive.value(entry, last);
         if (archive.isReading()) Series::check(nameIn(scene));
     }
 

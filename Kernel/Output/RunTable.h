@@ -14,7 +14,8 @@ std::uintmax_t bytesBefore(const std::filesystem::path& table, std::string_view 
 
 /// A table to which a run adds rows. It is opened with the first of them, so that a scene that is refused
 /// leaves none. A run that is restarted goes on with it, after the rows that it had when the restart file was
-/// written, without those of later times; in another folder it begins a new table.
+/// written, without those of later times; where there is none, in another folder, it begins a new table. A
+/// table of another run, or one that was changed, is refused.
 class RunTable {
 public:
     RunTable(std::filesystem::path path, std::string header)
@@ -26,8 +27,9 @@ public:
         open();
         file->row(values...);
     }
-    /// Goes on after so many bytes of a table that is there; 0: begins with the first row. What is behind them
-    /// goes with the next row, or at the end: a run that is refused until then leaves the table as it is.
+    /// Goes on after so many bytes of a table that is there; 0: begins with the first row. What is behind
+    /// them goes with the next row, or at the end: a run that is refused until then leaves the table as it
+    /// is.
     void goOnAfter(std::uintmax_t bytes) { kept = bytes; }
     /// Goes on after the rows of a table that is there whose times, in the first column, are earlier.
     /// @param time s
@@ -38,12 +40,9 @@ public:
         if (file) file->close();
     }
 
-    /// To be called in the driver's visitState().
-    void visitState(StateArchive& archive) {
-        std::uint64_t bytes = archive.isReading() ? 0 : file ? file->flush() : kept;
-        archive.value(place.filename().string() + "-bytes", bytes);
-        if (archive.isReading()) goOnAfter(bytes);
-    }
+    /// To be called in the driver's visitState(). Throws InputError where the table that is there is not the
+    /// one that the restart file knows.
+    void visitState(StateArchive& archive);
 
 private:
     void open() {

@@ -11,15 +11,25 @@
 
 namespace pendular {
 
-void cutBack(const std::filesystem::path& file, std::uintmax_t bytes) {
-    std::error_code problem;
-    if (!std::filesystem::exists(file, problem)) return;
+std::filesystem::path partOrWhole(const std::filesystem::path& file) {
+    const std::filesystem::path part = file.string() + ".part";
+    std::error_code ignored;
+    return std::filesystem::exists(part, ignored) ? part : file;
+}
+
+void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes) {
     const std::uintmax_t there = std::filesystem::file_size(file);
     if (there < bytes)
         throw InputError(
             fmt::format("The file {} has {} bytes and had {} when the restart file was written: bring it "
                         "back, or give another folder for the output.",
                         file.string(), there, bytes));
+}
+
+void cutBack(const std::filesystem::path& file, std::uintmax_t bytes) {
+    std::error_code problem;
+    if (!std::filesystem::exists(file, problem)) return;
+    requireBytes(file, bytes);
     std::filesystem::resize_file(file, bytes, problem);
     if (problem)
         throw InputError(fmt::format("The file {} cannot be cut to its length at the restart: {}.",

@@ -7,6 +7,12 @@
 
 namespace pendular {
 
+/// The file that is not complete, NAME.part, if there is one, else the complete one.
+std::filesystem::path partOrWhole(const std::filesystem::path& file);
+
+/// Throws InputError where a file has less than the bytes that a restart file knows of it.
+void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes);
+
 /// Cuts off what follows the first bytes of a file. Throws InputError where there is less; does nothing where
 /// there is no file.
 void cutBack(const std::filesystem::path& file, std::uintmax_t bytes);

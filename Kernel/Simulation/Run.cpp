@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -88,8 +89,9 @@ bool Run::isOwnRestartFile(const std::filesystem::path& file) const {
 }
 
 void Run::solve() {
-    RunControl control(restarts);
+    RunControl control;  // hears signals from here on
     initialise();
+    control.follow(restarts);
     try {
         begin();
         stepToTheEnd(control);
@@ -117,7 +119,8 @@ void Run::begin() {
 void Run::stepToTheEnd(RunControl& control) {
     std::optional<Progress> progress;
     if (!quiet) progress.emplace(timeMax, getTime(), steps);
-    const auto last = static_cast<std::size_t>(std::ceil(timeMax / timeStep * (1 - 1e-12)));
+    const double most = 1e18;  // steps, more than any run has
+    const auto last = static_cast<std::size_t>(std::min(most, std::ceil(timeMax / timeStep * (1 - 1e-12))));
     const auto isAskedToStop = [&] {
         const RunControl::Request request = control.request(steps);
         if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());

@@ -70,8 +70,14 @@ void hearRestartSignal() {
     sigaction(SIGUSR1, &action, nullptr);
 }
 
-RunControl::RunControl(const RestartSchedule& given) : restarts(given) {
-    if (wallTimeLimit == 0 && restarts.interval == 0) nextLook = std::numeric_limits<std::size_t>::max();
+void RunControl::follow(const RestartSchedule& given) {
+    restarts = given;
+    const bool needsClock = wallTimeLimit > 0 || restarts.interval > 0;
+    nextLook = needsClock ? 0 : std::numeric_limits<std::size_t>::max();
+}
+
+RunControl::RunControl(const RestartSchedule& given) {
+    follow(given);
     if (listening.runs++ > 0) return;
     const struct sigaction action = noteTaking();
     for (std::size_t k = 0; k < signals.size(); ++k) {

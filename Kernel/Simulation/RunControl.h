@@ -36,10 +36,13 @@ class RunControl {
 public:
     enum class Request { None, WriteRestart, Stop };
 
-    explicit RunControl(const RestartSchedule& given);
+    explicit RunControl(const RestartSchedule& given = {});
     ~RunControl();
     RunControl(const RunControl&) = delete;
     RunControl& operator=(const RunControl&) = delete;
+
+    /// From now on by this schedule, and by the limit of wall time as it is now.
+    void follow(const RestartSchedule& given);
 
     /// What is asked for when so many steps have been done. Costs two loads; looks at the clock, where there
     /// is a limit, some twenty times a second.

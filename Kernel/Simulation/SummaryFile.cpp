@@ -32,6 +32,9 @@ std::vector<std::string> SummaryFile::complaints() const {
     if (value("state") == "stopped by an error") found.push_back("it stopped: " + value("reason"));
     for (const char* finite : {"time", "kinetic energy", "largest speed"})
         if (!std::isfinite(number(finite))) found.push_back(fmt::format("its {} is not finite", finite));
+    for (const Row& row : all)
+        if (row.unit == "J" && row.quantity != "kinetic energy" && !std::isfinite(number(row.quantity)))
+            found.push_back(fmt::format("its {} is not finite", row.quantity));
     if (isAboveLimit() && !limitIsAccepted())
         found.push_back("its time step is above the stability limit: the results mean nothing");
     if (isOnItsWay() && age() > longestSilence())

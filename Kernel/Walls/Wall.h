@@ -81,7 +81,9 @@ public:
     /// What a run has changed, and what must be as it was when the run began.
     virtual void visitState(StateArchive& archive) {
         archive.same("species", species);
+        const Vector<double> about = kept.about;
         archive.finite("force", kept);
+        kept.about = about;  // as this scene has it; the contacts give the sums anew
     }
 
     int species = -1;

@@ -204,6 +204,15 @@ TEST(WetTower, writesTheForcesOnAWallThatIsAddedAfterTheOutput) {
     const std::string state = contentOf(folder.path() / "run-restart.h5");
     EXPECT_EQ(tower("--resume "), table);
     EXPECT_TRUE(contentOf(folder.path() / "run-restart.h5") == state);
+    // Asked for only when the run is at its end: the last row, by what the contacts remember.
+    const TestFolder late;
+    ASSERT_EQ(run(drivers + "/WetTower/WetTower " + late.option()).exitCode, 0);
+    ASSERT_EQ(
+        run(drivers + "/WetTower/WetTower --resume --wall-force-interval-s 0.05 " + late.option()).exitCode,
+        0);
+    const auto end = rowsOf(late.path() / "run-wall-forces.csv");
+    ASSERT_EQ(end.size(), 1u);
+    EXPECT_EQ(end.back(), rows.back());
 }
 
 /// Every file of two folders is the same, but for summaries, which tell the time that a run took.
@@ -290,6 +299,7 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
     expectOneSentence(run(drum + "--number 3"), "number of grains is 3");
     expectOneSentence(run(drum + "--softening 0"), "softening = 0");
     expectOneSentence(run(drum + "--softening nan"), "softening");
+    expectOneSentence(run(drum + "--speed-rad/s nan"), "speed");
     expectOneSentence(run(drum + "--end-time-s -1"), "end time = -1 s");
     expectOneSentence(run(drum + "--interval-s 0"), "interval = 0 s");
     expectOneSentence(run(drum + "--threads 0"), "number of threads = 0");

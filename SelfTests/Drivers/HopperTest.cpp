@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "Drivers/Shared/HopperScene.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -9,6 +12,7 @@ namespace {
 using support::contains;
 using support::isOneSentence;
 using support::refusal;
+using support::TestFolder;
 
 TEST(Beverloo, lineOfLeastSquaresIsThatOfTheNormalEquations) {
     // By hand: (0, 1), (1, 2), (2, 6): mean (1, 3), slope (2 + 3) / 2 = 5/2, intercept 1/2.
@@ -122,6 +126,21 @@ TEST(LongHopper, followsBeverloosLaw) {
     EXPECT_GT(law.emptyAnnulus, 1);
     EXPECT_LT(law.emptyAnnulus, 2);
     for (const CurvePoint& flow : flows) EXPECT_NEAR(flow.y / law.flow(flow.x), 1, 0.05);
+}
+
+/// Restart files of an earlier run are not those of this one's orifices, which come later.
+TEST(HopperDischarge, forgetsTheRunsOfBefore) {
+    const TestFolder folder;
+    const RunOptions anew{.output = folder.path().string(), .quiet = true};
+    RunOptions on = anew;
+    on.resume = true;
+    const std::filesystem::path state = folder.path() / (dischargeName(0.012) + "-restart.h5");
+    std::filesystem::create_directories(folder.path());
+    std::ofstream(state) << "of an earlier run";
+    on.forget(dischargeName(0.012));
+    EXPECT_TRUE(std::filesystem::exists(state));
+    anew.forget(dischargeName(0.012));
+    EXPECT_FALSE(std::filesystem::exists(state));
 }
 
 }  // namespace

@@ -137,6 +137,37 @@ TEST_F(OutputFiles, thatWereShortenedAreNotGoneOnWith) {
     EXPECT_TRUE(contains(refusal([&] { runTo(part, wholeRun, 0); }), "run.fstat has 100 bytes and had "));
 }
 
+/// A table of another run, which has more rows, or one in which a number was changed: it stays as it is.
+TEST_F(OutputFiles, ofAnotherRunAreNotGoneOnWith) {
+    runTo(part, 49, 0);
+    for (const char* table : {"table.csv", "run-energy.csv"}) {
+        const std::string content = contentOf(part / table);
+        std::string changed = content + "1,2\n";
+        changed[changed.find('\n') + 1] = '7';
+        std::ofstream(part / table) << changed;
+        const std::string reason = refusal([&] { runTo(part, wholeRun, 0); });
+        EXPECT_TRUE(isOneSentence(reason)) << reason;
+        EXPECT_TRUE(contains(reason, fmt::format("{} is not the one that the run wrote", table))) << reason;
+        EXPECT_EQ(contentOf(part / table), changed);
+        std::ofstream(part / table) << content;
+    }
+    runTo(part, wholeRun, 0);
+}
+
+/// Frames that are asked for only when the run is at its end: what it then writes is that end.
+TEST_F(OutputFiles, thatComeAtTheEndHaveItsFrame) {
+    constexpr std::size_t steps = 49;  // outputs are due every 7: none is left
+    KeptRun(part, steps).solve();
+    KeptRun again(part, steps);
+    again.addOutput(ParaViewOutput());
+    again.solve();
+    const auto entries = readParaViewSeries(part / "run.pvd");
+    ASSERT_EQ(entries.size(), 3u);  // grains, contacts, walls
+    for (const ParaViewEntry& entry : entries) EXPECT_EQ(entry.time, again.getTime());
+    KeptRun(part, steps).solve();
+    EXPECT_EQ(readParaViewSeries(part / "run.pvd").size(), 3u);
+}
+
 /// It is refused before a step is taken, and no file is another one by that.
 TEST_F(OutputFiles, ofADamagedSeriesAreNotGoneOnWith) {
     for (const char* index : {"run.pvd", "run-fields.h5"}) {

@@ -52,6 +52,13 @@ TEST(Camera, showsAllPoints) {
     }
 }
 
+/// A range of a few roundings has no round numbers: the ticks end.
+TEST(Legend, ofARangeOfARoundingHasOneNumber) {
+    for (const double value : {1e-3, -7.0, 1e300})
+        EXPECT_EQ(ticks(value, std::nextafter(std::nextafter(value, 1e308), 1e308)).size(), 1u);
+    EXPECT_EQ(ticks(0, 0).size(), 1u);
+}
+
 TEST(Legend, hasRoundNumbersInItsRange) {
     support::Random random(2);
     for (int k = 0; k < 1000; ++k) {
@@ -129,6 +136,18 @@ protected:
     TestFolder folder;
     std::filesystem::path picture = folder.path() / "picture.png", scene = folder.path() / "picture.pov";
 };
+
+/// As a run that could not go on may leave them.
+TEST(SnapshotOfALastState, leavesOutGrainsThatAreNowhere) {
+    Frame frame;
+    frame.grains.points = {{0, 0, 0}, {NAN, 0, 0}, {1, 0, 0}};
+    EXPECT_TRUE(isInside(frame.grains.points[0], {}));
+    EXPECT_FALSE(isInside(frame.grains.points[1], {}));
+    Span span;
+    for (const double value : {2.0, 4.0}) span.take(value);
+    EXPECT_EQ(span.share(NAN), 0);
+    EXPECT_EQ(span.share(3), 0.5);
+}
 
 TEST_F(Snapshot, hasASphereForEachGrainAndAColourForEachSpecies) {
     ASSERT_EQ(draw(".pvd --field species --scene-only").exitCode, 0);

@@ -106,6 +106,28 @@ TEST(BeginOfARun, keepsARestartFile) {
     EXPECT_TRUE(scene.there);
 }
 
+/// Also where the driver says so only when it sets up its scene.
+TEST(BeginOfARun, followsAScheduleThatTheSetUpGives) {
+    const TestFolder folder;
+    struct Scheduled : TooFast {
+        using TooFast::TooFast;
+        void setupInitialConditions() override {
+            TooFast::setupInitialConditions();
+            keepRestartFile();
+            setRestartCount(10);
+        }
+        void actionsAfterTimeStep() override {
+            if (getNumberOfTimeSteps() == 5) std::filesystem::remove(restartFile());
+            if (getNumberOfTimeSteps() == 15) there = std::filesystem::exists(restartFile());
+        }
+        bool there = false;
+    } scene(folder);
+    scene.setTimeMax(20e-5);
+    scene.solve();
+    ASSERT_GE(scene.getNumberOfTimeSteps(), 15u);
+    EXPECT_TRUE(scene.there);
+}
+
 /// What a run that was killed as it settled its grains leaves is its own, not the run before it.
 TEST(Preparation, leavesNoRestartFileOfAnEarlierRun) {
     const TestFolder folder;

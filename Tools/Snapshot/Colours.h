@@ -58,7 +58,8 @@ inline std::string label(std::string_view field) {
 
 /// Three to nine round numbers in [lowest, highest]: multiples of 1, 2 or 5 times a power of ten.
 inline std::vector<double> ticks(double lowest, double highest) {
-    if (!(highest > lowest)) return {lowest};
+    const double largest = std::max(std::abs(lowest), std::abs(highest));
+    if (!(highest - lowest > 1e-12 * largest)) return {lowest};  // numbers of ticks are whole below that
     const double rough = (highest - lowest) / 8, power = std::pow(10, std::floor(std::log10(rough)));
     double step = power;
     for (const double factor : {2.0, 5.0, 10.0})

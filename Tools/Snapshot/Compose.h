@@ -23,7 +23,9 @@ struct View {
     int width = 800, height = 600;  // pixels
 };
 
+/// And finite: the last state of a run may have grains that are nowhere.
 inline bool isInside(const Vector<double>& p, const std::vector<double>& box) {
+    if (!std::isfinite(p.x + p.y + p.z)) return false;
     return box.empty() || (p.x >= box[0] && p.x <= box[1] && p.y >= box[2] && p.y <= box[3] &&
                            p.z >= box[4] && p.z <= box[5]);
 }
@@ -37,6 +39,7 @@ struct Span {
         highest = std::max(highest, value);
     }
     [[nodiscard]] double share(double value) const {
+        if (std::isnan(value)) return 0;
         return highest > lowest ? (value - lowest) / (highest - lowest) : 0.5;
     }
 };
