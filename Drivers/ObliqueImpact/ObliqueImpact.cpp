@@ -172,7 +172,7 @@ void run(const Options& options) {
     for (std::size_t k = 0; k < options.impacts(); k += options.angles.size())
         sceneOf(options, k);  // refuses what no scene takes, before a table is touched
     Tables tables(options);
-    RunControl control({});
+    RunControl control;
     for (std::size_t k = tables.rows(); k < options.impacts(); ++k) {
         if (control.request(k) == RunControl::Request::Stop) {
             tables.close();

@@ -123,7 +123,7 @@ TEST(PolyDataFile, thatIsDamagedIsRefused) {
         std::string text = whole;
         const auto at = static_cast<std::size_t>(random.uniform(0, static_cast<double>(text.size())));
         if (k % 4 == 0) text.resize(at);
-        else text[at] = static_cast<char>(random.uniform(0, 256));
+        else text[at] = static_cast<char>(static_cast<int>(random.uniform(0, 256)));
         const std::string reason = refusalOf(text);
         if (reason.empty()) continue;
         ++refused;

@@ -156,7 +156,7 @@ TEST(Readers, damagedFilesNeverDoMoreThanRefuse) {
                 0, static_cast<std::size_t>(draw.uniform(0, static_cast<double>(text.size()) + 1)));
             for (int change = 0; change < 3 && !damaged.empty(); ++change)
                 damaged[static_cast<std::size_t>(draw.uniform(0, static_cast<double>(damaged.size())))] =
-                    static_cast<char>(draw.uniform(0, 256));
+                    static_cast<char>(static_cast<int>(draw.uniform(0, 256)));
             try {
                 for (const Triangle& t : read(ending, damaged))
                     for (const auto& vertex : t) EXPECT_TRUE(std::isfinite(norm(vertex)));
