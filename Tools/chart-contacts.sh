@@ -13,10 +13,10 @@ trap 'rm -rf "$work"' EXIT
 results="$tools/Results/contact-maps"
 mkdir -p "$results"
 
-"$build/Tools/accuracy-versus-cost" --contact-maps --map-offsets 4 --output "$work"
+"$build/Tools/accuracy-versus-cost" --contact-maps --map-offsets 16 --output "$work"
 for table in "$work"/*.csv; do
     {
-        "$tools/describe-machine.sh" "OMP_NUM_THREADS=1 Tools/accuracy-versus-cost --contact-maps --map-offsets 4; one thread"
+        "$tools/describe-machine.sh" "OMP_NUM_THREADS=1 Tools/accuracy-versus-cost --contact-maps --map-offsets 16; one thread"
         cat "$table"
     } > "$results/$(basename "$table")"
 done

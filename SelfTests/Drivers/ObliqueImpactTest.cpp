@@ -85,7 +85,7 @@ TEST(ObliqueImpact, refusesToGoOnWithRowsOfOtherOptions) {
     expectOneSentence(impacts(others + "0.5 --angles-deg 20 40 60"), "row 3 of");
     expectOneSentence(impacts(others + "--angles-deg 20 40"), "has 4 impacts, and these options have 2");
     expectOneSentence(impacts("--resume --angles-deg 20 40 --spring-factors 1 0.5"), "needs that option too");
-    expectOneSentence(impacts("--angles-deg 10 nan"), "angle of incidence = nan degrees");
+    expectOneSentence(impacts("--angles-deg 10 nan"), "angle of incidence is not set or not a number");
     EXPECT_EQ(contentOf(folder.path() / "impacts.csv"), before);
     EXPECT_EQ(contentOf(folder.path() / "energy.csv"), energies);
     EXPECT_EQ(impacts(others + "0.5 0.6 --angles-deg 20 40").exitCode, 0) << "two more";
