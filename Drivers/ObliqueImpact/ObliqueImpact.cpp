@@ -88,8 +88,7 @@ private:
     /// The lines that have their end, of the table that is not complete if there is one: CsvFile goes on
     /// with that.
     static std::vector<std::string> linesOf(const std::filesystem::path& table) {
-        const std::filesystem::path part = table.string() + ".part";
-        std::ifstream file(std::filesystem::exists(part) ? part : table);
+        std::ifstream file(partOrWhole(table));
         std::vector<std::string> lines;
         for (std::string line; std::getline(file, line) && !file.eof();) lines.push_back(line);
         return lines;

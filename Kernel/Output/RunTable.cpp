@@ -56,8 +56,7 @@ void RunTable::visitState(StateArchive& archive) {
     if (isThere && checksumOf(place, bytes) != checksum)
         throw InputError(
             fmt::format("The table {} is not the one that the run wrote which the restart file is of: bring "
-                        "that back, or "
-                        "give another folder for the output.",
+                        "that back, or give another folder for the output.",
                         partOrWhole(place).string()));
     goOnAfter(bytes);
 }
