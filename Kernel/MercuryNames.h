@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Species/TimeStepAdvice.h"
 

@@ -34,8 +34,7 @@ double peakMemory() {
 
 /// Says what share of 1000 steps a frame for ParaView takes: the fastest of five.
 /// @param stepTime s
-template <class S>
-void measureFrames(Simulation<S>& scene, const std::string& name, double stepTime) {
+void measureFrames(Scene& scene, const std::string& name, double stepTime) {
     scene.setName(name);
     for (const bool withContacts : {false, true}) {
         ParaViewOutput output;
@@ -52,8 +51,7 @@ void measureFrames(Simulation<S>& scene, const std::string& name, double stepTim
     }
 }
 
-template <class S>
-void measure(Simulation<S>& scene, const Options& options, double memoryBefore) {
+void measure(Scene& scene, const Options& options, double memoryBefore) {
     scene.setNumberOfThreads(options.threads);
     scene.initialise();
     for (std::size_t k = 0; k < options.warm; ++k) scene.step();
@@ -74,7 +72,7 @@ void measure(Simulation<S>& scene, const Options& options, double memoryBefore) 
             "scene,species,particles,listed_pairs,touching,threads,steps,seconds,million_particle_steps_per_"
             "second,bytes_per_particle,rebuilds,kinetic_energy_J,state_hash,peak_bytes_per_particle\n");
     fmt::print("{},{},{},{},{},{},{},{:.6g},{:.4f},{:.1f},{},{:.6e},{:016x},{:.1f}\n", options.choice.scene,
-               S::name, grains.size(), listed, touching, options.threads, options.steps, seconds,
+               scene.laws().name, grains.size(), listed, touching, options.threads, options.steps, seconds,
                count * static_cast<double>(options.steps) / seconds * 1e-6,
                static_cast<double>(grains.bytes() + scene.contacts().bytes()) / count,
                scene.contacts().rebuildCount() - rebuildsBefore, translationalEnergy(grains),
@@ -87,7 +85,7 @@ int run(const Options& options) {
     checkValue("benchmark-scenes", "steps", static_cast<double>(options.steps), "", {1, 1e12});
     const double memoryBefore = peakMemory();
     scenes::withBenchmarkScene(options.choice, options.threads,
-                               [&](auto& scene) { measure(scene, options, memoryBefore); });
+                               [&](Scene& scene) { measure(scene, options, memoryBefore); });
     return 0;
 }
 

@@ -1,6 +1,12 @@
 #include "Drivers/Shared/CommandLine.h"
 
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/RunControl.h"
+#include "Kernel/Species/Field.h"
 #include "Kernel/State/RestartFile.h"
 
 namespace pendular {

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <fmt/format.h>
-#include <CLI/CLI.hpp>
-
 #include <functional>
 #include <string>
 
 #include "Drivers/Shared/RunOptions.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pendular {
 

@@ -9,7 +9,7 @@ namespace pendular {
 
 /// Adds a grain of a species to a scene, with this velocity (m/s).
 template <class S>
-void addGrainRow(ParticleHandler<S>& particles, const S* species, const GrainRow& row,
+void addGrainRow(ParticleHandler& particles, const S* species, const GrainRow& row,
                  const Vec3D& velocity = Vec3D::Zero()) {
     SphericalParticle grain;
     grain.setSpecies(species);
@@ -20,8 +20,7 @@ void addGrainRow(ParticleHandler<S>& particles, const S* species, const GrainRow
 }
 
 /// Radii and positions of all grains of a scene, in the order of adding: the initial state of another scene.
-template <class S>
-std::vector<GrainRow> grainRows(ParticleHandler<S>& particles) {
+inline std::vector<GrainRow> grainRows(ParticleHandler& particles) {
     std::vector<GrainRow> rows;
     for (std::size_t k = 0; k < particles.getSize(); ++k) {
         const auto grain = particles.getObject(k);

@@ -6,6 +6,7 @@
 #include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/KineticEnergy.h"
 #include "Drivers/Shared/PublishedMaterials.h"
+#include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 

@@ -1,24 +1,11 @@
 #pragma once
 
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <string>
 
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/WallForceFile.h"
-#include "Kernel/Simulation/RunSummary.h"
-#include "Kernel/Simulation/Simulation.h"
-
 namespace pendular {
+
+class Scene;
 
 /// What the user of any driver can say of its run, besides the scene.
 struct RunOptions {
@@ -35,104 +22,32 @@ struct RunOptions {
     double wallForceInterval = 0;  // s; 0: no forces on walls
 
     /// The restart file from which a run of this name goes on; empty if it begins.
-    [[nodiscard]] std::filesystem::path restartSource(const std::string& run = "run") const {
-        if (!restart.empty()) return restart;
-        const std::filesystem::path own = std::filesystem::path(output) / (run + "-restart.h5");
-        return resume && std::filesystem::exists(own) ? own : std::filesystem::path();
-    }
+    [[nodiscard]] std::filesystem::path restartSource(const std::string& run = "run") const;
     /// Removes the restart file of an earlier run of this name, unless the run is to go on from it.
-    void forget(const std::string& run) const {
-        if (!resume && !output.empty())
-            std::filesystem::remove(std::filesystem::path(output) / (run + "-restart.h5"));
-    }
+    void forget(const std::string& run) const;
     /// What they say of a run that makes the initial state. It keeps only a restart file of its own, from
     /// which --resume goes on, and not from one that an earlier run has left.
-    template <class S>
-    void applyToPreparation(Simulation<S>& scene) const {
-        applyToAny(scene, "preparation");
-        if (!output.empty()) std::filesystem::remove(std::filesystem::path(output) / "run-restart.h5");
-    }
+    void applyToPreparation(Scene& scene) const;
     /// Gives a scene a name in the folder, and what these options say of its run.
-    template <class S>
-    void apply(Simulation<S>& scene, const std::string& run = "run") const {
-        applyToAny(scene, run);
-        if (output.empty()) return;
-        scene.addOutput(RunSummary());
-        if (paraViewInterval > 0) scene.addOutput(ParaViewOutput().withInterval(paraViewInterval));
-        if (hdf5Interval > 0) scene.addOutput(Hdf5Output().withInterval(hdf5Interval));
-        if (energyInterval > 0) scene.addOutput(EnergyFile(energyInterval));
-        if (wallForceInterval > 0) scene.addOutput(WallForceFile(wallForceInterval));
-    }
+    void apply(Scene& scene, const std::string& run = "run") const;
 
 private:
-    template <class S>
-    void applyToAny(Simulation<S>& scene, const std::string& run) const {
-        scene.setNumberOfThreads(threads);
-        scene.setQuiet(quiet);
-        if (output.empty()) return;
-        scene.setName((std::filesystem::path(output) / run).string());
-        if (Hdf5File::isAvailable()) scene.keepRestartFile();
-        scene.setRestartInterval(restartInterval);
-        scene.restartFrom(restartSource(run));
-    }
+    void applyToAny(Scene& scene, const std::string& run) const;
 };
 
 /// Makes the folder if there is none. Throws InputError unless files can be written into it.
-inline void requireOutputFolder(std::string_view driver, const std::filesystem::path& folder) {
-    if (folder.empty())
-        throw InputError(fmt::format(
-            "{}: the output folder is empty; it must be a name ('.' for the current one).", driver));
-    const std::filesystem::path probe = folder / fmt::format(".probe-{}", getpid());
-    std::error_code ignored;
-    std::filesystem::create_directories(folder, ignored);
-    std::FILE* file = std::fopen(probe.c_str(), "w");
-    if (!file)
-        throw InputError(fmt::format("{}: no files can be written into the output folder {}: {}.", driver,
-                                     folder.string(), std::strerror(errno)));
-    std::fclose(file);
-    std::filesystem::remove(probe, ignored);
-}
+void requireOutputFolder(std::string_view driver, const std::filesystem::path& folder);
 
 /// "11:30:00", "90:00" or "45" in s. Throws InputError.
-inline double secondsOf(const std::string& clock) {
-    int hours = 0, minutes = 0, seconds = 0, end = 0;
-    const auto reads = [&](const char* format, auto*... parts) {
-        end = 0;
-        return std::sscanf(clock.c_str(), format, parts..., &end) == sizeof...(parts) &&
-               static_cast<std::size_t>(end) == clock.size();
-    };
-    const bool hasHours = reads("%6d:%2d:%2d%n", &hours, &minutes, &seconds),
-               hasMinutes = hasHours || (hours = 0, reads("%6d:%2d%n", &minutes, &seconds)),
-               known = hasMinutes || (minutes = 0, reads("%9d%n", &seconds));
-    const double sum = 3600.0 * hours + 60.0 * minutes + seconds;
-    if (!known || hours < 0 || minutes < 0 || seconds < 0 || !(sum > 0))
-        throw InputError(
-            fmt::format("The wall time '{}' is not a time above 0 s; it must be hours:minutes:seconds, "
-                        "minutes:seconds or seconds.",
-                        clock));
-    const int largest = std::max(hasHours ? minutes : 0, hasMinutes ? seconds : 0);  // after a colon
-    if (largest > 59)
-        throw InputError(
-            fmt::format("The wall time '{}' has {} behind a colon; minutes and seconds there must "
-                        "be at most 59.",
-                        clock, largest));
-    return sum;
-}
+double secondsOf(const std::string& clock);
 
 /// Throws InputError, before a scene is made, unless a run with these options can begin.
 /// @param endTime s; @param interval s
-inline void checkRun(std::string_view driver, std::size_t number, double endTime, double interval) {
-    checkValue(driver, "number of grains", static_cast<double>(number), "", {1, 1e8});
-    checkValue(driver, "end time", endTime, "s", notNegative);
-    checkValue(driver, "interval", interval, "s", positive);
-}
+void checkRun(std::string_view driver, std::size_t number, double endTime, double interval);
 
 /// Whole steps nearest to an interval of output, at least one; 0 (no output between) where they are more than
 /// 1e15.
 /// @param interval s; @param timeStep s
-inline std::size_t stepsOf(double interval, double timeStep) {
-    const double steps = std::round(interval / timeStep);
-    return steps < 1 ? 1 : steps > 1e15 ? 0 : static_cast<std::size_t>(steps);
-}
+std::size_t stepsOf(double interval, double timeStep);
 
 }  // namespace pendular

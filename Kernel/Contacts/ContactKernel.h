@@ -25,22 +25,29 @@ struct PreparedLaws {
 /// The batched contact kernel: geometry, then the three laws, on eight contacts at a time. It reads grains,
 /// reads and writes the contacts' own memory, and writes a force record for each contact; the particle sum
 /// does the rest.
-template <class S, bool withLedger>
+template <class S>
 class ContactKernel {
 public:
     using Normal = typename S::Normal;
     using Friction = typename S::Friction;
     using Adhesion = typename S::Adhesion;
+    template <class T>
+    using History = typename Friction::template History<T>;
+    template <class T>
+    using NormalHistory = typename NormalHistoryOf<Normal>::template type<T>;
+    template <class T>
+    using Interaction = typename Adhesion::template Interaction<T>;
 
     ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactTiming contactTiming,
-                  const OverlapWatch& watch, ContactStore<S>& contactStore)
+                  const OverlapWatch& watch, ContactStore& contactStore)
         : overlaps(watch.part()),
           laws(preparedLaws),
           timeStep(step),
           implicitStep(contactTiming.implicitForces ? step : 0),
           timing(contactTiming),
           store(contactStore),
-          memory(contactStore.memory) {}
+          memory(contactStore.memory),
+          ledger(!contactStore.memory.energies.empty()) {}
 
     /// Of the contacts that this kernel has computed.
     OverlapWatch overlaps;
@@ -58,8 +65,8 @@ public:
             clear(block, state);
             return true;
         }
-        if (block == ContactStore<S>::asleep) {
-            store.slots[number] = ContactStore<S>::waking;
+        if (block == ContactStore::asleep) {
+            store.slots[number] = ContactStore::waking;
             return false;
         }
 
@@ -73,7 +80,7 @@ public:
         Pack adhesive = 0;
         Mask bridged = touching & !touching;
         if constexpr (Adhesion::acts) {
-            const auto interaction = memory.interaction.load(block);
+            const auto interaction = memory.interaction.load<Interaction>(block);
             const Pack separation = separationFor<Adhesion>(g.overlap);
             bridged = joined & (separation < interaction.range());
             adhesive = select(bridged, interaction.force(separation), Pack(0));
@@ -81,7 +88,8 @@ public:
         const LastForces last = loadLastForces(block);
         const NormalPart normal = computeNormal(block, state, g, last, touching, begins, adhesive);
         const Pack normalForce = normal.repulsion - adhesive;
-        if constexpr (withLedger) writeSamples(block, g, normal, adhesive, touching, bridged);
+        if (ledger) [[unlikely]]
+            writeSamples(block, g, normal, adhesive, touching, bridged);
         Vector<Pack> tangential = zero;
         if constexpr (Friction::acts) tangential = computeFriction(block, g, last, touching, begins, normal);
 
@@ -117,9 +125,9 @@ private:
                              const LastForces& last, Mask touching, Mask begins, Pack adhesive) {
         NormalPart part;
         part.contact = {max(g.overlap, Pack(0)), g.effectiveRadius, g.effectiveMass};
-        auto history = memory.normalHistory.load(block);
+        auto history = memory.normalHistory.load<NormalHistory>(block);
         NormalForce<Pack> force = normalForce<Normal>(laws.normal, part.contact, history);
-        memory.normalHistory.store(block, selectColumns(touching, history));
+        memory.normalHistory.store<NormalHistory>(block, selectColumns<NormalHistory>(touching, history));
         force.damping = select(touching, force.damping, Pack(0));
 
         const Pack halfStep = Pack(0.5 * implicitStep) * g.inverseMass;
@@ -169,16 +177,17 @@ private:
                               .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
                               .timeAfter = Pack(timeStep * (1 - before)),
                               .response = response};
-        auto history = memory.history.load(block);
+        auto history = memory.history.load<History>(block);
         if constexpr (requires { history.turn(FrameRotation<Pack>{}); })
             history.turn({.normal = g.normal,
                           .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
                           .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
         const SliderForce<Pack> force = sliderForce<Friction>(laws.friction, normal.contact,
                                                               max(normal.repulsion, Pack(0)), slip, history);
-        if constexpr (withLedger) writeSample(block, &ContactSample::sliding, force, touching);
+        if (ledger) [[unlikely]]
+            writeSample(block, &ContactSample::sliding, force, touching);
         if constexpr (S::hasContactTorque) computeRotation(block, g, touching, normal, slip, history);
-        memory.history.store(block, selectColumns(touching, history));
+        memory.history.store<History>(block, selectColumns<History>(touching, history));
         return select(touching, force.force, zero);
     }
 
@@ -199,7 +208,7 @@ private:
                                  .response = response};
         const auto forces =
             Friction::rotate(laws.friction, max(normal.repulsion, Pack(0)), g.normal, turning, history);
-        if constexpr (withLedger) {
+        if (ledger) [[unlikely]] {
             writeSample(block, &ContactSample::rolling, forces.rolling, touching);
             writeSample(block, &ContactSample::torsion, forces.torsion, touching);
         }
@@ -208,9 +217,13 @@ private:
         storeRecords(base, std::array<Pack, 4>{torque.x, torque.y, torque.z, Pack(0)});
     }
 
+    [[nodiscard]] double* recordsAt(std::size_t block) const {
+        if constexpr (S::hasTorque) return reinterpret_cast<double*>(&memory.records[block * Pack::lanes]);
+        else return reinterpret_cast<double*>(&memory.forces[block * Pack::lanes]);
+    }
     [[nodiscard]] LastForces loadLastForces(std::size_t block) const {
         static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
-        const auto* base = reinterpret_cast<const double*>(&memory.records[block * Pack::lanes]);
+        const double* base = recordsAt(block);
         if constexpr (S::hasTorque) {
             const auto [x, y, z, normal] = loadRecords<4>(base + 4, 8, each.data());
             return {{x, y, z}, normal};
@@ -221,7 +234,7 @@ private:
 
     void writeRecords(std::size_t block, const Vector<Pack>& direction, Pack overlap, Pack normalForce,
                       const Vector<Pack>& tangential) {
-        auto* base = reinterpret_cast<double*>(&memory.records[block * Pack::lanes]);
+        double* base = recordsAt(block);
         const Vector<Pack> along = -normalForce * direction;
         if constexpr (S::hasTorque) {
             const Vector<Pack> force = along + tangential;
@@ -234,8 +247,9 @@ private:
     }
 
     /// What the ledger reads of eight contacts, without their friction.
-    void writeSamples(std::size_t block, const ContactGeometry<Pack>& g, const NormalPart& normal,
-                      Pack adhesive, Mask touching, Mask bridged) {
+    [[gnu::noinline, gnu::cold]] void writeSamples(std::size_t block, const ContactGeometry<Pack>& g,
+                                                   const NormalPart& normal, Pack adhesive, Mask touching,
+                                                   Mask bridged) {
         const Pack dashpot = normal.repulsion - select(touching, normal.elastic, Pack(0));
         for (int k = 0; k < Pack::lanes; ++k) {
             const std::size_t at = block * Pack::lanes + static_cast<std::size_t>(k);
@@ -253,11 +267,14 @@ private:
                                           normal.contact.effectiveMass[k]};
             sample.elasticForce = normal.elastic[k];
             sample.dashpotForce = dashpot[k];
-            sample.elasticEnergy = elasticEnergy<Normal>(laws.normal, contact, memory.normalHistory.get(at));
+            NormalHistory<double> history{};
+            if constexpr (HasNormalHistory<Normal>)
+                memory.normalHistory.get(at, reinterpret_cast<double*>(&history));
+            sample.elasticEnergy = elasticEnergy<Normal>(laws.normal, contact, history);
         }
     }
-    void writeSample(std::size_t block, SliderSample ContactSample::*part, const SliderForce<Pack>& slider,
-                     Mask touching) {
+    [[gnu::noinline, gnu::cold]] void writeSample(std::size_t block, SliderSample ContactSample::*part,
+                                                  const SliderForce<Pack>& slider, Mask touching) {
         const Vector<Pack> spring = -slider.stiffness * slider.spring, rest = slider.force - spring;
         const Pack stretch2 = squaredNorm(slider.spring);
         for (int k = 0; k < Pack::lanes; ++k)
@@ -272,12 +289,13 @@ private:
     /// A block in which nothing touches or joins any more: its memory and its forces become zero, once.
     void clear(std::size_t block, BlockState& state) {
         if ((state.touching | state.bridged) == 0) return;
-        memory.history.store(block, {});
-        memory.normalHistory.store(block, {});
+        memory.history.store<History>(block, {});
+        memory.normalHistory.store<NormalHistory>(block, {});
         for (int k = 0; k < Pack::lanes; ++k) {
-            memory.records[block * Pack::lanes + k] = {};
+            if constexpr (S::hasTorque) memory.records[block * Pack::lanes + k] = {};
+            else memory.forces[block * Pack::lanes + k] = {};
             if constexpr (S::hasContactTorque) memory.torques[block * Pack::lanes + k] = {};
-            if constexpr (withLedger) memory.energies[block * Pack::lanes + k].now = {};
+            if (ledger) memory.energies[block * Pack::lanes + k].now = {};
         }
         state.touching = state.bridged = state.closing = 0;
     }
@@ -288,8 +306,9 @@ private:
     double timeStep;      // s
     double implicitStep;  // s: the time step, or 0
     ContactTiming timing;
-    ContactStore<S>& store;
-    ContactMemory<S>& memory;
+    ContactStore& store;
+    ContactMemory& memory;
+    const bool ledger;
 };
 
 }  // namespace pendular

@@ -10,7 +10,6 @@
 #include "Kernel/Contacts/RememberedContacts.h"
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Parallel.h"
-#include "Kernel/Species/SpeciesHandler.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -18,14 +17,13 @@ namespace pendular {
 /// Lists anew the contacts that can act before two bodies have approached by the skin, and takes over the
 /// memory of those that were listed before. A bridge that forms at contact only needs no search at its own
 /// length: the pairs it joins are remembered, and all others must touch first.
-template <class S>
 class ContactList {
 public:
-    using Grains = ParticleStore<S::hasTorque>;
+    using Grains = ParticleStore;
 
-    ContactList(const SpeciesHandler<S>& speciesHandler, const WallHandler& wallHandler,
-                const PeriodicBox& box, double skinWidth, bool withLedger, int threadCount)
-        : species(speciesHandler),
+    ContactList(const ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
+                double skinWidth, bool withLedger, int threadCount)
+        : laws(contactLaws),
           walls(wallHandler),
           periodic(box),
           skin(skinWidth),
@@ -33,8 +31,8 @@ public:
           threads(threadCount) {}
 
     /// Sorts the grains in space and lists their contacts.
-    void rebuild(Grains& grains, ContactStore<S>& store) {
-        const RememberedContacts<S> old(store, grains.identity);
+    void rebuild(Grains& grains, ContactStore& store) {
+        const RememberedContacts old(store, laws, grains.identity);
         for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
         grains.reorder(spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin));
         findPairs(grains, old);
@@ -45,9 +43,6 @@ public:
     }
 
 private:
-    /// Whether bodies may act on each other without having touched.
-    static constexpr bool actsApart = S::Adhesion::acts && !S::Adhesion::formsAtContact;
-
     struct Listed {
         std::uint32_t first, second;
     };
@@ -57,12 +52,12 @@ private:
     };
     using Groups = std::vector<Group>;
 
-    double rangeOf(int a, int b, const Bodies& bodies) const { return species.mixture(a, b).range(bodies); }
+    double rangeOf(int a, int b, const Bodies& bodies) const { return laws.range(a, b, bodies); }
 
     /// The largest range (m) that two grains of the scene can have; a law's range is taken to be monotonous
     /// in the radii.
     double largestRange(const Grains& grains) const {
-        std::vector<Bodies> extremes(species.getSize(), {infinity, 0});
+        std::vector<Bodies> extremes(laws.speciesCount(), {infinity, 0});
         for (std::size_t k = 0; k < grains.size(); ++k) {
             Bodies& e = extremes[grains.species[k]];
             e = {std::min(e.radius1, grains.translation[k].radius),
@@ -108,18 +103,18 @@ private:
             }
     }
 
-    void findPairs(const Grains& grains, const RememberedContacts<S>& old) {
-        const NeighbourSearch search(grains.translation, skin + (actsApart ? largestRange(grains) : 0),
+    void findPairs(const Grains& grains, const RememberedContacts& old) {
+        const NeighbourSearch search(grains.translation, skin + (laws.actsApart ? largestRange(grains) : 0),
                                      periodic);
         listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
-            for (std::size_t a = 0; a < species.getSize(); ++a)
-                for (std::size_t b = a; b < species.getSize(); ++b)
+            for (std::size_t a = 0; a < laws.speciesCount(); ++a)
+                for (std::size_t b = a; b < laws.speciesCount(); ++b)
                     own.push_back({{0, 0, static_cast<int>(a), static_cast<int>(b), -1}, {}});
             for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
                 search.forEachPartner(i, [&](std::uint32_t j) {
-                    if (!actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j);
+                    if (!laws.actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j);
                 });
-                if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
+                if (laws.formsAtContact)
                     for (const auto& entry : old.of(grains.identity[i]))
                         if (entry.wall == 0 && entry.bridged && !search.reaches(i, grains.place[entry.other]))
                             addPair(own, grains, i, grains.place[entry.other]);
@@ -131,7 +126,7 @@ private:
         const TranslationRecord& a = grains.translation[i];
         const TranslationRecord& b = grains.translation[j];
         double reach = a.radius + b.radius + skin;
-        if constexpr (actsApart) reach += rangeOf(grains.species[i], grains.species[j], {a.radius, b.radius});
+        if (laws.actsApart) reach += rangeOf(grains.species[i], grains.species[j], {a.radius, b.radius});
         return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
     }
 
@@ -140,11 +135,11 @@ private:
         const std::size_t low = std::min(grains.species[i], grains.species[j]);
         const std::size_t high = std::max(grains.species[i], grains.species[j]);
         // The groups of pairs stand first, in the order of a triangle of species.
-        const std::size_t group = low * species.getSize() - low * (low + 1) / 2 + high;
+        const std::size_t group = low * laws.speciesCount() - low * (low + 1) / 2 + high;
         all[group].contacts.push_back({std::min(i, j), std::max(i, j)});
     }
 
-    void findWallContacts(const Grains& grains, const RememberedContacts<S>& old) {
+    void findWallContacts(const Grains& grains, const RememberedContacts& old) {
         for (std::size_t w = 0; w < walls.getSize(); ++w)
             listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
                 std::vector<std::uint32_t> parts;
@@ -153,15 +148,14 @@ private:
             });
     }
 
-    void findWallContacts(const Grains& grains, [[maybe_unused]] const RememberedContacts<S>& old,
-                          std::size_t w, std::uint32_t i, Groups& all,
-                          std::vector<std::uint32_t>& parts) const {
+    void findWallContacts(const Grains& grains, const RememberedContacts& old, std::size_t w, std::uint32_t i,
+                          Groups& all, std::vector<std::uint32_t>& parts) const {
         const Wall& wall = walls.getObject(w);
         const TranslationRecord& grain = grains.translation[i];
         if (grain.inverseMass == 0) return;
         // A bridge may pass on to the next part of the wall: then all within its range are listed.
-        bool far = actsApart;
-        if constexpr (S::Adhesion::acts && S::Adhesion::formsAtContact)
+        bool far = laws.actsApart;
+        if (laws.formsAtContact)
             for (const auto& entry : old.of(grains.identity[i])) far |= entry.wall == w + 1 && entry.bridged;
         const double apart = far ? rangeOf(grains.species[i], wall.species, {grain.radius}) : 0;
         parts.clear();
@@ -201,13 +195,13 @@ private:
         const TranslationRecord& a = grains.translation[pair.first];
         const TranslationRecord& b = grains.translation[pair.second];
         double reach = a.radius + b.radius;
-        if constexpr (actsApart)
+        if (laws.actsApart)
             reach += rangeOf(grains.species[pair.first], grains.species[pair.second], {a.radius, b.radius});
         return norm(periodic.nearest(b.position - a.position)) - reach;
     }
 
     /// Turns the groups into blocks.
-    void fill(const Grains& grains, ContactStore<S>& store) {
+    void fill(const Grains& grains, ContactStore& store) {
         std::size_t blocks = 0, wallBlocks = 0;
         store.buckets.clear();
         for (Group& g : groups) {
@@ -224,7 +218,7 @@ private:
         reserveLarge(store.blocks, blocks);
         store.blocks.assign(blocks, {});
         store.states.assign(blocks, {});
-        store.slots.assign(blocks, ContactStore<S>::asleep);
+        store.slots.assign(blocks, ContactStore::asleep);
         store.gaps.assign(blocks, -infinity);  // of walls none is known: they are always looked at
         store.wallPoints.assign(wallBlocks, {});
         for (const Group& g : groups)
@@ -238,7 +232,7 @@ private:
     }
 
     /// @param b of the group
-    void fillBlock(const Group& g, std::size_t b, const Grains& grains, ContactStore<S>& store) const {
+    void fillBlock(const Group& g, std::size_t b, const Grains& grains, ContactStore& store) const {
         const std::size_t block = g.bucket.begin + b;
         const std::size_t count = std::min<std::size_t>(g.contacts.size() - b * Pack::lanes, Pack::lanes);
         for (std::size_t lane = 0; lane < count; ++lane) {
@@ -252,8 +246,8 @@ private:
     }
 
     /// Gives the contacts that were touching or joined before their memory again.
-    void recall(const RememberedContacts<S>& old, const Grains& grains, ContactStore<S>& store) const {
-        using Entry = typename RememberedContacts<S>::Entry;
+    void recall(const RememberedContacts& old, const Grains& grains, ContactStore& store) const {
+        using Entry = RememberedContacts::Entry;
         std::vector<const Entry*> entries(store.blocks.size() * Pack::lanes);
         const auto forEachRecalled = [&](const Bucket& bucket, auto&& function) {
             inParts(bucket.end - bucket.begin, threads, [&](int, std::size_t begin, std::size_t end) {
@@ -266,9 +260,8 @@ private:
             forEachRecalled(bucket,
                             [&](std::size_t c) { entries[c] = entryOf(old, bucket, c, grains, store); });
             for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
-                if (entries[c] && store.slots[c / Pack::lanes] == ContactStore<S>::asleep)
-                    wakeBlock(store, c / Pack::lanes, bucket,
-                              species.mixture(bucket.species1, bucket.species2), grains);
+                if (entries[c] && store.slots[c / Pack::lanes] == ContactStore::asleep)
+                    wakeBlock(store, c / Pack::lanes, bucket, laws, grains);
             forEachRecalled(bucket, [&](std::size_t c) {
                 if (!entries[c]) return;
                 const std::uint32_t first =
@@ -278,10 +271,9 @@ private:
         }
     }
 
-    static const typename RememberedContacts<S>::Entry* entryOf(const RememberedContacts<S>& old,
-                                                                const Bucket& bucket, std::size_t c,
-                                                                const Grains& grains,
-                                                                const ContactStore<S>& store) {
+    static const RememberedContacts::Entry* entryOf(const RememberedContacts& old, const Bucket& bucket,
+                                                    std::size_t c, const Grains& grains,
+                                                    const ContactStore& store) {
         const ContactBlock& block = store.blocks[c / Pack::lanes];
         const std::uint32_t first = grains.identity[block.first[c % Pack::lanes]];
         const std::uint32_t second = block.second[c % Pack::lanes];
@@ -290,7 +282,7 @@ private:
         return old.find(std::min(first, other), 0, std::max(first, other));
     }
 
-    const SpeciesHandler<S>& species;
+    const ContactLaws& laws;
     const WallHandler& walls;
     const PeriodicBox& periodic;
     double skin;

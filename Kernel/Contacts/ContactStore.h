@@ -1,25 +1,19 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
+#include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactSample.h"
 #include "Kernel/Contacts/ContactSides.h"
+#include "Kernel/Contacts/MemoryColumns.h"
 #include "Kernel/Math/Pack.h"
 #include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/Species/Species.h"
 #include "Kernel/Walls/Wall.h"
 
 namespace pendular {
-
-/// Eight numbers, one for each lane of a block of contacts.
-struct alignas(64) LaneColumn {
-    std::array<double, Pack::lanes> lane{};
-};
 
 /// The eight contacts of a block: places of the bodies.
 struct alignas(64) ContactBlock {
@@ -80,65 +74,6 @@ struct alignas(32) TorqueRecord {
     double unused = 0;
 };
 
-/// How many numbers a Template<T> of nothing but T holds.
-template <template <class> class Columns>
-inline constexpr std::size_t columnsOf = std::is_empty_v<Columns<double>>
-                                             ? 0
-                                             : sizeof(Columns<double>) / sizeof(double);
-
-/// The memory where the mask is set, zero elsewhere.
-template <template <class> class Memory>
-Memory<Pack> selectColumns(Mask mask, const Memory<Pack>& memory) {
-    auto packs = std::bit_cast<std::array<Pack, columnsOf<Memory>>>(memory);
-    for (Pack& pack : packs) pack = select(mask, pack, Pack(0));
-    return std::bit_cast<Memory<Pack>>(packs);
-}
-
-/// The column form of a law's memory: block b has columns[b * count] ... and lane k of each is contact k's
-/// number.
-template <template <class> class Memory>
-struct MemoryColumns {
-    static constexpr std::size_t count = columnsOf<Memory>;
-    std::vector<LaneColumn> columns;
-
-    void resize(std::size_t blocks) { columns.resize(blocks * count); }
-    void reserve(std::size_t blocks) { reserveLarge(columns, blocks * count); }
-
-    [[nodiscard]] Memory<Pack> load(std::size_t block) const {
-        if constexpr (count == 0) {
-            return {};
-        } else {
-            std::array<Pack, count> packs;
-            for (std::size_t c = 0; c < count; ++c)
-                packs[c] = Pack::load(columns[block * count + c].lane.data());
-            return std::bit_cast<Memory<Pack>>(packs);
-        }
-    }
-    void store(std::size_t block, const Memory<Pack>& memory) {
-        if constexpr (count > 0) {
-            const auto packs = std::bit_cast<std::array<Pack, count>>(memory);
-            for (std::size_t c = 0; c < count; ++c) packs[c].store(columns[block * count + c].lane.data());
-        }
-    }
-    [[nodiscard]] Memory<double> get(std::size_t contact) const {
-        if constexpr (count == 0) {
-            return {};
-        } else {
-            std::array<double, count> numbers;
-            for (std::size_t c = 0; c < count; ++c)
-                numbers[c] = columns[contact / Pack::lanes * count + c].lane[contact % Pack::lanes];
-            return std::bit_cast<Memory<double>>(numbers);
-        }
-    }
-    void set(std::size_t contact, const Memory<double>& memory) {
-        if constexpr (count > 0) {
-            const auto numbers = std::bit_cast<std::array<double, count>>(memory);
-            for (std::size_t c = 0; c < count; ++c)
-                columns[contact / Pack::lanes * count + c].lane[contact % Pack::lanes] = numbers[c];
-        }
-    }
-};
-
 /// Blocks [begin, end) whose contacts all join the same two species, or a species and one wall.
 struct Bucket {
     std::uint32_t begin = 0;
@@ -150,24 +85,24 @@ struct Bucket {
 
 /// What contacts remember, and the forces that the kernel writes for them, in blocks of eight. Block 0 is
 /// that of all contacts that have no memory: it stays zero.
-template <class S>
 class ContactMemory {
 public:
-    template <class T>
-    using History = typename S::Friction::template History<T>;
-    template <class T>
-    using NormalHistory = typename NormalHistoryOf<typename S::Normal>::template type<T>;
-    template <class T>
-    using Interaction = typename S::Adhesion::template Interaction<T>;
-    using Record = std::conditional_t<S::hasTorque, ForceTorqueRecord, ForceRecord>;
+    MemoryColumns history;  // of the friction law
+    MemoryColumns normalHistory;
+    MemoryColumns interaction;
+    std::vector<ForceTorqueRecord> records;  // of laws with friction
+    std::vector<ForceRecord> forces;         // of laws without
+    std::vector<TorqueRecord> torques;       // empty unless the friction law has a torque of its own
+    std::vector<EnergyRecord> energies;      // empty unless a ledger is kept
+    std::vector<std::uint32_t> blockOf;      // the block of contacts that has this block of memory
 
-    MemoryColumns<History> history;  // of the friction law
-    MemoryColumns<NormalHistory> normalHistory;
-    MemoryColumns<Interaction> interaction;
-    std::vector<Record> records;
-    std::vector<TorqueRecord> torques;   // empty unless the friction law has a torque of its own
-    std::vector<EnergyRecord> energies;  // empty unless a ledger is kept
-    std::vector<std::uint32_t> blockOf;  // the block of contacts that has this block of memory
+    void setLayout(const ContactLayout& of) {
+        layout = of;
+        history.count = of.history;
+        normalHistory.count = of.normalHistory;
+        interaction.count = of.interaction;
+    }
+    [[nodiscard]] const ContactLayout& getLayout() const { return layout; }
 
     /// Forgets everything, and makes room for so many blocks and a few more.
     void clear(bool withLedger, std::size_t blocks) {
@@ -182,51 +117,45 @@ public:
         history.reserve(blocks);
         normalHistory.reserve(blocks);
         interaction.reserve(blocks);
-        reserveLarge(records, blocks * Pack::lanes);
-        if constexpr (S::hasContactTorque) reserveLarge(torques, blocks * Pack::lanes);
+        if (layout.hasTorque) reserveLarge(records, blocks * Pack::lanes);
+        else reserveLarge(forces, blocks * Pack::lanes);
+        if (layout.hasContactTorque) reserveLarge(torques, blocks * Pack::lanes);
         blockOf.reserve(blocks);
         if (!energies.empty()) energies.reserve(blocks * Pack::lanes);
     }
     /// Adds a block of zeros for this block of contacts; returns its number.
     std::uint32_t add(std::size_t block) {
-        const std::size_t count = records.size() / Pack::lanes;
+        const std::size_t count = blockOf.size();
         // A vector's own growth would take up to twice the memory.
-        if (records.size() == records.capacity()) reserve(count + count / 8 + 64);
+        if (count == blockOf.capacity()) reserve(count + count / 8 + 64);
         resize(count + 1);
         blockOf.back() = static_cast<std::uint32_t>(block);
         return static_cast<std::uint32_t>(count);
     }
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(history.columns, normalHistory.columns, interaction.columns, records, torques,
+        return bytesOf(history.columns, normalHistory.columns, interaction.columns, records, forces, torques,
                        energies, blockOf);
     }
 
-    void visitState(StateArchive& archive) {
-        auto& [h, n, i, r, t, e, b] = *this;  // a member that is added has to be added here
-        archive.column<double>("history", h.columns);
-        archive.column<double>("normalHistory", n.columns);
-        archive.column<double>("interaction", i.columns);
-        archive.column<double>("records", r);
-        archive.column<double>("torques", t);
-        archive.column<double>("energies", e);
-        archive.column<std::uint32_t>("blockOf", b);
-    }
+    void visitState(StateArchive& archive);
 
 private:
     void resize(std::size_t blocks) {
         history.resize(blocks);
         normalHistory.resize(blocks);
         interaction.resize(blocks);
-        records.resize(blocks * Pack::lanes);
-        if constexpr (S::hasContactTorque) torques.resize(blocks * Pack::lanes);
+        if (layout.hasTorque) records.resize(blocks * Pack::lanes);
+        else forces.resize(blocks * Pack::lanes);
+        if (layout.hasContactTorque) torques.resize(blocks * Pack::lanes);
         blockOf.resize(blocks);
         if (!energies.empty()) energies.resize(blocks * Pack::lanes);
     }
+
+    ContactLayout layout;
 };
 
 /// All listed contacts of a scene, in blocks of eight. Only blocks in which something has touched since they
 /// were listed have memory.
-template <class S>
 class ContactStore {
 public:
     static constexpr std::uint32_t asleep = 0;                  // no memory: nothing acts in this block
@@ -236,7 +165,7 @@ public:
     std::vector<ContactBlock> blocks;
     std::vector<BlockState> states;
     std::vector<std::uint32_t> slots;  // of each block: its block of memory
-    ContactMemory<S> memory;
+    ContactMemory memory;
     std::vector<WallPointColumns> wallPoints;  // of the wall blocks, which come last
 
     ContactSides sides;
@@ -261,8 +190,16 @@ public:
     [[nodiscard]] std::uint32_t contactAt(std::uint32_t slot) const {
         return memory.blockOf[slot / Pack::lanes] * Pack::lanes + slot % Pack::lanes;
     }
-    [[nodiscard]] const typename ContactMemory<S>::Record& recordOf(std::size_t contact) const {
-        return memory.records[slotOf(contact)];
+    /// N, on body 1.
+    [[nodiscard]] const Vector<double>& forceOf(std::size_t contact) const {
+        const std::size_t slot = slotOf(contact);
+        return memory.getLayout().hasTorque ? memory.records[slot].force : memory.forces[slot].force;
+    }
+    /// N, repulsion positive.
+    [[nodiscard]] double normalForceOf(std::size_t contact) const {
+        const std::size_t slot = slotOf(contact);
+        return memory.getLayout().hasTorque ? memory.records[slot].normalForce
+                                            : memory.forces[slot].normalForce;
     }
     [[nodiscard]] std::size_t firstWallBlock() const { return blocks.size() - wallPoints.size(); }
 
@@ -275,43 +212,22 @@ public:
     }
 
     /// The sides of all listed contacts of so many grains.
-    void listSides(std::size_t grainCount, ContactSides& all) const {
-        const auto forEachSide = [&](auto&& function) {
-            forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-                function(blocks[c / Pack::lanes].first[c % Pack::lanes], c, 0u);
-                if (bucket.wall < 0) function(blocks[c / Pack::lanes].second[c % Pack::lanes], c, 1u);
-            });
-        };
-        all.list(grainCount, forEachSide, [&](std::uint32_t c) { return slotOf(c); });
-    }
+    void listSides(std::size_t grainCount, ContactSides& all) const;
 
-    void visitState(StateArchive& archive) {
-        auto& [list, pairs, bits, memoryOf, m, points, sidesOf, g] = *this;  // a member that is added as well
-        archive.column<std::int32_t>("buckets", list);
-        archive.column<std::uint32_t>("blocks", pairs);
-        archive.column<std::uint8_t>("states", bits);
-        archive.column<std::uint32_t>("slots", memoryOf);
-        archive.column<double>("wallPoints", points);
-        archive.column<double>("gaps", g);
-        archive.group("memory", [&, &part = m] { part.visitState(archive); });
-        archive.group("sides", [&, &part = sidesOf] { part.visitState(archive); });
-    }
+    void visitState(StateArchive& archive);
 
+    /// Bytes that one contact with memory takes, without the ledger.
+    static constexpr std::size_t bytesPerContact(const ContactLayout& layout) {
+        return (sizeof(ContactBlock) + sizeof(BlockState) + sizeof(std::uint32_t) + sizeof(double)) /
+                   Pack::lanes +
+               (layout.hasTorque ? sizeof(ForceTorqueRecord) : sizeof(ForceRecord)) +
+               2 * sizeof(std::uint32_t) + (layout.hasContactTorque ? sizeof(TorqueRecord) : 0) +
+               sizeof(double) * (layout.history + layout.normalHistory + layout.interaction);
+    }
     /// Bytes of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const {
         return bytesOf(buckets, blocks, states, slots, wallPoints, gaps) + memory.bytes() + sides.bytes();
     }
-    /// Bytes that one contact with memory takes, without the ledger.
-    static constexpr std::size_t bytesPerContact() {
-        return (sizeof(ContactBlock) + sizeof(BlockState) + sizeof(std::uint32_t) + sizeof(double)) /
-                   Pack::lanes +
-               sizeof(typename ContactMemory<S>::Record) + 2 * sizeof(std::uint32_t) +
-               (S::hasContactTorque ? sizeof(TorqueRecord) : 0) +
-               sizeof(double) * (columnsOf<ContactMemory<S>::template History> +
-                                 columnsOf<ContactMemory<S>::template NormalHistory> +
-                                 columnsOf<ContactMemory<S>::template Interaction>);
-    }
-
     /// The bit of a contact's lane.
     static bool bitOf(unsigned bits, std::size_t contact) {
         return (bits >> (contact % Pack::lanes) & 1u) != 0;

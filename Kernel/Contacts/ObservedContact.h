@@ -23,10 +23,9 @@ struct ObservedContact {
 };
 
 /// @param wall of the bucket; null between grains
-template <class S>
-ObservedContact observeContact(const ContactStore<S>& contacts, const ParticleStore<S::hasTorque>& grains,
-                               const PeriodicBox& periodic, const Bucket& bucket, const Wall* wall,
-                               std::uint32_t contact) {
+inline ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& laws,
+                                      const ParticleStore& grains, const PeriodicBox& periodic,
+                                      const Bucket& bucket, const Wall* wall, std::uint32_t contact) {
     const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
     const BlockState& state = contacts.states[contact / Pack::lanes];
     const std::size_t lane = contact % Pack::lanes;
@@ -35,11 +34,11 @@ ObservedContact observeContact(const ContactStore<S>& contacts, const ParticleSt
                          ObservedContact::none,
                          bucket.wall,
                          0,
-                         contacts.recordOf(contact).normalForce,
+                         contacts.normalForceOf(contact),
                          0,
                          (state.bridged >> lane & 1) != 0,
                          {},
-                         contacts.recordOf(contact).force};
+                         contacts.forceOf(contact)};
     if (bucket.wall < 0) {
         const TranslationRecord& second = grains.translation[block.second[lane]];
         seen.particle2 = grains.identity[block.second[lane]];
@@ -52,10 +51,11 @@ ObservedContact observeContact(const ContactStore<S>& contacts, const ParticleSt
         seen.separation = point.distance - first.radius;
         seen.shift = point.distance * point.normal;
     }
-    if constexpr (S::Adhesion::acts)
-        if (seen.bridged)
-            seen.adhesiveForce = contacts.memory.interaction.get(contacts.slotOf(contact))
-                                     .force(separationFor<typename S::Adhesion>(-seen.separation));
+    if (seen.bridged) {
+        ContactNumbers interaction;
+        contacts.memory.interaction.get(contacts.slotOf(contact), interaction.data());
+        seen.adhesiveForce = laws.adhesiveForce(interaction.data(), seen.separation);
+    }
     seen.normalForce += seen.adhesiveForce;
     return seen;
 }

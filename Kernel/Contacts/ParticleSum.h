@@ -20,10 +20,10 @@ struct ForceAndTorque<false> {
 /// add zeros, which is cheaper than to ask. A record with torque is one Pack, weighted by the side's sign for
 /// the force and by the grain's lever arm for the torque.
 /// @param radius of the grain, m
-template <class S>
-ForceAndTorque<S::hasTorque> sumContacts(const ContactStore<S>& store, std::size_t grain, double radius) {
+template <bool hasTorque, bool hasContactTorque>
+ForceAndTorque<hasTorque> sumContacts(const ContactStore& store, std::size_t grain, double radius) {
     static constexpr std::array<double, 2> signs{1, -1};  // on body 1, on body 2
-    if constexpr (S::hasTorque) {
+    if constexpr (hasTorque) {
         const Mask torquePart = maskFromBits(0b01110000);
         Pack sum = 0;
         for (const std::uint32_t side : store.sides.of(grain)) {
@@ -33,14 +33,14 @@ ForceAndTorque<S::hasTorque> sumContacts(const ContactStore<S>& store, std::size
         }
         const auto lanes = sum.toLanes();
         ForceAndTorque<true> result{{lanes[0], lanes[1], lanes[2]}, {lanes[4], lanes[5], lanes[6]}};
-        if constexpr (S::hasContactTorque)
+        if constexpr (hasContactTorque)
             for (const std::uint32_t side : store.sides.of(grain))
                 result.torque += signs[side & 1] * store.memory.torques[side / 2].torque;
         return result;
     } else {
         ForceAndTorque<false> sum;
         for (const std::uint32_t side : store.sides.of(grain))
-            sum.force += signs[side & 1] * store.memory.records[side / 2].force;
+            sum.force += signs[side & 1] * store.memory.forces[side / 2].force;
         return sum;
     }
 }

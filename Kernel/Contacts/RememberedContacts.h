@@ -2,78 +2,56 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/ContactStore.h"
 
 namespace pendular {
 
-/// The forces of the last step, as far as the kernel reads them in the next.
-template <bool hasTorque>
-struct LastForces {
-    double normalForce = 0;
-
-    explicit LastForces(const ForceRecord& record) : normalForce(record.normalForce) {}
-    LastForces() = default;
-    void putInto(ForceRecord& record) const { record = {.force = {}, .normalForce = normalForce}; }
-};
-template <>
-struct LastForces<true> {
-    Vector<double> leverless{};
-    double normalForce = 0;
-
-    explicit LastForces(const ForceTorqueRecord& record)
-        : leverless(record.leverless), normalForce(record.normalForce) {}
-    LastForces() = default;
-    void putInto(ForceTorqueRecord& record) const {
-        record = {.force = {}, .halfOverlap = 0, .leverless = leverless, .normalForce = normalForce};
-    }
-};
-
 /// The contacts of the last list that touched or were bridged, found again by who they join.
-template <class S>
 class RememberedContacts {
 public:
-    using Memory = ContactMemory<S>;
-
     /// One contact, filed under the grain with the smaller identity, or under the grain at a wall.
     struct Entry {
-        std::uint32_t owner;  // identity
-        std::uint32_t wall;   // number of the wall + 1; 0: none
-        std::uint32_t other;  // identity of the other grain, or part of the wall
+        std::uint32_t owner;   // identity
+        std::uint32_t wall;    // number of the wall + 1; 0: none
+        std::uint32_t other;   // identity of the other grain, or part of the wall
+        std::uint32_t number;  // among what was kept
         bool touching, bridged, closing;
         bool exchanged;  // the owner was body 2
-        LastForces<S::hasTorque> forces;
-        typename Memory::template History<double> history;
-        typename Memory::template NormalHistory<double> normalHistory;
-        typename Memory::template Interaction<double> interaction;
-        std::conditional_t<S::hasContactTorque, TorqueRecord, NoHistory<double>> torque;
     };
 
     /// @param identity of the grain at each place, as the store's contacts have it
-    RememberedContacts(const ContactStore<S>& store, const std::vector<std::uint32_t>& identity)
-        : begins(identity.size() + 1, 0) {
+    RememberedContacts(const ContactStore& store, const ContactLaws& contactLaws,
+                       const std::vector<std::uint32_t>& identity)
+        : laws(contactLaws), begins(identity.size() + 1, 0) {
+        const ContactLayout& layout = laws.layout;
+        width = layout.history + layout.normalHistory + layout.interaction + 4 +
+                (layout.hasContactTorque ? 3 : 0);
+        std::uint32_t count = 0;
         const auto forEachActing = [&](auto&& function) {
+            count = 0;
             store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-                if (store.acts(c)) function(entryOf(store, bucket, c, identity), c);
+                if (!store.acts(c)) return;
+                function(entryOf(store, bucket, c, count, identity), c);
+                ++count;
             });
         };
         forEachActing([&](const Entry& entry, std::uint32_t) { ++begins[entry.owner + 1]; });
         for (std::size_t k = 0; k < identity.size(); ++k) begins[k + 1] += begins[k];
         std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
         entries.resize(begins.back());
-        forEachActing([&](const Entry& entry, std::uint32_t) { entries[next[entry.owner]++] = entry; });
+        numbers.resize(begins.back() * width);
+        const bool withLedger = !store.memory.energies.empty();
+        if (withLedger) energies.resize(entries.size());
+        forEachActing([&](const Entry& entry, std::uint32_t c) {
+            entries[next[entry.owner]++] = entry;
+            keep(store, store.slotOf(c), &numbers[entry.number * width]);
+            if (withLedger) energies[entry.number] = store.memory.energies[store.slotOf(c)];
+        });
         for (std::size_t k = 0; k < identity.size(); ++k)
             std::sort(entries.begin() + begins[k], entries.begin() + begins[k + 1], isBefore);
-        if (store.memory.energies.empty()) return;
-        energies.resize(entries.size());
-        forEachActing([&](const Entry& entry, std::uint32_t c) {
-            energies[numberOf(*find(entry.owner, entry.wall, entry.other))] =
-                store.memory.energies[store.slotOf(c)];
-        });
     }
 
     [[nodiscard]] std::span<const Entry> of(std::uint32_t owner) const {
@@ -90,23 +68,36 @@ public:
 
     /// Gives all that the contact remembered to a contact of a new store, whose block has memory.
     /// @param exchanged the new body 1 is not the entry's owner
-    void recall(const Entry& entry, bool exchanged, ContactStore<S>& store, std::size_t to) const {
+    void recall(const Entry& entry, bool exchanged, ContactStore& store, std::size_t to) const {
+        const ContactLayout& layout = laws.layout;
+        ContactMemory& memory = store.memory;
         const std::size_t slot = store.slotOf(to);
-        auto history = entry.history;
-        if constexpr (requires { history.exchangeBodies(); })
-            if (exchanged != entry.exchanged) history.exchangeBodies();
-        store.memory.history.set(slot, history);
-        store.memory.normalHistory.set(slot, entry.normalHistory);
-        if constexpr (S::hasContactTorque) {
-            const double sign = exchanged != entry.exchanged ? -1 : 1;
-            store.memory.torques[slot].torque = sign * entry.torque.torque;
+        const double* from = &numbers[entry.number * width];
+        memory.history.set(slot, from);
+        if (exchanged != entry.exchanged) {
+            ContactNumbers history;
+            std::copy_n(from, layout.history, history.begin());
+            laws.exchangeBodies(history.data());
+            memory.history.set(slot, history.data());
         }
-        store.memory.interaction.set(slot, entry.interaction);
+        from += layout.history;
+        memory.normalHistory.set(slot, from);
+        from += layout.normalHistory;
+        memory.interaction.set(slot, from);
+        from += layout.interaction;
+        const Vector<double> leverless{from[0], from[1], from[2]};  // n x F is the same seen from either body
+        if (layout.hasTorque)
+            memory.records[slot] = {
+                .force = {}, .halfOverlap = 0, .leverless = leverless, .normalForce = from[3]};
+        else memory.forces[slot] = {.force = {}, .normalForce = from[3]};
+        if (layout.hasContactTorque) {
+            const double sign = exchanged != entry.exchanged ? -1 : 1;
+            memory.torques[slot].torque = sign * Vector<double>{from[4], from[5], from[6]};
+        }
         if (!energies.empty()) {
-            EnergyRecord& record = store.memory.energies[slot] = energies[numberOf(entry)];
+            EnergyRecord& record = memory.energies[slot] = energies[entry.number];
             if (exchanged != entry.exchanged) record.exchangeBodies();
         }
-        entry.forces.putInto(store.memory.records[slot]);  // n x F is the same seen from either body
         BlockState& state = store.states[to / Pack::lanes];
         const auto setBit = [&](std::uint8_t& bits, bool value) {
             bits = static_cast<std::uint8_t>(bits | unsigned{value} << (to % Pack::lanes));
@@ -117,31 +108,23 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t numberOf(const Entry& entry) const {
-        return static_cast<std::size_t>(&entry - entries.data());
-    }
     static bool isBefore(const Entry& a, const Entry& b) {
         return a.wall != b.wall ? a.wall < b.wall : a.other < b.other;
     }
-    static Entry entryOf(const ContactStore<S>& store, const Bucket& bucket, std::uint32_t c,
-                         const std::vector<std::uint32_t>& identity) {
+    static Entry entryOf(const ContactStore& store, const Bucket& bucket, std::uint32_t c,
+                         std::uint32_t number, const std::vector<std::uint32_t>& identity) {
         const BlockState& state = store.states[c / Pack::lanes];
         const ContactBlock& block = store.blocks[c / Pack::lanes];
-        const std::size_t lane = c % Pack::lanes, slot = store.slotOf(c);
+        const std::size_t lane = c % Pack::lanes;
         const std::uint32_t first = identity[block.first[lane]];
         Entry entry{.owner = first,
                     .wall = static_cast<std::uint32_t>(bucket.wall + 1),
                     .other = block.second[lane],
+                    .number = number,
                     .touching = store.bitOf(state.touching, c),
                     .bridged = store.bitOf(state.bridged, c),
                     .closing = store.bitOf(state.closing, c),
-                    .exchanged = false,
-                    .forces = LastForces<S::hasTorque>(store.memory.records[slot]),
-                    .history = store.memory.history.get(slot),
-                    .normalHistory = store.memory.normalHistory.get(slot),
-                    .interaction = store.memory.interaction.get(slot),
-                    .torque = {}};
-        if constexpr (S::hasContactTorque) entry.torque = store.memory.torques[slot];
+                    .exchanged = false};
         if (bucket.wall < 0) {
             const std::uint32_t second = identity[block.second[lane]];
             entry.owner = std::min(first, second);
@@ -150,10 +133,27 @@ private:
         }
         return entry;
     }
+    void keep(const ContactStore& store, std::size_t slot, double* to) const {
+        const ContactLayout& layout = laws.layout;
+        const ContactMemory& memory = store.memory;
+        memory.history.get(slot, to), to += layout.history;
+        memory.normalHistory.get(slot, to), to += layout.normalHistory;
+        memory.interaction.get(slot, to), to += layout.interaction;
+        Vector<double> leverless{0, 0, 0};
+        if (layout.hasTorque) leverless = memory.records[slot].leverless;
+        to[0] = leverless.x, to[1] = leverless.y, to[2] = leverless.z;
+        to[3] = layout.hasTorque ? memory.records[slot].normalForce : memory.forces[slot].normalForce;
+        if (!layout.hasContactTorque) return;
+        const Vector<double>& torque = memory.torques[slot].torque;
+        to[4] = torque.x, to[5] = torque.y, to[6] = torque.z;
+    }
 
+    const ContactLaws& laws;
+    std::size_t width = 0;  // numbers of a contact
     std::vector<std::uint32_t> begins;
     std::vector<Entry> entries;          // by owner
-    std::vector<EnergyRecord> energies;  // of each entry; none unless a ledger is kept
+    std::vector<double> numbers;         // of each contact: what it remembers
+    std::vector<EnergyRecord> energies;  // none unless a ledger is kept
 };
 
 }  // namespace pendular

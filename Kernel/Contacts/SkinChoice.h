@@ -28,8 +28,7 @@ public:
     [[nodiscard]] double width() const { return chosen; }
 
     /// The list was made anew with this skin.
-    template <class S>
-    void listed(const ContactStore<S>& store, std::size_t grains) {
+    void listed(const ContactStore& store, std::size_t grains) {
         rebuildCost = rebuildOfGrain * static_cast<double>(grains);
         farCost = 0;
         for (const Bucket& bucket : store.buckets)

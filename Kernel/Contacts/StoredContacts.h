@@ -11,11 +11,10 @@ namespace pendular {
 /// Checks contacts that came out of a restart file: whatever a step follows by its number must be there, in
 /// the contacts themselves and among the species, grains and walls of the scene. Throws InputError with the
 /// name of the column.
-template <class S>
 class StoredContacts {
 public:
     /// @param grainCount, wallCount of the scene when the contacts were listed
-    StoredContacts(const ContactStore<S>& contacts, std::size_t speciesCount, std::size_t grainCount,
+    StoredContacts(const ContactStore& contacts, std::size_t speciesCount, std::size_t grainCount,
                    const WallHandler& sceneWalls, std::size_t wallCount)
         : store(contacts),
           species(speciesCount),
@@ -48,18 +47,20 @@ private:
         archive.require(store.wallPoints.size() <= blocks, "wallPoints",
                         "has more rows than contacts/blocks");
         archive.require(held > 0, "memory/blockOf", "is empty");
-        const auto& [history, normalHistory, interaction, records, torques, energies, blockOf] = store.memory;
-        const auto requireColumns = [&]<template <class> class M>(const MemoryColumns<M>& columns,
-                                                                  std::string_view name) {
-            archive.require(columns.columns.size() == held * MemoryColumns<M>::count, name, slots);
+        const ContactMemory& memory = store.memory;
+        const ContactLayout& layout = memory.getLayout();
+        const auto requireColumns = [&](const MemoryColumns& columns, std::string_view name) {
+            archive.require(columns.columns.size() == held * columns.count, name, slots);
         };
-        requireColumns(history, "memory/history");
-        requireColumns(normalHistory, "memory/normalHistory");
-        requireColumns(interaction, "memory/interaction");
+        requireColumns(memory.history, "memory/history");
+        requireColumns(memory.normalHistory, "memory/normalHistory");
+        requireColumns(memory.interaction, "memory/interaction");
         const std::size_t lanes = held * Pack::lanes;
-        archive.require(records.size() == lanes, "memory/records", slots);
-        archive.require(torques.size() == (S::hasContactTorque ? lanes : 0), "memory/torques", slots);
-        archive.require(energies.size() == (withLedger ? lanes : 0), "memory/energies", slots);
+        archive.require((layout.hasTorque ? memory.records.size() : memory.forces.size()) == lanes,
+                        "memory/records", slots);
+        archive.require(memory.torques.size() == (layout.hasContactTorque ? lanes : 0), "memory/torques",
+                        slots);
+        archive.require(memory.energies.size() == (withLedger ? lanes : 0), "memory/energies", slots);
     }
 
     /// They follow each other without gaps, those of walls last.
@@ -95,14 +96,14 @@ private:
                         "has gaps between the contacts");
         archive.require((acting & ~listed) == 0, "states", "has a contact that acts and is not listed");
         const std::uint32_t slot = store.slots[b];
-        archive.require(slot == ContactStore<S>::asleep
+        archive.require(slot == ContactStore::asleep
                             ? acting == 0
                             : slot < store.memory.blockOf.size() && store.memory.blockOf[slot] == b,
                         "slots", "does not agree with contacts/memory/blockOf");
         archive.require(!std::isnan(store.gaps[b]), "gaps", "has one that is not a number");
     }
 
-    const ContactStore<S>& store;
+    const ContactStore& store;
     std::size_t species, grains;
     const WallHandler& walls;
     std::size_t listedWalls;

@@ -11,32 +11,31 @@ namespace pendular {
 /// Gives the memory of a wall's contact to another one of the same grain that stands for it from now on (the
 /// next face of a mesh), unless that one has its own: the spring goes on, turned with the normal, and so does
 /// the bridge. The block of the other one has memory.
-template <class S>
-void handOver(ContactStore<S>& store, std::size_t from, std::size_t to, const Vector<double>& oldNormal,
-              const Vector<double>& newNormal) {
+inline void handOver(ContactStore& store, const ContactLaws& laws, std::size_t from, std::size_t to,
+                     const Vector<double>& oldNormal, const Vector<double>& newNormal) {
     BlockState& source = store.states[from / Pack::lanes];
     BlockState& target = store.states[to / Pack::lanes];
     if (!store.acts(from) || store.acts(to)) return;
-    ContactMemory<S>& memory = store.memory;
+    ContactMemory& memory = store.memory;
     const std::size_t old = store.slotOf(from), next = store.slotOf(to);
-    auto history = memory.history.get(old);
-    if constexpr (requires { history.turn(FrameRotation<double>{}); })
-        history.turn({.normal = newNormal, .normalShift = newNormal - oldNormal, .twist = 0});
-    memory.history.set(next, history);
-    memory.history.set(old, {});
-    memory.normalHistory.set(next, memory.normalHistory.get(old));
-    memory.normalHistory.set(old, {});
-    memory.interaction.set(next, memory.interaction.get(old));
-    memory.records[next] = memory.records[old];  // the kernel reads the forces of the last step
-    memory.records[old] = {};
-    if constexpr (S::hasContactTorque) {
-        memory.torques[next] = memory.torques[old];
-        memory.torques[old] = {};
-    }
-    if (!memory.energies.empty()) {
-        memory.energies[next] = memory.energies[old];
-        memory.energies[old] = {};
-    }
+    ContactNumbers kept;
+    double* const numbers = kept.data();
+    memory.history.get(old, numbers);
+    laws.turn(numbers, {.normal = newNormal, .normalShift = newNormal - oldNormal, .twist = 0});
+    memory.history.set(next, numbers);
+    memory.history.clear(old);
+    memory.normalHistory.get(old, numbers);
+    memory.normalHistory.set(next, numbers);
+    memory.normalHistory.clear(old);
+    memory.interaction.get(old, numbers);
+    memory.interaction.set(next, numbers);
+    // The kernel reads the forces of the last step.
+    const auto move = [&](auto& column) {
+        if (column.empty()) return;
+        column[next] = column[old];
+        column[old] = {};
+    };
+    move(memory.records), move(memory.forces), move(memory.torques), move(memory.energies);
     const auto moveBit = [&](std::uint8_t& bitsFrom, std::uint8_t& bitsTo) {
         const unsigned bit = bitsFrom >> (from % Pack::lanes) & 1u;
         bitsFrom = static_cast<std::uint8_t>(bitsFrom & ~(bit << (from % Pack::lanes)));
@@ -50,22 +49,23 @@ void handOver(ContactStore<S>& store, std::size_t from, std::size_t to, const Ve
 /// Adds what the grains of a bucket do to its wall, in the order of the list. The contact point lies half the
 /// overlap below the grain's surface, where the grain's own lever arm ends: so the angular momentum of grain
 /// and wall is kept.
-template <class S, class Grains>
-void addWallForces(const ContactStore<S>& store, const Bucket& bucket, const Grains& grains, WallForce& sum) {
+inline void addWallForces(const ContactStore& store, const Bucket& bucket, const ParticleStore& grains,
+                          WallForce& sum) {
+    const ContactMemory& memory = store.memory;
     for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
         const std::size_t b = c / Pack::lanes, lane = c % Pack::lanes;
         if (!store.acts(c)) continue;
         const TranslationRecord& grain = grains.translation[store.blocks[b].first[lane]];
-        const auto& record = store.recordOf(c);
         Vector<double> point = grain.position - sum.about;
-        if constexpr (S::hasTorque) {
+        if (memory.getLayout().hasTorque) {
             const auto& n = store.wallPoints[b - store.firstWallBlock()].normal;
-            point += (grain.radius - record.halfOverlap) *
+            point += (grain.radius - memory.records[store.slotOf(c)].halfOverlap) *
                      Vector<double>{n[0].lane[lane], n[1].lane[lane], n[2].lane[lane]};
         }
-        sum.force -= record.force;
-        sum.torque -= cross(point, record.force);
-        if constexpr (S::hasContactTorque) sum.torque -= store.memory.torques[store.slotOf(c)].torque;
+        const Vector<double>& force = store.forceOf(c);
+        sum.force -= force;
+        sum.torque -= cross(point, force);
+        if (memory.getLayout().hasContactTorque) sum.torque -= memory.torques[store.slotOf(c)].torque;
     }
 }
 

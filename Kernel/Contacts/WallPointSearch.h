@@ -11,16 +11,15 @@ namespace pendular {
 
 /// Where grains are nearest to a wall, for the contacts of its bucket; and which of these contacts goes on as
 /// that with another part of the wall.
-template <class S>
 class WallPointSearch {
 public:
-    using Grains = ParticleStore<S::hasTorque>;
+    using Grains = ParticleStore;
 
     /// The contacts of one grain follow each other in the bucket.
     /// @param laws between the grains and the wall; @param step s; @param wake gives memory to a block
     template <class Wake>
-    void find(ContactStore<S>& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,
-              const typename S::Mixed& laws, double step, int threads, Wake&& wake) {
+    void find(ContactStore& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,
+              const ContactLaws& laws, double step, int threads, Wake&& wake) {
         const std::size_t first = bucket.begin * Pack::lanes;
         std::size_t end = bucket.end * Pack::lanes;
         while (!contacts.bitOf(contacts.states[(end - 1) / Pack::lanes].listed, end - 1)) --end;
@@ -38,8 +37,8 @@ public:
         for (const auto& part : handOvers)
             for (const HandOver& h : part) {
                 if (!contacts.acts(h.from)) continue;
-                if (contacts.slots[h.to / Pack::lanes] == ContactStore<S>::asleep) wake(h.to / Pack::lanes);
-                handOver(contacts, h.from, h.to, h.oldNormal, h.newNormal);
+                if (contacts.slots[h.to / Pack::lanes] == ContactStore::asleep) wake(h.to / Pack::lanes);
+                handOver(contacts, laws, h.from, h.to, h.oldNormal, h.newNormal);
             }
     }
 
@@ -49,14 +48,14 @@ private:
         Vector<double> oldNormal, newNormal;
     };
 
-    static std::uint32_t grainOf(const ContactStore<S>& contacts, std::size_t c) {
+    static std::uint32_t grainOf(const ContactStore& contacts, std::size_t c) {
         return contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
     }
 
     /// The same for the contacts [c, end), which begin with a grain's first.
-    static void findPart(ContactStore<S>& contacts, const Grains& grains, const Bucket& bucket,
-                         const Wall& wall, [[maybe_unused]] const typename S::Mixed& laws, double step,
-                         std::size_t c, std::size_t end, std::vector<HandOver>& found) {
+    static void findPart(ContactStore& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,
+                         const ContactLaws& laws, double step, std::size_t c, std::size_t end,
+                         std::vector<HandOver>& found) {
         std::vector<std::uint32_t> parts;
         std::vector<WallPoint> points;
         [[maybe_unused]] Bodies last{-1};
@@ -69,11 +68,10 @@ private:
                 parts.push_back(contacts.blocks[c / Pack::lanes].second[c % Pack::lanes]);
             points.resize(parts.size());
             const TranslationRecord& record = grains.translation[grain];
-            if constexpr (S::Adhesion::acts)
-                if (record.radius != last.radius1) {
-                    last = {record.radius};
-                    range = laws.range(last);
-                }
+            if (laws.layout.interaction > 0 && record.radius != last.radius1) {
+                last = {record.radius};
+                range = laws.range(bucket.species1, bucket.species2, last);
+            }
             wall.findPoints(record.position, record.radius + range, parts, points);
             for (std::size_t k = 0; k < points.size(); ++k) {
                 const WallPoint& point = points[k];

@@ -1,132 +1,26 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
-#include "Kernel/Contacts/ParticleSum.h"
+#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Parallel.h"
 #include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/Species/Field.h"
 
 namespace pendular {
 
 /// The two parts of a step around the forces. Between them grains carry the velocities that contacts see.
-template <bool hasSpin>
-class TimeIntegration {
-public:
-    using Grains = ParticleStore<hasSpin>;
-
+struct TimeIntegration {
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
     /// if one is not a number.
-    static double begin(Grains& grains, double step, int threads = 1,
-                        const Integrator& scheme = integrators::predictedVelocityVerlet) {
-        std::vector<double> largest(static_cast<std::size_t>(threads), 0);
-        inParts(grains.size(), threads, [&](int part, std::size_t first, std::size_t end) {
-            auto& farthest = largest[static_cast<std::size_t>(part)];
-            farthest = scheme.remembersEarlier() ? move<true>(grains, step, scheme, first, end)
-                                                 : move<false>(grains, step, scheme, first, end);
-        });
-        return *std::max_element(largest.begin(), largest.end());
-    }
+    static double begin(ParticleStore& grains, double step, int threads = 1,
+                        const Integrator& scheme = integrators::predictedVelocityVerlet);
     /// The new accelerations, and with them the velocities at the end of the step.
-    template <class S>
-    static void finish(Grains& grains, const ContactStore<S>& store, const Vector<double>& gravity,
+    static void finish(ParticleStore& grains, const ContactStore& store, const Vector<double>& gravity,
                        double step, int threads = 1,
-                       const Integrator& scheme = integrators::predictedVelocityVerlet) {
-        inParts(grains.size(), threads, [&](int, std::size_t first, std::size_t end) {
-            const auto all = [&, weight = gravity, h = step, coefficients = scheme]<bool remembers>() {
-                for (std::size_t k = first; k < end; ++k)
-                    accelerate<remembers>(grains, store, weight, h, coefficients, k);
-            };
-            scheme.remembersEarlier() ? all.template operator()<true>() : all.template operator()<false>();
-        });
-    }
-
+                       const Integrator& scheme = integrators::predictedVelocityVerlet);
     /// Undoes begin, up to round-off.
-    static void takeBack(Grains& grains, double step,
-                         const Integrator& scheme = integrators::predictedVelocityVerlet) {
-        for (std::size_t k = 0; k < grains.size(); ++k) {
-            TranslationRecord& grain = grains.translation[k];
-            const Vector<double>& now = grains.acceleration[k];
-            const Earlier before = scheme.remembersEarlier() ? grains.earlier[k] : Earlier{};
-            grain.velocity -= step * (scheme.velocity0 * now + scheme.velocity1 * before.acceleration);
-            grain.position -=
-                step *
-                (grain.velocity + step * (scheme.position0 * now + scheme.position1 * before.acceleration));
-            if constexpr (hasSpin)
-                grains.rotation[k].spin -= step * (scheme.velocity0 * grains.rotation[k].angularAcceleration +
-                                                   scheme.velocity1 * before.angularAcceleration);
-        }
-    }
-
+    static void takeBack(ParticleStore& grains, double step,
+                         const Integrator& scheme = integrators::predictedVelocityVerlet);
     /// At the start of a run there is no step before the first.
-    static void start(Grains& grains, const Integrator& scheme) {
-        grains.earlier.clear();
-        if (!scheme.remembersEarlier()) return;
-        for (std::size_t k = 0; k < grains.size(); ++k) grains.earlier.push_back(lastOf(grains, k));
-    }
-
-private:
-    using Earlier = EarlierAcceleration;
-
-    static Earlier lastOf(const Grains& grains, std::size_t k) {
-        Earlier last{.acceleration = grains.acceleration[k]};
-        if constexpr (hasSpin) last.angularAcceleration = grains.rotation[k].angularAcceleration;
-        return last;
-    }
-
-    template <bool remembers>
-    static double move(Grains& grains, double step, const Integrator& scheme, std::size_t first,
-                       std::size_t end) {
-        const double position = scheme.position0 * step, velocity = scheme.velocity0 * step;
-        double largest = 0;
-        for (std::size_t k = first; k < end; ++k) {
-            TranslationRecord& grain = grains.translation[k];
-            Vector<double> mean = grain.velocity + position * grains.acceleration[k];
-            if constexpr (remembers) mean += (scheme.position1 * step) * grains.earlier[k].acceleration;
-            const Vector<double> shift = step * mean;
-            grain.position += shift;
-            grain.velocity += velocity * grains.acceleration[k];
-            const double shift2 = squaredNorm(shift);
-            largest = std::max(largest, std::isnan(shift2) ? infinity : shift2);
-            if constexpr (hasSpin)
-                grains.rotation[k].spin += velocity * grains.rotation[k].angularAcceleration;
-            if constexpr (remembers) {
-                grain.velocity += (scheme.velocity1 * step) * grains.earlier[k].acceleration;
-                if constexpr (hasSpin)
-                    grains.rotation[k].spin +=
-                        (scheme.velocity1 * step) * grains.earlier[k].angularAcceleration;
-            }
-        }
-        return largest;
-    }
-
-    template <bool remembers, class S>
-    [[gnu::always_inline]] static void accelerate(Grains& grains, const ContactStore<S>& store,
-                                                  const Vector<double>& gravity, double step,
-                                                  const Integrator& scheme, std::size_t k) {
-        TranslationRecord& grain = grains.translation[k];
-        const auto sum = sumContacts(store, k, grain.radius);
-        const Vector<double> weight = grain.inverseMass == 0 ? Vector<double>{0, 0, 0} : gravity;
-        const Vector<double> acceleration = grain.inverseMass * sum.force + weight;
-        const Earlier last = remembers ? lastOf(grains, k) : Earlier{};
-        const double corrector = scheme.corrector * step;
-        grain.velocity += corrector * (acceleration - scheme.now * grains.acceleration[k]);
-        grains.acceleration[k] = acceleration;
-        if constexpr (hasSpin) {
-            RotationRecord& turning = grains.rotation[k];
-            const Vector<double> angular = turning.inverseInertia * sum.torque;
-            turning.spin += corrector * (angular - scheme.now * turning.angularAcceleration);
-            turning.angularAcceleration = angular;
-            if constexpr (remembers)
-                turning.spin += (corrector * scheme.earlier) * grains.earlier[k].angularAcceleration;
-        }
-        if constexpr (remembers) {
-            grain.velocity += (corrector * scheme.earlier) * grains.earlier[k].acceleration;
-            grains.earlier[k] = last;
-        }
-    }
+    static void start(ParticleStore& grains, const Integrator& scheme);
 };
 
 }  // namespace pendular

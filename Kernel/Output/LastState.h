@@ -8,9 +8,8 @@ namespace pendular {
 /// The grains of a scene as a table, a row each in the order of their identities; the force is the sum of the
 /// contacts and the weight.
 /// @param remark a line before the rows
-template <bool hasSpin>
-void writeGrains(const std::filesystem::path& path, const ParticleStore<hasSpin>& grains,
-                 std::string_view remark) {
+inline void writeGrains(const std::filesystem::path& path, const ParticleStore& grains,
+                        std::string_view remark) {
     CsvFile file(path,
                  "identity,species,radius_m,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,spin_x_rad_per_s,"
                  "spin_y_rad_per_s,spin_z_rad_per_s,force_x_N,force_y_N,force_z_N");
@@ -18,7 +17,7 @@ void writeGrains(const std::filesystem::path& path, const ParticleStore<hasSpin>
     for (const std::uint32_t place : grains.place) {
         const auto& [x, radius, v, inverseMass] = grains.translation[place];
         Vector<double> spin{0, 0, 0}, force{0, 0, 0};  // of smooth grains, and of a grain held in place
-        if constexpr (hasSpin) spin = grains.rotation[place].spin;
+        if (grains.hasSpin) spin = grains.rotation[place].spin;
         if (inverseMass > 0) force = (1 / inverseMass) * grains.acceleration[place];
         file.row(grains.identity[place], grains.species[place], radius, x.x, x.y, x.z, v.x, v.y, v.z, spin.x,
                  spin.y, spin.z, force.x, force.y, force.z);
@@ -28,9 +27,8 @@ void writeGrains(const std::filesystem::path& path, const ParticleStore<hasSpin>
 
 /// The contacts that have a force, as a table; particle2 is -1 at a wall, and wall is -1 between grains.
 /// Forces are those computed last.
-template <class S>
-void writeContacts(const std::filesystem::path& path, const ContactSystem<S>& contacts,
-                   const ParticleStore<S::hasTorque>& grains, std::string_view remark) {
+inline void writeContacts(const std::filesystem::path& path, const ContactSystem& contacts,
+                          const ParticleStore& grains, std::string_view remark) {
     CsvFile file(path, "particle1,particle2,wall,separation_m,normal_force_N,adhesive_force_N,bridged");
     file.comment(remark);
     contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {

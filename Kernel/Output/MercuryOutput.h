@@ -65,8 +65,7 @@ private:
         return name.empty() ? scene.getName() : name;
     }
 
-    template <bool hasSpin>
-    static Domain domainOf(const ParticleStore<hasSpin>& grains) {
+    static Domain domainOf(const ParticleStore& grains) {
         Domain box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
         for (const TranslationRecord& grain : grains.translation)
             for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z}) {
@@ -79,14 +78,13 @@ private:
 
     /// N time xmin ymin zmin xmax ymax zmax, then for each grain rx ry rz vx vy vz rad alpha beta gamma omex
     /// omey omez info: the angles are 0 (spheres), the info is the species.
-    template <bool hasSpin>
-    void writeData(const ParticleStore<hasSpin>& grains, const Domain& box, double time) {
+    void writeData(const ParticleStore& grains, const Domain& box, double time) {
         data.text(fmt::format("{} {} {} {}\n", grains.size(), time, words(box.lowest), words(box.highest)));
         NumberText line;
         for (const std::uint32_t place : grains.place) {
             const TranslationRecord& grain = grains.translation[place];
             Vector<double> spin{0, 0, 0};
-            if constexpr (hasSpin) spin = grains.rotation[place].spin;
+            if (grains.hasSpin) spin = grains.rotation[place].spin;
             const int species = grains.species[place];
             data.line(line.of(grain.position, grain.velocity, grain.radius, 0, 0, 0, spin, species));
         }
@@ -95,9 +93,8 @@ private:
     /// Three lines of header, then time i j cx cy cz delta deltat fn ft nx ny nz tx ty tz: for grains a line
     /// for each of the two. The force on i is fn n + ft t, where n points from j to i. At wall number w, j is
     /// -w - 1, and n and t are reversed, as MercuryDPM does it ("an old bug").
-    template <class S>
-    void writeContacts(const ContactSystem<S>& system, const ParticleStore<S::hasTorque>& grains,
-                       const Domain& box, double time) {
+    void writeContacts(const ContactSystem& system, const ParticleStore& grains, const Domain& box,
+                       double time) {
         double largest = 0;
         for (const TranslationRecord& grain : grains.translation) largest = std::max(largest, grain.radius);
         contacts.text(fmt::format("# {} 1\n# {} {}\n# {} {} 0 0 0 0\n", time, words(box.lowest),
@@ -117,8 +114,7 @@ private:
             const double ft = norm(across) > 1e-14 * norm(seen.force) ? norm(across) : 0;
             const Vector<double> tangent = ft > 0 ? (1 / ft) * across : Vector<double>{0, 0, 0};
             double spring = 0;
-            const auto history = system.store().memory.history.get(system.store().slotOf(contact));
-            if constexpr (requires { history.displacement.x; }) spring = norm(history.displacement);
+            spring = system.springLength(contact);
             // In the middle of the overlap or of the gap; at a wall on its surface.
             const Vector<double> point =
                 bucket.wall >= 0 ? first.position + seen.shift
@@ -140,8 +136,8 @@ private:
     }
 
     /// time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM, of the grains that can move.
-    template <bool hasSpin, class Scene>
-    static std::string energyLine(const ParticleStore<hasSpin>& grains, const Scene& scene) {
+    template <class Scene>
+    static std::string energyLine(const ParticleStore& grains, const Scene& scene) {
         double mass = 0, translation = 0, rotation = 0;
         Vector<double> moment{0, 0, 0};
         for (std::size_t k = 0; k < grains.size(); ++k) {
@@ -150,7 +146,7 @@ private:
             mass += 1 / grain.inverseMass;
             moment += (1 / grain.inverseMass) * grain.position;
             translation += 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
-            if constexpr (hasSpin)
+            if (grains.hasSpin)
                 rotation += 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
         }
         const Vector<double> centre = mass > 0 ? (1 / mass) * moment : Vector<double>{0, 0, 0};

@@ -13,8 +13,8 @@ namespace pendular {
 
 /// The grains as points: radius, velocity, spin, force (of contacts and weight), species, identity.
 /// @tparam Real of the fields; positions are doubles
-template <std::floating_point Real = float, bool hasSpin>
-PolyData grainPoints(const ParticleStore<hasSpin>& grains) {
+template <std::floating_point Real = float>
+PolyData grainPoints(const ParticleStore& grains) {
     PolyData data;
     std::vector<Real> radius, velocity, spin, force;
     std::vector<std::int32_t> species, identity;
@@ -25,14 +25,14 @@ PolyData grainPoints(const ParticleStore<hasSpin>& grains) {
     data.points.reserve(count), data.corners.reserve(count);
     radius.reserve(count), species.reserve(count), identity.reserve(count);
     velocity.reserve(3 * count), force.reserve(3 * count);
-    if constexpr (hasSpin) spin.reserve(3 * count);
+    if (grains.hasSpin) spin.reserve(3 * count);
     for (const std::uint32_t place : grains.place) {
         const TranslationRecord& grain = grains.translation[place];
         data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
         data.points.push_back(grain.position);
         radius.push_back(static_cast<Real>(grain.radius));
         append(velocity, grain.velocity);
-        if constexpr (hasSpin) append(spin, grains.rotation[place].spin);
+        if (grains.hasSpin) append(spin, grains.rotation[place].spin);
         // Not kept for a grain held in place.
         append(force, grain.inverseMass > 0 ? (1 / grain.inverseMass) * grains.acceleration[place]
                                             : Vector<double>{0, 0, 0});
@@ -41,7 +41,7 @@ PolyData grainPoints(const ParticleStore<hasSpin>& grains) {
     }
     if (!data.corners.empty()) data.ends = {static_cast<std::int32_t>(data.corners.size())};
     data.pointFields = {{"radius_m", 1, std::move(radius)}, {"velocity_m_per_s", 3, std::move(velocity)}};
-    if constexpr (hasSpin) data.pointFields.push_back({"spin_rad_per_s", 3, std::move(spin)});
+    if (grains.hasSpin) data.pointFields.push_back({"spin_rad_per_s", 3, std::move(spin)});
     data.pointFields.push_back({"force_N", 3, std::move(force)});
     data.pointFields.push_back({"species", 1, std::move(species)});
     data.pointFields.push_back({"identity", 1, std::move(identity)});
@@ -53,8 +53,8 @@ PolyData grainPoints(const ParticleStore<hasSpin>& grains) {
 /// force f (N) on the grain and its volume V (m^3). Source: Love, "A Treatise on the Mathematical Theory of
 /// Elasticity" (1927); Weber, Bull. Liaison Ponts Chauss. 20 (1966). The contact point lies in the middle of
 /// the overlap or of the gap.
-template <std::floating_point Real = float, class S>
-PolyDataField grainStresses(const ContactSystem<S>& contacts, const ParticleStore<S::hasTorque>& grains) {
+template <std::floating_point Real = float>
+PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains) {
     std::vector<std::array<double, 9>> sums(grains.size());
     const auto radius = [&](std::uint32_t identity) {
         return grains.translation[grains.place[identity]].radius;
@@ -84,9 +84,8 @@ PolyDataField grainStresses(const ContactSystem<S>& contacts, const ParticleStor
 /// The contacts that have a force as lines, from centre to centre (of the nearest image) or to the wall's
 /// surface. The first points are the centres of all grains, in the order of identities. The forces are those
 /// on particle1; particle2 is -1 at a wall, and wall is -1 between grains.
-template <std::floating_point Real = float, class S>
-PolyData contactLines(const ContactSystem<S>& contacts, const ParticleStore<S::hasTorque>& grains,
-                      const SpeciesHandler<S>& species) {
+template <std::floating_point Real = float>
+PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains, const ContactLaws& laws) {
     PolyData data;
     data.kind = PolyData::Cells::Lines;
     for (const std::uint32_t place : grains.place) data.points.push_back(grains.translation[place].position);
@@ -118,11 +117,8 @@ PolyData contactLines(const ContactSystem<S>& contacts, const ParticleStore<S::h
         normal.push_back(static_cast<Real>(seen.normalForce));
         adhesive.push_back(static_cast<Real>(seen.adhesiveForce));
         overlap.push_back(static_cast<Real>(-seen.separation));
-        if constexpr (requires(typename S::Mixed laws) { laws.liquidBridgeVolume; })
-            volume.push_back(
-                seen.bridged
-                    ? static_cast<Real>(species.mixture(bucket.species1, bucket.species2).liquidBridgeVolume)
-                    : Real{0});
+        if (const auto liquid = laws.bridgeVolume(bucket.species1, bucket.species2))
+            volume.push_back(seen.bridged ? static_cast<Real>(*liquid) : Real{0});
         bridged.push_back(seen.bridged ? 1 : 0);
         first.push_back(static_cast<std::int32_t>(seen.particle1));
         second.push_back(bucket.wall < 0 ? static_cast<std::int32_t>(seen.particle2) : -1);
@@ -136,8 +132,7 @@ PolyData contactLines(const ContactSystem<S>& contacts, const ParticleStore<S::h
                        {"particle1", 1, std::move(first)},
                        {"particle2", 1, std::move(second)},
                        {"wall", 1, std::move(wall)}};
-    if constexpr (requires(typename S::Mixed laws) { laws.liquidBridgeVolume; })
-        data.cellFields.push_back({"bridge_volume_m3", 1, std::move(volume)});
+    if (laws.bridgeVolume(0, 0)) data.cellFields.push_back({"bridge_volume_m3", 1, std::move(volume)});
     return data;
 }
 
@@ -195,7 +190,7 @@ private:
         SceneFrame frame{scene.getNumberOfTimeSteps(), scene.getTime(), grainPoints<Real>(store), {}, {}};
         for (const auto& field : added) frame.grains.pointFields.push_back(field(store.size(), doubles));
         if (stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
-        if (contacts) frame.contacts = contactLines<Real>(scene.contacts(), store, scene.speciesHandler);
+        if (contacts) frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws());
         if (scene.wallHandler.getSize() > 0) {
             const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox());
             frame.walls = wallPolygons(scene.wallHandler, lowest, highest);
@@ -204,8 +199,7 @@ private:
     }
 
     /// Around all grains and the periods of the scene.
-    template <bool hasSpin>
-    static std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore<hasSpin>& grains,
+    static std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore& grains,
                                                                const PeriodicBox& periodic) {
         Vector<double> lowest{infinity, infinity, infinity}, highest = -lowest;
         for (const TranslationRecord& grain : grains.translation)

@@ -44,9 +44,9 @@ std::size_t bytesOf(const std::vector<Values>&... columns) {
 
 /// The grains of a scene, as columns. Their order is that of space, and changes when neighbours are searched
 /// anew; the identity (the number in the order of adding) stays. Without spin there is no rotation column.
-template <bool hasSpin>
 class ParticleStore {
 public:
+    bool hasSpin = false;
     std::vector<TranslationRecord> translation;
     std::vector<RotationRecord> rotation;      // empty without spin
     std::vector<Vector<double>> acceleration;  // m/s^2, of the last step
@@ -70,7 +70,7 @@ public:
 
     void reserve(std::size_t count) {
         reserveLarge(translation, count);
-        if constexpr (hasSpin) reserveLarge(rotation, count);
+        if (hasSpin) reserveLarge(rotation, count);
         reserveLarge(acceleration, count);
         reserveLarge(species, count);
         reserveLarge(identity, count);
@@ -87,64 +87,17 @@ public:
         species.push_back(speciesIndex);
         identity.push_back(number);
         place.push_back(number);
-        if constexpr (hasSpin)
+        if (hasSpin)
             rotation.push_back({spin, 2.5 * grain.inverseMass / (grain.radius * grain.radius), {0, 0, 0}});
         return number;
     }
 
     /// Puts the grain at order[k] to place k, for all k.
-    void reorder(const std::vector<std::uint32_t>& order) {
-        permute(translation, order);
-        permute(acceleration, order);
-        permute(species, order);
-        permute(identity, order);
-        if constexpr (hasSpin) permute(rotation, order);
-        if (!earlier.empty()) permute(earlier, order);
-        for (std::size_t k = 0; k < identity.size(); ++k) place[identity[k]] = static_cast<std::uint32_t>(k);
-    }
-
-    void visitState(StateArchive& archive) {
-        auto& [t, r, a, e, s, i, p] = *this;  // a member that is added has to be added here
-        archive.column<double>("translation", t);
-        archive.column<double>("rotation", r);
-        archive.column<double>("acceleration", a);
-        archive.column<double>("earlier", e);
-        archive.column<std::uint16_t>("species", s);
-        archive.column<std::uint32_t>("identity", i);
-        archive.column<std::uint32_t>("place", p);
-        requireWhole(archive);
-    }
+    void reorder(const std::vector<std::uint32_t>& order);
+    void visitState(StateArchive& archive);
 
 private:
-    void requireWhole(const StateArchive& archive) const {
-        constexpr std::string_view rows = "has another number of rows than particles/translation";
-        const std::size_t count = size();
-        archive.require(rotation.size() == (hasSpin ? count : 0), "rotation", rows);
-        archive.require(acceleration.size() == count, "acceleration", rows);
-        archive.require(earlier.empty() || earlier.size() == count, "earlier", rows);
-        archive.require(species.size() == count, "species", rows);
-        archive.require(identity.size() == count, "identity", rows);
-        archive.require(place.size() == count, "place", rows);
-        archive.requireFinite("translation", translation);
-        archive.requireFinite("rotation", rotation);
-        archive.requireFinite("acceleration", acceleration);
-        archive.requireFinite("earlier", earlier);
-        for (const TranslationRecord& grain : translation)
-            archive.require(grain.radius > 0 && grain.inverseMass >= 0, "translation",
-                            "has a radius or a mass that is not positive");
-        for (std::size_t k = 0; k < count; ++k)
-            archive.require(identity[k] < count && place[identity[k]] == k, "place",
-                            "is not the inverse of particles/identity");
-    }
-
-    template <class Value>
-    static void permute(std::vector<Value>& column, const std::vector<std::uint32_t>& order) {
-        std::vector<Value> sorted;
-        reserveLarge(sorted, column.size());
-        sorted.resize(column.size());
-        for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = column[order[k]];
-        column.swap(sorted);
-    }
+    void requireWhole(const StateArchive& archive) const;
 };
 
 }  // namespace pendular

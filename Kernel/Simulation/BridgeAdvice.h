@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "Kernel/Math/Random.h"
+#include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/BridgeChoice.h"
 
@@ -15,15 +16,17 @@ namespace pendular {
 /// a grain and a wall if there are any. The grains must have been added. Dry contacts are left out.
 template <class S>
 std::vector<BridgeCase> bridgesOf(Simulation<S>& scene, std::size_t count) {
-    scene.speciesHandler.mixAll();
+    scene.laws().mixAll();
     const auto& grains = scene.particleHandler.store();
     std::vector<BridgeCase> bridges;
     const auto add = [&](const auto& laws, const Bodies& bodies) {
         if (laws.liquidBridgeVolume > 0)
             bridges.push_back({bodies, laws.liquidBridgeVolume, laws.contactAngle});
     };
-    forEachExtremePair(scene.speciesHandler, grains, scene.wallHandler,
-                       [&](const auto& laws, const Bodies& bodies, double) { add(laws, bodies); });
+    forEachExtremePair(scene.laws(), grains, scene.wallHandler,
+                       [&](const PairLaws& pair, const Bodies& bodies, double) {
+                           add(scene.speciesHandler.mixture(pair.a, pair.b), bodies);
+                       });
     UniformRandom random(1);
     const auto anyBelow = [&](std::size_t number) {
         return static_cast<std::size_t>(random.uniform(0, static_cast<double>(number)));

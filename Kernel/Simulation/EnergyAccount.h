@@ -12,10 +12,9 @@ namespace pendular {
 /// account closes to round-off for any number of steps, and what elastic forces did but is not found as
 /// stored energy is told apart as the error of the time steps. Sums are made in the order of the contacts, by
 /// one thread.
-template <class S>
 class EnergyAccount {
 public:
-    using Grains = ParticleStore<S::hasTorque>;
+    using Grains = ParticleStore;
 
     /// Before the grains move by a step (s); without length at the start of a run.
     void begin(const Grains& grains, const Vector<double>& gravity, double step, EnergyLedger& ledger) {
@@ -46,15 +45,15 @@ public:
     }
 
     /// At the end of the step.
-    void finish(const Grains& grains, ContactSystem<S>& contacts, const Vector<double>& gravity, double step,
+    void finish(const Grains& grains, ContactSystem& contacts, const Vector<double>& gravity, double step,
                 const Integrator& scheme, EnergyLedger& ledger) {
         ledger.stepError -= workBesidesContacts(grains, gravity, step, scheme, ledger.gravityBefore);
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
         contacts.forEachEnergyRecord(
             [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane, EnergyRecord& record) {
                 const ContactKind kind{.isWall = bucket.wall >= 0,
-                                       .isPlastic = HasNormalHistory<typename S::Normal>,
-                                       .adhesionFormsAtContact = formsAtContact()};
+                                       .isPlastic = contacts.laws().isPlastic,
+                                       .adhesionFormsAtContact = contacts.laws().formsAtContact};
                 addContact(record, meanMotion(grains, block.first[lane]),
                            kind.isWall ? BodyMotion{} : meanMotion(grains, block.second[lane]), kind, step,
                            account);
@@ -72,14 +71,9 @@ private:
         Vector<double> spin, angularAcceleration;  // rad/s, rad/s^2
     };
 
-    static constexpr bool formsAtContact() {
-        if constexpr (S::Adhesion::acts) return S::Adhesion::formsAtContact;
-        else return false;
-    }
-
     static Motion motionOf(const Grains& grains, std::size_t k) {
         Motion motion{grains.translation[k].velocity, grains.acceleration[k], {0, 0, 0}, {0, 0, 0}};
-        if constexpr (S::hasTorque) {
+        if (grains.hasSpin) {
             motion.spin = grains.rotation[k].spin;
             motion.angularAcceleration = grains.rotation[k].angularAcceleration;
         }
@@ -107,7 +101,7 @@ private:
             const Vector<double> gained =
                 now.velocity - then.velocity - (0.5 * step) * (then.acceleration + now.acceleration);
             sum += dot(gained, mean.velocity) / grain.inverseMass;
-            if constexpr (S::hasTorque) {
+            if (grains.hasSpin) {
                 const Vector<double> turned =
                     now.spin - then.spin -
                     (0.5 * step) * (then.angularAcceleration + now.angularAcceleration);
@@ -132,7 +126,7 @@ private:
 
     std::vector<Motion> before;  // by identity
     EnergyLedger atBegin;
-    double potential = 0;        // J, at the places where the grains are
+    double potential = 0;  // J, at the places where the grains are
 };
 
 }  // namespace pendular

@@ -8,8 +8,7 @@
 namespace pendular {
 
 /// Of the grains' places in a field of gravity, J.
-template <bool hasSpin>
-double potentialEnergy(const ParticleStore<hasSpin>& grains, const Vector<double>& gravity) {
+inline double potentialEnergy(const ParticleStore& grains, const Vector<double>& gravity) {
     double sum = 0;
     for (const TranslationRecord& grain : grains.translation)
         if (grain.inverseMass > 0) sum -= dot(gravity, grain.position) / grain.inverseMass;
@@ -17,14 +16,13 @@ double potentialEnergy(const ParticleStore<hasSpin>& grains, const Vector<double
 }
 
 /// Of the grains' motion, spin included, J.
-template <bool hasSpin>
-double kineticEnergy(const ParticleStore<hasSpin>& grains) {
+inline double kineticEnergy(const ParticleStore& grains) {
     double sum = 0;
     for (std::size_t k = 0; k < grains.size(); ++k) {
         const TranslationRecord& grain = grains.translation[k];
         if (grain.inverseMass == 0) continue;
         sum += 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
-        if constexpr (hasSpin)
+        if (grains.hasSpin)
             sum += 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
     }
     return sum;

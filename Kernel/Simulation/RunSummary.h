@@ -60,7 +60,7 @@ private:
 
     template <class Scene>
     static void writeFile(const Scene& scene, SummaryRows rows) {
-        addSpecies(rows, scene.speciesHandler);
+        addSpecies(rows, scene.laws());
         for (const std::string& warning : warnings(scene)) rows.add("warning", warning);
         CsvFile file(scene.getName() + "-summary.csv", "quantity,value,unit");
         rows.write(file);
@@ -82,8 +82,8 @@ private:
         if (scene.getFirstStep() > 0) rows.add("restarted after steps", scene.getFirstStep());
         rows.addNumber("time step", scene.getTimeStep(), "s");
         rows.addNumber("stability limit",
-                       sceneStabilityLimit(scene.speciesHandler, scene.particleHandler.store(),
-                                           scene.wallHandler, scene.getIntegrator()),
+                       sceneStabilityLimit(scene.laws(), scene.particleHandler.store(), scene.wallHandler,
+                                           scene.getIntegrator()),
                        "s");
         if (scene.acceptsUnstableTimeStep()) rows.add("step above the stability limit", "accepted");
         rows.add("threads", scene.getNumberOfThreads());
@@ -129,7 +129,7 @@ private:
     static std::vector<std::string> warnings(const Scene& scene) {
         std::vector<std::string> found;
         const OverlapWatch& overlaps = scene.contacts().overlaps();
-        const OverlapLimit limit = overlapLimitOf(scene.speciesHandler);
+        const OverlapLimit limit = scene.laws().overlapLimit;
         if (overlaps.countAbove() > 0)
             found.push_back(fmt::format(
                 "{}: overlaps were above {} of the effective radius in {} evaluations of contacts and the "
@@ -140,17 +140,13 @@ private:
                 fmt::format("{} ({} bridges now out of its domain)", b.text(), bridgesOut(scene)));
         return found;
     }
-    template <class S>
-    static constexpr OverlapLimit overlapLimitOf(const SpeciesHandler<S>&) {
-        return overlapLimit<typename S::Mixed>();
-    }
     template <class Scene>
     static std::vector<BrokenLimit> broken(const Scene& scene) {
-        return brokenLimits(scene.speciesHandler, scene.particleHandler.store(), scene.wallHandler);
+        return brokenLimits(scene.laws(), scene.particleHandler.store(), scene.wallHandler);
     }
     template <class Scene>
     static std::size_t bridgesOut(const Scene& scene) {
-        return countBridgesOutOfDomain(scene.contacts(), scene.speciesHandler, scene.particleHandler.store());
+        return countBridgesOutOfDomain(scene.contacts(), scene.laws(), scene.particleHandler.store());
     }
 
     template <class Scene>
@@ -167,17 +163,14 @@ private:
         }
     }
 
-    template <class S>
-    static void addSpecies(SummaryRows& rows, const SpeciesHandler<S>& handler) {
-        rows.add("species", S::name);
-        for (std::size_t k = 0; k < handler.getSize(); ++k) {
+    static void addSpecies(SummaryRows& rows, const ContactLaws& laws) {
+        rows.add("species", laws.name);
+        for (std::size_t k = 0; k < laws.speciesCount(); ++k) {
             const auto owner = fmt::format("species {}", k);
-            rows.add(owner + ": density", handler.getObject(k)->getDensity(), "kg/m^3");
+            rows.add(owner + ": density", laws.density(k), "kg/m^3");
             const auto index = static_cast<int>(k);
-            handler.mixture(index, index).forEachLaw([&]<class Law>(const Law& law) {
-                for (const auto& field : Law::fields())
-                    rows.add(fmt::format("{}: {}", owner, field.name), law.*field.member, field.unit);
-            });
+            for (const FieldValue& field : laws.fields(index, index))
+                rows.add(fmt::format("{}: {}", owner, field.name), field.value, field.unit);
         }
     }
 

@@ -24,9 +24,8 @@ struct SizeRange {
 };
 
 /// The sizes of the grains of each species; of those that are free to move only, or of all.
-template <bool hasSpin>
-std::vector<SizeRange> sizeRanges(const ParticleStore<hasSpin>& grains, std::size_t speciesCount,
-                                  bool freeOnly) {
+inline std::vector<SizeRange> sizeRanges(const ParticleStore& grains, std::size_t speciesCount,
+                                         bool freeOnly) {
     std::vector<SizeRange> ranges(speciesCount);
     for (std::size_t k = 0; k < grains.size(); ++k) {
         if (freeOnly && grains.translation[k].inverseMass == 0) continue;
@@ -40,16 +39,14 @@ std::vector<SizeRange> sizeRanges(const ParticleStore<hasSpin>& grains, std::siz
 /// Calls function(laws, bodies, effective mass) for the extreme pairs of bodies of a scene: the smallest and
 /// the largest grains of each two species, and of each species with each wall. (A grain that is held in place
 /// counts as free.)
-template <class S, class Function>
-void forEachExtremePair(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
-                        const WallHandler& walls, Function&& function) {
-    const std::vector<SizeRange> free = sizeRanges(grains, species.getSize(), true);
-    const std::vector<SizeRange> sizes = sizeRanges(grains, species.getSize(), false);
-    const auto mass = [&](std::size_t s, double radius) {
-        return sphereMass(radius, species.getObject(s)->getDensity());
-    };
+template <class Function>
+void forEachExtremePair(const ContactLaws& species, const ParticleStore& grains, const WallHandler& walls,
+                        Function&& function) {
+    const std::vector<SizeRange> free = sizeRanges(grains, species.speciesCount(), true);
+    const std::vector<SizeRange> sizes = sizeRanges(grains, species.speciesCount(), false);
+    const auto mass = [&](std::size_t s, double radius) { return sphereMass(radius, species.density(s)); };
     const auto forBodies = [&](std::size_t a, std::size_t b, double r1, double r2) {
-        function(species.mixture(static_cast<int>(a), static_cast<int>(b)), Bodies{r1, r2},
+        function(PairLaws{species, static_cast<int>(a), static_cast<int>(b)}, Bodies{r1, r2},
                  1 / (1 / mass(a, r1) + 1 / mass(b, r2)));
     };
     for (std::size_t a = 0; a < free.size(); ++a) {
@@ -71,13 +68,12 @@ inline std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
 }
 
 /// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains.
-template <class S>
-double sceneStabilityLimit(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
-                           const WallHandler& walls,
-                           const Integrator& integrator = integrators::predictedVelocityVerlet) {
+inline double sceneStabilityLimit(const ContactLaws& species, const ParticleStore& grains,
+                                  const WallHandler& walls,
+                                  const Integrator& integrator = integrators::predictedVelocityVerlet) {
     const std::size_t contacts = mostContacts(grains.size(), walls);
     double limit = infinity;
-    forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double mass) {
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         limit = std::min(limit, stabilityLimit(laws, bodies, mass, integrator, contacts));
     });
     return limit;
@@ -85,11 +81,10 @@ double sceneStabilityLimit(const SpeciesHandler<S>& species, const ParticleStore
 
 /// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without
 /// grains.
-template <class S>
-double shortestHalfPeriod(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
-                          const WallHandler& walls) {
+inline double shortestHalfPeriod(const ContactLaws& species, const ParticleStore& grains,
+                                 const WallHandler& walls) {
     double shortest = infinity;
-    forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double mass) {
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         shortest = std::min(shortest, halfPeriod(laws, bodies, mass));
     });
     return shortest;
@@ -97,13 +92,12 @@ double shortestHalfPeriod(const SpeciesHandler<S>& species, const ParticleStore<
 
 /// Throws InputError if a law cannot serve bodies of the scene, or if the time step (s) is above the
 /// stability limit.
-template <class S>
-void checkScene(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
-                const WallHandler& walls, double timeStep, const Integrator& integrator) {
+inline void checkScene(const ContactLaws& species, const ParticleStore& grains, const WallHandler& walls,
+                       double timeStep, const Integrator& integrator) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
         static_cast<void>(
-            species.getObject(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
-    forEachExtremePair(species, grains, walls, [](const auto& laws, const Bodies& bodies, double) {
+            species.density(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
+    forEachExtremePair(species, grains, walls, [](const PairLaws& laws, const Bodies& bodies, double) {
         if (const auto objection = laws.objection(bodies)) throw InputError(*objection);
     });
     const double limit = sceneStabilityLimit(species, grains, walls, integrator);
@@ -118,11 +112,10 @@ void checkScene(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorq
 
 /// Throws InputError if the scene repeats itself so soon that a grain could meet two images of another: a
 /// contact knows the nearest image only.
-template <class S>
-void checkPeriodicLengths(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
-                          const WallHandler& walls, const PeriodicBox& box) {
+inline void checkPeriodicLengths(const ContactLaws& species, const ParticleStore& grains,
+                                 const WallHandler& walls, const PeriodicBox& box) {
     double reach = 0;  // m, of two centres that act on each other
-    forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double) {
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {
         if (bodies.radius2 < infinity)
             reach = std::max(reach, bodies.radius1 + bodies.radius2 + laws.range(bodies));
     });
@@ -150,8 +143,7 @@ inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) 
 }
 
 /// Throws InputError if two bodies of a new list overlap by more than a sound share of the smaller radius.
-template <class S>
-void refuseInitialOverlaps(const ContactSystem<S>& contacts, const ParticleStore<S::hasTorque>& grains) {
+inline void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& grains) {
     contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
         const double radius1 = grains.translation[block.first[contact % Pack::lanes]].radius;
@@ -166,9 +158,8 @@ void refuseInitialOverlaps(const ContactSystem<S>& contacts, const ParticleStore
 /// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
 /// made for: by half the smaller radius. Looked at when contacts are listed anew, nothing that lasts until
 /// then goes deeper unseen by more than the skin.
-template <bool hasSpin>
-void refuseDeepOverlap(const ParticleStore<hasSpin>& grains, std::uint32_t first, std::uint32_t second,
-                       const PeriodicBox& box, double time) {
+inline void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
+                              const PeriodicBox& box, double time) {
     constexpr double largestShare = 0.5;
     const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
     const double smaller = std::min(a.radius, b.radius),
@@ -186,9 +177,8 @@ void refuseDeepOverlap(const ParticleStore<hasSpin>& grains, std::uint32_t first
 
 /// The same for all pairs of a list that was just made. At walls, a grain that has gone half its way is
 /// followed until its centre crosses the surface.
-template <class S>
-void refuseDeepOverlaps(const ContactStore<S>& store, const ParticleStore<S::hasTorque>& grains,
-                        const PeriodicBox& box, double time) {
+inline void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,
+                               double time) {
     store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         if (bucket.wall >= 0) return;
         const ContactBlock& block = store.blocks[contact / Pack::lanes];
@@ -198,8 +188,7 @@ void refuseDeepOverlaps(const ContactStore<S>& store, const ParticleStore<S::has
 }
 
 /// The error that ends a run in which a grain has moved farther in a step than the smallest radius (m).
-template <bool hasSpin>
-RunError runawayError(const ParticleStore<hasSpin>& grains, double smallestRadius, double time, double step) {
+inline RunError runawayError(const ParticleStore& grains, double smallestRadius, double time, double step) {
     for (std::size_t k = 0; k < grains.size(); ++k) {
         const double speed = norm(grains.translation[k].velocity);
         if (speed * step <= smallestRadius) continue;

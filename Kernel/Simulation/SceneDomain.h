@@ -20,52 +20,48 @@ struct BrokenLimit {
 };
 
 /// Of the extreme pairs of bodies of a scene: one for each law, quantity, and side of its range.
-template <class S>
-std::vector<BrokenLimit> brokenLimits(const SpeciesHandler<S>& species,
-                                      const ParticleStore<S::hasTorque>& grains, const WallHandler& walls) {
+inline std::vector<BrokenLimit> brokenLimits(const ContactLaws& species, const ParticleStore& grains,
+                                             const WallHandler& walls) {
     std::vector<BrokenLimit> broken;
-    forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double) {
-        forEachBrokenLimit(laws, bodies, [&](std::string_view law, const DomainLimit& limit) {
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {
+        for (const auto& [law, limit] : laws.laws.brokenLimits(laws.a, laws.b, bodies)) {
             const auto isLow = [](const DomainLimit& l) { return l.value < l.range.highest; };
-            const auto same = std::ranges::find_if(broken, [&](const BrokenLimit& b) {
+            const auto same = std::ranges::find_if(broken, [&, &law = law,
+                                                            &limit = limit](const BrokenLimit& b) {
                 return b.law == law && b.limit.quantity == limit.quantity && isLow(b.limit) == isLow(limit);
             });
             if (same == broken.end()) broken.push_back({law, limit});
             else if (isLow(limit) == (limit.value < same->limit.value)) same->limit = limit;
-        });
+        }
     });
     return broken;
 }
 
 /// The fewest steps (infinite: never) in which the integrator doubles a motion of grains at rest, with
 /// springs of friction whose dashpots cannot stop it.
-template <class S>
-double fewestStepsToDouble(const SpeciesHandler<S>& species, const ParticleStore<S::hasTorque>& grains,
-                           const WallHandler& walls, const Integrator& integrator, double step) {
+inline double fewestStepsToDouble(const ContactLaws& species, const ParticleStore& grains,
+                                  const WallHandler& walls, const Integrator& integrator, double step) {
     double fewest = infinity;
-    if constexpr (S::hasTorque)
-        forEachExtremePair(species, grains, walls, [&](const auto& laws, const Bodies& bodies, double mass) {
-            fewest = std::min(fewest, stepsToDouble(laws, bodies, mass, integrator,
-                                                    mostContacts(grains.size(), walls), step));
-        });
+    if (species.layout.hasTorque)
+        forEachExtremePair(
+            species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+                fewest = std::min(fewest, stepsToDouble(laws, bodies, mass, integrator,
+                                                        mostContacts(grains.size(), walls), step));
+            });
     return fewest;
 }
 
 /// How many bridges of a scene are out of the domain of their law.
-template <class S>
-std::size_t countBridgesOutOfDomain(const ContactSystem<S>& contacts, const SpeciesHandler<S>& species,
-                                    const ParticleStore<S::hasTorque>& grains) {
+inline std::size_t countBridgesOutOfDomain(const ContactSystem& contacts, const ContactLaws& species,
+                                           const ParticleStore& grains) {
     std::size_t count = 0;
-    const ContactStore<S>& store = contacts.store();
+    const ContactStore& store = contacts.store();
     store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
         if (!store.bitOf(store.states[c / Pack::lanes].bridged, c)) return;
         const ContactBlock& block = store.blocks[c / Pack::lanes];
         Bodies bodies{grains.translation[block.first[c % Pack::lanes]].radius};
         if (bucket.wall < 0) bodies.radius2 = grains.translation[block.second[c % Pack::lanes]].radius;
-        bool broken = false;
-        forEachBrokenLimit(species.mixture(bucket.species1, bucket.species2), bodies,
-                           [&](std::string_view, const DomainLimit&) { broken = true; });
-        count += broken ? 1 : 0;
+        count += species.brokenLimits(bucket.species1, bucket.species2, bodies).empty() ? 0 : 1;
     });
     return count;
 }

@@ -11,8 +11,7 @@ namespace pendular {
 /// bytes of position, velocity and spin of the grains, in the order of their identities, so that it does not
 /// depend on where the store keeps a grain. Bytes are taken from the lowest to the highest on every machine.
 /// Source: Fowler, Noll, Vo, Eastlake, "The FNV Non-Cryptographic Hash Algorithm" (IETF draft).
-template <bool hasSpin>
-std::uint64_t stateHash(const ParticleStore<hasSpin>& grains) {
+inline std::uint64_t stateHash(const ParticleStore& grains) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     const auto add = [&hash](const Vector<double>& vector) {
         for (const double number : {vector.x, vector.y, vector.z})
@@ -22,7 +21,7 @@ std::uint64_t stateHash(const ParticleStore<hasSpin>& grains) {
     for (const std::uint32_t place : grains.place) {
         add(grains.translation[place].position);
         add(grains.translation[place].velocity);
-        if constexpr (hasSpin) add(grains.rotation[place].spin);
+        if (grains.hasSpin) add(grains.rotation[place].spin);
     }
     return hash;
 }

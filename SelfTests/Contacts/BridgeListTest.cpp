@@ -28,16 +28,16 @@ public:
     explicit Bridges(const PeriodicBox& periodic) : scene(6), box(periodic) {
         scene.speciesHandler.mixAll();
         if (box.any()) scene.wallHandler.clear(), scene.planes.clear();
-        system.prepare(scene.speciesHandler, scene.wallHandler, box, SkinChoice::fixed(skin), false);
+        system.prepare(scene.laws(), scene.wallHandler, box, SkinChoice::fixed(skin), false);
     }
 
     void advance() {
         auto& grains = scene.particleHandler.store();
         const std::size_t before = system.rebuildCount();
-        system.refresh(grains, std::sqrt(TimeIntegration<true>::begin(grains, step)), 0);
+        system.refresh(grains, std::sqrt(TimeIntegration::begin(grains, step)), 0);
         if (system.rebuildCount() > before) expectListed();
         system.computeForces(grains, step);
-        TimeIntegration<true>::finish(grains, system.store(), box.any() ? weightless : weight, step);
+        TimeIntegration::finish(grains, system.store(), box.any() ? weightless : weight, step);
         takeNote();
         EXPECT_EQ(joinedInStore(), joined);
     }
@@ -107,7 +107,7 @@ private:
     static constexpr Vector<double> weightless{0, 0, 0}, weight{0, 0, -9.81};
     SettlingBox<Wet> scene;
     PeriodicBox box;
-    ContactSystem<Wet> system;
+    ContactSystem system;
 };
 
 void expectNoBridgeIsLost(const PeriodicBox& box) {

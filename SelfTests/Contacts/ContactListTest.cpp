@@ -73,7 +73,7 @@ struct Listing {
         scene.wallHandler.copyAndAddObject(floor);
         floors.push_back(z);
     }
-    ParticleStore<S::hasTorque>& grains() { return scene.particleHandler.store(); }
+    ParticleStore& grains() { return scene.particleHandler.store(); }
 
     std::set<ContactKey> bruteForce() {
         std::set<ContactKey> result;
@@ -104,7 +104,7 @@ struct Listing {
 
     std::set<ContactKey> listed() {
         scene.speciesHandler.mixAll();
-        system.prepare(scene.speciesHandler, scene.wallHandler, box, SkinChoice::fixed(skin), false);
+        system.prepare(scene.laws(), scene.wallHandler, box, SkinChoice::fixed(skin), false);
         system.refresh(grains(), 0, 0);
         std::set<ContactKey> result;
         system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
@@ -137,7 +137,7 @@ struct Listing {
     }
 
     Simulation<S> scene;
-    ContactSystem<S> system;
+    ContactSystem system;
     PeriodicBox box;
     double skin;
     std::vector<double> floors;

@@ -30,21 +30,21 @@ template <class S>
 struct Settling {
     explicit Settling(double skin) : scene(6) {
         scene.speciesHandler.mixAll();
-        system.prepare(scene.speciesHandler, scene.wallHandler, {}, SkinChoice::fixed(skin), false);
+        system.prepare(scene.laws(), scene.wallHandler, {}, SkinChoice::fixed(skin), false);
         step(0);
     }
     void step(double length) {
         auto& grains = scene.particleHandler.store();
-        system.refresh(grains, std::sqrt(TimeIntegration<S::hasTorque>::begin(grains, length)), 0);
+        system.refresh(grains, std::sqrt(TimeIntegration::begin(grains, length)), 0);
         system.computeForces(grains, length);
-        TimeIntegration<S::hasTorque>::finish(grains, system.store(), {0, 0, -9.81}, length);
+        TimeIntegration::finish(grains, system.store(), {0, 0, -9.81}, length);
     }
     void advance(int steps) {
         for (int k = 0; k < steps; ++k) step(scene.getTimeStep());
     }
 
     SettlingBox<S> scene;
-    ContactSystem<S> system;
+    ContactSystem system;
 };
 
 /// With what every kind of law remembers.
@@ -101,11 +101,14 @@ std::map<ContactKey, Memory> memories(Settling<Wet>& run, int& exchanged) {
         const bool reversed = bucket.wall < 0 && identity[block.first[c % Pack::lanes]] >
                                                      identity[block.second[c % Pack::lanes]];
         exchanged += reversed ? 1 : 0;
-        const Vector<double> spring = store.memory.history.get(store.slotOf(c)).displacement;
+        ContactNumbers history, interaction;
+        store.memory.history.get(store.slotOf(c), history.data());
+        store.memory.interaction.get(store.slotOf(c), interaction.data());
+        const Vector<double> spring = memoryFrom<Mindlin::History<double>>(history.data()).displacement;
         result[keyOf(store, identity, bucket, c)] = {
             reversed ? -spring : spring,
-            store.memory.interaction.get(store.slotOf(c)).contactForce,
-            store.recordOf(c).normalForce,
+            memoryFrom<LiquidBridgeBagheri::Interaction<double>>(interaction.data()).contactForce,
+            store.normalForceOf(c),
             bit(state.touching),
             bit(state.bridged),
             bit(state.closing)};
@@ -162,7 +165,7 @@ TEST(ContactMemory, forgetsContactsThatHaveEnded) {
     run.system.computeForces(grains, 1e-6);
     EXPECT_TRUE(memories(run, exchanged).empty());
     run.system.store().forEachListed([&](const Bucket&, std::uint32_t c) {
-        EXPECT_EQ(squaredNorm(run.system.store().recordOf(c).force), 0);
+        EXPECT_EQ(squaredNorm(run.system.store().forceOf(c)), 0);
     });
 }
 

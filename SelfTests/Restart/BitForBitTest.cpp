@@ -38,8 +38,7 @@ void runTo(Scene& scene, std::size_t steps) {
 }
 
 /// Contacts that touch, and bridges that are stretched between grains that do not.
-template <class S>
-std::pair<int, int> touchingAndStretched(const Simulation<S>& scene) {
+std::pair<int, int> touchingAndStretched(const Scene& scene) {
     int touching = 0, stretched = 0;
     const auto& store = scene.contacts().store();
     store.forEachListed([&](const Bucket&, std::uint32_t c) {

@@ -80,7 +80,7 @@ TEST(BeginOfARun, replacesTheRestartFileOfAnEarlierOne) {
     earlier.setTimeMax(20e-5);
     earlier.solve();
     struct Watch {
-        void write(const Simulation<Smooth>& scene) {
+        void write(const Scene& scene) {
             EXPECT_FALSE(std::filesystem::exists(scene.restartFile())) << "at the first output";
         }
     };

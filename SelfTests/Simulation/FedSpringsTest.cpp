@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"

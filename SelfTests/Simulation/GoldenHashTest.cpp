@@ -35,7 +35,7 @@ struct Settled {
 TEST(StateHash, isFnv1a) {
     // The hash of no bytes, and of 24, 48 and 72 zero bytes: offset x prime^n mod 2^64, as each byte is xored
     // with 0.
-    ParticleStore<false> smooth;
+    ParticleStore smooth;
     EXPECT_EQ(stateHash(smooth), 0xcbf29ce484222325u);
     const auto timesPrime = [](std::uint64_t hash, int count) {
         for (int k = 0; k < count; ++k) hash *= 1099511628211u;
@@ -43,7 +43,8 @@ TEST(StateHash, isFnv1a) {
     };
     smooth.add({{0, 0, 0}, 1, {0, 0, 0}, 1}, {0, 0, 0}, 0);
     EXPECT_EQ(stateHash(smooth), timesPrime(0xcbf29ce484222325u, 48));
-    ParticleStore<true> rough;
+    ParticleStore rough;
+    rough.hasSpin = true;
     rough.add({{0, 0, 0}, 1, {0, 0, 0}, 1}, {0, 0, 0}, 0);
     EXPECT_EQ(stateHash(rough), timesPrime(0xcbf29ce484222325u, 72));
     // 1.0 has the bytes 00 00 00 00 00 00 f0 3f, the lowest first.
@@ -53,7 +54,8 @@ TEST(StateHash, isFnv1a) {
 }
 
 TEST(StateHash, seesEveryBitAndNoPlace) {
-    ParticleStore<true> grains;
+    ParticleStore grains;
+    grains.hasSpin = true;
     grains.add({{1, 2, 3}, 1, {4, 5, 6}, 1}, {7, 8, 9}, 0);
     grains.add({{3, 2, 1}, 1, {6, 5, 4}, 1}, {9, 8, 7}, 0);
     const std::uint64_t hash = stateHash(grains);

@@ -28,8 +28,7 @@ using Rough = Species<HertzianViscoelastic, Mindlin>;
 constexpr double r = 1e-3;  // m
 
 /// The sentence with which a run ends; empty if it comes to its end.
-template <class S>
-std::string stopOf(Simulation<S>& scene) {
+std::string stopOf(Scene& scene) {
     try {
         scene.solve();
     } catch (const RunError& stop) {

@@ -27,16 +27,18 @@ class KernelForce {
 public:
     explicit KernelForce(const typename Law::template Interaction<double>& interaction) {
         memory.resize(1);
-        for (std::size_t lane = 0; lane < Pack::lanes; ++lane) memory.set(lane, interaction);
+        ContactNumbers numbers;
+        putMemory(interaction, numbers.data());
+        for (std::size_t lane = 0; lane < Pack::lanes; ++lane) memory.set(lane, numbers.data());
     }
     double operator()(double separation) const {
-        const auto bridge = memory.load(0);
+        const auto bridge = memory.load<Law::template Interaction>(0);
         const Pack s = max(Pack(separation), Pack(0));
         return select(s < bridge.range(), bridge.force(s), Pack(0))[0];
     }
 
 private:
-    MemoryColumns<Law::template Interaction> memory;
+    MemoryColumns memory{columnsOf<Law::template Interaction>, {}};
 };
 
 /// Pairs with R = 1 m, so that V* = V: equal spheres, 1:4, 1:100, sphere and wall.

@@ -14,9 +14,8 @@ namespace pendular::support {
 using ContactKey = std::tuple<int, std::uint32_t, std::uint32_t>;
 
 /// @param identity of the grain at each place
-template <class S>
-ContactKey keyOf(const ContactStore<S>& store, const std::vector<std::uint32_t>& identity,
-                 const Bucket& bucket, std::uint32_t contact) {
+inline ContactKey keyOf(const ContactStore& store, const std::vector<std::uint32_t>& identity,
+                        const Bucket& bucket, std::uint32_t contact) {
     const ContactBlock& block = store.blocks[contact / Pack::lanes];
     const std::uint32_t first = identity[block.first[contact % Pack::lanes]];
     if (bucket.wall >= 0) return {bucket.wall, first, first};

@@ -18,8 +18,7 @@ struct Body {
     int species;
 };
 
-template <bool hasSpin>
-std::vector<Body> bodiesOf(const ParticleStore<hasSpin>& grains) {
+inline std::vector<Body> bodiesOf(const ParticleStore& grains) {
     std::vector<Body> bodies;
     for (const std::uint32_t k : grains.place) {
         const TranslationRecord& t = grains.translation[k];
@@ -31,7 +30,7 @@ std::vector<Body> bodiesOf(const ParticleStore<hasSpin>& grains) {
                           t.radius,
                           t.inverseMass,
                           grains.species[k]});
-        if constexpr (hasSpin) {
+        if (grains.hasSpin) {
             bodies.back().spin = grains.rotation[k].spin;
             bodies.back().angularAcceleration = grains.rotation[k].angularAcceleration;
         }

@@ -46,12 +46,14 @@ typename Law::template Interaction<double> prepared(const BridgeCase& bridge) {
 template <class Law>
 double forceTime(const std::vector<BridgeCase>& bridges, int runs) {
     const std::size_t blocks = bridges.size() / Pack::lanes;
-    MemoryColumns<Law::template Interaction> memory;
+    MemoryColumns memory{columnsOf<Law::template Interaction>, {}};
     memory.resize(blocks);
     std::vector<LaneColumn> separations(blocks), forces(blocks);
     for (std::size_t k = 0; k < blocks * Pack::lanes; ++k) {
         const auto interaction = prepared<Law>(bridges[k]);
-        memory.set(k, interaction);
+        ContactNumbers numbers;
+        putMemory(interaction, numbers.data());
+        memory.set(k, numbers.data());
         const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(bridges.size());
         separations[k / Pack::lanes].lane[k % Pack::lanes] = share * interaction.range();
     }
@@ -59,7 +61,7 @@ double forceTime(const std::vector<BridgeCase>& bridges, int runs) {
     const auto computeForces = [&] {
         for (int round = 0; round < rounds; ++round) {
             for (std::size_t b = 0; b < blocks; ++b) {
-                const auto bridge = memory.load(b);
+                const auto bridge = memory.load<Law::template Interaction>(b);
                 const Pack separation = Pack::load(separations[b].lane.data());
                 select(separation < bridge.range(), bridge.force(separation), Pack(0))
                     .store(forces[b].lane.data());

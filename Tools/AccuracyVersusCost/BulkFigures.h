@@ -24,8 +24,7 @@ struct ContactFigures {
 /// The virial is the volume (m^3) times Love's and Weber's mean stress of grains at rest: l goes from body 2,
 /// or from the point at the wall, to the centre of body 1, and f is the force on body 1.
 /// Source: Weber (1966), Bulletin de Liaison des Ponts et Chaussees 20, 3-1.
-template <class S>
-ContactFigures contactFigures(const Simulation<S>& scene) {
+inline ContactFigures contactFigures(const Scene& scene) {
     const auto& grains = scene.particleHandler.store();
     const auto& store = scene.contacts().store();
     ContactFigures figures{std::vector<int>(grains.size(), 0)};

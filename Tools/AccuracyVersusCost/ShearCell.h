@@ -125,7 +125,7 @@ private:
             sum.coordination += static_cast<double>(free) / static_cast<double>(freeGrains);
             sum.capillaryTension +=
                 seen.adhesiveForce * (first.radius + second.radius + seen.separation) * perVolume / 3;
-            const double force = contacts.recordOf(contact).force.x;  // on the first
+            const double force = contacts.forceOf(contact).x;  // on the first
             sum.shearStress -= force * (first.position.z - second.position.z) * perVolume;
             if (isOfUpperWall(first)) sum.wallStress -= force / (width * width);
             if (isOfUpperWall(second)) sum.wallStress += force / (width * width);

@@ -81,3 +81,68 @@ void forEachSpecies(Function&& function) {
 }  // namespace pendular
 ]])
 endfunction()
+
+# The species that most drivers take: their contact kernels are compiled once, into the library. A driver of
+# another species compiles its own.
+set(PENDULAR_POPULAR_SPECIES
+    HertzianViscoelasticSpecies
+    HertzianViscoelasticMindlinSpecies
+    HertzianViscoelasticMindlinRollingTorsionSpecies
+    HertzianViscoelasticLiquidBridgeBagheriSpecies
+    HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies
+    HertzianViscoelasticLiquidBridgeWillettSpecies
+    HertzianViscoelasticMindlinLiquidBridgeWillettSpecies
+    HertzianViscoelasticMindlinLiquidBridgeYoungLaplaceSpecies
+    HertzianViscoelasticMindlinJKRSpecies
+    LinearViscoelasticSpecies
+    LinearViscoelasticSlidingFrictionSpecies
+    LinearViscoelasticLiquidBridgeWillettSpecies)
+
+# Writes a header that declares them, and in `sources` files that compile some of them each.
+function(pendular_generate_popular_species folder sources)
+    set(declared "")
+    set(listed "")
+    foreach(name IN LISTS PENDULAR_POPULAR_SPECIES)
+        string(APPEND declared "extern template class SpeciesLaws<${name}>;\n")
+    endforeach()
+    list(JOIN PENDULAR_POPULAR_SPECIES ", " listed)
+    file(CONFIGURE OUTPUT "${folder}/PopularSpecies.h" @ONLY CONTENT [[
+#pragma once
+
+// Written by CMake from the list in Tools/CMake/GenerateLaws.cmake.
+
+#include "Kernel/Contacts/SpeciesLaws.h"
+#include "Kernel/Species/Laws.h"
+
+namespace pendular {
+
+using PopularSpecies = TypeList<@listed@>;
+
+@declared@
+}  // namespace pendular
+]])
+    set(written "")
+    set(remaining ${PENDULAR_POPULAR_SPECIES})
+    while(remaining)
+        list(SUBLIST remaining 0 3 part)
+        list(REMOVE_ITEM remaining ${part})
+        list(LENGTH written number)
+        set(compiled "")
+        foreach(name IN LISTS part)
+            string(APPEND compiled "template class SpeciesLaws<${name}>;\n")
+        endforeach()
+        set(file "${folder}/PopularSpecies${number}.cpp")
+        file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT [[
+// Written by CMake from the list in Tools/CMake/GenerateLaws.cmake.
+
+#include "Kernel/Contacts/PopularSpecies.h"
+
+namespace pendular {
+
+@compiled@
+}  // namespace pendular
+]])
+        list(APPEND written "${file}")
+    endwhile()
+    set(${sources} "${written}" PARENT_SCOPE)
+endfunction()

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Friction/SlidingRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"

@@ -1,0 +1,110 @@
+#include "Drivers/Shared/RunOptions.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <string>
+
+#include "Kernel/Output/EnergyFile.h"
+#include "Kernel/Output/Hdf5Output.h"
+#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Output/WallForceFile.h"
+#include "Kernel/Simulation/RunSummary.h"
+#include "Kernel/Simulation/Scene.h"
+
+namespace pendular {
+
+std::filesystem::path RunOptions::restartSource(const std::string& run) const {
+    if (!restart.empty()) return restart;
+    const std::filesystem::path own = std::filesystem::path(output) / (run + "-restart.h5");
+    return resume && std::filesystem::exists(own) ? own : std::filesystem::path();
+}
+
+void RunOptions::forget(const std::string& run) const {
+    if (!resume && !output.empty())
+        std::filesystem::remove(std::filesystem::path(output) / (run + "-restart.h5"));
+}
+
+void RunOptions::applyToPreparation(Scene& scene) const {
+    applyToAny(scene, "preparation");
+    if (!output.empty()) std::filesystem::remove(std::filesystem::path(output) / "run-restart.h5");
+}
+
+void RunOptions::apply(Scene& scene, const std::string& run) const {
+    applyToAny(scene, run);
+    if (output.empty()) return;
+    scene.addOutput(RunSummary());
+    if (paraViewInterval > 0) scene.addOutput(ParaViewOutput().withInterval(paraViewInterval));
+    if (hdf5Interval > 0) scene.addOutput(Hdf5Output().withInterval(hdf5Interval));
+    if (energyInterval > 0) scene.addOutput(EnergyFile(energyInterval));
+    if (wallForceInterval > 0) scene.addOutput(WallForceFile(wallForceInterval));
+}
+
+void RunOptions::applyToAny(Scene& scene, const std::string& run) const {
+    scene.setNumberOfThreads(threads);
+    scene.setQuiet(quiet);
+    if (output.empty()) return;
+    scene.setName((std::filesystem::path(output) / run).string());
+    if (Hdf5File::isAvailable()) scene.keepRestartFile();
+    scene.setRestartInterval(restartInterval);
+    scene.restartFrom(restartSource(run));
+}
+
+void requireOutputFolder(std::string_view driver, const std::filesystem::path& folder) {
+    if (folder.empty())
+        throw InputError(fmt::format(
+            "{}: the output folder is empty; it must be a name ('.' for the current one).", driver));
+    const std::filesystem::path probe = folder / fmt::format(".probe-{}", getpid());
+    std::error_code ignored;
+    std::filesystem::create_directories(folder, ignored);
+    std::FILE* file = std::fopen(probe.c_str(), "w");
+    if (!file)
+        throw InputError(fmt::format("{}: no files can be written into the output folder {}: {}.", driver,
+                                     folder.string(), std::strerror(errno)));
+    std::fclose(file);
+    std::filesystem::remove(probe, ignored);
+}
+
+double secondsOf(const std::string& clock) {
+    int hours = 0, minutes = 0, seconds = 0, end = 0;
+    const auto reads = [&](const char* format, auto*... parts) {
+        end = 0;
+        return std::sscanf(clock.c_str(), format, parts..., &end) == sizeof...(parts) &&
+               static_cast<std::size_t>(end) == clock.size();
+    };
+    const bool hasHours = reads("%6d:%2d:%2d%n", &hours, &minutes, &seconds),
+               hasMinutes = hasHours || (hours = 0, reads("%6d:%2d%n", &minutes, &seconds)),
+               known = hasMinutes || (minutes = 0, reads("%9d%n", &seconds));
+    const double sum = 3600.0 * hours + 60.0 * minutes + seconds;
+    if (!known || hours < 0 || minutes < 0 || seconds < 0 || !(sum > 0))
+        throw InputError(
+            fmt::format("The wall time '{}' is not a time above 0 s; it must be hours:minutes:seconds, "
+                        "minutes:seconds or seconds.",
+                        clock));
+    const int largest = std::max(hasHours ? minutes : 0, hasMinutes ? seconds : 0);  // after a colon
+    if (largest > 59)
+        throw InputError(
+            fmt::format("The wall time '{}' has {} behind a colon; minutes and seconds there must "
+                        "be at most 59.",
+                        clock, largest));
+    return sum;
+}
+
+void checkRun(std::string_view driver, std::size_t number, double endTime, double interval) {
+    checkValue(driver, "number of grains", static_cast<double>(number), "", {1, 1e8});
+    checkValue(driver, "end time", endTime, "s", notNegative);
+    checkValue(driver, "interval", interval, "s", positive);
+}
+
+std::size_t stepsOf(double interval, double timeStep) {
+    const double steps = std::round(interval / timeStep);
+    return steps < 1 ? 1 : steps > 1e15 ? 0 : static_cast<std::size_t>(steps);
+}
+
+}  // namespace pendular

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "Kernel/Contacts/ContactTiming.h"
+#include "Kernel/Contacts/OverlapWatch.h"
+#include "Kernel/Motion/Stiffness.h"
+#include "Kernel/Species/Bodies.h"
+#include "Kernel/Species/DomainLimit.h"
+#include "Kernel/Species/Law.h"
+
+namespace pendular {
+
+class ContactStore;
+struct Bucket;
+struct PeriodicBox;
+struct TranslationRecord;
+struct RotationRecord;
+
+/// How many numbers a contact remembers, and what it gives to its bodies.
+struct ContactLayout {
+    std::size_t history = 0, normalHistory = 0, interaction = 0;
+    bool hasTorque = false;         // contacts have a tangential force, grains a spin
+    bool hasContactTorque = false;  // and a torque besides that of the force
+};
+
+/// A part of a bucket whose forces are to be computed.
+struct ContactTask {
+    ContactStore& store;
+    const TranslationRecord* translation;
+    const RotationRecord* rotation;
+    const PeriodicBox& box;
+    std::size_t bucket;       // its number
+    std::size_t begin, end;   // blocks
+    Vector<double> wallSpin;  // rad/s
+    double step;              // s
+    ContactTiming timing;
+    double unlisted;  // m, that bodies can have approached since they were listed
+    bool withLedger;
+    OverlapWatch* overlaps;
+};
+
+/// A number of a law, with its name and unit.
+struct FieldValue {
+    std::string_view law, name, unit;
+    double value;
+};
+
+/// What a scene asks of the laws of its species, whatever they are: SpeciesLaws gives it for a species type.
+/// All functions of a pair take the indices of two species.
+class ContactLaws {
+public:
+    ContactLayout layout;
+    std::string_view name, friction;
+    bool actsApart = false;       // bodies act on each other without having touched
+    bool formsAtContact = false;  // a bridge that begins with a touch
+    bool isPlastic = false;
+    OverlapLimit overlapLimit;
+
+    virtual ~ContactLaws() = default;
+
+    [[nodiscard]] virtual std::size_t speciesCount() const = 0;
+    [[nodiscard]] virtual double density(std::size_t species) const = 0;
+    virtual void mixAll() = 0;
+    virtual void visitState(StateArchive& archive) = 0;
+    [[nodiscard]] virtual std::vector<FieldValue> fields(int a, int b) const = 0;
+
+    [[nodiscard]] virtual double range(int a, int b, const Bodies& bodies) const = 0;
+    [[nodiscard]] virtual std::optional<std::string> objection(int a, int b, const Bodies& bodies) const = 0;
+    [[nodiscard]] virtual ContactStiffness stiffness(int a, int b, const Bodies& bodies,
+                                                     double effectiveMass) const = 0;
+    /// Of each law by its name, what is out of its domain.
+    [[nodiscard]] virtual std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
+        int a, int b, const Bodies& bodies) const = 0;
+    /// m^3; nothing for laws that have no bridge
+    [[nodiscard]] virtual std::optional<double> bridgeVolume(int a, int b) const = 0;
+
+    // What contacts remember, as numbers.
+    virtual void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const = 0;
+    [[nodiscard]] virtual double adhesiveForce(const double* interaction, double separation) const = 0;
+    virtual void turn(double* history, const FrameRotation<double>& rotation) const = 0;
+    virtual void exchangeBodies(double* history) const = 0;
+    [[nodiscard]] virtual double springLength(const double* history) const = 0;
+
+    /// Takes the values of the pairs for the buckets of a new list.
+    virtual void prepare(const std::vector<Bucket>& buckets) = 0;
+    /// The forces of a part of a bucket; false if a block needs memory first: it is marked then.
+    virtual bool compute(const ContactTask& task) const = 0;
+};
+
+/// The laws between two species.
+struct PairLaws {
+    const ContactLaws& laws;
+    int a, b;
+
+    [[nodiscard]] double range(const Bodies& bodies) const { return laws.range(a, b, bodies); }
+    [[nodiscard]] auto objection(const Bodies& bodies) const { return laws.objection(a, b, bodies); }
+};
+inline ContactStiffness contactStiffness(const PairLaws& pair, const Bodies& bodies, double effectiveMass) {
+    return pair.laws.stiffness(pair.a, pair.b, bodies, effectiveMass);
+}
+
+}  // namespace pendular

@@ -1,0 +1,146 @@
+#pragma once
+
+#include "Kernel/Contacts/ContactKernel.h"
+#include "Kernel/Species/SpeciesHandler.h"
+#include "Kernel/Species/TimeStepAdvice.h"
+
+namespace pendular {
+
+/// What contacts of a species remember.
+template <class S>
+inline constexpr ContactLayout layoutOf{
+    .history = columnsOf<S::Friction::template History>,
+    .normalHistory = columnsOf<NormalHistoryOf<typename S::Normal>::template type>,
+    .interaction = columnsOf<S::Adhesion::template Interaction>,
+    .hasTorque = S::hasTorque,
+    .hasContactTorque = S::hasContactTorque};
+
+/// The laws of one species type, for a scene. All that is compiled again for a species is in here.
+template <class S>
+class SpeciesLaws final : public ContactLaws {
+public:
+    explicit SpeciesLaws(SpeciesHandler<S>& speciesHandler) : species(speciesHandler) {
+        layout = layoutOf<S>;
+        name = S::name;
+        friction = S::Friction::name;
+        if constexpr (Adhesion::acts) formsAtContact = Adhesion::formsAtContact;
+        actsApart = Adhesion::acts && !formsAtContact;
+        isPlastic = HasNormalHistory<typename S::Normal>;
+        overlapLimit = pendular::overlapLimit<typename S::Mixed>();
+    }
+
+    [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }
+    [[nodiscard]] double density(std::size_t k) const override { return species.getObject(k)->getDensity(); }
+    void mixAll() override { species.mixAll(); }
+    void visitState(StateArchive& archive) override { species.visitState(archive); }
+    [[nodiscard]] std::vector<FieldValue> fields(int a, int b) const override {
+        std::vector<FieldValue> found;
+        of(a, b).forEachLaw([&]<class Law>(const Law& law) {
+            for (const auto& field : Law::fields())
+                found.push_back({Law::name, field.name, field.unit, law.*field.member});
+        });
+        return found;
+    }
+
+    [[nodiscard]] double range(int a, int b, const Bodies& bodies) const override {
+        return of(a, b).range(bodies);
+    }
+    [[nodiscard]] std::optional<std::string> objection(int a, int b, const Bodies& bodies) const override {
+        return of(a, b).objection(bodies);
+    }
+    [[nodiscard]] ContactStiffness stiffness(int a, int b, const Bodies& bodies, double mass) const override {
+        return contactStiffness(of(a, b), bodies, mass);
+    }
+    [[nodiscard]] std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
+        int a, int b, const Bodies& bodies) const override {
+        std::vector<std::pair<std::string_view, DomainLimit>> found;
+        forEachBrokenLimit(of(a, b), bodies, [&](std::string_view law, const DomainLimit& limit) {
+            found.emplace_back(law, limit);
+        });
+        return found;
+    }
+    [[nodiscard]] std::optional<double> bridgeVolume([[maybe_unused]] int a,
+                                                     [[maybe_unused]] int b) const override {
+        if constexpr (requires(typename S::Mixed laws) { laws.liquidBridgeVolume; })
+            return of(a, b).liquidBridgeVolume;
+        else return {};
+    }
+
+    void prepareBridge([[maybe_unused]] int a, [[maybe_unused]] int b, [[maybe_unused]] const Bodies& bodies,
+                       [[maybe_unused]] double* to) const override {
+        if constexpr (Adhesion::acts) putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies), to);
+    }
+    [[nodiscard]] double adhesiveForce([[maybe_unused]] const double* from,
+                                       [[maybe_unused]] double separation) const override {
+        if constexpr (Adhesion::acts)
+            return memoryFrom<Interaction<double>>(from).force(separationFor<Adhesion>(-separation));
+        else return 0;
+    }
+    void turn([[maybe_unused]] double* numbers,
+              [[maybe_unused]] const FrameRotation<double>& rotation) const override {
+        if constexpr (requires(History<double> h) { h.turn(rotation); }) {
+            auto history = memoryFrom<History<double>>(numbers);
+            history.turn(rotation);
+            putMemory(history, numbers);
+        }
+    }
+    void exchangeBodies([[maybe_unused]] double* numbers) const override {
+        if constexpr (requires(History<double> h) { h.exchangeBodies(); }) {
+            auto history = memoryFrom<History<double>>(numbers);
+            history.exchangeBodies();
+            putMemory(history, numbers);
+        }
+    }
+    [[nodiscard]] double springLength([[maybe_unused]] const double* numbers) const override {
+        if constexpr (requires(History<double> h) { h.displacement.x; })
+            return norm(memoryFrom<History<double>>(numbers).displacement);
+        else return 0;
+    }
+
+    void prepare(const std::vector<Bucket>& buckets) override {
+        prepared.clear();
+        for (const Bucket& bucket : buckets) prepared.emplace_back(of(bucket.species1, bucket.species2));
+    }
+    bool compute(const ContactTask& task) const override {
+        if (task.store.buckets[task.bucket].wall >= 0)
+            return computeBlocks(task, [&t = task, first = task.store.firstWallBlock()](std::size_t b) {
+                return WallGeometry<S>(t.translation, t.rotation, t.store.blocks[b],
+                                       t.store.wallPoints[b - first], t.wallSpin);
+            });
+        if (task.box.any())
+            return computeBlocks(task, [&t = task](std::size_t b) {
+                return PairGeometry<S, true>(t.translation, t.rotation, t.store.blocks[b], t.box);
+            });
+        return computeBlocks(task, [&t = task](std::size_t b) {
+            return PairGeometry<S, false>(t.translation, t.rotation, t.store.blocks[b], t.box);
+        });
+    }
+
+private:
+    static_assert(std::max({layoutOf<S>.history, layoutOf<S>.normalHistory, layoutOf<S>.interaction}) <=
+                  std::tuple_size_v<ContactNumbers>);
+
+    using Adhesion = typename S::Adhesion;
+    template <class T>
+    using History = typename S::Friction::template History<T>;
+    template <class T>
+    using Interaction = typename Adhesion::template Interaction<T>;
+
+    const typename S::Mixed& of(int a, int b) const { return species.mixture(a, b); }
+    template <class GeometryOf>
+    bool computeBlocks(const ContactTask& task, const GeometryOf& geometryOf) const {
+        ContactStore& store = task.store;
+        ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing, *task.overlaps, store);
+        bool all = true;
+        for (std::size_t b = task.begin; b < task.end; ++b)
+            if (store.slots[b] != ContactStore::asleep || task.unlisted > store.gaps[b])
+                all &= kernel.computeBlock(b, geometryOf(b));
+        *task.overlaps = kernel.overlaps;
+        return all;
+    }
+
+    SpeciesHandler<S>& species;
+    std::vector<PreparedLaws<S>> prepared;  // of each bucket
+};
+
+}  // namespace pendular

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <memory>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/Integrator.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Simulation/EnergyAccount.h"
+#include "Kernel/Simulation/Run.h"
+#include "Kernel/Walls/WallHandler.h"
+
+namespace pendular {
+
+/// A scene of grains, and its run, whatever its species: Simulation has these.
+class Scene : public Run {
+public:
+    [[nodiscard]] ContactLaws& laws() { return *contactLaws; }
+    [[nodiscard]] const ContactLaws& laws() const { return *contactLaws; }
+
+    virtual void setupInitialConditions() {}
+
+    ParticleHandler particleHandler;
+    WallHandler wallHandler;
+
+    /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
+    /// it has a function prepare(), that is called at once, and again when the scene is set up;
+    /// visitState(archive, *this) is what it remembers.
+    template <class Output>
+    void addOutput(Output output) {
+        const auto kept = std::make_shared<Output>(std::move(output));
+        KeptOutput calls{.write = [this, kept] { kept->write(*this); }};
+        if constexpr (requires { kept->prepare(*this); }) {
+            kept->prepare(*this);
+            calls.prepare = [this, kept] { kept->prepare(*this); };
+        }
+        if constexpr (requires { kept->complete(*this); })
+            calls.complete = [this, kept] { kept->complete(*this); };
+        if constexpr (requires(StateArchive archive) { kept->visitState(archive, *this); })
+            calls.visitState = [this, kept](StateArchive& archive) { kept->visitState(archive, *this); };
+        keepOutput(std::move(calls));
+    }
+    /// @param acceleration m/s^2
+    void setGravity(const Vec3D& acceleration);
+    /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m). The length must
+    /// be at least twice the largest distance of two centres at which grains act on each other.
+    void setPeriodic(int axis, double lowest, double highest);
+    /// OpenMP threads, at least 1; the results do not depend on their number.
+    void setNumberOfThreads(int count);
+    /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
+    void setIntegrator(const Integrator& scheme) { integrator = scheme; }
+    /// Runs also with a step above the stability limit. That is sound only where overlaps stay so small that
+    /// the contacts are softer than those of the limit, or where no bed comes to rest; else the results mean
+    /// nothing.
+    void acceptUnstableTimeStep(bool accept = true) { unstableAccepted = accept; }
+    /// Keeps account of the energy; costs time, and is off by default.
+    void keepEnergyLedger(bool keep = true) { ledgerKept = keep; }
+
+    [[nodiscard]] bool acceptsUnstableTimeStep() const { return unstableAccepted; }
+    [[nodiscard]] int getNumberOfThreads() const { return threads; }
+    [[nodiscard]] Vec3D getGravity() const { return toEigen(gravity); }
+    [[nodiscard]] const ContactSystem& contacts() const { return contactSystem; }
+    [[nodiscard]] bool keepsEnergyLedger() const { return ledgerKept; }
+    [[nodiscard]] const EnergyLedger& energyLedger() const { return ledger; }
+    /// J: what the ledger's total has changed by since the scene began, before any restart.
+    [[nodiscard]] double energyUnaccountedFor() const { return ledger.total() - energyAtStart; }
+
+    /// The time step (s) above which the stiffest possible contacts of this scene, in the densest bed, are no
+    /// longer stable: by their springs and dashpots, and the integrator.
+    [[nodiscard]] double stabilityLimit();
+    [[nodiscard]] const Integrator& getIntegrator() const { return integrator; }
+    /// Half a period (s) of the fastest oscillation of two grains: about the shortest time of a contact, for
+    /// steps that are as accurate as is wanted (the README of Kernel/Motion says which).
+    [[nodiscard]] double shortestContactTime();
+
+    void initialise() override;
+
+protected:
+    void setLaws(ContactLaws& of) {
+        contactLaws = &of;
+        particleHandler.setLaws(of);
+    }
+
+private:
+    void advanceByStep() override;
+
+    [[nodiscard]] RunNumbers numbers() const override;
+
+    /// When species, walls and grains are known.
+    void prepare();
+
+    void warnOfFedSprings() const;
+
+    void visitAll(StateArchive& archive) override;
+    void visitScene(StateArchive& archive);
+    void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
+                        const std::string& remark) override;
+
+    void advance(double length);
+    template <class Entries>
+    void intoLedger(Entries&& make) {
+        if (!ledgerKept) return;
+        const StepTimes::Part before = enter(StepTimes::Part::Ledger);
+        make();
+        enter(before);
+    }
+
+    /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
+    void refuseRunaway(double shift) const;
+
+    ContactLaws* contactLaws = nullptr;
+    ContactSystem contactSystem;
+    EnergyLedger ledger;
+    EnergyAccount account;
+    PeriodicBox periodic;
+    Vector<double> gravity{0, 0, 0};
+    Integrator integrator = integrators::predictedVelocityVerlet;
+    double smallestRadius = infinity;
+    double energyAtStart = 0;  // J, of the ledger
+    int threads = 1;
+    bool unstableAccepted = false;
+    bool ledgerKept = false;
+};
+
+}  // namespace pendular
