@@ -102,17 +102,26 @@ public:
         for (const Bucket& bucket : buckets) prepared.emplace_back(of(bucket.species1, bucket.species2));
     }
     bool compute(const ContactTask& task) const override {
-        if (task.store.buckets[task.bucket].wall >= 0)
-            return computeBlocks(task, [&t = task, first = task.store.firstWallBlock()](std::size_t b) {
-                return WallGeometry<S>(t.translation, t.rotation, t.store.blocks[b],
-                                       t.store.wallPoints[b - first], t.wallSpin);
+        // Values, not references to the task: the kernel's stores could change that, for all the compiler
+        // knows.
+        const TranslationRecord* const translation = task.translation;
+        const RotationRecord* const rotation = task.rotation;
+        const ContactBlock* const blocks = task.store.blocks.data();
+        if (task.store.buckets[task.bucket].wall >= 0) {
+            const WallPointColumns* const points = task.store.wallPoints.data();
+            const std::size_t first = task.store.firstWallBlock();
+            const Vector<double> spin = task.wallSpin;
+            return computeBlocks(task, [=](std::size_t b) {
+                return WallGeometry<S>(translation, rotation, blocks[b], points[b - first], spin);
             });
-        if (task.box.any())
-            return computeBlocks(task, [&t = task](std::size_t b) {
-                return PairGeometry<S, true>(t.translation, t.rotation, t.store.blocks[b], t.box);
+        }
+        const PeriodicBox& box = task.box;
+        if (box.any())
+            return computeBlocks(task, [=, &box](std::size_t b) {
+                return PairGeometry<S, true>(translation, rotation, blocks[b], box);
             });
-        return computeBlocks(task, [&t = task](std::size_t b) {
-            return PairGeometry<S, false>(t.translation, t.rotation, t.store.blocks[b], t.box);
+        return computeBlocks(task, [=, &box](std::size_t b) {
+            return PairGeometry<S, false>(translation, rotation, blocks[b], box);
         });
     }
 
@@ -129,11 +138,13 @@ private:
     const typename S::Mixed& of(int a, int b) const { return species.mixture(a, b); }
     template <class GeometryOf>
     bool computeBlocks(const ContactTask& task, const GeometryOf& geometryOf) const {
-        ContactStore& store = task.store;
-        ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing, *task.overlaps, store);
+        const std::uint32_t* const slots = task.store.slots.data();
+        const double* const gaps = task.store.gaps.data();
+        const double unlisted = task.unlisted;
+        ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing, *task.overlaps, task.store);
         bool all = true;
-        for (std::size_t b = task.begin; b < task.end; ++b)
-            if (store.slots[b] != ContactStore::asleep || task.unlisted > store.gaps[b])
+        for (std::size_t b = task.begin, end = task.end; b < end; ++b)
+            if (slots[b] != ContactStore::asleep || unlisted > gaps[b])
                 all &= kernel.computeBlock(b, geometryOf(b));
         *task.overlaps = kernel.overlaps;
         return all;
