@@ -1,7 +1,7 @@
 #pragma once
 
 /// 2^x and log2(x) for both number types, with the same bits, of + - * / select and bit operations only: no
-/// table, no branch, no fused multiplication. The functions of <cmath> cannot serve here: their last bits
+/// table, no branch, no fused multiplication. The functions of `<cmath>` cannot serve here: their last bits
 /// differ between versions of the C library, and they take one number at a time. Measured errors: README.md.
 ///
 /// The coefficients come from generate_polynomials.py (interpolation in Chebyshev nodes, rounded to double),

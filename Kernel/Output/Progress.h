@@ -18,7 +18,7 @@ struct RunNumbers {
 /// run's time at most.
 class Progress {
 public:
-    /// @param endTime s; @param time s, and @param step, where the run begins
+    /// @param endTime s; @param time s, at the start of the run; @param step at the start of the run
     explicit Progress(double endTime, double time = 0, std::size_t step = 0);
     ~Progress();
     Progress(const Progress&) = delete;

@@ -11,7 +11,7 @@ concept BridgeLaw = requires(const Law law, const Bodies bodies) {
     law.scales(bodies);
 };
 
-/// Calls function.template operator()<Law>() for each bridge law of the kernel.
+/// Calls `function.template operator()<Law>()` for each bridge law of the kernel.
 template <class Function>
 void forEachBridgeLaw(Function&& function) {
     AdhesionLaws::forEach([&]<class Law>() {

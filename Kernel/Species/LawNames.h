@@ -27,7 +27,7 @@ std::vector<std::string_view> lawNames(std::string_view nothing = "none") {
     return names;
 }
 
-/// Calls function.template operator()<Law>() for the law of the list with this name ("none": the one that
+/// Calls `function.template operator()<Law>()` for the law of the list with this name ("none": the one that
 /// does nothing). Throws InputError with the nearest names if there is none.
 template <class Laws, class Function>
 void withLawNamed(std::string_view what, std::string_view name, Function&& function) {

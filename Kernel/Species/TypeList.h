@@ -10,7 +10,7 @@ template <class... Types>
 struct TypeList {
     static constexpr std::size_t size = sizeof...(Types);
 
-    /// Calls function.template operator()<Type>() for each type, in order.
+    /// Calls `function.template operator()<Type>()` for each type, in order.
     template <class Function>
     static void forEach(Function&& function) {
         (function.template operator()<Types>(), ...);

@@ -38,7 +38,8 @@ struct WallSurface {
 inline constexpr int facetsAround = 64;
 
 /// The quadrangles (triangles where a radius is zero) between two circles about an axis (a unit vector).
-/// @param begin, @param end m, points on the axis; @param beginRadius, @param endRadius m
+/// @param begin m, a point on the axis; @param end m, another
+/// @param beginRadius m; @param endRadius m
 std::vector<Polygon> turnedAround(const Vector<double>& axis, const Vector<double>& begin, double beginRadius,
                                   const Vector<double>& end, double endRadius);
 

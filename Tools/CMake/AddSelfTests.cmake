@@ -18,25 +18,6 @@ endif()
 
 set(selfTests "${PROJECT_SOURCE_DIR}/SelfTests")
 
-# Files whose own names another file of the folder has too; they are always compiled alone.
-set(aloneTests
-    Capillary/CapillaryBridgeTest
-    Contacts/ContactMemoryTest Contacts/FarGrainTest
-    Drivers/PenetrationTest
-    Fuzz/SummaryTable Fuzz/TriangleFiles
-    Math/PackTest
-    Output/MercuryTest Output/SummaryTest
-    Simulation/FedSpringsTest Simulation/FreeFlightTest Simulation/GoldenHashTest Simulation/ManySizesTest
-    Simulation/ObliqueCollisionTest Simulation/StabilityTest Simulation/StoppedRunTest Simulation/TimeStepAdviceTest
-    Species/NoCostTest
-    Species/Adhesion/BridgeForceTest Species/Adhesion/LianSevilleTest Species/Adhesion/SolidAdhesionTest
-    Species/Normal/ViscoelasticSpheresTest
-    Stability/BridgeEnergyTest Stability/CriticalStepTest
-    Walls/MeshTest)
-list(TRANSFORM aloneTests PREPEND "${selfTests}/")
-list(TRANSFORM aloneTests APPEND ".cpp")
-set_source_files_properties(${aloneTests} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-
 # Takes those out of a list of sources that test a study.
 function(pendular_remove_tests_of_studies list)
     foreach(source IN LISTS ${list})
@@ -57,8 +38,7 @@ function(pendular_add_self_test folder)
     endif()
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel GTest::gtest_main)
-    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests"
-                          UNITY_BUILD ${PENDULAR_UNITY_TESTS} UNITY_BUILD_BATCH_SIZE 4)
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
     add_warnings(${name})
     precompile_headers(${name} ${keeperOfTests} <gtest/gtest.h> "Kernel/Simulation/Simulation.h")
 
