@@ -83,7 +83,6 @@ public:
     virtual void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const = 0;
     [[nodiscard]] virtual double adhesiveForce(const double* interaction, double separation) const = 0;
     virtual void turn(double* history, const FrameRotation<double>& rotation) const = 0;
-    virtual void exchangeBodies(double* history) const = 0;
     [[nodiscard]] virtual double springLength(const double* history) const = 0;
 
     /// Takes the values of the pairs for the buckets of a new list.

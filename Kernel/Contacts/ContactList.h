@@ -32,14 +32,21 @@ public:
 
     /// Sorts the grains in space and lists their contacts.
     void rebuild(Grains& grains, ContactStore& store) {
-        const RememberedContacts old(store, laws, grains.identity);
-        for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
-        grains.reorder(spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin));
+        RememberedContacts old(laws.layout, ledger);
+        old.take(store, grains.identity);
+        rebuild(grains, store, old);
+    }
+    /// The same with the memory of contacts that were taken or read when the grains were where they are.
+    /// Returns how many of them are listed again.
+    std::size_t rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old) {
+        formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin);
+        grains.reorder(formerPlace);
         findPairs(grains, old);
         findWallContacts(grains, old);
         fill(grains, store);
-        recall(old, grains, store);
-        store.listSides(grains.size(), store.sides);
+        const std::size_t recalled = recall(old, grains, store);
+        store.listSides(grains.identity);
+        return recalled;
     }
 
 private:
@@ -115,8 +122,9 @@ private:
                     if (!laws.actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j);
                 });
                 if (laws.formsAtContact)
-                    for (const auto& entry : old.of(grains.identity[i]))
-                        if (entry.wall == 0 && entry.bridged && !search.reaches(i, grains.place[entry.other]))
+                    for (const auto& entry : old.of(formerPlace[i]))
+                        if (entry.wall == 0 && isBridged(entry) &&
+                            !search.reaches(i, grains.place[entry.other]))
                             addPair(own, grains, i, grains.place[entry.other]);
             }
         });
@@ -136,7 +144,11 @@ private:
         const std::size_t high = std::max(grains.species[i], grains.species[j]);
         // The groups of pairs stand first, in the order of a triangle of species.
         const std::size_t group = low * laws.speciesCount() - low * (low + 1) / 2 + high;
-        all[group].contacts.push_back({std::min(i, j), std::max(i, j)});
+        const bool isOrdered = grains.identity[i] < grains.identity[j];
+        all[group].contacts.push_back({isOrdered ? i : j, isOrdered ? j : i});
+    }
+    static bool isBridged(const RememberedContacts::Entry& entry) {
+        return (entry.state & RememberedContacts::bridged) != 0;
     }
 
     void findWallContacts(const Grains& grains, const RememberedContacts& old) {
@@ -156,7 +168,7 @@ private:
         // A bridge may pass on to the next part of the wall: then all within its range are listed.
         bool far = laws.actsApart;
         if (laws.formsAtContact)
-            for (const auto& entry : old.of(grains.identity[i])) far |= entry.wall == w + 1 && entry.bridged;
+            for (const auto& entry : old.of(formerPlace[i])) far |= entry.wall == w + 1 && isBridged(entry);
         const double apart = far ? rangeOf(grains.species[i], wall.species, {grain.radius}) : 0;
         parts.clear();
         wall.listParts(grain.position, grain.radius + apart + skin, parts);
@@ -245,41 +257,42 @@ private:
         if (g.bucket.wall < 0) store.gaps[block] = gapOf(grains, g.contacts[b * Pack::lanes]) - 1e-9 * skin;
     }
 
-    /// Gives the contacts that were touching or joined before their memory again.
-    void recall(const RememberedContacts& old, const Grains& grains, ContactStore& store) const {
+    /// Gives the contacts that were touching or joined before their memory again; returns how many.
+    std::size_t recall(const RememberedContacts& old, const Grains& grains, ContactStore& store) const {
         using Entry = RememberedContacts::Entry;
         std::vector<const Entry*> entries(store.blocks.size() * Pack::lanes);
-        const auto forEachRecalled = [&](const Bucket& bucket, auto&& function) {
+        const auto forEachListed = [&](const Bucket& bucket, auto&& function) {
             inParts(bucket.end - bucket.begin, threads, [&](int, std::size_t begin, std::size_t end) {
                 for (std::size_t c = (bucket.begin + begin) * Pack::lanes;
                      c < (bucket.begin + end) * Pack::lanes; ++c)
                     if (store.bitOf(store.states[c / Pack::lanes].listed, c)) function(c);
             });
         };
+        std::size_t recalled = 0;
         for (const Bucket& bucket : store.buckets) {
-            forEachRecalled(bucket,
-                            [&](std::size_t c) { entries[c] = entryOf(old, bucket, c, grains, store); });
-            for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
-                if (entries[c] && store.slots[c / Pack::lanes] == ContactStore::asleep)
+            forEachListed(bucket,
+                          [&](std::size_t c) { entries[c] = entryOf(old, bucket, c, grains, store); });
+            for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
+                if (!entries[c]) continue;
+                ++recalled;
+                if (store.slots[c / Pack::lanes] == ContactStore::asleep)
                     wakeBlock(store, c / Pack::lanes, bucket, laws, grains);
-            forEachRecalled(bucket, [&](std::size_t c) {
-                if (!entries[c]) return;
-                const std::uint32_t first =
-                    grains.identity[store.blocks[c / Pack::lanes].first[c % Pack::lanes]];
-                old.recall(*entries[c], entries[c]->owner != first, store, c);
+            }
+            forEachListed(bucket, [&](std::size_t c) {
+                if (entries[c]) old.recall(*entries[c], store, c);
             });
         }
+        return recalled;
     }
 
-    static const RememberedContacts::Entry* entryOf(const RememberedContacts& old, const Bucket& bucket,
-                                                    std::size_t c, const Grains& grains,
-                                                    const ContactStore& store) {
+    const RememberedContacts::Entry* entryOf(const RememberedContacts& old, const Bucket& bucket,
+                                             std::size_t c, const Grains& grains,
+                                             const ContactStore& store) const {
         const ContactBlock& block = store.blocks[c / Pack::lanes];
-        const std::uint32_t first = grains.identity[block.first[c % Pack::lanes]];
         const std::uint32_t second = block.second[c % Pack::lanes];
-        if (bucket.wall >= 0) return old.find(first, static_cast<std::uint32_t>(bucket.wall + 1), second);
-        const std::uint32_t other = grains.identity[second];
-        return old.find(std::min(first, other), 0, std::max(first, other));
+        return old.find(formerPlace[block.first[c % Pack::lanes]],
+                        static_cast<std::uint32_t>(bucket.wall + 1),
+                        bucket.wall >= 0 ? second : grains.identity[second]);
     }
 
     const ContactLaws& laws;
@@ -288,6 +301,7 @@ private:
     double skin;
     bool ledger;
     int threads;
+    std::vector<std::uint32_t> formerPlace;  // of the grain at each place
     Groups groups;
 };
 

@@ -14,10 +14,6 @@ struct SliderSample {
 
     /// J
     [[nodiscard]] double stored() const { return 0.5 * stiffness * stretch2; }
-    void exchangeBodies() {
-        spring = -1.0 * spring;
-        rest = -1.0 * rest;
-    }
 };
 
 /// What a contact does at the end of a step, by mechanism; all zero where it does not act.
@@ -36,21 +32,12 @@ struct ContactSample {
     SliderSample rolling, torsion;  // torques on body 1 over the effective radius
 
     [[nodiscard]] bool acts() const { return touching + bridged > 0; }
-    void exchangeBodies() {
-        normal = -1.0 * normal;
-        for (SliderSample* slider : {&sliding, &rolling, &torsion}) slider->exchangeBodies();
-    }
 };
 
 /// What a ledger of the energy reads of a contact; kept only when one is asked for.
 struct EnergyRecord {
     ContactSample now, last;  // at the end of this step and of the one before
     double adhesionWork = 0;  // J, done against the adhesion since it began to act
-
-    void exchangeBodies() {
-        now.exchangeBodies();
-        last.exchangeBodies();
-    }
 };
 
 }  // namespace pendular

@@ -12,8 +12,9 @@ namespace pendular {
 
 /// Which contacts each grain has, for the particle sum. A side is 2 x contact + (0: the grain is body 1, 1:
 /// it is body 2). Those of contacts with memory come first, written with the place in the memory instead of
-/// the contact, in the order of the contacts: so the sum reads records only, and its order is that of the
-/// list.
+/// the contact, in the order of the partners: other grains by their identity, then walls by number and part.
+/// So the sum reads records only, and its order, and with it every bit, does not depend on how contacts are
+/// listed or where grains are kept.
 class ContactSides {
 public:
     /// The sides of the contacts with memory of the grain at a place, 2 x place in the memory + (0 or 1).
@@ -26,52 +27,53 @@ public:
         return {sides.data() + ends[grain], sides.data() + begins[grain + 1]};
     }
 
-    /// Lists all sides anew.
-    /// @param forEachSide calls its argument with (grain, contact, 0 or 1) for all sides, in the order of the
-    /// contacts
+    /// Lists all sides again.
+    /// @param forEachSide calls its argument with (grain, contact, 0 or 1) for all sides
     /// @param slotOf the place of a contact in the memory; less than a block's for contacts without
-    template <class ForEachSide, class SlotOf>
-    void list(std::size_t grainCount, ForEachSide&& forEachSide, SlotOf&& slotOf) {
+    /// @param keyOf (contact, 0 or 1): the partner, as a number by which sides are ordered
+    template <class ForEachSide, class SlotOf, class KeyOf>
+    void list(std::size_t grainCount, ForEachSide&& forEachSide, SlotOf&& slotOf, KeyOf&& keyOf) {
         begins.assign(grainCount + 1, 0);
         forEachSide([&](std::uint32_t grain, std::uint32_t, std::uint32_t) { ++begins[grain + 1]; });
         for (std::size_t k = 0; k < grainCount; ++k) begins[k + 1] += begins[k];
         sides.resize(begins.back());
         ends.assign(begins.begin(), begins.end() - 1);
-        const auto add = [&](std::vector<std::uint32_t>& next, bool withMemory) {
-            forEachSide([&](std::uint32_t grain, std::uint32_t contact, std::uint32_t which) {
-                const auto slot = static_cast<std::uint32_t>(slotOf(contact));
-                if (isMemory(slot) != withMemory) return;
-                sides[next[grain]++] = 2 * (withMemory ? slot : contact) + which;
-            });
-        };
-        add(ends, true);
+        std::vector<std::uint64_t> keys(sides.size());
+        forEachSide([&](std::uint32_t grain, std::uint32_t contact, std::uint32_t which) {
+            const auto slot = static_cast<std::uint32_t>(slotOf(contact));
+            if (!isMemory(slot)) return;
+            const std::uint64_t key = keyOf(contact, which);
+            std::uint32_t at = ends[grain]++;
+            for (; at > begins[grain] && keys[at - 1] > key; --at) {
+                keys[at] = keys[at - 1];
+                sides[at] = sides[at - 1];
+            }
+            keys[at] = key;
+            sides[at] = 2 * slot + which;
+        });
         std::vector<std::uint32_t> next = ends;
-        add(next, false);
+        forEachSide([&](std::uint32_t grain, std::uint32_t contact, std::uint32_t which) {
+            if (!isMemory(static_cast<std::uint32_t>(slotOf(contact))))
+                sides[next[grain]++] = 2 * contact + which;
+        });
     }
 
     /// The contact of a grain has got memory.
     /// @param contactOf the contact at a place in the memory
-    template <class ContactOf>
+    template <class ContactOf, class KeyOf>
     void wake(std::uint32_t grain, std::uint32_t contact, std::uint32_t which, std::uint32_t slot,
-              ContactOf&& contactOf) {
+              ContactOf&& contactOf, KeyOf&& keyOf) {
         const auto begin = sides.begin() + begins[grain], end = sides.begin() + ends[grain];
         const auto self = std::find(end, sides.begin() + begins[grain + 1], 2 * contact + which);
-        const auto place =
-            std::find_if(begin, end, [&](std::uint32_t side) { return contactOf(side / 2) > contact; });
+        const std::uint64_t key = keyOf(contact, which);
+        const auto place = std::find_if(
+            begin, end, [&](std::uint32_t side) { return keyOf(contactOf(side / 2), side & 1) > key; });
         std::rotate(place, self, self + 1);
         *place = 2 * slot + which;
         ++ends[grain];
     }
 
     [[nodiscard]] std::size_t bytes() const { return bytesOf(begins, ends, sides); }
-
-    void visitState(StateArchive& archive) {
-        archive.column<std::uint32_t>("begins", begins);
-        archive.column<std::uint32_t>("ends", ends);
-        archive.column<std::uint32_t>("sides", sides);
-    }
-
-    friend bool operator==(const ContactSides&, const ContactSides&) = default;
 
 private:
     static bool isMemory(std::uint32_t slot) { return slot >= Pack::lanes; }

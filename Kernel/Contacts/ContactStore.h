@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -137,8 +138,6 @@ public:
                        energies, blockOf);
     }
 
-    void visitState(StateArchive& archive);
-
 private:
     void resize(std::size_t blocks) {
         history.resize(blocks);
@@ -211,10 +210,23 @@ public:
                 if (bitOf(states[c / Pack::lanes].listed, c)) function(bucket, c);
     }
 
-    /// The sides of all listed contacts of so many grains.
-    void listSides(std::size_t grainCount, ContactSides& all) const;
-
-    void visitState(StateArchive& archive);
+    [[nodiscard]] const Bucket& bucketOf(std::size_t block) const {
+        return *std::ranges::upper_bound(buckets, block, {}, &Bucket::end);
+    }
+    /// What orders the contacts of a grain, which is body 1 (0) or body 2 (1) of this one: other grains by
+    /// identity, then walls by number and part.
+    [[nodiscard]] std::uint64_t keyOf(std::uint32_t contact, std::uint32_t which,
+                                      const std::vector<std::uint32_t>& identity) const {
+        const ContactBlock& block = blocks[contact / Pack::lanes];
+        const std::size_t lane = contact % Pack::lanes;
+        if (contact / Pack::lanes < firstWallBlock())
+            return identity[which == 0 ? block.second[lane] : block.first[lane]];
+        const auto wall = static_cast<std::uint64_t>(bucketOf(contact / Pack::lanes).wall);
+        return (wall + 1) << 32 | block.second[lane];
+    }
+    /// Lists the sides of all contacts.
+    /// @param identity of the grain at each place
+    void listSides(const std::vector<std::uint32_t>& identity);
 
     /// Bytes that one contact with memory takes, without the ledger.
     static constexpr std::size_t bytesPerContact(const ContactLayout& layout) {

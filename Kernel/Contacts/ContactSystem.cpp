@@ -4,7 +4,6 @@
 #include <atomic>
 
 #include "Kernel/Contacts/ContactList.h"
-#include "Kernel/Contacts/StoredContacts.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Parallel.h"
 
@@ -28,7 +27,16 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     const bool sameBodies = listedGrains == grains.size() && listedWalls == walls->getSize();
     if (sameBodies && unlisted < skin.width()) return false;
     if (rebuilds > 0) skin.choose(unlisted, stepsListed);
-    ContactList(*species, *walls, periodic, skin.width(), ledger, threads).rebuild(grains, contacts);
+    newList().rebuild(grains, contacts);
+    tookList(grains);
+    return true;
+}
+
+ContactList ContactSystem::newList() const {
+    return {*species, *walls, periodic, skin.width(), ledger, threads};
+}
+
+void ContactSystem::tookList(const Grains& grains) {
     skin.listed(contacts, grains.size());
     stepsListed = 0;
     listedGrains = grains.size();
@@ -36,26 +44,20 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     species->prepare(contacts.buckets);
     unlisted = 0;
     ++rebuilds;
-    return true;
 }
 
-void ContactSystem::visitState(StateArchive& archive, const Grains& grains) {
-    contacts.visitState(archive);
-    archive.record<double>("skin", skin);
-    archive.value("stepsListed", stepsListed);
-    archive.value("listedGrains", listedGrains);
-    archive.value("listedWalls", listedWalls);
-    archive.value("unlisted", unlisted);
-    archive.value("rebuilds", rebuilds);
+void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
+    RememberedContacts remembered(species->layout, ledger);
+    if (archive.isWriting()) remembered.take(contacts, grains.identity);
+    std::vector<std::size_t> partsOfWalls;
+    for (std::size_t w = 0; w < walls->getSize(); ++w)
+        partsOfWalls.push_back(walls->getObject(w).partCount());
+    remembered.visitState(archive, grains, partsOfWalls);
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
     if (!archive.isReading()) return;
-    archive.require(skin.isPossible(), "skin", "is not that of a list of contacts");
-    archive.require(unlisted >= 0, "unlisted", "is negative or not a number");
-    archive.require(listedGrains <= grains.size(), "listedGrains", "is above the number of grains");
-    archive.require(listedWalls <= walls->getSize(), "listedWalls", "is above the number of walls");
-    StoredContacts(contacts, species->speciesCount(), listedGrains, *walls, listedWalls)
-        .require(archive, ledger);
-    species->prepare(contacts.buckets);
+    const std::size_t recalled = newList().rebuild(grains, contacts, remembered);
+    archive.require(recalled == remembered.size(), "pairs", "has a contact of bodies that are out of reach");
+    tookList(grains);
     sumWallForces(grains);  // also those that the run of the file did not keep
 }
 
@@ -135,13 +137,18 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
 void ContactSystem::wake(std::size_t block, const Bucket& bucket, const Grains& grains) {
     wakeBlock(contacts, block, bucket, *species, grains);
     const auto contactOf = [&](std::uint32_t slot) { return contacts.contactAt(slot); };
+    const auto keyOf = [&](std::uint32_t contact, std::uint32_t which) {
+        return contacts.keyOf(contact, which, grains.identity);
+    };
     for (std::uint32_t lane = 0; lane < Pack::lanes; ++lane) {
         if (!contacts.bitOf(contacts.states[block].listed, lane)) continue;
         const auto contact = static_cast<std::uint32_t>(block * Pack::lanes + lane);
         const auto slot = static_cast<std::uint32_t>(contacts.slotOf(contact));
-        contacts.sides.wake(contacts.blocks[block].first[lane], contact, 0, slot, contactOf);
-        if (bucket.wall < 0)
-            contacts.sides.wake(contacts.blocks[block].second[lane], contact, 1, slot, contactOf);
+        const auto wakeSide = [&](std::uint32_t place, std::uint32_t which) {
+            contacts.sides.wake(place, contact, which, slot, contactOf, keyOf);
+        };
+        wakeSide(contacts.blocks[block].first[lane], 0);
+        if (bucket.wall < 0) wakeSide(contacts.blocks[block].second[lane], 1);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Contacts/OverlapWatch.h"
@@ -24,8 +25,9 @@ public:
     /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
     /// contacts anew where it is time; says whether it did.
     bool refresh(Grains& grains, double grainShift, double wallShift);
-    /// After prepare(); the species, the walls and the grains are visited by themselves, before.
-    void visitState(StateArchive& archive, const Grains& grains);
+    /// What contacts remember, by who they join: how they are listed is not kept. After prepare(); the
+    /// species, the walls and the grains are visited by themselves, before.
+    void visitState(StateArchive& archive, Grains& grains);
     /// Threads for the forces; the results do not depend on it.
     void setThreads(int count) { threads = count; }
 
@@ -50,20 +52,24 @@ public:
     [[nodiscard]] const OverlapWatch& overlaps() const { return overlapWatch; }
 
     /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
-    /// step, in the order of the list. Only where a ledger is kept.
+    /// step, in the order of identities. Only where a ledger is kept.
     template <class Function>
-    void forEachEnergyRecord(Function&& function) {
-        contacts.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-            const std::size_t b = c / Pack::lanes, lane = c % Pack::lanes;
-            if (contacts.slots[b] == ContactStore::asleep) return;
-            EnergyRecord& record = contacts.memory.energies[contacts.slotOf(c)];
-            if (!record.now.acts() && !record.last.acts()) return;
-            if (bucket.wall >= 0) {
-                record.now.wallVelocity = contacts.wallPoints[b - contacts.firstWallBlock()].velocityAt(lane);
-                record.now.wallSpin = wallOf(bucket).angularVelocity();
+    void forEachEnergyRecord(const Grains& grains, Function&& function) {
+        for (const std::uint32_t place : grains.place)
+            for (const std::uint32_t side : contacts.sides.of(place)) {
+                if (side % 2 == 1) continue;  // the contact is that of its first body
+                EnergyRecord& record = contacts.memory.energies[side / 2];
+                if (!record.now.acts() && !record.last.acts()) continue;
+                const std::uint32_t contact = contacts.contactAt(side / 2);
+                const std::size_t b = contact / Pack::lanes, lane = contact % Pack::lanes;
+                const Bucket& bucket = contacts.bucketOf(b);
+                if (bucket.wall >= 0) {
+                    record.now.wallVelocity =
+                        contacts.wallPoints[b - contacts.firstWallBlock()].velocityAt(lane);
+                    record.now.wallSpin = wallOf(bucket).angularVelocity();
+                }
+                function(bucket, contacts.blocks[b], lane, record);
             }
-            function(bucket, contacts.blocks[b], lane, record);
-        });
     }
 
     [[nodiscard]] ObservedContact observe(const Grains& grains, const Bucket& bucket,
@@ -75,6 +81,8 @@ private:
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
+    [[nodiscard]] ContactList newList() const;
+    void tookList(const Grains& grains);
     [[nodiscard]] std::size_t firstWallBucket() const;
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
     void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number);

@@ -14,9 +14,8 @@ namespace pendular {
 /// and the cost F of looking at what a list of width s0 holds and does not touch. The cheapest s is
 /// sqrt(R v s0 / F).
 ///
-/// v and F are what the run itself has shown since the last rebuild, counted in contacts, not in seconds: so
-/// the choice, and with it every bit of the result, is the same on every machine and for any number of
-/// threads. The unit costs were measured (see the README of this folder).
+/// v and F are what the run itself has shown since the last rebuild, counted in contacts, not in seconds. No
+/// bit of the results depends on the skin. The unit costs were measured (see the README of this folder).
 class SkinChoice {
 public:
     SkinChoice() = default;
@@ -48,14 +47,6 @@ public:
         // What was counted at one width tells little of a very different one.
         chosen = std::clamp(best, std::max(0.5 * chosen, 0.02 * smallestRadius),
                             std::min(2 * chosen, smallestRadius));
-    }
-
-    /// Whether the numbers of this choice, out of a restart file, can be those of one.
-    [[nodiscard]] bool isPossible() const {
-        const bool isInRange =
-            smallestRadius == 0 || (chosen >= 0.01 * smallestRadius && chosen <= smallestRadius);
-        return chosen > 0 && isInRange && std::isfinite(rebuildCost) && std::isfinite(farCost) &&
-               rebuildCost >= 0 && farCost >= 0;
     }
 
 private:

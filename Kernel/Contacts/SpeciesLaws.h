@@ -84,13 +84,6 @@ public:
             putMemory(history, numbers);
         }
     }
-    void exchangeBodies([[maybe_unused]] double* numbers) const override {
-        if constexpr (requires(History<double> h) { h.exchangeBodies(); }) {
-            auto history = memoryFrom<History<double>>(numbers);
-            history.exchangeBodies();
-            putMemory(history, numbers);
-        }
-    }
     [[nodiscard]] double springLength([[maybe_unused]] const double* numbers) const override {
         if constexpr (requires(History<double> h) { h.displacement.x; })
             return norm(memoryFrom<History<double>>(numbers).displacement);

@@ -22,6 +22,13 @@ void ParticleStore::reorder(const std::vector<std::uint32_t>& order) {
 }
 
 void ParticleStore::visitState(StateArchive& archive) {
+    if (archive.isReading()) return visitColumns(archive);
+    ParticleStore byIdentity = *this;
+    byIdentity.reorder(place);
+    byIdentity.visitColumns(archive);
+}
+
+void ParticleStore::visitColumns(StateArchive& archive) {
     auto& [spins, t, r, a, e, s, i, p] = *this;  // a member that is added has to be added here
     archive.column<double>("translation", t);
     archive.column<double>("rotation", r);
@@ -29,7 +36,7 @@ void ParticleStore::visitState(StateArchive& archive) {
     archive.column<double>("earlier", e);
     archive.column<std::uint16_t>("species", s);
     archive.column<std::uint32_t>("identity", i);
-    archive.column<std::uint32_t>("place", p);
+    if (archive.isReading()) p = i;
     requireWhole(archive);
 }
 
@@ -41,7 +48,6 @@ void ParticleStore::requireWhole(const StateArchive& archive) const {
     archive.require(earlier.empty() || earlier.size() == count, "earlier", rows);
     archive.require(species.size() == count, "species", rows);
     archive.require(identity.size() == count, "identity", rows);
-    archive.require(place.size() == count, "place", rows);
     archive.requireFinite("translation", translation);
     archive.requireFinite("rotation", rotation);
     archive.requireFinite("acceleration", acceleration);
@@ -50,8 +56,7 @@ void ParticleStore::requireWhole(const StateArchive& archive) const {
         archive.require(grain.radius > 0 && grain.inverseMass >= 0, "translation",
                         "has a radius or a mass that is not positive");
     for (std::size_t k = 0; k < count; ++k)
-        archive.require(identity[k] < count && place[identity[k]] == k, "place",
-                        "is not the inverse of particles/identity");
+        archive.require(identity[k] == k, "identity", "is not 0, 1, 2 ...");
 }
 
 }  // namespace pendular

@@ -94,9 +94,11 @@ public:
 
     /// Puts the grain at order[k] to place k, for all k.
     void reorder(const std::vector<std::uint32_t>& order);
+    /// In the order of identities.
     void visitState(StateArchive& archive);
 
 private:
+    void visitColumns(StateArchive& archive);
     void requireWhole(const StateArchive& archive) const;
 };
 

@@ -10,7 +10,7 @@ namespace pendular {
 /// exactly h/2 (F + F+) . (v + v+)/2, with the forces and velocities at its begin and at its end; with spins
 /// and torques alike. The work of each force of each contact is summed by the same formula, so that the
 /// account closes to round-off for any number of steps, and what elastic forces did but is not found as
-/// stored energy is told apart as the error of the time steps. Sums are made in the order of the contacts, by
+/// stored energy is told apart as the error of the time steps. Sums are made in the order of identities, by
 /// one thread.
 class EnergyAccount {
 public:
@@ -49,15 +49,15 @@ public:
                 const Integrator& scheme, EnergyLedger& ledger) {
         ledger.stepError -= workBesidesContacts(grains, gravity, step, scheme, ledger.gravityBefore);
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
-        contacts.forEachEnergyRecord(
-            [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane, EnergyRecord& record) {
-                const ContactKind kind{.isWall = bucket.wall >= 0,
-                                       .isPlastic = contacts.laws().isPlastic,
-                                       .adhesionFormsAtContact = contacts.laws().formsAtContact};
-                addContact(record, meanMotion(grains, block.first[lane]),
-                           kind.isWall ? BodyMotion{} : meanMotion(grains, block.second[lane]), kind, step,
-                           account);
-            });
+        contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
+                                                 std::size_t lane, EnergyRecord& record) {
+            const ContactKind kind{.isWall = bucket.wall >= 0,
+                                   .isPlastic = contacts.laws().isPlastic,
+                                   .adhesionFormsAtContact = contacts.laws().formsAtContact};
+            addContact(record, meanMotion(grains, block.first[lane]),
+                       kind.isWall ? BodyMotion{} : meanMotion(grains, block.second[lane]), kind, step,
+                       account);
+        });
         takeOver(account, step > 0, ledger);  // overlaps at the start are there without work
         ledger.kinetic = kineticEnergy(grains);
         ledger.potential = ledger.carried + potentialEnergy(grains, gravity);

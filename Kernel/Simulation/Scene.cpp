@@ -135,10 +135,9 @@ void Scene::advance(double length) {
     const double wallShift = wallHandler.moveTo(getTime() + length);
     enter(StepTimes::Part::Search);
     intoLedger([&] { account.moved(grains, gravity, ledger); });
-    if (contactSystem.refresh(grains, grainShift, wallShift)) {
-        if (periodic.any()) intoLedger([&] { account.wentRound(grains, gravity, ledger); });
+    bringBack(grains);
+    if (contactSystem.refresh(grains, grainShift, wallShift))
         refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
-    }
     enter(StepTimes::Part::Contacts);
     contactSystem.computePairForces(grains, length, integrator.contacts);
     enter(StepTimes::Part::Walls);
@@ -147,6 +146,12 @@ void Scene::advance(double length) {
     Motion::finish(grains, contactSystem.store(), gravity, length, threads, integrator);
     enter(StepTimes::Part::Other);
     intoLedger([&] { account.finish(grains, contactSystem, gravity, length, integrator, ledger); });
+}
+
+void Scene::bringBack(ParticleStore& grains) {
+    if (!periodic.any() || getNumberOfTimeSteps() % stepsBetweenBringingBack != 0) return;
+    for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
+    intoLedger([&] { account.wentRound(grains, gravity, ledger); });
 }
 
 void Scene::refuseRunaway(double shift) const {

@@ -104,6 +104,11 @@ private:
         enter(before);
     }
 
+    /// Brings grains that have left a periodic scene back into it; at fixed steps, so that no bit depends on
+    /// when contacts are listed.
+    void bringBack(ParticleStore& grains);
+    static constexpr std::size_t stepsBetweenBringingBack = 256;
+
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
     void refuseRunaway(double shift) const;
 

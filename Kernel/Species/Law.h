@@ -74,7 +74,7 @@ template <class T>
 struct NoHistory {};
 
 /// The small rotation of a contact in a step. A history with a direction has a function turn(FrameRotation)
-/// that follows it, and one exchangeBodies() that sees it from the other body.
+/// that follows it.
 template <class T>
 struct FrameRotation {
     Vector<T> normal;       // n, now; from body 1 to body 2

@@ -161,8 +161,6 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
                     rotation = Law::rotationForce(prepared, Pack::fromLanes(normalForces),
                                                   packed<FrameRotation>(rotations).normal,
                                                   packed<Slip>(slips), history);
-                if constexpr (requires { history.exchangeBodies(); })
-                    if (round % 2 == 1) history.exchangeBodies();
                 for (std::size_t k = 0; k < lanes; ++k) {
                     if constexpr (turns) histories[k].turn(rotations[k]);
                     auto free = histories[k];
@@ -176,8 +174,6 @@ TEST(DoubleAndPack, frictionLawsGiveTheSameBitsOfForceAndHistory) {
                             Law::rotationForce(prepared, normalForces[k], rotations[k].normal, slips[k],
                                                histories[k]),
                             Law::name);
-                    if constexpr (requires { history.exchangeBodies(); })
-                        if (round % 2 == 1) histories[k].exchangeBodies();
                     expectSameBits<Vector>(force, k, single, Law::name);
                     if (contacts[k].overlap > 0)  // without overlap there is no spring: the kernel drops it
                         expectSameBits<Law::template History>(history, k, histories[k], Law::name);

@@ -19,8 +19,6 @@ struct RollingTorsionSpring {
     T torsion;                    // m
 
     void turn(const FrameRotation<T>& rotation) { rolling.turn(rotation); }
-    /// Seen from body 2, the relative spin and the normal change their signs: the torsion stays.
-    void exchangeBodies() { rolling.exchangeBodies(); }
 };
 
 /// Their forces: the torque on body 1 over R*.
@@ -152,10 +150,6 @@ struct FrictionSprings {
     void turn(const FrameRotation<T>& r) {
         sliding.turn(r);
         rotation.turn(r);
-    }
-    void exchangeBodies() {
-        sliding.exchangeBodies();
-        rotation.exchangeBodies();
     }
 };
 

@@ -17,9 +17,6 @@ struct TangentialSpring {
             displacement - dot(displacement, r.normal) * (r.normal - T(0.5) * r.normalShift);
         displacement = tilted + r.twist * cross(r.normal, tilted) - (T(0.5) * r.twist * r.twist) * tilted;
     }
-    /// The same spring seen with the two bodies exchanged. (From zero, so that no zero becomes a negative
-    /// one.)
-    void exchangeBodies() { displacement = Vector<T>{T(0), T(0), T(0)} - displacement; }
 };
 
 }  // namespace pendular
