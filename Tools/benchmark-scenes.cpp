@@ -7,8 +7,8 @@
 #include <chrono>
 
 #include "Drivers/Shared/BenchmarkScenes.h"
-#include "Drivers/Shared/KineticEnergy.h"
 #include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/LawNames.h"

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "Drivers/Shared/GrainRows.h"
-#include "Drivers/Shared/KineticEnergy.h"
 #include "Drivers/Shared/PublishedMaterials.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 

@@ -10,7 +10,7 @@
 #include "Drivers/Shared/BoxScene.h"
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/GrainRows.h"
-#include "Drivers/Shared/KineticEnergy.h"
+#include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Species/Adhesion/NoAdhesion.h"
 
 namespace pendular::scenes {

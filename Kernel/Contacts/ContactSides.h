@@ -27,6 +27,8 @@ public:
         return {sides.data() + ends[grain], sides.data() + begins[grain + 1]};
     }
 
+    [[nodiscard]] std::size_t grainCount() const { return ends.size(); }
+
     /// Lists all sides again.
     /// @param forEachSide calls its argument with (grain, contact, 0 or 1) for all sides
     /// @param slotOf the place of a contact in the memory; less than a block's for contacts without

@@ -160,10 +160,11 @@ void ContactSystem::sumWallForces(const Grains& grains) {
     for (std::size_t w = 0; w < walls->getSize(); ++w) {
         Wall& wall = walls->getObject(w);
         if (!wall.keepsForces()) continue;
-        WallForce sum{.about = toVector(wall.getTorquePoint())};
+        const Vector<double> about = toVector(wall.getTorquePoint());
+        WallForceSum sum;
         for (const Bucket& bucket : contacts.buckets)
-            if (bucket.wall == static_cast<int>(w)) addWallForces(contacts, bucket, grains, sum);
-        wall.setForce(sum.force, sum.torque);
+            if (bucket.wall == static_cast<int>(w)) addWallForces(contacts, bucket, grains, about, sum);
+        wall.setForce(sum.force.value(), sum.torque.value());
     }
 }
 

@@ -51,6 +51,20 @@ public:
     /// Of all contacts since the scene began.
     [[nodiscard]] const OverlapWatch& overlaps() const { return overlapWatch; }
 
+    /// Calls function(bucket, contact) for each contact that has a force, in the order of identities: of body
+    /// 1, then of body 2, then walls by number and part.
+    template <class Function>
+    void forEachActing(const Grains& grains, Function&& function) const {
+        for (const std::uint32_t place : grains.place) {
+            if (place >= contacts.sides.grainCount()) continue;  // it came after the list
+            for (const std::uint32_t side : contacts.sides.of(place)) {
+                if (side % 2 == 1) continue;  // the contact is that of its first body
+                const std::uint32_t contact = contacts.contactAt(side / 2);
+                if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
+            }
+        }
+    }
+
     /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
     /// step, in the order of identities. Only where a ledger is kept.
     template <class Function>

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/RunError.h"
 
@@ -46,26 +47,32 @@ inline void handOver(ContactStore& store, const ContactLaws& laws, std::size_t f
     moveBit(source.closing, target.closing);
 }
 
-/// Adds what the grains of a bucket do to its wall, in the order of the list. The contact point lies half the
+/// The force and the torque of grains on a wall, summed exactly.
+struct WallForceSum {
+    ExactVectorSum force, torque;
+};
+
+/// Adds what the grains of a bucket do to its wall.
+/// @param about m, the point of the torque. The contact point lies half the
 /// overlap below the grain's surface, where the grain's own lever arm ends: so the angular momentum of grain
 /// and wall is kept.
 inline void addWallForces(const ContactStore& store, const Bucket& bucket, const ParticleStore& grains,
-                          WallForce& sum) {
+                          const Vector<double>& about, WallForceSum& sum) {
     const ContactMemory& memory = store.memory;
     for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
         const std::size_t b = c / Pack::lanes, lane = c % Pack::lanes;
         if (!store.acts(c)) continue;
         const TranslationRecord& grain = grains.translation[store.blocks[b].first[lane]];
-        Vector<double> point = grain.position - sum.about;
+        Vector<double> point = grain.position - about;
         if (memory.getLayout().hasTorque) {
             const auto& n = store.wallPoints[b - store.firstWallBlock()].normal;
             point += (grain.radius - memory.records[store.slotOf(c)].halfOverlap) *
                      Vector<double>{n[0].lane[lane], n[1].lane[lane], n[2].lane[lane]};
         }
         const Vector<double>& force = store.forceOf(c);
-        sum.force -= force;
-        sum.torque -= cross(point, force);
-        if (memory.getLayout().hasContactTorque) sum.torque -= memory.torques[store.slotOf(c)].torque;
+        sum.force.add(-force);
+        sum.torque.add(-cross(point, force));
+        if (memory.getLayout().hasContactTorque) sum.torque.add(-memory.torques[store.slotOf(c)].torque);
     }
 }
 

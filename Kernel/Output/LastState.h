@@ -31,8 +31,7 @@ inline void writeContacts(const std::filesystem::path& path, const ContactSystem
                           const ParticleStore& grains, std::string_view remark) {
     CsvFile file(path, "particle1,particle2,wall,separation_m,normal_force_N,adhesive_force_N,bridged");
     file.comment(remark);
-    contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-        if (!contacts.store().acts(contact)) return;
+    contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         const std::int64_t other = bucket.wall < 0 ? std::int64_t{seen.particle2} : -1;
         file.row(seen.particle1, other, seen.wall, seen.separation, seen.normalForce, seen.adhesiveForce,

@@ -5,6 +5,7 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/FrameFile.h"
+#include "Kernel/Particles/GrainSums.h"
 
 namespace pendular {
 
@@ -102,8 +103,7 @@ private:
                                   largest));
         const std::string timeWord = fmt::format("{} ", time);
         NumberText bodies, common, directions;
-        system.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-            if (!system.store().acts(contact)) return;
+        system.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
             const ObservedContact seen = system.observe(grains, bucket, contact);
             const std::uint32_t place = grains.place[seen.particle1];
             const TranslationRecord& first = grains.translation[place];
@@ -138,20 +138,10 @@ private:
     /// time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM, of the grains that can move.
     template <class Scene>
     static std::string energyLine(const ParticleStore& grains, const Scene& scene) {
-        double mass = 0, translation = 0, rotation = 0;
-        Vector<double> moment{0, 0, 0};
-        for (std::size_t k = 0; k < grains.size(); ++k) {
-            const TranslationRecord& grain = grains.translation[k];
-            if (grain.inverseMass == 0) continue;
-            mass += 1 / grain.inverseMass;
-            moment += (1 / grain.inverseMass) * grain.position;
-            translation += 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
-            if (grains.hasSpin)
-                rotation += 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
-        }
-        const Vector<double> centre = mass > 0 ? (1 / mass) * moment : Vector<double>{0, 0, 0};
-        return fmt::format("{} {} {} {} {} {}\n", scene.getTime(), -dot(toVector(scene.getGravity()), moment),
-                           translation, rotation, scene.energyLedger().springs(), words(centre));
+        const GrainSums sums = sumGrains(grains);
+        return fmt::format("{} {} {} {} {} {}\n", scene.getTime(),
+                           -dot(toVector(scene.getGravity()), sums.firstMoment), sums.translationalEnergy,
+                           sums.rotationalEnergy, scene.energyLedger().springs(), words(sums.centreOfMass()));
     }
 
     std::string name;

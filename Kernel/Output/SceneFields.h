@@ -67,8 +67,7 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
             sums[identity][6 + k] += branch.z * parts[k];
         }
     };
-    contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-        if (!contacts.store().acts(contact)) return;
+    contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
         const double half = 0.5 * seen.separation;
@@ -90,16 +89,14 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
     data.kind = PolyData::Cells::Lines;
     for (const std::uint32_t place : grains.place) data.points.push_back(grains.translation[place].position);
     std::size_t count = 0;
-    contacts.store().forEachListed(
-        [&](const Bucket&, std::uint32_t contact) { count += contacts.store().acts(contact) ? 1 : 0; });
+    contacts.forEachActing(grains, [&](const Bucket&, std::uint32_t) { ++count; });
     std::vector<Real> force, normal, adhesive, overlap, volume;
     std::vector<std::int32_t> bridged, first, second, wall;
     force.reserve(3 * count), data.corners.reserve(2 * count);
     for (auto* column : {&normal, &adhesive, &overlap}) column->reserve(count);
     for (auto* column : {&bridged, &first, &second, &wall, &data.ends}) column->reserve(count);
     const bool isPeriodic = contacts.periodicBox().any();
-    contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-        if (!contacts.store().acts(contact)) return;
+    contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         const auto end = [&] { return data.points[seen.particle1] + seen.shift; };
         const bool isImage = bucket.wall < 0 && isPeriodic &&

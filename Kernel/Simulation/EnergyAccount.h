@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Simulation/ContactAccount.h"
 
@@ -90,25 +91,25 @@ private:
     /// the two accelerations.
     double workBesidesContacts(const Grains& grains, const Vector<double>& gravity, double step,
                                const Integrator& scheme, const Vector<double>& gravityBefore) const {
-        double sum = 0;
+        ExactSum sum;
         for (std::size_t k = 0; k < grains.size(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
             if (grain.inverseMass == 0) continue;
             const BodyMotion mean = meanMotion(grains, k);
-            sum += 0.5 * step / grain.inverseMass * dot(gravityBefore + gravity, mean.velocity);
+            sum.add(0.5 * step / grain.inverseMass * dot(gravityBefore + gravity, mean.velocity));
             if (!scheme.remembersEarlier()) continue;
             const Motion &then = before[grains.identity[k]], now = motionOf(grains, k);
             const Vector<double> gained =
                 now.velocity - then.velocity - (0.5 * step) * (then.acceleration + now.acceleration);
-            sum += dot(gained, mean.velocity) / grain.inverseMass;
+            sum.add(dot(gained, mean.velocity) / grain.inverseMass);
             if (grains.hasSpin) {
                 const Vector<double> turned =
                     now.spin - then.spin -
                     (0.5 * step) * (then.angularAcceleration + now.angularAcceleration);
-                sum += dot(turned, mean.spin) / grains.rotation[k].inverseInertia;
+                sum.add(dot(turned, mean.spin) / grains.rotation[k].inverseInertia);
             }
         }
-        return sum;
+        return sum.value();
     }
 
     /// Replaces what is stored, and adds what a step has lost and given.

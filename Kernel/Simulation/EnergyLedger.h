@@ -3,30 +3,9 @@
 #include <array>
 #include <string_view>
 
-#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/GrainSums.h"
 
 namespace pendular {
-
-/// Of the grains' places in a field of gravity, J.
-inline double potentialEnergy(const ParticleStore& grains, const Vector<double>& gravity) {
-    double sum = 0;
-    for (const TranslationRecord& grain : grains.translation)
-        if (grain.inverseMass > 0) sum -= dot(gravity, grain.position) / grain.inverseMass;
-    return sum;
-}
-
-/// Of the grains' motion, spin included, J.
-inline double kineticEnergy(const ParticleStore& grains) {
-    double sum = 0;
-    for (std::size_t k = 0; k < grains.size(); ++k) {
-        const TranslationRecord& grain = grains.translation[k];
-        if (grain.inverseMass == 0) continue;
-        sum += 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
-        if (grains.hasSpin)
-            sum += 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
-    }
-    return sum;
-}
 
 /// The energy of a scene by mechanism, in J. EnergyAccount says how it is kept.
 struct EnergyLedger {

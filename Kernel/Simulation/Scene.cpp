@@ -136,7 +136,8 @@ void Scene::advance(double length) {
     enter(StepTimes::Part::Search);
     intoLedger([&] { account.moved(grains, gravity, ledger); });
     bringBack(grains);
-    if (contactSystem.refresh(grains, grainShift, wallShift))
+    contactSystem.refresh(grains, grainShift, wallShift);
+    if (getNumberOfTimeSteps() % stepsBetweenLooks == 0)
         refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
     enter(StepTimes::Part::Contacts);
     contactSystem.computePairForces(grains, length, integrator.contacts);

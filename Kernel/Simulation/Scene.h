@@ -108,6 +108,9 @@ private:
     /// when contacts are listed.
     void bringBack(ParticleStore& grains);
     static constexpr std::size_t stepsBetweenBringingBack = 256;
+    /// For overlaps that are too deep: at fixed steps for the same reason, and so often that the search for
+    /// them takes less than a hundredth of a run.
+    static constexpr std::size_t stepsBetweenLooks = 64;
 
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
     void refuseRunaway(double shift) const;

@@ -156,8 +156,7 @@ inline void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleS
 }
 
 /// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
-/// made for: by half the smaller radius. Looked at when contacts are listed anew, nothing that lasts until
-/// then goes deeper unseen by more than the skin.
+/// made for: by half the smaller radius.
 inline void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                               const PeriodicBox& box, double time) {
     constexpr double largestShare = 0.5;

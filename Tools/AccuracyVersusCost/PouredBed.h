@@ -5,7 +5,7 @@
 
 #include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/GrainRows.h"
-#include "Drivers/Shared/KineticEnergy.h"
+#include "Kernel/Particles/GrainSums.h"
 #include "Tools/AccuracyVersusCost/BulkFigures.h"
 #include "Tools/AccuracyVersusCost/BulkLaws.h"
 
