@@ -58,6 +58,8 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     const std::size_t recalled = newList().rebuild(grains, contacts, remembered);
     archive.require(recalled == remembered.size(), "pairs", "has a contact of bodies that are out of reach");
     tookList(grains);
+    for (const Bucket& bucket : contacts.buckets)
+        if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
     sumWallForces(grains);  // also those that the run of the file did not keep
 }
 

@@ -115,6 +115,7 @@ void Scene::visitScene(StateArchive& archive) {
     archive.finite("periodic", periodic);
     archive.finite("ledger", ledger);
     archive.finite("energyAtStart", energyAtStart);
+    archive.finite("approachUnseen", approachUnseen);
     archive.value("smallestRadius", smallestRadius);
     archive.require(smallestRadius > 0, "smallestRadius", "is not positive");
     archive.group("particles", [&] { particleHandler.visitState(archive); });
@@ -137,8 +138,7 @@ void Scene::advance(double length) {
     intoLedger([&] { account.moved(grains, gravity, ledger); });
     bringBack(grains);
     contactSystem.refresh(grains, grainShift, wallShift);
-    if (getNumberOfTimeSteps() % stepsBetweenLooks == 0)
-        refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
+    lookForDeepOverlaps(grains, 2 * grainShift);
     enter(StepTimes::Part::Contacts);
     contactSystem.computePairForces(grains, length, integrator.contacts);
     enter(StepTimes::Part::Walls);
@@ -153,6 +153,13 @@ void Scene::bringBack(ParticleStore& grains) {
     if (!periodic.any() || getNumberOfTimeSteps() % stepsBetweenBringingBack != 0) return;
     for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
     intoLedger([&] { account.wentRound(grains, gravity, ledger); });
+}
+
+void Scene::lookForDeepOverlaps(const ParticleStore& grains, double approach) {
+    approachUnseen += approach;
+    if (approachUnseen < 0.1 * smallestRadius) return;
+    approachUnseen = 0;
+    refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
 }
 
 void Scene::refuseRunaway(double shift) const {

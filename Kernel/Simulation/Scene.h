@@ -108,9 +108,9 @@ private:
     /// when contacts are listed.
     void bringBack(ParticleStore& grains);
     static constexpr std::size_t stepsBetweenBringingBack = 256;
-    /// For overlaps that are too deep: at fixed steps for the same reason, and so often that the search for
-    /// them takes less than a hundredth of a run.
-    static constexpr std::size_t stepsBetweenLooks = 64;
+    /// Whenever grains can have approached by a tenth of the smallest radius: nothing that lasts goes deeper
+    /// unseen by more. It does not depend on when contacts are listed.
+    void lookForDeepOverlaps(const ParticleStore& grains, double approach);
 
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
     void refuseRunaway(double shift) const;
@@ -123,7 +123,8 @@ private:
     Vector<double> gravity{0, 0, 0};
     Integrator integrator = integrators::predictedVelocityVerlet;
     double smallestRadius = infinity;
-    double energyAtStart = 0;  // J, of the ledger
+    double energyAtStart = 0;   // J, of the ledger
+    double approachUnseen = 0;  // m, of two grains since deep overlaps were looked for
     int threads = 1;
     bool unstableAccepted = false;
     bool ledgerKept = false;

@@ -30,8 +30,9 @@ TEST(RestartToText, printsEveryDigitOfEverything) {
     EXPECT_EQ(after(result.output, "steps"), "50\n");
     EXPECT_EQ(after(result.output, "species/1/LiquidBridgeBagheri/liquidBridgeVolume"), "6e-12\n");
     std::istringstream rows(after(result.output, "particles/translation"));
-    const auto& grains = scene.particleHandler.store().translation;
-    for (const TranslationRecord& grain : grains) {
+    const ParticleStore& grains = scene.particleHandler.store();
+    for (const std::uint32_t place : grains.place) {
+        const TranslationRecord& grain = grains.translation[place];
         std::vector<double> row(8);
         for (double& number : row) rows >> number;
         EXPECT_EQ(row, (std::vector<double>{grain.position.x, grain.position.y, grain.position.z,
