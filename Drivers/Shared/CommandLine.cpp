@@ -34,8 +34,8 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
     const auto addInterval = [&](const char* name, double& interval, const std::string& between,
                                  const std::string& file, const std::string& none = "none") {
         app.add_option(name, interval,
-                       fmt::format("time between two {} ({}{} in the folder), s, which are written when "
-                                   "output is due; 0: {}",
+                       fmt::format("time from one to the next of the {} ({}{} in the folder), s: they are "
+                                   "written at the steps nearest to its multiples, and at the end; 0: {}",
                                    between, run, file, none))
             ->capture_default_str();
     };

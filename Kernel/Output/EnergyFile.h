@@ -12,9 +12,10 @@ namespace pendular {
 /// then keeps the ledger.
 class EnergyFile {
 public:
-    /// @param time s, between two rows at least, where outputs are due more often
+    /// @param time s, from one of the rows to the next; 0: whenever outputs are due
     explicit EnergyFile(double time = 0) : table("EnergyFile", "-energy.csv", time) {}
 
+    [[nodiscard]] OutputInterval interval() const { return table.interval(); }
     template <class Scene>
     void prepare(Scene& scene) const {
         scene.keepEnergyLedger();
@@ -23,7 +24,7 @@ public:
     template <class Scene>
     void write(const Scene& scene) {
         const double time = scene.getTime();
-        if (!table.isDue(time)) return;
+        if (table.has(time)) return;
         const auto& ledger = scene.energyLedger();
         std::string row = fmt::format("{}", time);
         for (const auto& entry : ledger.entries()) row += fmt::format(",{}", ledger.*entry.member);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/State/StateArchive.h"
 
@@ -20,11 +21,12 @@ public:
     /// @param beginning what the names of files begin with; the name of the simulation if empty
     explicit FrameOutput(std::string beginning = {}) : name(std::move(beginning)) {}
 
-    /// One frame in so much time (s) at most, where outputs are due more often.
+    /// A frame at the step nearest to each multiple of this time (s), and at the end, whenever other outputs
+    /// are due; 0: when they are.
     FrameOutput& withInterval(double seconds) {
-        checkValue("Output of frames", "interval", seconds, "s", notNegative);
-        return interval = seconds, *this;
+        return times = OutputInterval("Output of frames", seconds), *this;
     }
+    [[nodiscard]] OutputInterval interval() const { return times; }
     /// A number or a Vec3D of each grain, by its identity; the name ends with the unit.
     template <class Function>
     FrameOutput& addField(const std::string& fieldName, Function valueOf) {
@@ -44,8 +46,7 @@ public:
 
     template <class Scene>
     void write(const Scene& scene) {
-        // Times are products of rounded numbers.
-        if (scene.getTime() < last + interval * (1 - 1e-9)) return;
+        if (scene.getTime() <= last) return;  // it has this state
         if (!series) series.emplace(nameIn(scene), keptUntil(scene));
         series->add(content.of(scene), scene.getNumberOfThreads());
         last = scene.getTime();
@@ -81,7 +82,7 @@ private:
     FrameContent content;
     std::optional<Series> series;
     std::string name;
-    double interval = 0;      // s
+    OutputInterval times;
     double last = -INFINITY;  // s, of the last frame
     bool isKnown = false;     // `last`, from a restart file
 };

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/RunTable.h"
-#include "Kernel/Species/Field.h"
 
 namespace pendular {
 
@@ -15,21 +15,20 @@ namespace pendular {
 class TimedTable {
 public:
     /// @param ending of the file's name, after that of the scene
-    /// @param time s, between two outputs at least, where they are due more often
+    /// @param time s, from one output to the next; 0: whenever outputs are due
     TimedTable(std::string_view owner, std::string_view ending, double time)
-        : nameEnding(ending), interval(time) {
-        checkValue(owner, "interval", time, "s", notNegative);
-    }
+        : nameEnding(ending), times(owner, time) {}
 
-    /// @param time s; times are products of rounded numbers
-    [[nodiscard]] bool isDue(double time) const { return time >= last + interval * (1 - 1e-9); }
+    [[nodiscard]] OutputInterval interval() const { return times; }
+    /// Whether it has the rows of this time (s).
+    [[nodiscard]] bool has(double time) const { return time <= last; }
     void wroteAt(double time) { last = time; }
     template <class Scene>
     RunTable& of(const Scene& scene, const std::string& header) {
         if (!table) table = std::make_unique<RunTable>(pathOf(scene), header);
         return *table;
     }
-    /// The table, and the time of its last rows, from which the next interval is counted.
+    /// The table, and the time of its last rows.
     template <class Scene>
     void visitState(StateArchive& archive, const Scene& scene, const std::string& header) {
         RunTable& rows = of(scene, header);
@@ -47,7 +46,7 @@ private:
 
     std::string nameEnding;
     std::unique_ptr<RunTable> table;
-    double interval;          // s
+    OutputInterval times;
     double last = -INFINITY;  // s, of the last rows
 };
 

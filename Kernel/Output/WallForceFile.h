@@ -11,9 +11,10 @@ namespace pendular {
 /// row. A scene without walls gets no file.
 class WallForceFile {
 public:
-    /// @param time s, between two outputs at least, where they are due more often
+    /// @param time s, from one of the outputs to the next; 0: whenever outputs are due
     explicit WallForceFile(double time = 0) : table("WallForceFile", "-wall-forces.csv", time) {}
 
+    [[nodiscard]] OutputInterval interval() const { return table.interval(); }
     template <class Scene>
     void prepare(Scene& scene) const {
         keepAll(scene.wallHandler);
@@ -22,7 +23,7 @@ public:
     template <class Scene>
     void write(Scene& scene) {
         const double time = scene.getTime();
-        if (!table.isDue(time)) return;
+        if (table.has(time)) return;
         for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w) {
             const Wall& wall = scene.wallHandler.getObject(w);
             if (!wall.keepsForces()) continue;

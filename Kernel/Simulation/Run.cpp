@@ -129,7 +129,7 @@ void Run::stepToTheEnd(RunControl& control) {
     bool stops = isAskedToStop();
     while (!stops && steps < last && continueSolve()) {
         step();
-        if (saveCount > 0 && steps % saveCount == 0) writeAll();
+        writeOutputs(false);
         if (progress && progress->isDue(steps))
             progress->show(getTime(), steps, [this] { return numbers(); });
         stops = isAskedToStop();
@@ -137,7 +137,7 @@ void Run::stepToTheEnd(RunControl& control) {
     if (progress) progress->finish(getTime(), steps, [this] { return numbers(); });
     // Before the last output: a run that goes on from here knows nothing of one that is not due.
     if (restarts.kept) writeRestart(restartFile());
-    if (steps > 0 && (saveCount == 0 || steps % saveCount != 0)) writeAll();
+    if (steps > 0) writeOutputs(true);
     if (stops) throw stop();
     completeAll();
 }
@@ -165,6 +165,21 @@ void Run::writeAll() {
     const StepTimes::Part before = times.enter(StepTimes::Part::Output);
     for (const KeptOutput& output : outputs) output.write();
     writeOutput();
+    times.enter(before);
+}
+
+/// What is due after this step; at the end of the run, what was not. An output with an interval knows by
+/// itself whether it has this state.
+void Run::writeOutputs(bool atEnd) {
+    const bool own = (saveCount > 0 && steps % saveCount == 0) != atEnd;
+    const auto isDue = [&](const KeptOutput& output) {
+        return output.interval.isGiven() ? atEnd || output.interval.isDueAfter(steps, timeStep) : own;
+    };
+    if (!own && std::none_of(outputs.begin(), outputs.end(), isDue)) return;
+    const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+    for (const KeptOutput& output : outputs)
+        if (isDue(output)) output.write();
+    if (own) writeOutput();
     times.enter(before);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/Progress.h"
 #include "Kernel/Simulation/RunControl.h"
 #include "Kernel/Simulation/StepTimes.h"
@@ -85,7 +86,8 @@ public:
     /// calls it; a driver that steps by itself does.
     virtual void initialise() = 0;
     void step();
-    /// What the outputs and writeOutput() write; a driver that steps by itself calls it.
+    /// What the outputs, whatever their intervals, and writeOutput() write; a driver that steps by itself
+    /// calls it.
     void writeAll();
     /// What completes the outputs; a driver that steps by itself calls it at its end.
     void completeAll();
@@ -95,6 +97,7 @@ protected:
     struct KeptOutput {
         std::function<void()> write, prepare = {}, complete = {};
         std::function<void(StateArchive&)> visitState = {};
+        OutputInterval interval = {};  // none: it is written where writeOutput() is called
     };
     void keepOutput(KeptOutput output) { outputs.push_back(std::move(output)); }
     void prepareOutputs();
@@ -119,6 +122,7 @@ private:
 
     void begin();
     void stepToTheEnd(RunControl& control);
+    void writeOutputs(bool atEnd);
     [[nodiscard]] RunStopped stop();
     void completeOutputs();
     void completeWhatCanBe();

@@ -24,7 +24,8 @@ public:
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
     /// it has a function prepare(), that is called at once, and again when the scene is set up;
-    /// visitState(archive, *this) is what it remembers.
+    /// visitState(archive, *this) is what it remembers. One whose interval() is given is written at the steps
+    /// nearest to its multiples instead, at the start and at the end, where it writes no state twice.
     template <class Output>
     void addOutput(Output output) {
         const auto kept = std::make_shared<Output>(std::move(output));
@@ -37,6 +38,7 @@ public:
             calls.complete = [this, kept] { kept->complete(*this); };
         if constexpr (requires(StateArchive archive) { kept->visitState(archive, *this); })
             calls.visitState = [this, kept](StateArchive& archive) { kept->visitState(archive, *this); };
+        if constexpr (requires { kept->interval(); }) calls.interval = kept->interval();
         keepOutput(std::move(calls));
     }
     /// @param acceleration m/s^2

@@ -173,14 +173,17 @@ TEST(HopperDischarge, writesTheForcesOnItsWall) {
                             folder.option());
     ASSERT_EQ(result.exitCode, 0) << result.output;
     const auto settling = rowsOf(folder.path() / "settling-wall-forces.csv");
-    ASSERT_EQ(settling.size(), 2u);
+    ASSERT_GE(settling.size(), 2u);
     EXPECT_EQ(settling.front(), std::vector<double>(8, 0));
     const double meanCube = 1e-9 * (1 + 0.1 * 0.1);  // m^3, of radii that spread evenly by 10 %
     const double weight = 120 * 2500 * 4.0 / 3 * std::numbers::pi * meanCube * 9.81;  // N
     EXPECT_NEAR(-settling.back()[4] / weight, 1, 0.3);
     const auto rows = rowsOf(folder.path() / "orifice-0.01-wall-forces.csv");
     ASSERT_GE(rows.size(), 5u);
-    for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_GE(rows[k][0] - rows[k - 1][0], 0.01 * (1 - 1e-9));
+    ASSERT_GE(rows.size(), 7u);
+    ASSERT_LE(rows.size(), 8u) << "0 to 0.06 s, and the last state where it is the step behind that";
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        EXPECT_NEAR(rows[k][0], std::min(0.01 * static_cast<double>(k), 0.06), 3e-5) << "a step";
 }
 
 /// Its floor is added when the run is set up, after the output. A run that goes on at its end changes

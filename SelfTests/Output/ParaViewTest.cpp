@@ -260,17 +260,20 @@ TEST(ParaView, hasOneSeriesOfARunThatGoesOn) {
     EXPECT_EQ(ParaViewSeries(folder.name(), -INFINITY).add("a", 0, 0).filename(), "run-a-000000000.vtp");
 }
 
-TEST(ParaView, writesOneFrameInAnInterval) {
-    const TestFolder folder;
-    FewGrains<Smooth> scene(scenes::boxMaterial<Smooth>(0), {{.radius = 1e-3}}, 1e-5);
-    scene.setTimeMax(100e-5);
-    scene.setSaveCount(1);
-    scene.addOutput(ParaViewOutput(folder.name()).withInterval(30e-5));
-    scene.solve();
-    std::vector<int> steps;
-    for (const ParaViewEntry& entry : readParaViewSeries(folder.name() + ".pvd"))
-        steps.push_back(static_cast<int>(std::lround(entry.time / 1e-5)));
-    EXPECT_EQ(steps, (std::vector<int>{0, 0, 30, 30, 60, 60, 90, 90}));  // particles and contacts
+/// 29.6, 59.2 and 88.8 steps, whenever other outputs are due; and the last state.
+TEST(ParaView, writesTheFrameNearestToEachMultipleOfItsInterval) {
+    for (const std::size_t saveCount : {0, 1, 11, 100}) {
+        const TestFolder folder;
+        FewGrains<Smooth> scene(scenes::boxMaterial<Smooth>(0), {{.radius = 1e-3}}, 1e-5);
+        scene.setTimeMax(100e-5);
+        scene.setSaveCount(saveCount);
+        scene.addOutput(ParaViewOutput(folder.name()).withInterval(29.6e-5).withContacts(false));
+        scene.solve();
+        std::vector<int> steps;
+        for (const ParaViewEntry& entry : readParaViewSeries(folder.name() + ".pvd"))
+            steps.push_back(static_cast<int>(std::lround(entry.time / 1e-5)));
+        EXPECT_EQ(steps, (std::vector<int>{0, 30, 59, 89, 100})) << saveCount;
+    }
 }
 
 TEST(ParaView, thatCannotBeWrittenEndsTheRunInOneSentence) {

@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "Kernel/Math/Random.h"
+#include "Kernel/Output/OutputInterval.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular {
+namespace {
+
+std::vector<std::size_t> dueSteps(double interval, double timeStep, std::size_t end) {
+    const OutputInterval output("Test", interval);
+    std::vector<std::size_t> steps;
+    for (std::size_t step = 0; step <= end; ++step)
+        if (output.isDueAfter(step, timeStep)) steps.push_back(step);
+    return steps;
+}
+
+TEST(OutputInterval, isDueAtTheStepNearestToEachMultiple) {
+    using Steps = std::vector<std::size_t>;
+    EXPECT_EQ(dueSteps(10, 1, 35), (Steps{0, 10, 20, 30}));
+    EXPECT_EQ(dueSteps(29.6, 1, 100), (Steps{0, 30, 59, 89}));
+    EXPECT_EQ(dueSteps(0.7, 1, 3), (Steps{0, 1, 2, 3}));
+    EXPECT_EQ(dueSteps(1e-320, 1, 3), (Steps{0, 1, 2, 3}));
+    EXPECT_EQ(dueSteps(1e300, 1e-6, 1000), (Steps{0}));
+}
+
+/// Whatever the numbers, each multiple has its step, and no other step is due. A quotient of the order of 1e3
+/// is rounded by some 1e-13: two steps may be called equally near to it.
+TEST(OutputInterval, leavesNoMultipleOut) {
+    UniformRandom random(5);
+    for (int draw = 0; draw < 2000; ++draw) {
+        const double timeStep = std::exp(random.uniform(-20, 0)), ratio = std::exp(random.uniform(0, 4));
+        const double interval = ratio * timeStep;
+        const std::vector<std::size_t> steps = dueSteps(interval, timeStep, 1000);
+        for (std::size_t k = 0; k < steps.size(); ++k)
+            ASSERT_NEAR(static_cast<double>(steps[k]), static_cast<double>(k) * ratio, 0.5 + 1e-9) << ratio;
+        ASSERT_GE(static_cast<double>(steps.size()) * ratio, 1000.5 - 1e-9) << ratio;
+    }
+}
+
+TEST(OutputInterval, isNoneOrPositive) {
+    EXPECT_FALSE(OutputInterval().isGiven());
+    EXPECT_FALSE(OutputInterval("Test", 0).isGiven());
+    EXPECT_TRUE(OutputInterval("Test", 1e-300).isGiven());
+    for (const double wrong : std::vector<double>{-1, std::nan(""), INFINITY})
+        EXPECT_NE(support::refusal([&] { OutputInterval("Test", wrong); }), "") << wrong;
+}
+
+}  // namespace
+}  // namespace pendular
