@@ -14,7 +14,7 @@ struct Options {
     double begin = 0.1;                                 // s, of the steady part
     double endTime = 0.4;                               // s
     double interval = 0.002;                            // s
-    RunOptions run{.output = "HopperDischarge"};
+    RunOptions run{.output = "HopperDischarge-output"};
 };
 
 void describe(CLI::App& app, Options& o) {

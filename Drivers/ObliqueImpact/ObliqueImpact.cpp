@@ -26,7 +26,7 @@ struct Options {
     std::vector<double> angles;
     int steps = 100;
     bool energy = false;
-    RunOptions run{.output = "ObliqueImpact"};
+    RunOptions run{.output = "ObliqueImpact-output"};
 
     [[nodiscard]] std::size_t impacts() const { return springFactors.size() * angles.size(); }
     [[nodiscard]] double springFactorOf(std::size_t impact) const {

@@ -17,7 +17,7 @@ struct Options {
     double endTime = 0.1;                             // s
     double interval = 5e-4;                           // s
     bool wholeTime = false;
-    RunOptions run{.output = "Penetration"};
+    RunOptions run{.output = "Penetration-output"};
 };
 
 class Penetration : public PenetrationScene {

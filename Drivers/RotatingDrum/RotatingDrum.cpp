@@ -16,7 +16,7 @@ struct Options {
     double speed = DrumScene::publishedSpeed;  // rad/s
     double endTime = 5;                        // s
     double interval = 0.01;                    // s
-    RunOptions run{.output = "RotatingDrum"};
+    RunOptions run{.output = "RotatingDrum-output"};
 };
 
 class RotatingDrum : public DrumScene {

@@ -29,7 +29,7 @@ int runDriver(const DriverProgram& driver, int argc, char** argv, const std::fun
 /// The main() of a driver that has no options of its own.
 template <class Driver>
 int runDriver(const std::string& description, const std::string& name, int argc, char** argv) {
-    RunOptions options{.output = name};
+    RunOptions options{.output = name + "-output"};
     const auto addOptions = [&](CLI::App& app) { addRunOptions(app, options, "what the run writes"); };
     return runDriver({name, description, options, addOptions}, argc, argv, [&] {
         Driver driver;

@@ -29,7 +29,7 @@ struct Options {
     double timeStep = 0;         // s; 0: 1/50 of the Rayleigh time
     double timeMax = 0.02;       // s
     double adviceTolerance = 0;  // %; 0: no advice
-    RunOptions run{.output = "TwoParticleCollision"};
+    RunOptions run{.output = "TwoParticleCollision-output"};
 };
 
 /// What a driver of liquid bridges can do with: a bridge, or nothing.

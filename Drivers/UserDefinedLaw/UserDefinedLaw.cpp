@@ -35,7 +35,7 @@ struct SquareWell {
 };
 
 int main(int argc, char** argv) {
-    RunOptions options{.output = "UserDefinedLaw"};
+    RunOptions options{.output = "UserDefinedLaw-output"};
     const DriverProgram driver{
         .name = "UserDefinedLaw",
         .description = "Two grains attract each other by a law of this driver.",
