@@ -4,7 +4,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <limits>
 #include <string>
+#include <utility>
 
 namespace pendular {
 
@@ -18,8 +20,9 @@ std::size_t terminalWidth() {
 
 }  // namespace
 
-Progress::Progress(double endTime, double time, std::size_t step)
-    : end(endTime),
+Progress::Progress(std::string ofWhat, double endTime, double time, std::size_t step)
+    : name(std::move(ofWhat)),
+      end(endTime),
       firstTime(time),
       firstStep(step),
       nextLook(step),
@@ -48,13 +51,20 @@ void Progress::print(double time, std::size_t step, const RunNumbers& numbers) {
     const double part = end > firstTime ? (time - firstTime) / (end - firstTime) : 1;
     const double left = part > 0 ? std::max(elapsed * (1 - part) / part, 0.0) : 0;
     const double rate = static_cast<double>(step - firstStep) / elapsed;
-    // What matters most comes first: on the terminal the line is cut, as one that wraps cannot be renewed.
-    std::string line = fmt::format(
-        "{:5.1f} %  {:.4g} of {:.4g} s  {:.0f} s left  {:.3g} steps/s  {:.3g} million particle steps/s  {} "
-        "contacts  {:.3g} J",
-        end > 0 ? 100 * time / end : 100, time, end, left, rate,
-        1e-6 * rate * static_cast<double>(numbers.grains), numbers.contacts, numbers.kineticEnergy);
-    if (terminal) line.resize(terminalWidth() - 1, ' ');
+    // What matters most comes first: on the terminal the rest is left out, as a line that wraps cannot be
+    // renewed.
+    const std::size_t width = terminal ? terminalWidth() - 1 : std::numeric_limits<std::size_t>::max();
+    std::string line = fmt::format("{:5.1f} %", end > 0 ? 100 * time / end : 100);
+    if (!name.empty() && name.size() + 2 + line.size() <= width) line = name + "  " + line;
+    for (const std::string& part :
+         {fmt::format("{:.4g} of {:.4g} s", time, end), fmt::format("{:.0f} s left", left),
+          fmt::format("{:.3g} steps/s", rate),
+          fmt::format("{:.3g} million particle steps/s", 1e-6 * rate * static_cast<double>(numbers.grains)),
+          fmt::format("{} contacts", numbers.contacts), fmt::format("{:.3g} J", numbers.kineticEnergy)}) {
+        if (line.size() + 2 + part.size() > width) break;
+        line += "  " + part;
+    }
+    if (terminal) line.resize(width, ' ');
     fmt::print(stderr, "{}{}{}", terminal ? "\r" : "", line, terminal ? "" : "\n");
     shown = true;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <string>
 
 namespace pendular {
 
@@ -14,12 +15,13 @@ struct RunNumbers {
 };
 
 /// How far a run is, how fast, and the time left: a line on the terminal that is renewed a few times a
-/// second; where standard error is no terminal, a plain line for each minute. It takes a hundredth of the
-/// run's time at most.
+/// second; where standard error is no terminal, a plain line for each minute. What does not fit into the line
+/// is left out, from its end. It takes a hundredth of the run's time at most.
 class Progress {
 public:
-    /// @param endTime s; @param time s, at the start of the run; @param step at the start of the run
-    explicit Progress(double endTime, double time = 0, std::size_t step = 0);
+    /// @param ofWhat the name of the run, at the start of the line; @param endTime s; @param time s, and
+    /// @param step, where the run starts
+    explicit Progress(std::string ofWhat, double endTime, double time = 0, std::size_t step = 0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -49,6 +51,7 @@ private:
     void endLine();
     void print(double time, std::size_t step, const RunNumbers& numbers);
 
+    std::string name;
     double end, firstTime;  // s
     std::size_t firstStep, nextLook;
     bool terminal, shown = false;

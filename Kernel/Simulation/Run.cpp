@@ -118,7 +118,7 @@ void Run::begin() {
 
 void Run::stepToTheEnd(RunControl& control) {
     std::optional<Progress> progress;
-    if (!quiet) progress.emplace(timeMax, getTime(), steps);
+    if (!quiet) progress.emplace(std::filesystem::path(name).filename().string(), timeMax, getTime(), steps);
     const double most = 1e18;  // steps, more than any run has
     const auto last = static_cast<std::size_t>(std::min(most, std::ceil(timeMax / timeStep * (1 - 1e-12))));
     const auto isAskedToStop = [&] {

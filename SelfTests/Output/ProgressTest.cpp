@@ -47,7 +47,7 @@ private:
 std::string shownAt(double time, unsigned short columns) {
     Terminal terminal(columns);
     if (!terminal.works) return {};
-    Progress progress(2);
+    Progress progress("drum", 2);
     progress.show(time, 1000, [] { return RunNumbers{123456789, 987654321, 1.234e-5}; });
     std::string text = terminal.text();
     EXPECT_EQ(text.substr(0, 1), "\r");
@@ -59,8 +59,13 @@ TEST(Progress, fitsTheTerminal) {
     for (const unsigned short columns : {20, 80, 200}) {
         const std::string line = shownAt(1, columns);
         EXPECT_EQ(line.size(), columns - 1u) << "it is renewed whole, and does not wrap";
-        EXPECT_EQ(line.substr(0, 16), " 50.0 %  1 of 2 ");
+        EXPECT_EQ(line.substr(0, 13), "drum   50.0 %");
+        const std::string last = line.substr(0, line.find_last_not_of(' ') + 1);
+        EXPECT_TRUE(last.ends_with("%") || last.ends_with(" s") || last.ends_with("left") ||
+                    last.ends_with("steps/s") || last.ends_with("contacts") || last.ends_with(" J"))
+            << "it ends with a whole number and its unit: " << line;
     }
+    EXPECT_EQ(shownAt(1, 12), " 50.0 %    ") << "no room for the name";
     EXPECT_NE(shownAt(1, 80).find(" s left"), std::string::npos);
     EXPECT_NE(shownAt(1, 200).find("1.23e-05 J"), std::string::npos);
 }

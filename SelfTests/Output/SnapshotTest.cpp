@@ -149,6 +149,14 @@ TEST(SnapshotOfALastState, leavesOutGrainsThatAreNowhere) {
     EXPECT_EQ(span.share(3), 0.5);
 }
 
+/// There is no number that its ends could show.
+TEST(SnapshotWithoutGrains, hasNoLegend) {
+    Frame frame;
+    frame.grains.pointFields = {{"radius_m", 1, std::vector<double>()}};
+    EXPECT_FALSE(compose(frame, View(), Span()).legend);
+    EXPECT_TRUE(compose(frame, View(), Span{1, 2}).legend) << "a range that is asked for";
+}
+
 TEST_F(Snapshot, hasASphereForEachGrainAndAColourForEachSpecies) {
     ASSERT_EQ(draw(".pvd --field species --scene-only").exitCode, 0);
     const std::string text = support::contentOf(scene);

@@ -167,7 +167,8 @@ inline Picture compose(const Frame& frame, const View& view, const Span& span) {
         if (view.contacts == "bridges") addBridges(picture, frame, view);
     }
     if (view.wallTransparency < 1) picture.walls = wallsOf(frame.walls, view, largest);
-    if (view.legend && scalar.name != "none") picture.legend = legendOf(scalar, span, view);
+    const bool hasValues = span.lowest <= span.highest;  // a scene without grains has none
+    if (view.legend && hasValues && scalar.name != "none") picture.legend = legendOf(scalar, span, view);
     picture.caption = view.caption == "time" ? fmt::format("t = {:.4g} s", frame.grains.time) : view.caption;
     return picture;
 }
