@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/AccuracyVersusCost/BridgeChart.h"
@@ -69,7 +70,7 @@ int main(int argc, char** argv) {
         add(ofBulk, "--turned-rad", bulk.turned, "angle by which the drum turns while it is measured, rad"),
     };
     add(ofBulk, "--rounds", bulk.rounds, "measurements of time, of which the median counts");
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         std::size_t modes = 0;
         for (const CLI::Option* mode : {ofBridges, ofFailures, ofTime, ofBulk, ofContacts, ofSteps})

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "Drivers/Shared/BenchmarkScenes.h"
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/Program.h"
@@ -118,6 +119,6 @@ int main(int argc, char** argv) {
     app.add_option("--paraview", o.paraView,
                    "writes a frame for ParaView of this name behind the timed steps, and says what it costs");
     app.add_flag("--header", o.header, "print the names of the columns first");
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(o); });
 }

@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Output/CsvFile.h"
@@ -185,7 +186,7 @@ int main(int argc, char** argv) {
     app.add_option("--output", folder, "folder for figure-3.csv, figure-4.csv, figure-5.csv, figure-9.csv")
         ->capture_default_str();
     app.add_option("--points", points, "separations from 0 to 1.45 R")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         writeFigures(folder, points);
         return 0;

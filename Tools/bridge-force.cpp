@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/BridgeLaws.h"
@@ -111,6 +112,6 @@ int main(int argc, char** argv) {
     app.add_option("--points", o.points, "separations from 0 to rupture")->capture_default_str();
     app.add_option("--separation", o.separations, "separations, m, instead of points");
     app.add_flag("--raw-fit", o.rawFit, "take a fit even where it has a pole or changes its sign");
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(o); });
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "BuildFolders.h"
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/AccuracyVersusCost/SceneComparison.h"
 
@@ -30,7 +31,7 @@ int main(int argc, char** argv) {
     app.add_option("--dimensionless-volume", o.cell.dimensionlessVolume, "V* of the bridges in the cell")
         ->capture_default_str();
     app.add_option("--contact-angle-deg", degrees, "in the cell, degrees")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         checkValue("bridge-scenes", "contact-angle-deg", degrees, "degrees", fromZeroTo(180));
         o.cell.contactAngle = degrees * std::numbers::pi / 180;

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/BridgeChoice.h"
@@ -167,6 +168,6 @@ int main(int argc, char** argv) {
         "on this machine, and the next better one.");
     Options options;
     describe(app, options);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(options); });
 }

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Output/CsvFile.h"
 #include "Kernel/Simulation/Program.h"
 #include "SelfTests/Papers/ChungOoiCases.h"
@@ -139,7 +140,7 @@ int main(int argc, char** argv) {
         "largest errors.");
     std::string folder = "impact-figures";
     app.add_option("--output", folder, "folder for test-1.csv to test-8.csv")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         writeTables(folder);
         return 0;

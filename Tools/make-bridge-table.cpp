@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Capillary/BridgeTableMaking.h"
 #include "Kernel/Simulation/Program.h"
 
@@ -43,7 +44,7 @@ void printTable(const BridgeTable& table) {
 
 int main(int argc, char** argv) {
     CLI::App app("Prints the source file of the table of exact liquid bridges; takes some seconds.");
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         printTable(makeBridgeTable());
         return 0;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "Drivers/Shared/BenchmarkScenes.h"
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Output/MercuryOutput.h"
@@ -144,6 +145,6 @@ int main(int argc, char** argv) {
         ->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads, "OpenMP threads");
     app.add_option("--output", o.folder, "new folder for the frames");
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(o); });
 }

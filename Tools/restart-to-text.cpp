@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/State/RestartFile.h"
 
@@ -68,7 +69,7 @@ int main(int argc, char** argv) {
     app.add_option("file", path, "the restart file")->required();
     app.add_option("--begin", begin, "only what has a name that begins so, such as particles/");
     app.add_flag("--names", namesOnly, "names, rows and columns only");
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         print(path, begin, namesOnly);
         return 0;

@@ -9,6 +9,7 @@
 
 #include <cstdlib>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Output/WrittenBeside.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Field.h"
@@ -172,6 +173,6 @@ int main(int argc, char** argv) {
         "ffmpeg -i film/frame-%04d.png film.mp4");
     Options options;
     describe(app, options);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(options); });
 }

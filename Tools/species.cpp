@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/Laws.h"
@@ -90,7 +91,7 @@ int main(int argc, char** argv) {
     app.add_flag("--list", listed, "name all laws and species, a line each");
     app.add_option("--describe", described,
                    "table of the parameters of a law or a species (all: of every law)");
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         if (!described.empty()) describe(described);
         else if (listed) list();

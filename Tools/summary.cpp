@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/SummaryFile.h"
@@ -51,6 +52,6 @@ int main(int argc, char** argv) {
         "for wrong input.");
     std::filesystem::path folder;
     app.add_option("folder", folder, "where runs have written NAME-summary.csv")->required();
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(folder); });
 }

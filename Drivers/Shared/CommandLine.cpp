@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/RunControl.h"
@@ -51,7 +52,7 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
 int runDriver(const DriverProgram& driver, int argc, char** argv, const std::function<void()>& body) {
     CLI::App app(driver.description, driver.name);
     driver.addOptions(app);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         const RunOptions& o = driver.options;
         checkValue(driver.name, "number of threads", o.threads, "", {1, 4096});

@@ -2,6 +2,7 @@
 // columns.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -149,6 +150,29 @@ TEST(Scripts, refuseOptionsInOneSentence) {
         EXPECT_EQ(help.output.find("set -euo"), std::string::npos);
     }
     EXPECT_GE(count, 5);
+}
+
+/// What CLI11 would take as 0, 1.8e19 or octal.
+TEST(Programs, refuseWhatIsNoNumber) {
+    const std::string drum = drivers + "/RotatingDrum/RotatingDrum ", bridge = tools + "/bridge-force ";
+    for (const auto& [command, part] :
+         {std::pair{drum + "--number -5", "--number: '-5' is not a whole number, 0 or"},
+          {drum + "--number ''", "--number: the value is empty"},
+          {drum + "--number 1e3", "--number: '1e3' is not a whole number"},
+          {drum + "--number 010", "--number: '010' is not a whole number"},
+          {drum + "--number 18446744073709551615", "of at most 18 digits"},
+          {drum + "--threads ''", "--threads: the value is empty"},
+          {drum + "--end-time-s ''", "--end-time-s: the value is empty"},
+          {tools + "/benchmark-scenes --threads \'\'", "--threads: the value is empty"},
+          {tools + "/benchmark-scenes --steps \'\'", "--steps: "},
+          {bridge + "--r1 ''", "--r1: the value is empty"},
+          {bridge + "--points ''", "--points: the value is empty"},
+          {bridge + "--no-such 1", "--no-such; see --help"}}) {
+        const Result result = run(command);
+        EXPECT_GT(result.exitCode, 1) << command;
+        EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
+        EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+    }
 }
 
 TEST(UserDefinedLaw, runs) {

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace pendular {
+
+/// What CLI11 lets through: an empty number, which it reads as 0; a negative one for a count, which it reads
+/// as 1.8e19; one with a 0 in front, which it reads as octal; more than 18 digits. Returns what is wrong, or
+/// nothing.
+inline std::string objectionToNumber(const std::string& kind, const std::string& text) {
+    if (text.empty()) return "the value is empty; it must be a number";
+    if (kind == "FLOAT") return {};
+    const bool isCount = kind == "UINT";
+    const std::string digits = text.substr(text[0] == '+' || (text[0] == '-' && !isCount) ? 1 : 0);
+    const bool areDigits =
+        std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (areDigits && !digits.empty() && digits.size() <= 18 && (digits[0] != '0' || digits.size() == 1))
+        return {};
+    return fmt::format("'{}' is not a whole number{} of at most 18 digits", text,
+                       isCount ? ", 0 or more," : "");
+}
+
+/// Parses the command line of any program of ours. Returns the exit code where the program ends with that: it
+/// has printed its help, or, on standard error, a sentence that says what is wrong.
+inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv) {
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return fmt::format("{}; see --help\n", error.what());
+    });
+    for (CLI::Option* option : app.get_options()) {
+        const std::string name = option->get_type_name(),
+                          kind = name.substr(0, name.find(':'));  // UINT:POSITIVE
+        if (kind != "UINT" && kind != "INT" && kind != "FLOAT") continue;
+        option->check([kind](const std::string& text) { return objectionToNumber(kind, text); });
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& end) {
+        return app.exit(end);
+    }
+    return {};
+}
+
+}  // namespace pendular
