@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
     add(ofFailures, "--angles", map.angles, "of a failure map, from 0 to 180 degrees");
     add(ofTime, "--offsets", time.offsets, "begins of a touch within a step");
     add(ofContacts, "--map-offsets", contacts.offsets, "begins of a touch within a step");
-    add(ofBulk, "--elastic-modulus-pa", bulk.elasticModulus, "Young's modulus of the reference, Pa");
+    add(ofBulk, "--elastic-modulus-Pa", bulk.elasticModulus, "Young's modulus of the reference, Pa");
+    addFormerName(app, "--elastic-modulus-pa", bulk.elasticModulus)->needs(ofBulk);
     add(ofBulk, "--scene", bulk.scene, "bed, drum or both");
     const std::array ofBed{
         add(ofBulk, "--beds", bulk.beds, "beds of each law, from different grains"),

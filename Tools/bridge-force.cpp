@@ -45,13 +45,14 @@ double parseRadius(const std::string& text) {
     } catch (const std::exception&) {}
     if (end != text.size() || !(value > 0))
         throw InputError(fmt::format(
-            "bridge-force: r2 = {} is not a radius; it must be greater than 0 m, or inf for a wall.", text));
+            "bridge-force: radius2-m = {} is not a radius; it must be greater than 0 m, or inf for a wall.",
+            text));
     return value;
 }
 
 template <class Law>
 void printForces(const Options& options) {
-    checkValue("bridge-force", "r1", options.radius1, "m", positive);
+    checkValue("bridge-force", "radius1-m", options.radius1, "m", positive);
     checkValue("bridge-force", "points", options.points, "", {2, 1e7});
     const Bodies bodies{options.radius1, parseRadius(options.radius2)};
     Law law;
@@ -70,7 +71,7 @@ void printForces(const Options& options) {
         "wall)\nseparation_m,force_N\n",
         Law::name, bridge.range(), scales.volume, scales.radius, bodies.radius2);
     const auto print = [&](double separation) {
-        checkValue("bridge-force", "separation", separation, "m", notNegative);
+        checkValue("bridge-force", "separation-m", separation, "m", notNegative);
         fmt::print("{},{}\n", separation, separation < bridge.range() ? bridge.force(separation) : 0.0);
     };
     for (const double separation : options.separations) print(separation);
@@ -103,15 +104,20 @@ int main(int argc, char** argv) {
     Options o;
     app.add_flag("--list", o.list, "name the models");
     app.add_option("--model", o.model, "bridge model by name")->capture_default_str();
-    app.add_option("--r1", o.radius1, "radius of the first sphere, m");
-    app.add_option("--r2", o.radius2, "radius of the second sphere, m, or inf for a wall")
+    app.add_option("--radius1-m", o.radius1, "radius of the first sphere, m");
+    app.add_option("--radius2-m", o.radius2, "radius of the second sphere, m, or inf for a wall")
         ->capture_default_str();
-    app.add_option("--volume", o.volume, "liquid volume, m^3 (10 nl = 1e-11)");
+    app.add_option("--volume-m3", o.volume, "liquid volume, m^3 (10 nl = 1e-11)");
     app.add_option("--contact-angle-deg", o.contactAngle, "contact angle, degrees")->capture_default_str();
-    app.add_option("--surface-tension", o.surfaceTension, "surface tension, N/m");
+    app.add_option("--surface-tension-N/m", o.surfaceTension, "surface tension, N/m");
     app.add_option("--points", o.points, "separations from 0 to rupture")->capture_default_str();
-    app.add_option("--separation", o.separations, "separations, m, instead of points");
+    app.add_option("--separation-m", o.separations, "separations, m, instead of points");
     app.add_flag("--raw-fit", o.rawFit, "take a fit even where it has a pole or changes its sign");
+    addFormerName(app, "--r1", o.radius1);
+    addFormerName(app, "--r2", o.radius2);
+    addFormerName(app, "--volume", o.volume);
+    addFormerName(app, "--surface-tension", o.surfaceTension);
+    addFormerName(app, "--separation", o.separations);
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(o); });
 }

@@ -38,8 +38,8 @@ Range rangeOf(std::string_view what, std::string_view unit, double smallest, dou
 
 BridgeRange bridgesOf(const Options& o) {
     checkValue("choose-bridge-model", "contact-angle-deg", o.contactAngle, "degrees", fromZeroTo(180));
-    return {.radius = rangeOf("radius", "m", o.smallestRadius, o.largestRadius),
-            .volume = rangeOf("volume", "m^3", o.smallestVolume, o.largestVolume),
+    return {.radius = rangeOf("radius-m", "m", o.smallestRadius, o.largestRadius),
+            .volume = rangeOf("volume-m3", "m^3", o.smallestVolume, o.largestVolume),
             .contactAngle = o.contactAngle * std::numbers::pi / 180,
             .walls = o.walls};
 }
@@ -112,7 +112,7 @@ void printAdvice(const BridgeAdvice& advice, const Options& o, double referenceC
 
 int run(const Options& o) {
     const std::string_view program = "choose-bridge-model";
-    checkValue(program, "tolerance", o.tolerance, "%", positive);
+    checkValue(program, "tolerance-percent", o.tolerance, "%", positive);
     checkValue(program, "cost-at-most", o.mostCost, "", {0, infinity, false, true});
     checkValue(program, "steps-per-list", o.stepsPerList, "", {1, 1e9});
     checkValue(program, "count", static_cast<double>(o.count), "", {20, 1e6});
@@ -137,16 +137,16 @@ int run(const Options& o) {
 }
 
 void describe(CLI::App& app, Options& o) {
-    app.add_option("--smallest-radius", o.smallestRadius, "of the grains, m");
-    app.add_option("--largest-radius", o.largestRadius,
+    app.add_option("--smallest-radius-m", o.smallestRadius, "of the grains, m");
+    app.add_option("--largest-radius-m", o.largestRadius,
                    "of the grains, m; if not given, all are of one size");
-    app.add_option("--smallest-volume", o.smallestVolume, "of a bridge, m^3 (10 nl = 1e-11)");
-    app.add_option("--largest-volume", o.largestVolume, "of a bridge, m^3; if not given, all are alike");
+    app.add_option("--smallest-volume-m3", o.smallestVolume, "of a bridge, m^3 (10 nl = 1e-11)");
+    app.add_option("--largest-volume-m3", o.largestVolume, "of a bridge, m^3; if not given, all are alike");
     app.option_defaults()->always_capture_default();
     app.add_option("--contact-angle-deg", o.contactAngle, "contact angle, degrees");
     app.add_flag("--walls", o.walls, "there are bridges between grains and walls");
     app.add_option(
-        "--tolerance", o.tolerance,
+        "--tolerance-percent", o.tolerance,
         "error, %, that 95 % of the forces up to 0.95 of the rupture distance must keep to, and 95 % of "
         "the works up to the rupture");
     app.add_option("--cost-at-most", o.mostCost,
@@ -157,6 +157,11 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--count", o.count, "random bridges");
     app.add_option("--seed", o.seed, "of the random bridges");
     app.add_option("--runs", o.runs, "measurements of time, of which the fastest counts");
+    addFormerName(app, "--smallest-radius", o.smallestRadius);
+    addFormerName(app, "--largest-radius", o.largestRadius);
+    addFormerName(app, "--smallest-volume", o.smallestVolume);
+    addFormerName(app, "--largest-volume", o.largestVolume);
+    addFormerName(app, "--tolerance", o.tolerance);
 }
 
 }  // namespace

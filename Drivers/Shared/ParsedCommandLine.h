@@ -25,6 +25,12 @@ inline std::string objectionToNumber(const std::string& kind, const std::string&
                        isCount ? ", 0 or more," : "");
 }
 
+/// Takes an option also under a name that it had before, which --help does not show.
+template <class Value>
+CLI::Option* addFormerName(CLI::App& app, const char* former, Value& value) {
+    return app.add_option(former, value)->group("");
+}
+
 /// Parses the command line of any program of ours. Returns the exit code where the program ends with that: it
 /// has printed its help, or, on standard error, a sentence that says what is wrong.
 inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv) {

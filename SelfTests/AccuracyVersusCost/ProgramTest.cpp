@@ -102,7 +102,7 @@ TEST(HeavyBulkChart, hasEveryLaw) {
     const TestFolder folder;
     const std::string file = (folder.path() / "bulk.csv").string();
     const auto result = runTool(
-        "accuracy-versus-cost --bulk --elastic-modulus-pa 1e6 --scene bed --beds 2 --bed-particles 150 "
+        "accuracy-versus-cost --bulk --elastic-modulus-Pa 1e6 --scene bed --beds 2 --bed-particles 150 "
         "--rounds 1 --output " +
         file);
     ASSERT_EQ(result.exitCode, 0) << result.output;

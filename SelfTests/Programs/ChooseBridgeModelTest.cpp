@@ -21,11 +21,12 @@ using support::run;
 const std::string every = std::string(folders::tools) + "/choose-bridge-model --runs 1 ";
 const std::string choose = every + "--count 40 ";
 const std::string largeBridges =
-    "--smallest-radius 1e-4 --largest-radius 1e-3 --smallest-volume 1e-12 --largest-volume 1e-10 ";
-const std::string bridges = "--smallest-radius 0.5e-3 --largest-radius 1e-3 --smallest-volume 1e-12 --walls ";
+    "--smallest-radius-m 1e-4 --largest-radius-m 1e-3 --smallest-volume-m3 1e-12 --largest-volume-m3 1e-10 ";
+const std::string bridges =
+    "--smallest-radius-m 0.5e-3 --largest-radius-m 1e-3 --smallest-volume-m3 1e-12 --walls ";
 
 TEST(ChooseBridgeModel, listsAllLawsAndAnswersWithTheOnlyAccurateOne) {
-    const auto result = run(choose + bridges + "--tolerance 1 --all");
+    const auto result = run(choose + bridges + "--tolerance-percent 1 --all");
     EXPECT_EQ(result.exitCode, 0);
     std::istringstream lines(result.output);
     std::string line;
@@ -45,7 +46,7 @@ TEST(ChooseBridgeModel, listsAllLawsAndAnswersWithTheOnlyAccurateOne) {
 }
 
 TEST(ChooseBridgeModel, saysWhichIsBestAndWhichIsBetterButDearer) {
-    const auto result = run(choose + bridges + "--tolerance 0.001 --cost-at-most 1.2");
+    const auto result = run(choose + bridges + "--tolerance-percent 0.001 --cost-at-most 1.2");
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_TRUE(contains(result.output,
                          "no law is within 0.001 % at 1.2 times the cost of LiquidBridgeBagheri; "
@@ -55,7 +56,7 @@ TEST(ChooseBridgeModel, saysWhichIsBestAndWhichIsBetterButDearer) {
 
 // Set-up refuses Bagheri for V* = 100, which the exact solver does not find.
 TEST(ChooseBridgeModel, asksLawsForBridgesWithoutExactSolutionToo) {
-    const auto result = run(every + largeBridges + "--tolerance 40");
+    const auto result = run(every + largeBridges + "--tolerance-percent 40");
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_TRUE(contains(result.output, "1 of 300 bridges have no exact solution"));
     EXPECT_TRUE(contains(result.output, "no law is within 40 %"));
@@ -63,17 +64,18 @@ TEST(ChooseBridgeModel, asksLawsForBridgesWithoutExactSolutionToo) {
 }
 
 TEST(ChooseBridgeModel, solvesOutsideOfTheTable) {
-    const auto result = run(choose + "--smallest-radius 1e-3 --smallest-volume 6e-10 --tolerance 1");
+    const auto result =
+        run(choose + "--smallest-radius-m 1e-3 --smallest-volume-m3 6e-10 --tolerance-percent 1");
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.output.substr(0, result.output.find(':')), "LiquidBridgeYoungLaplace+solveOutsideTable");
 }
 
 TEST(ChooseBridgeModel, refusesInOneSentence) {
-    expectOneSentence(run(choose), "smallest-radius is not set");
-    expectOneSentence(run(choose + "--smallest-radius 1e-3"), "smallest-volume is not set");
-    expectOneSentence(run(choose + bridges + "--largest-volume 1e-13"), "largest-volume = 1e-13 m^3");
+    expectOneSentence(run(choose), "smallest-radius-m is not set");
+    expectOneSentence(run(choose + "--smallest-radius-m 1e-3"), "smallest-volume-m3 is not set");
+    expectOneSentence(run(choose + bridges + "--largest-volume-m3 1e-13"), "largest-volume-m3 = 1e-13 m^3");
     expectOneSentence(run(choose + bridges + "--contact-angle-deg 181"), "contact-angle-deg = 181 degrees");
-    expectOneSentence(run(choose + bridges + "--tolerance 0"), "tolerance = 0 %");
+    expectOneSentence(run(choose + bridges + "--tolerance-percent 0"), "tolerance-percent = 0 %");
     expectOneSentence(run(choose + bridges + "--cost-at-most -1"), "cost-at-most = -1");
     expectOneSentence(run(every + bridges + "--count -3"), "count = -3 is");
     expectOneSentence(run(choose + bridges + "--seed -3"), "seed = -3 is");
@@ -84,7 +86,7 @@ TEST(ChooseBridgeModel, refusesInOneSentence) {
     EXPECT_NE(run(choose + "--radius 1").exitCode, 0);
     const auto help = run(choose + "--help");
     EXPECT_EQ(help.exitCode, 0);
-    for (const char* part : {"m^3", "degrees", "--walls", "--tolerance"})
+    for (const char* part : {"m^3", "degrees", "--walls", "--tolerance-percent"})
         EXPECT_TRUE(contains(help.output, part));
 }
 

@@ -44,11 +44,11 @@ TEST(BridgeForce, printsTheFiguresOfThePaper) {
          {"LiquidBridgeClassicalWillett", {2.508e-4, 1.033e-4}},
          {"LiquidBridgeBagheri", {2.537e-4, 1.023e-4}}}};
     for (const auto& [model, forces] : models) {
-        const Result result =
-            run(tools +
-                "/bridge-force --r1 0.5e-3 --r2 0.8e-3 --volume 1e-11 --surface-tension 0.079 "
-                "--separation 0 --separation 1e-4 --model " +
-                model);
+        const Result result = run(tools +
+                                  "/bridge-force --radius1-m 0.5e-3 --radius2-m 0.8e-3 --volume-m3 1e-11 "
+                                  "--surface-tension-N/m 0.079 "
+                                  "--separation-m 0 --separation-m 1e-4 --model " +
+                                  model);
         ASSERT_EQ(result.exitCode, 0) << result.output;
         std::istringstream lines(result.output);
         std::string line;
@@ -63,16 +63,34 @@ TEST(BridgeForce, printsTheFiguresOfThePaper) {
 }
 
 TEST(BridgeForce, refusesInOneSentence) {
-    const std::string bridge = tools + "/bridge-force --surface-tension 0.07 ";
-    expectOneSentence(run(bridge + "--r1 1e-3 --volume 1e-12 --model Bageri"), "LiquidBridgeBagheri");
-    expectOneSentence(run(bridge + "--r1 -1 --volume 1e-12"), "r1 = -1 m");
-    expectOneSentence(run(bridge + "--volume 1e-12"), "r1 is not set");
-    expectOneSentence(run(bridge + "--r1 1e-3"), "liquidBridgeVolume is not set");
-    expectOneSentence(run(bridge + "--r1 1e-3 --r2 many --volume 1e-12"), "r2 = many");
-    expectOneSentence(run(bridge + "--r1 1e-3 --r2 1e-3 --volume 5e-10 --contact-angle-deg 60"),
-                      "has a pole");
-    EXPECT_EQ(run(bridge + "--r1 1e-3 --r2 1e-3 --volume 5e-10 --contact-angle-deg 60 --raw-fit").exitCode,
-              0);
+    const std::string bridge = tools + "/bridge-force --surface-tension-N/m 0.07 ";
+    expectOneSentence(run(bridge + "--radius1-m 1e-3 --volume-m3 1e-12 --model Bageri"),
+                      "LiquidBridgeBagheri");
+    expectOneSentence(run(bridge + "--radius1-m -1 --volume-m3 1e-12"), "radius1-m = -1 m");
+    expectOneSentence(run(bridge + "--volume-m3 1e-12"), "radius1-m is not set");
+    expectOneSentence(run(bridge + "--radius1-m 1e-3"), "liquidBridgeVolume is not set");
+    expectOneSentence(run(bridge + "--radius1-m 1e-3 --radius2-m many --volume-m3 1e-12"),
+                      "radius2-m = many");
+    expectOneSentence(
+        run(bridge + "--radius1-m 1e-3 --radius2-m 1e-3 --volume-m3 5e-10 --contact-angle-deg 60"),
+        "has a pole");
+    EXPECT_EQ(
+        run(bridge + "--radius1-m 1e-3 --radius2-m 1e-3 --volume-m3 5e-10 --contact-angle-deg 60 --raw-fit")
+            .exitCode,
+        0);
+}
+
+/// And show them no more.
+TEST(BridgeForce, takesTheNamesThatOptionsHad) {
+    const std::string bridge = tools + "/bridge-force --points 3 ";
+    const Result now = run(bridge +
+                           "--radius1-m 1e-3 --radius2-m 2e-3 --volume-m3 1e-12 --surface-tension-N/m 0.07 "
+                           "--separation-m 1e-5"),
+                 then = run(bridge +
+                            "--r1 1e-3 --r2 2e-3 --volume 1e-12 --surface-tension 0.07 --separation 1e-5");
+    EXPECT_EQ(now.exitCode, 0) << now.output;
+    EXPECT_EQ(now.output, then.output);
+    EXPECT_EQ(run(bridge + "--help").output.find("--r1"), std::string::npos);
 }
 
 /// The separation of the largest exact force in a case of a table of bridge-figures, in R.
@@ -165,7 +183,7 @@ TEST(Programs, refuseWhatIsNoNumber) {
           {drum + "--end-time-s ''", "--end-time-s: the value is empty"},
           {tools + "/benchmark-scenes --threads \'\'", "--threads: the value is empty"},
           {tools + "/benchmark-scenes --steps \'\'", "--steps: "},
-          {bridge + "--r1 ''", "--r1: the value is empty"},
+          {bridge + "--radius1-m ''", "--radius1-m: the value is empty"},
           {bridge + "--points ''", "--points: the value is empty"},
           {bridge + "--no-such 1", "--no-such; see --help"}}) {
         const Result result = run(command);

@@ -108,7 +108,7 @@ inline void chartBulk(const BulkChartOptions& options) {
     const auto check = [](std::string_view field, double value, std::string_view unit, const Range& range) {
         checkValue("accuracy-versus-cost", field, value, unit, range);
     };
-    check("elastic-modulus-pa", options.elasticModulus, "Pa", {1e6, 1e12});
+    check("elastic-modulus-Pa", options.elasticModulus, "Pa", {1e6, 1e12});
     // One packing has no error.
     check("beds", options.beds, "", {2, 1e6});
     check("drums", options.drums, "", {1, 1e6});
