@@ -7,6 +7,7 @@
 
 #include "BuildFolders.h"
 #include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
 namespace pendular {
@@ -76,9 +77,8 @@ TEST(BenchmarkProgram, hasHelp) {
 /// LIGGGHTS gives 4.52e-6 J and LAMMPS 4.56e-6 J after the same 2500 steps; ours must not be farther from
 /// them than they are from each other.
 TEST(HeavyBenchmarkProgram, publishedBedHasTheEnergyOfItsPeers) {
-    const std::string bed = folders::shared.string() + "/data/bed25k.txt";
-    if (!std::filesystem::exists(bed))
-        GTEST_SKIP() << bed << " is not there: the published bed is not compared";
+    if (!support::hasSharedData("bed25k.txt")) GTEST_SKIP() << support::withoutSharedData("bed25k.txt");
+    const std::string bed = support::sharedData("bed25k.txt").string();
     const support::ProgramResult run =
         benchmark("--scene bed --positions " + bed + " --warm 500 --steps 2000");
     ASSERT_EQ(run.exitCode, 0) << run.output;

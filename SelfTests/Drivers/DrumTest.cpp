@@ -5,6 +5,7 @@
 #include "BuildFolders.h"
 #include "Drivers/Shared/DrumScene.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/SharedData.h"
 
 namespace pendular {
 namespace {
@@ -132,7 +133,7 @@ TEST(Drum, countsAGrainInItsQuarter) {
 /// The published state is at rest, below the axis, and the mesh holds it.
 TEST(Drum, takesThePublishedState) {
     const std::filesystem::path data = folders::shared / "data";
-    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no reference data";
+    if (!support::hasSharedData("drum38k.txt")) GTEST_SKIP() << support::withoutSharedData("drum38k.txt");
     DrumScene scene(readGrainFile(data / "drum38k.txt"), readTriangles(data / "drum38k-walls.txt"));
     scene.turn(DrumScene::publishedSpeed);
     scene.initialise();  // refuses overlaps above 5 %

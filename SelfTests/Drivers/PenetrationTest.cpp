@@ -5,6 +5,7 @@
 #include "BuildFolders.h"
 #include "Drivers/Shared/PenetrationScene.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/SharedData.h"
 
 namespace pendular {
 namespace {
@@ -130,7 +131,8 @@ TEST(HeavyPenetration, isDeeperForAMuchFasterIntruder) {
 
 TEST(Penetration, takesThePublishedState) {
     const std::filesystem::path data = folders::shared / "data";
-    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no reference data";
+    if (!support::hasSharedData("penetration25k.txt"))
+        GTEST_SKIP() << support::withoutSharedData("penetration25k.txt");
     PenetrationScene scene(separateIntruder(readGrainFile(data / "penetration25k.txt")),
                            readTriangles(data / "penetration25k-walls.txt"));
     EXPECT_EQ(scene.particleHandler.getSize(), 25001u);

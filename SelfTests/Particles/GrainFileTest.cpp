@@ -5,6 +5,7 @@
 #include "BuildFolders.h"
 #include "Kernel/Particles/GrainFile.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
 namespace pendular {
@@ -66,7 +67,7 @@ TEST(GrainFile, refusesWithFilePlaceAndReason) {
 /// Counts, sizes and places as the description of the benchmark gives them.
 TEST(GrainFile, readsPublishedStates) {
     const std::filesystem::path data = folders::shared / "data";
-    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no reference data";
+    if (!support::hasSharedData("drum38k.txt")) GTEST_SKIP() << support::withoutSharedData("drum38k.txt");
     const auto count = [](const std::vector<GrainRow>& grains, double radius) {
         return std::count_if(grains.begin(), grains.end(),
                              [&](const GrainRow& g) { return g.radius == radius; });

@@ -6,6 +6,7 @@
 #include "Kernel/Walls/InfiniteWall.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Walls/WallScene.h"
 
 namespace pendular {
@@ -65,8 +66,9 @@ TEST(MeshParts, coplanarTrianglesMerge) {
 }
 
 TEST(MeshParts, ofAPublishedDrumAreItsFacets) {
-    const std::filesystem::path drum = folders::shared / "data/drum38k-walls.txt";
-    if (!std::filesystem::exists(drum)) GTEST_SKIP() << "no reference data";
+    if (!support::hasSharedData("drum38k-walls.txt"))
+        GTEST_SKIP() << support::withoutSharedData("drum38k-walls.txt");
+    const std::filesystem::path drum = support::sharedData("drum38k-walls.txt");
     TriangleWall wall;
     wall.read(drum);
     EXPECT_LT(wall.getNumberOfParts(), wall.getNumberOfTriangles() / 2);

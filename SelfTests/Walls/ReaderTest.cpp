@@ -8,6 +8,7 @@
 #include "Kernel/Walls/TriangleReader.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
 namespace pendular {
@@ -84,8 +85,9 @@ TEST(RowReader, readsRowsWithAndWithoutHeader) {
 }
 
 TEST(RowReader, readsPublishedWalls) {
-    const std::filesystem::path drum = folders::shared / "data/drum38k-walls.txt";
-    if (!std::filesystem::exists(drum)) GTEST_SKIP() << "no reference data";
+    if (!support::hasSharedData("drum38k-walls.txt"))
+        GTEST_SKIP() << support::withoutSharedData("drum38k-walls.txt");
+    const std::filesystem::path drum = support::sharedData("drum38k-walls.txt");
     EXPECT_EQ(readTriangles(drum).size(), 1200u);
 }
 
