@@ -9,7 +9,7 @@
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Output/CsvFile.h"
 #include "Kernel/Simulation/Program.h"
-#include "SelfTests/Papers/ChungOoiCases.h"
+#include "Tools/ChungOoi/ChungOoiCases.h"
 
 using namespace pendular;
 using papers::ImpactCase;

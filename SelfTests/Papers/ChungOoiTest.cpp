@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "BuildFolders.h"
-#include "SelfTests/Papers/ChungOoiCases.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"
+#include "Tools/ChungOoi/ChungOoiCases.h"
 
 namespace pendular {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "Drivers/Shared/SphereImpact.h"
-#include "SelfTests/Papers/HertzImpact.h"
-#include "SelfTests/Papers/IndependentImpact.h"
+#include "Tools/ChungOoi/HertzImpact.h"
+#include "Tools/ChungOoi/IndependentImpact.h"
 
 namespace pendular::papers {
 
