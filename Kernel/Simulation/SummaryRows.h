@@ -33,7 +33,7 @@ public:
                      row.unit);
     }
     void print(std::FILE* to) const {
-        for (const Row& row : rows) fmt::print(to, "  {:<28} {}\n", row.quantity, row.shown);
+        for (const Row& row : rows) fmt::print(to, "  {:<36} {}\n", row.quantity, row.shown);
     }
 
 private:

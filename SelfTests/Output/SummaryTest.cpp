@@ -151,10 +151,10 @@ TEST(Summary, isPrintedAtTheEnd) {
     scene.setQuiet(false);
     const std::string printed = printedBy(scene.softly());
     for (const char* part :
-         {"Summary of the run\n", "state                        at its end\n", "wall time: search",
+         {"Summary of the run\n", "state                                at its end\n", "wall time: search",
           "wall time: contacts", "wall time: walls", "wall time: sum", "wall time: energy ledger",
           "wall time: output", " %)", "lists of contacts made", "largest overlap met",
-          "evaluations out of domain    0\n", "energy unaccounted for"})
+          "evaluations out of domain            0\n", "energy unaccounted for"})
         EXPECT_TRUE(contains(printed, part));
     EXPECT_FALSE(contains(printed, "Warning"));
     scene.setQuiet();
@@ -191,7 +191,7 @@ TEST(Summary, saysThatARunHasStoppedAndWhy) {
     scene.setQuiet(false);
     scene.event = [](auto& self) { self.particleHandler.getObject(7).setVelocity({0, 200, 0}); };
     const std::string printed = printedBy(scene);
-    EXPECT_TRUE(contains(printed, "state                        stopped by an error\n"));
+    EXPECT_TRUE(contains(printed, "state                                stopped by an error\n"));
     EXPECT_TRUE(contains(printed, "particle 7 moves at 200 m/s"));
     const auto shown = show(folder);
     EXPECT_EQ(shown.exitCode, 2);
@@ -303,7 +303,7 @@ TEST(Summary, warnsOfBridgesThatTheLawIsNotMadeFor) {
     });
     EXPECT_GT(bridges, out);
     EXPECT_GT(out, 0u);
-    EXPECT_TRUE(contains(printed, fmt::format("bridges                      {}\n", bridges)));
+    EXPECT_TRUE(contains(printed, fmt::format("bridges                              {}\n", bridges)));
     EXPECT_TRUE(contains(printed, fmt::format("({} bridges now out of its domain)", out)));
     EXPECT_TRUE(contains(show(folder).output, "NOT WELL: LiquidBridgeWillett: V* ="));
 }
