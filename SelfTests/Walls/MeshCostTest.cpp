@@ -85,7 +85,7 @@ TEST(MeshCost, ofAFlatMeshIsThatOfAPlane) {
 /// sqrt(4 - 0.79^2) R and their own longest edge around it; seen from above each has an area of edge^2 / 2 or
 /// more. The surface is smooth (slopes of 0.042, below smoothAngle): of those that a grain touches, only the
 /// nearest counts.
-/// It is listed anew when a grain can have moved by the skin, 0.02 R or more, and another one towards it as
+/// It is listed again when a grain can have moved by the skin, 0.02 R or more, and another one towards it as
 /// far, at no more than the speed from a fall of 0.22 R, or that and the wall's.
 void expectFewFor(int n, double edge, double spin) {
     TriangleWall wall = mesh(surface(n, edge, amplitude));
