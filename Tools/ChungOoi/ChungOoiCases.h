@@ -8,8 +8,8 @@
 
 #include "Tools/ChungOoi/ImpactCase.h"
 
-/// The eight benchmark tests of Chung and Ooi (2011), Granular Matter 13, 643. SelfTests/Papers/ChungOoiTest.cpp
-/// checks them, Tools/impact-figures.cpp writes the tables of their charts.
+/// The eight benchmark tests of Chung and Ooi (2011), Granular Matter 13, 643.
+/// SelfTests/Papers/ChungOoiTest.cpp checks them, Tools/impact-figures.cpp writes the tables of their charts.
 namespace pendular::papers {
 
 using Materials = std::vector<std::pair<std::string, scenes::ImpactMaterial>>;
