@@ -86,16 +86,20 @@ inline CollisionCase<HertzianBSHPViscoelasticSpecies> viscoelasticSpheresWith(co
 }
 
 /// Of plastic contacts, the time of an elastic one with the stiffness of unloading: steps have to resolve it.
-/// What they lose is plastic, e = sqrt(k1/k2); what a dashpot takes comes beside that.
+/// What they lose is plastic, e = sqrt(k1/k2); what a dashpot takes comes beside that. k2 of the linear one
+/// is that of the overlap which the encounter reaches; d*, from which on nothing more is lost, is a tenth
+/// larger.
 inline CollisionCase<LinearPlasticViscoelasticSpecies> linearPlasticWith(const Loss& loss) {
-    constexpr double depthOfFullSlope = 1e-9;  // phi: the slope is k2 at once
+    constexpr double inHand = 1.1;  // d* over the overlap
     const Encounter encounter;
     LinearPlasticViscoelasticSpecies species;
-    const double slope = springConstant / (loss.restitution * loss.restitution);
+    const double k1 = springConstant, slope = k1 / (loss.restitution * loss.restitution);
+    const double hardest = k1 + inHand * (slope - k1), mass = reducedMass(encounter.radius);
+    const double overlap = encounter.speed * std::sqrt(mass / k1);
+    const double depth = (1 - k1 / hardest) * inHand * overlap / encounter.radius;
     species.setDensity(density);
-    species.setPlasticParameters(springConstant, slope, 0, depthOfFullSlope);
-    return {"LinearPlasticViscoelastic", species, encounter,
-            springTime(slope, reducedMass(encounter.radius))};
+    species.setPlasticParameters(k1, hardest, 0, slope > k1 ? depth : 1);
+    return {"LinearPlasticViscoelastic", species, encounter, springTime(slope, mass)};
 }
 
 inline CollisionCase<HertzianPlasticViscoelasticSpecies> hertzianPlasticWith(const Loss& loss) {

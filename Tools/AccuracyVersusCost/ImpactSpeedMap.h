@@ -83,16 +83,21 @@ inline Theory ofViscoelasticSpheres(const Pair& pair, double speed) {
     const double unit = std::pow(pair.mass * speed * speed / pair.hertz, 0.4);
     return {relative.overlap * unit, relative.time * unit / speed, relative.restitution};
 }
-/// A quarter of a period of each spring, and the way back through the flattening with e v.
+/// Parts of the period of each spring (k1; beyond d* k_p, up and down), and the way back through the
+/// flattening with e v.
 inline Theory ofLinearPlastic(const Pair& pair, double speed) {
-    const double overlap = speed * std::sqrt(pair.mass / pair.spring);
-    const double atFullSlope = hardestSlope / (hardestSlope - 1) * depth * radius;
-    const double k2 = pair.spring * (1 + (hardestSlope - 1) * std::min(overlap / atFullSlope, 1.0));
-    const double restitution = std::sqrt(pair.spring / k2), flat = (1 - pair.spring / k2) * overlap;
-    return {overlap,
-            0.5 * std::numbers::pi * (std::sqrt(pair.mass / pair.spring) + std::sqrt(pair.mass / k2)) +
-                flat / (restitution * speed),
-            restitution};
+    const double atLimit = hardestSlope / (hardestSlope - 1) * depth * radius;  // d*
+    const double unit1 = std::sqrt(pair.mass / pair.spring), undone = speed * unit1;
+    const double largest = std::min(undone, atLimit);
+    const double k2 = pair.spring * (1 + (hardestSlope - 1) * largest / atLimit);
+    const double flat = (1 - pair.spring / k2) * largest, unit2 = std::sqrt(pair.mass / k2);
+    const double speedThere = speed * std::sqrt(1 - std::pow(largest / undone, 2));  // where k2 begins
+    const double amplitude = std::hypot(largest - flat, speedThere * unit2);
+    const double rebound = amplitude / unit2;
+    return {flat + amplitude,
+            unit1 * std::asin(largest / undone) +
+                unit2 * (std::acos((largest - flat) / amplitude) + 0.5 * std::numbers::pi) + flat / rebound,
+            rebound / speed};
 }
 inline Theory ofHertzianPlastic(const Pair& pair, double speed) {
     return {pair.hertzOverlap(speed), std::numeric_limits<double>::quiet_NaN(),
