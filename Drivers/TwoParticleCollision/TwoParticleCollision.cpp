@@ -26,9 +26,10 @@ struct Options {
     double restitution = 0.86;
     double friction = 0.5;
     std::string adhesion = "LiquidBridgeBagheri";
-    double timeStep = 0;         // s; 0: 1/50 of the Rayleigh time
-    double timeMax = 0.02;       // s
-    double adviceTolerance = 0;  // %; 0: no advice
+    bool solveOutsideTable = false;  // of LiquidBridgeYoungLaplace
+    double timeStep = 0;             // s; 0: 1/50 of the Rayleigh time
+    double timeMax = 0.02;           // s
+    double adviceTolerance = 0;      // %; 0: no advice
     RunOptions run{.output = "TwoParticleCollision-output"};
 };
 
@@ -42,7 +43,15 @@ class TwoParticleCollision : public Simulation<Species<HertzianViscoelastic, Min
 public:
     using Material = Species<HertzianViscoelastic, Mindlin, Adhesion>;
 
-    explicit TwoParticleCollision(const Options& given) : options(given) { options.run.apply(*this); }
+    static constexpr bool solvesOutsideTable = requires(Material m) { m.setSolveOutsideTable(true); };
+
+    explicit TwoParticleCollision(const Options& given) : options(given) {
+        if (options.solveOutsideTable && !solvesOutsideTable)
+            throw InputError(fmt::format(
+                "--solve-outside-table: the adhesion model {} has no table, so leave the option out.",
+                Adhesion::name));
+        options.run.apply(*this);
+    }
 
     void setupInitialConditions() override {
         const Material* material = this->speciesHandler.copyAndAddObject(makeMaterial());
@@ -115,6 +124,7 @@ private:
             material.setContactAngle(options.contactAngle * std::numbers::pi / 180);
             material.setSurfaceTension(options.surfaceTension);
         }
+        if constexpr (solvesOutsideTable) material.setSolveOutsideTable(options.solveOutsideTable);
         return material;
     }
     void addGrain(const Material* material, double radius, double position, double speed) {
@@ -155,6 +165,8 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--friction", o.friction, "coefficient of sliding friction");
     app.add_option("--adhesion", o.adhesion,
                    fmt::format("adhesion model: {}", listOfNames(lawNames<Bridges>())));
+    app.add_flag("--solve-outside-table", o.solveOutsideTable,
+                 "LiquidBridgeYoungLaplace only: solve the equation for bridges outside of its table");
     app.add_option("--time-step-s", o.timeStep, "time step, s; 0 takes 1/50 of the Rayleigh time");
     app.add_option("--time-max-s", o.timeMax, "end of the run, s, if the grains have not parted before");
     app.add_option("--advise-within-percent", o.adviceTolerance,

@@ -66,8 +66,8 @@ double BridgeSlice::lateralArea(const BridgeShape& shape, double gap) const {
 }
 
 bool BridgeTable::contains(const BridgeShape& shape) {
-    return shape.contactAngle >= 0 && shape.contactAngle <= mostAngle && shape.volume >= leastVolume &&
-           shape.volume <= mostVolume;
+    return shape.contactAngle >= 0 && shape.contactAngle <= mostAngle &&
+           shape.volume >= leastVolume * (1 - edge) && shape.volume <= mostVolume * (1 + edge);
 }
 
 const BridgeSlice& bridgesAt(double contactAngle) {

@@ -123,6 +123,19 @@ TEST(BridgeFigures, writesTablesWithTheMaximumOfThePaper) {
     std::filesystem::remove_all(folder);
 }
 
+// V* = 1.6 for two grains of 0.5 mm. The refusal names the option that helps, and no law ignores it.
+TEST(TwoParticleCollision, solvesOutsideOfTheTableWhereTold) {
+    const auto folder = std::filesystem::temp_directory_path() / "pendular-outside-of-the-table";
+    const std::string driver = drivers + "/TwoParticleCollision/TwoParticleCollision --quiet --output " +
+                               folder.string() + " --volume-m3 2e-10",
+                      exact = " --adhesion LiquidBridgeYoungLaplace";
+    expectOneSentence(run(driver + exact), "--solve-outside-table");
+    const Result solved = run(driver + exact + " --solve-outside-table");
+    EXPECT_EQ(solved.exitCode, 0) << solved.output;
+    expectOneSentence(run(driver + " --solve-outside-table"), "LiquidBridgeBagheri has no table");
+    std::filesystem::remove_all(folder);
+}
+
 TEST(TwoParticleCollision, writesItsTwoTables) {
     const auto folder = std::filesystem::temp_directory_path() / "pendular-two-particle-collision";
     const Result result =

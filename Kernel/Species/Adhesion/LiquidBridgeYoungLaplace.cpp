@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view noBridge = "no stable bridge was found all the way from contact to rupture";
 
-/// The nearest shape that the table holds: set-up has refused all others, but the extremes of sizes alone are
-/// looked at there, and what is beyond by a rounding error must not fail.
+/// The nearest shape that the table holds: what is beyond by BridgeTable::edge at most must not fail, nor
+/// what lies beyond the extremes of sizes, which alone set-up looks at, by a rounding error.
 BridgeShape clamped(BridgeShape shape) {
     shape.volume = std::clamp(shape.volume, BridgeTable::leastVolume, BridgeTable::mostVolume);
     return shape;
@@ -70,7 +70,8 @@ std::optional<std::string> LiquidBridgeYoungLaplace::objection(const Bodies& bod
     if (!(solveOutsideTable > 0))
         return sentence(bodies, fmt::format("the table holds V* from {} to {}, and so no bridge",
                                             BridgeTable::leastVolume, BridgeTable::mostVolume)) +
-               ", so take another volume or setSolveOutsideTable(true).";
+               ", so take another volume or have the equation solved for each new bridge: in a driver "
+               "setSolveOutsideTable(true), for TwoParticleCollision the option --solve-outside-table.";
     const BridgeScales bridge = scales(bodies);
     if (solveCurve(shape(bodies), bridge.radius, bridge.forceScale)) return std::nullopt;
     return sentence(bodies, noBridge) + ".";
