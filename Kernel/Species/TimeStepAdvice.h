@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "Kernel/Motion/Stiffness.h"
+#include "Kernel/Species/Normal/Shared/ContactTime.h"
 #include "Kernel/Species/Species.h"
 
 namespace pendular {
@@ -14,24 +15,6 @@ namespace pendular {
 /// @param radius m; @param shearModulus Pa; @param density kg/m^3
 inline double rayleighTime(double radius, double shearModulus, double poissonRatio, double density) {
     return std::numbers::pi * radius * std::sqrt(density / shearModulus) / (0.1631 * poissonRatio + 0.8766);
-}
-
-/// The time (s) that two elastic Hertzian spheres touch when they meet at the given speed (m/s):
-/// 2 sqrt(pi) Gamma(7/5)/Gamma(9/10) d_max / v, with the largest overlap d_max = (15 m* v^2 / (16 E*
-/// sqrt(R*)))^(2/5).
-inline double hertzContactTime(double effectiveModulus, double effectiveRadius, double effectiveMass,
-                               double speed) {
-    const double overlap = std::pow(
-        15 * effectiveMass * speed * speed / (16 * effectiveModulus * std::sqrt(effectiveRadius)), 0.4);
-    return 2 * std::sqrt(std::numbers::pi) * std::tgamma(1.4) / std::tgamma(0.9) * overlap / speed;
-}
-
-/// The time (s) that two grains joined by a linear spring (N/m) and dashpot (kg/s) touch: half the period of
-/// the damped oscillator. Infinite where the dashpot is beyond critical.
-inline double linearContactTime(double stiffness, double dissipation, double effectiveMass) {
-    const double rate = 0.5 * dissipation / effectiveMass;
-    const double frequency2 = stiffness / effectiveMass - rate * rate;
-    return frequency2 > 0 ? std::numbers::pi / std::sqrt(frequency2) : infinity;
 }
 
 /// An overlap (of the smaller radius) that a sound scene does not exceed; the stiffness of Hertz's law grows

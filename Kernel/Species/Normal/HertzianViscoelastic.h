@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Species/Normal/Shared/ContactTime.h"
 #include "Kernel/Species/Normal/Shared/HertzianContact.h"
 
 namespace pendular {
@@ -52,6 +53,21 @@ struct HertzianViscoelastic : HertzianContact<HertzianViscoelastic> {
     void setTsujiDampingFactor(double alpha) {
         checkValue(name, "Tsuji damping factor", alpha, "", notNegative);
         setDissipation(std::sqrt(2.0) * alpha);
+    }
+
+    /// e at every speed: exp(-pi beta / sqrt(5 - beta^2)), 0 from the critical beta = sqrt(5) on.
+    [[nodiscard]] double getRestitutionCoefficient() const {
+        const double rest = 5 - dissipation * dissipation;
+        return rest > 0 ? std::exp(-std::numbers::pi * dissipation / std::sqrt(rest)) : 0;
+    }
+    /// The time (s) for which two grains of the given mass (kg) and radius (m) each touch when they meet at
+    /// the given relative speed (m/s); infinite where e = 0.
+    [[nodiscard]] double getCollisionTime(double mass, double radius, double speed) const {
+        checkValue(name, "effectiveElasticModulus", effectiveElasticModulus, "Pa", positive);
+        checkValue(name, "mass", mass, "kg", positive);
+        checkValue(name, "radius", radius, "m", positive);
+        checkValue(name, "speed", speed, "m/s", positive);
+        return dampedHertzContactTime(effectiveElasticModulus, 0.5 * radius, 0.5 * mass, speed, dissipation);
     }
 
     struct Prepared {

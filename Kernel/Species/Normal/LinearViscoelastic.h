@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "Kernel/Species/Law.h"
+#include "Kernel/Species/Normal/Shared/ContactTime.h"
 
 namespace pendular {
 
@@ -54,6 +55,18 @@ struct LinearViscoelastic {
         const double logarithm = std::log(restitution);
         const double dampingRatio = -logarithm / std::hypot(logarithm, std::numbers::pi);
         setDissipation(2 * dampingRatio * std::sqrt(0.5 * mass * stiffness));
+    }
+
+    /// The time (s) for which two grains of the given mass (kg) each touch: half the period of the damped
+    /// oscillator; infinite from the critical dashpot on, with which they do not part.
+    [[nodiscard]] double getCollisionTime(double mass) const {
+        checkValue(name, "stiffness", stiffnessConstant, "N/m", positive);
+        checkValue(name, "mass", mass, "kg", positive);
+        return linearContactTime(stiffnessConstant, dissipation, 0.5 * mass);
+    }
+    /// e of two grains of the given mass (kg) each, at every speed: exp(-g t / (2 m*)), t the collision time.
+    [[nodiscard]] double getRestitutionCoefficient(double mass) const {
+        return dissipation > 0 ? std::exp(-dissipation / mass * getCollisionTime(mass)) : 1;
     }
 
     struct Prepared {

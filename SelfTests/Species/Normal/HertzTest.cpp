@@ -9,6 +9,7 @@
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Support/RandomLaw.h"
+#include "SelfTests/Support/Refusal.h"
 
 namespace pendular {
 namespace {
@@ -169,6 +170,52 @@ TEST(Normal, linearReboundsWithTheRestitutionGiven) {
         EXPECT_NEAR(rebound.speed / 0.2, e, 1e-6);
         EXPECT_NEAR(rebound.time / 2e-4, 1, 1e-6);
     }
+}
+
+// Of two grains of the mass each, so half of it is the effective one. Steps are t/4000, and the end is
+// interpolated: (pi/4000)^2 of what the dashpot takes.
+TEST(Normal, linearLawTellsItsCollisionTimeAndRestitution) {
+    for (const double restitution : {1.0, 0.9, 0.5, 0.1, 0.01}) {
+        const double time = 3e-5, mass = 4e-6;
+        LinearViscoelastic law;
+        law.setCollisionTimeAndRestitutionCoefficient(time, restitution, mass);
+        EXPECT_NEAR(law.getCollisionTime(mass) / time, 1, 1e-14);
+        EXPECT_NEAR(law.getRestitutionCoefficient(mass) / restitution, 1, 1e-13);
+        law.setDissipation(1.1 * law.getDissipation());
+        const Rebound rebound = collide(law, 1e-3, 0.5 * mass, 0.2, time);
+        EXPECT_NEAR(rebound.time / law.getCollisionTime(mass), 1, 1e-5) << restitution;
+        EXPECT_NEAR(rebound.speed / 0.2, law.getRestitutionCoefficient(mass), 1e-6) << restitution;
+    }
+    LinearViscoelastic critical;
+    EXPECT_TRUE(support::isOneSentence(support::refusal([&] { (void)critical.getCollisionTime(1); })));
+    critical.setStiffness(1e4);
+    critical.setDissipation(2 * std::sqrt(1e4 * 1e-6) * (1 + 1e-12));
+    EXPECT_EQ(critical.getCollisionTime(2e-6), infinity);
+    EXPECT_EQ(critical.getRestitutionCoefficient(2e-6), 0);
+}
+
+// Contact times of the independent program, which are rounded to 12 digits.
+TEST(Normal, hertzTellsItsCollisionTimeAndRestitution) {
+    for (const auto& row : independent::dampedCollisions) {
+        HertzianViscoelastic law;
+        law.setElasticModulusAndPoissonRatio(row.youngModulus, row.poissonRatio);
+        law.setRestitutionCoefficient(row.restitution);
+        EXPECT_NEAR(law.getRestitutionCoefficient() / row.restitution, 1, 1e-13);
+        const double radius = row.radius1 * row.radius2 / (row.radius1 + row.radius2);
+        const auto massOf = [&](double r) { return 4.0 / 3 * pi * r * r * r * row.density; };
+        const double mass = 1 / (1 / massOf(row.radius1) + 1 / massOf(row.radius2));
+        // Of two grains of twice the effective radius and mass.
+        EXPECT_NEAR(law.getCollisionTime(2 * mass, 2 * radius, row.speed) / row.contactTime, 1, 1e-11)
+            << row.restitution;
+    }
+    HertzianViscoelastic elastic, critical;
+    elastic.setEffectiveElasticModulus(1e8);
+    EXPECT_EQ(elastic.getRestitutionCoefficient(), 1);
+    EXPECT_EQ(elastic.getCollisionTime(4e-6, 1e-3, 0.3), hertzContactTime(1e8, 0.5e-3, 2e-6, 0.3));
+    EXPECT_TRUE(support::isOneSentence(support::refusal([&] { (void)critical.getCollisionTime(1, 1, 1); })));
+    critical.setEffectiveElasticModulusAndRestitutionCoefficient(1e8, 0);
+    EXPECT_EQ(critical.getRestitutionCoefficient(), 0);
+    EXPECT_EQ(critical.getCollisionTime(1, 1, 1), infinity);
 }
 
 }  // namespace
