@@ -29,9 +29,10 @@ struct LiquidBridgeYoungLaplace : LiquidBridge<LiquidBridgeYoungLaplace> {
         "liquid bridge, exact, from a table of the Young-Laplace equation";
     static constexpr std::string_view domain =
         "V* from 1e-7 to 0.5, all contact angles, all radii and walls: up to 0.95 of the true rupture "
-        "distance "
-        "the force is exact to 0.1 % (0.2 % below V* = 1e-6; from 60 degrees to 90, where it passes through "
-        "zero, to 0.85 % of the bridge's largest), from there to 0.999 of it mostly to 4 %, at worst to 24 %";
+        "distance the force is exact to 0.2 % up to 60 degrees (0.6 % below V* = 1e-6), beyond to 0.3 % of "
+        "the bridge's largest, but from 85 to 95 degrees, where it passes through zero, to 1 % of that (3.5 "
+        "% below V* = 1e-6); then up to 0.985 of the rupture distance to 3.5 %, and up to 0.999 of it mostly "
+        "to 8 %, at worst to 25 %";
 
     double pinned = 0;
     double solveOutsideTable = 0;

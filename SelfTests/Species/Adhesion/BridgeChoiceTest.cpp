@@ -84,6 +84,19 @@ double nominal(std::string_view law) {
     return nominalBridgeCost(law).value().perStep(false, usualStepsPerList);
 }
 
+// What the READMEs of the adhesion laws and of TwoParticleCollision say.
+TEST(BridgeChoice, exactLawCostsWhatTheReadmesSay) {
+    const auto ratio = [](std::string_view other, bool oneSize, double steps) {
+        return nominalBridgeCost("LiquidBridgeYoungLaplace")->perStep(oneSize, steps) /
+               nominalBridgeCost(other)->perStep(oneSize, steps);
+    };
+    EXPECT_NEAR(ratio("LiquidBridgeBagheri", false, infinity), 1.1, 0.05);
+    EXPECT_NEAR(ratio("LiquidBridgeBagheri", false, 1000), 1.6, 0.05);
+    EXPECT_NEAR(ratio("LiquidBridgeBagheri", false, usualStepsPerList), 3.7, 0.05);
+    EXPECT_NEAR(ratio("LiquidBridgeBagheri", true, usualStepsPerList), 1.8, 0.05);
+    EXPECT_NEAR(ratio("LiquidBridgeWillett", false, usualStepsPerList), 6.6, 0.05);
+}
+
 std::vector<BridgeChoice> choicesFor(const BridgeRange& range, std::size_t count = 100) {
     return bridgeChoices(ComparedBridges(range.draw(count, 1)), nominal);
 }
