@@ -66,7 +66,10 @@ public:
     [[nodiscard]] virtual std::size_t speciesCount() const = 0;
     [[nodiscard]] virtual double density(std::size_t species) const = 0;
     virtual void mixAll() = 0;
-    virtual void visitState(StateArchive& archive) = 0;
+    /// Whether a value of a species has been set since mixAll().
+    [[nodiscard]] virtual bool hasChanged() const = 0;
+    /// @param changedInRun whether values have been changed since the run began
+    virtual void visitState(StateArchive& archive, bool& changedInRun) = 0;
     [[nodiscard]] virtual std::vector<FieldValue> fields(int a, int b) const = 0;
 
     [[nodiscard]] virtual double range(int a, int b, const Bodies& bodies) const = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,14 +22,16 @@ class ContactList {
 public:
     using Grains = ParticleStore;
 
+    /// @param oldBridges bodies and laws are as they were when bridges were prepared
     ContactList(const ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
-                double skinWidth, bool withLedger, int threadCount)
+                double skinWidth, bool withLedger, int threadCount, bool oldBridges = true)
         : laws(contactLaws),
           walls(wallHandler),
           periodic(box),
           skin(skinWidth),
           ledger(withLedger),
-          threads(threadCount) {}
+          threads(threadCount),
+          keepsBridges(oldBridges) {}
 
     /// Sorts the grains in space and lists their contacts.
     void rebuild(Grains& grains, ContactStore& store) {
@@ -40,6 +43,7 @@ public:
     /// Returns how many of them are listed again.
     std::size_t rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old) {
         formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin);
+        std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
         grains.reorder(formerPlace);
         findPairs(grains, old);
         findWallContacts(grains, old);
@@ -48,6 +52,8 @@ public:
         store.listSides(grains.identity);
         return recalled;
     }
+    /// The cells in which the list was made.
+    [[nodiscard]] NeighbourSearch takeSearch() { return std::move(*found); }
 
 private:
     struct Listed {
@@ -111,8 +117,8 @@ private:
     }
 
     void findPairs(const Grains& grains, const RememberedContacts& old) {
-        const NeighbourSearch search(grains.translation, skin + (laws.actsApart ? largestRange(grains) : 0),
-                                     periodic);
+        found.emplace(grains.translation, skin + (laws.actsApart ? largestRange(grains) : 0), periodic);
+        const NeighbourSearch& search = *found;
         listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
             for (std::size_t a = 0; a < laws.speciesCount(); ++a)
                 for (std::size_t b = a; b < laws.speciesCount(); ++b)
@@ -153,6 +159,7 @@ private:
 
     void findWallContacts(const Grains& grains, const RememberedContacts& old) {
         for (std::size_t w = 0; w < walls.getSize(); ++w)
+            if (!walls.isRemoved(w))
             listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
                 std::vector<std::uint32_t> parts;
                 for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
@@ -279,7 +286,7 @@ private:
                     wakeBlock(store, c / Pack::lanes, bucket, laws, grains);
             }
             forEachListed(bucket, [&](std::size_t c) {
-                if (entries[c]) old.recall(*entries[c], store, c);
+                if (entries[c]) old.recall(*entries[c], store, c, keepsBridges);
             });
         }
         return recalled;
@@ -301,6 +308,8 @@ private:
     double skin;
     bool ledger;
     int threads;
+    bool keepsBridges;
+    std::optional<NeighbourSearch> found;
     std::vector<std::uint32_t> formerPlace;  // of the grain at each place
     Groups groups;
 };

@@ -60,6 +60,12 @@ public:
         });
     }
 
+    /// A grain has come to the end of the store, and has no contacts yet.
+    void addGrain() {
+        ends.push_back(begins.back());
+        begins.push_back(begins.back());
+    }
+
     /// The contact of a grain has got memory.
     /// @param contactOf the contact at a place in the memory
     template <class ContactOf, class KeyOf>

@@ -2,6 +2,17 @@
 
 namespace pendular {
 
+double ContactMemory::clear(std::size_t slot) {
+    for (MemoryColumns* columns : {&history, &normalHistory, &interaction}) columns->clear(slot);
+    if (layout.hasTorque) records[slot] = {};
+    else forces[slot] = {};
+    if (layout.hasContactTorque) torques[slot] = {};
+    if (energies.empty()) return 0;
+    const double stored = energies[slot].stored();
+    energies[slot] = {};
+    return stored;
+}
+
 void ContactStore::listSides(const std::vector<std::uint32_t>& identity) {
     const auto forEachSide = [&](auto&& function) {
         forEachListed([&](const Bucket& bucket, std::uint32_t c) {

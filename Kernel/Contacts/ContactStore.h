@@ -133,6 +133,8 @@ public:
         blockOf.back() = static_cast<std::uint32_t>(block);
         return static_cast<std::uint32_t>(count);
     }
+    /// Forgets one contact; returns the energy (J) that was stored in it, where a ledger is kept.
+    double clear(std::size_t slot);
     [[nodiscard]] std::size_t bytes() const {
         return bytesOf(history.columns, normalHistory.columns, interaction.columns, records, forces, torques,
                        energies, blockOf);

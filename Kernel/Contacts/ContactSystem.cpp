@@ -24,26 +24,105 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
 bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift) {
     unlisted += grainShift + std::max(grainShift, wallShift);
     ++stepsListed;
-    const bool sameBodies = listedGrains == grains.size() && listedWalls == walls->getSize();
-    if (sameBodies && unlisted < skin.width()) return false;
-    if (rebuilds > 0) skin.choose(unlisted, stepsListed);
-    newList().rebuild(grains, contacts);
-    tookList(grains);
+    if (unlisted < std::min(skin.width(), listBefore)) return false;
+    // What came late says nothing of how long a list lasts.
+    if (rebuilds > 0 && unlisted >= skin.width()) skin.choose(unlisted, stepsListed);
+    listAgain(grains);
     return true;
 }
 
-ContactList ContactSystem::newList() const {
-    return {*species, *walls, periodic, skin.width(), ledger, threads};
+void ContactSystem::renew(Grains& grains) { listAgain(grains, nullptr, false); }
+
+void ContactSystem::listAgain(Grains& grains, const RememberedContacts* remembered, bool keepsBridges) {
+    ContactList list(*species, *walls, periodic, skin.width(), ledger, threads, keepsBridges);
+    if (remembered) recalledContacts = list.rebuild(grains, contacts, *remembered);
+    else list.rebuild(grains, contacts);
+    if (takesInGrains) cells = list.takeSearch();
+    skin.listed(contacts, grains.size());
+    species->prepare(contacts.buckets);
+    stepsListed = 0;
+    unlisted = 0;
+    listBefore = infinity;
+    listedGrains = grains.size();
+    ++rebuilds;
 }
 
-void ContactSystem::tookList(const Grains& grains) {
-    skin.listed(contacts, grains.size());
-    stepsListed = 0;
-    listedGrains = grains.size();
-    listedWalls = walls->getSize();
-    species->prepare(contacts.buckets);
-    unlisted = 0;
-    ++rebuilds;
+bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> identities) {
+    if (!takesInGrains) {  // from now on lists keep their cells; for this time, look at all grains
+        takesInGrains = true;
+        cells.reset();
+    }
+    for (const std::uint32_t identity : identities) {
+        contacts.sides.addGrain();
+        const double gap = gapAround(grains, grains.place[identity]);
+        if (!(gap > 0)) return false;
+        listBefore = std::min(listBefore, unlisted + gap);
+    }
+    return true;
+}
+
+/// A lower bound (m) of how far bodies must approach before the grain at a place acts on another one, as far
+/// as the list's skin.
+double ContactSystem::gapAround(const Grains& grains, std::uint32_t place) const {
+    const TranslationRecord& grain = grains.translation[place];
+    double smallest = skin.width();
+    const auto look = [&](std::uint32_t other) {
+        if (other == place || grains.isGap(other)) return;
+        const TranslationRecord& body = grains.translation[other];
+        double reach = grain.radius + body.radius;
+        if (species->actsApart)
+            reach +=
+                species->range(grains.species[place], grains.species[other], {grain.radius, body.radius});
+        smallest = std::min(smallest, norm(periodic.nearest(body.position - grain.position)) - reach);
+    };
+    // Bodies have moved by at most `unlisted` since the cells were filled; grains that came later are behind.
+    if (cells && unlisted < infinity) cells->forEachNear(grain.position, grain.radius, unlisted, look);
+    const std::size_t late = cells ? listedGrains : 0;
+    for (std::size_t other = late; other < grains.size(); ++other) look(static_cast<std::uint32_t>(other));
+    std::vector<std::uint32_t> parts;
+    for (std::size_t w = 0; w < walls->getSize(); ++w) {
+        if (walls->isRemoved(w)) continue;
+        const Wall& wall = walls->getObject(w);
+        const double apart =
+            species->actsApart ? species->range(grains.species[place], wall.species, {grain.radius}) : 0;
+        parts.clear();
+        wall.listParts(grain.position, grain.radius + apart + smallest, parts);
+        std::vector<WallPoint> points(parts.size());
+        if (parts.empty()) continue;
+        wall.findPoints(grain.position, grain.radius + apart + smallest, parts, points);
+        for (const WallPoint& point : points)
+            smallest = std::min(smallest, point.distance - grain.radius - apart);
+    }
+    return std::max(smallest, 0.0);
+}
+
+double ContactSystem::endContactsOf(std::uint32_t place) {
+    if (place >= listedGrains) return 0;
+    double stored = 0;
+    for (const std::uint32_t side : contacts.sides.of(place))
+        stored += endContact(contacts.contactAt(side / 2));
+    for (const std::uint32_t side : contacts.sides.asleepOf(place)) endContact(side / 2);
+    return stored;
+}
+
+double ContactSystem::endContactsAtWall(int wall) {
+    double stored = 0;
+    for (const Bucket& bucket : contacts.buckets)
+        if (bucket.wall == wall)
+            for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
+                stored += endContact(c);
+    return stored;
+}
+
+/// It is listed no more, and its memory and its force are zero.
+double ContactSystem::endContact(std::uint32_t contact) {
+    const std::size_t block = contact / Pack::lanes;
+    const auto others = static_cast<std::uint8_t>(~(1u << contact % Pack::lanes));
+    BlockState& state = contacts.states[block];
+    for (std::uint8_t* bits : {&state.listed, &state.touching, &state.bridged, &state.closing})
+        *bits &= others;
+    if (contacts.slots[block] == ContactStore::asleep) return 0;
+    return contacts.memory.clear(contacts.slotOf(contact));
 }
 
 void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
@@ -55,9 +134,9 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     remembered.visitState(archive, grains, partsOfWalls);
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
     if (!archive.isReading()) return;
-    const std::size_t recalled = newList().rebuild(grains, contacts, remembered);
-    archive.require(recalled == remembered.size(), "pairs", "has a contact of bodies that are out of reach");
-    tookList(grains);
+    listAgain(grains, &remembered);
+    archive.require(recalledContacts == remembered.size(), "pairs",
+                    "has a contact of bodies that are out of reach");
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
     sumWallForces(grains);  // also those that the run of the file did not keep

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "Kernel/Contacts/ContactList.h"
@@ -22,12 +24,24 @@ public:
     /// the steps of the largest shifts of two bodies
     void prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
                  const SkinChoice& skinChoice, bool withLedger);
+    /// Grains have been added at the end of the store. They are listed when bodies can have approached by the
+    /// distance of the nearest of them to all others, so that most need no list of their own. False if one is
+    /// so near that contacts must be listed at once.
+    bool takeIn(const Grains& grains, std::span<const std::uint32_t> identities);
+    /// Bodies or laws have changed: contacts are listed again at once, and their bridges prepared again.
+    void renew(Grains& grains);
+    /// Ends the contacts of the grain at a place, or at a wall, which is about to be removed; returns the
+    /// energy (J) that was stored in them, where a ledger is kept.
+    double endContactsOf(std::uint32_t place);
+    double endContactsAtWall(int wall);
     /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
     /// contacts anew where it is time; says whether it did.
     bool refresh(Grains& grains, double grainShift, double wallShift);
     /// What contacts remember, by who they join: how they are listed is not kept. After prepare(); the
     /// species, the walls and the grains are visited by themselves, before.
     void visitState(StateArchive& archive, Grains& grains);
+    /// Of all grains, m; it may have changed since prepare().
+    void setSmallestRadius(double radius) { skin.setSmallestRadius(radius); }
     /// Threads for the forces; the results do not depend on it.
     void setThreads(int count) { threads = count; }
 
@@ -95,8 +109,9 @@ private:
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
-    [[nodiscard]] ContactList newList() const;
-    void tookList(const Grains& grains);
+    void listAgain(Grains& grains, const RememberedContacts* remembered = nullptr, bool keepsBridges = true);
+    double endContact(std::uint32_t contact);
+    [[nodiscard]] double gapAround(const Grains& grains, std::uint32_t place) const;
     [[nodiscard]] std::size_t firstWallBucket() const;
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
     void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number);
@@ -109,9 +124,12 @@ private:
     PeriodicBox periodic;
     ContactStore contacts;
     SkinChoice skin;
-    std::size_t stepsListed = 0;  // since the contacts were listed
-    std::size_t listedGrains = 0, listedWalls = 0;
-    double unlisted = infinity;  // m, that two bodies can have approached since contacts were listed
+    std::size_t stepsListed = 0;   // since the contacts were listed
+    double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
+    double listBefore = infinity;  // m, at which they must be listed, because of grains that came later
+    std::size_t listedGrains = 0, recalledContacts = 0;
+    bool takesInGrains = false;  // and keeps the cells for it
+    std::optional<NeighbourSearch> cells;
     bool ledger = false;
     int threads = 1;
     std::size_t rebuilds = 0;

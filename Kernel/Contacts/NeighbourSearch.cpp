@@ -109,7 +109,7 @@ std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grain
 
 NeighbourSearch::NeighbourSearch(std::span<const TranslationRecord> grains, double margin,
                                  const PeriodicBox& box)
-    : periodic(box), self(grains.size()), levelOf(grains.size()) {
+    : periodic(box), halfMargin(0.5 * margin), self(grains.size()), levelOf(grains.size()) {
     if (grains.empty()) return;
     double smallest = grains[0].radius;
     for (const TranslationRecord& grain : grains) smallest = std::min(smallest, grain.radius);

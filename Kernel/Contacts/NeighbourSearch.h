@@ -49,6 +49,15 @@ public:
         }
     }
 
+    /// Calls function(grain) at least for each grain whose surface was nearer than the margin and `farther` (m)
+    /// to a sphere; grains may come that are not.
+    template <class Function>
+    void forEachNear(const Vector<double>& centre, double radius, double farther, Function&& function) const {
+        const Point sphere{periodic.wrap(centre), radius + halfMargin + farther, 0};
+        for (const Level& level : levels)
+            level.forEachNear(sphere, [&](const Point& other) { function(other.grain); });
+    }
+
 private:
     struct Point {
         Vector<double> position;
@@ -117,6 +126,7 @@ private:
     [[nodiscard]] Point pointOf(std::uint32_t grain) const { return self[grain]; }
 
     PeriodicBox periodic;
+    double halfMargin;                  // m
     std::vector<Point> self;            // of each grain
     std::vector<std::uint8_t> levelOf;  // of each grain
     std::vector<Level> levels;          // from small to large

@@ -84,13 +84,14 @@ void RememberedContacts::keep(const ContactStore& store, std::size_t slot, doubl
     if (layout.hasContactTorque) putRecord(memory.torques[slot], to);
 }
 
-void RememberedContacts::recall(const Entry& entry, ContactStore& store, std::size_t to) const {
+void RememberedContacts::recall(const Entry& entry, ContactStore& store, std::size_t to,
+                                bool withBridge) const {
     ContactMemory& memory = store.memory;
     const auto number = static_cast<std::size_t>(&entry - entries.data());
     const std::size_t slot = store.slotOf(to);
     const double* from = numbers.data() + number * width;
     for (MemoryColumns* columns : {&memory.history, &memory.normalHistory, &memory.interaction}) {
-        columns->set(slot, from);
+        if (withBridge || columns != &memory.interaction) columns->set(slot, from);
         from += columns->count;
     }
     if (layout.hasTorque) takeRecord(from, memory.records[slot]);
@@ -148,8 +149,9 @@ void RememberedContacts::requireEntries(const StateArchive& archive, const Parti
                     "has another number of rows than contacts/pairs");
     archive.requireFinite("numbers", numbers);
     for (const Entry& e : entries) {
-        const bool isAmong = e.owner < grains.size() && e.wall <= partsOfWalls.size() &&
-                             e.other < (e.wall == 0 ? grains.size() : partsOfWalls[e.wall - 1]);
+        const bool isAmong =
+            grains.place.contains(e.owner) && e.wall <= partsOfWalls.size() &&
+            (e.wall == 0 ? grains.place.contains(e.other) : e.other < partsOfWalls[e.wall - 1]);
         archive.require(isAmong && (e.wall > 0 || e.owner < e.other), "pairs",
                         "has a contact of grains, walls or parts of a wall that the scene has not");
         archive.require((e.state & (touching | bridged)) != 0 && e.state < 8, "pairs",

@@ -40,7 +40,8 @@ public:
     [[nodiscard]] const Entry* find(std::uint32_t place, std::uint32_t wall, std::uint32_t other) const;
 
     /// Gives all that the contact remembered to a contact of a new store, whose block has memory.
-    void recall(const Entry& entry, ContactStore& store, std::size_t to) const;
+    /// @param withBridge also the bridge as it was prepared
+    void recall(const Entry& entry, ContactStore& store, std::size_t to, bool withBridge) const;
 
 private:
     void keep(const ContactStore& store, std::size_t slot, double* to) const;

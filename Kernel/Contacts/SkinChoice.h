@@ -26,6 +26,14 @@ public:
 
     [[nodiscard]] double width() const { return chosen; }
 
+    /// Grains have come of which this is the smallest radius (m). A list that was made stays good: the skin
+    /// becomes no wider.
+    void setSmallestRadius(double radius) {
+        if (smallestRadius == 0) return;  // the width is fixed
+        smallestRadius = radius;
+        chosen = std::min(chosen, 0.1 * radius);
+    }
+
     /// The list was made anew with this skin.
     void listed(const ContactStore& store, std::size_t grains) {
         rebuildCost = rebuildOfGrain * static_cast<double>(grains);

@@ -68,19 +68,21 @@ private:
 
     static Domain domainOf(const ParticleStore& grains) {
         Domain box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-        for (const TranslationRecord& grain : grains.translation)
+        for (const std::uint32_t place : grains.place) {
+            const TranslationRecord& grain = grains.translation[place];
             for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z}) {
                 box.lowest.*axis = std::min(box.lowest.*axis, grain.position.*axis - grain.radius);
                 box.highest.*axis = std::max(box.highest.*axis, grain.position.*axis + grain.radius);
             }
-        return grains.size() > 0 ? box : Domain{{0, 0, 0}, {0, 0, 0}};
+        }
+        return grains.count() > 0 ? box : Domain{{0, 0, 0}, {0, 0, 0}};
     }
     static std::string words(const Vector<double>& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
     /// N time xmin ymin zmin xmax ymax zmax, then for each grain rx ry rz vx vy vz rad alpha beta gamma omex
     /// omey omez info: the angles are 0 (spheres), the info is the species.
     void writeData(const ParticleStore& grains, const Domain& box, double time) {
-        data.text(fmt::format("{} {} {} {}\n", grains.size(), time, words(box.lowest), words(box.highest)));
+        data.text(fmt::format("{} {} {} {}\n", grains.count(), time, words(box.lowest), words(box.highest)));
         NumberText line;
         for (const std::uint32_t place : grains.place) {
             const TranslationRecord& grain = grains.translation[place];
@@ -99,7 +101,7 @@ private:
         double largest = 0;
         for (const TranslationRecord& grain : grains.translation) largest = std::max(largest, grain.radius);
         contacts.text(fmt::format("# {} 1\n# {} {}\n# {} {} 0 0 0 0\n", time, words(box.lowest),
-                                  words(box.highest), grains.size() > 0 ? grains.smallestRadius() : 0,
+                                  words(box.highest), grains.count() > 0 ? grains.smallestRadius() : 0,
                                   largest));
         const std::string timeWord = fmt::format("{} ", time);
         NumberText bodies, common, directions;

@@ -21,7 +21,7 @@ PolyData grainPoints(const ParticleStore& grains) {
     const auto append = [](std::vector<Real>& column, const Vector<double>& v) {
         for (const double part : {v.x, v.y, v.z}) column.push_back(static_cast<Real>(part));
     };
-    const std::size_t count = grains.size();
+    const std::size_t count = grains.count();
     data.points.reserve(count), data.corners.reserve(count);
     radius.reserve(count), species.reserve(count), identity.reserve(count);
     velocity.reserve(3 * count), force.reserve(3 * count);
@@ -45,6 +45,13 @@ PolyData grainPoints(const ParticleStore& grains) {
     data.pointFields.push_back({"force_N", 3, std::move(force)});
     data.pointFields.push_back({"species", 1, std::move(species)});
     data.pointFields.push_back({"identity", 1, std::move(identity)});
+    for (const GrainColumn& column : grains.columns) {
+        std::vector<Real> numbers;
+        numbers.reserve(count);
+        for (const std::uint32_t place : grains.place)
+            numbers.push_back(static_cast<Real>(column.values[place]));
+        data.pointFields.push_back({column.name + "_" + column.unit, 1, std::move(numbers)});
+    }
     return data;
 }
 
@@ -55,28 +62,30 @@ PolyData grainPoints(const ParticleStore& grains) {
 /// the overlap or of the gap.
 template <std::floating_point Real = float>
 PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains) {
-    std::vector<std::array<double, 9>> sums(grains.size());
-    const auto radius = [&](std::uint32_t identity) {
-        return grains.translation[grains.place[identity]].radius;
-    };
-    const auto add = [&](std::uint32_t identity, const Vector<double>& branch, const Vector<double>& force) {
-        const double parts[] = {force.x, force.y, force.z};
+    std::vector<std::array<double, 9>> sums(grains.size());  // of the grain at each place
+    const auto add = [&](std::uint32_t identity, double sign, double half, const Vector<double>& normal,
+                         const Vector<double>& force) {
+        const std::uint32_t place = grains.place[identity];
+        const Vector<double> branch = sign * ((grains.translation[place].radius + half) * normal);
+        const double parts[] = {sign * force.x, sign * force.y, sign * force.z};
         for (std::size_t k = 0; k < 3; ++k) {
-            sums[identity][k] += branch.x * parts[k];
-            sums[identity][3 + k] += branch.y * parts[k];
-            sums[identity][6 + k] += branch.z * parts[k];
+            sums[place][k] += branch.x * parts[k];
+            sums[place][3 + k] += branch.y * parts[k];
+            sums[place][6 + k] += branch.z * parts[k];
         }
     };
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
         const double half = 0.5 * seen.separation;
-        add(seen.particle1, (radius(seen.particle1) + half) * normal, seen.force);
-        if (bucket.wall < 0) add(seen.particle2, -(radius(seen.particle2) + half) * normal, -seen.force);
+        add(seen.particle1, 1, half, normal, seen.force);
+        if (bucket.wall < 0) add(seen.particle2, -1, half, normal, seen.force);
     });
     std::vector<Real> numbers;
-    for (std::uint32_t k = 0; k < sums.size(); ++k)
-        for (const double sum : sums[k]) numbers.push_back(static_cast<Real>(sum / sphereMass(radius(k), 1)));
+    for (const std::uint32_t place : grains.place) {
+        const double volume = sphereMass(grains.translation[place].radius, 1);
+        for (const double sum : sums[place]) numbers.push_back(static_cast<Real>(sum / volume));
+    }
     return {"stress_Pa", 9, std::move(numbers)};
 }
 
@@ -87,7 +96,11 @@ template <std::floating_point Real = float>
 PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains, const ContactLaws& laws) {
     PolyData data;
     data.kind = PolyData::Cells::Lines;
-    for (const std::uint32_t place : grains.place) data.points.push_back(grains.translation[place].position);
+    std::vector<std::int32_t> pointOf(grains.size());  // of the grain at each place
+    for (const std::uint32_t place : grains.place) {
+        pointOf[place] = static_cast<std::int32_t>(data.points.size());
+        data.points.push_back(grains.translation[place].position);
+    }
     std::size_t count = 0;
     contacts.forEachActing(grains, [&](const Bucket&, std::uint32_t) { ++count; });
     std::vector<Real> force, normal, adhesive, overlap, volume;
@@ -98,15 +111,17 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
     const bool isPeriodic = contacts.periodicBox().any();
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
-        const auto end = [&] { return data.points[seen.particle1] + seen.shift; };
+        const TranslationRecord& body1 = grains.translation[grains.place[seen.particle1]];
+        const std::uint32_t place2 = bucket.wall < 0 ? grains.place[seen.particle2] : 0;
+        const Vector<double> end = body1.position + seen.shift;
         const bool isImage = bucket.wall < 0 && isPeriodic &&
-                             norm(end() - data.points[seen.particle2]) > 0.5 * norm(seen.shift);
-        data.corners.push_back(static_cast<std::int32_t>(seen.particle1));
+                             norm(end - grains.translation[place2].position) > 0.5 * norm(seen.shift);
+        data.corners.push_back(pointOf[grains.place[seen.particle1]]);
         if (bucket.wall < 0 && !isImage) {
-            data.corners.push_back(static_cast<std::int32_t>(seen.particle2));
+            data.corners.push_back(pointOf[place2]);
         } else {
             data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
-            data.points.push_back(end());
+            data.points.push_back(end);
         }
         data.ends.push_back(static_cast<std::int32_t>(data.corners.size()));
         for (const double part : {seen.force.x, seen.force.y, seen.force.z})
@@ -153,8 +168,8 @@ public:
     /// A number or a Vec3D of each grain, by its identity; the name ends with the unit.
     template <class Function>
     void addField(const std::string& name, Function valueOf) {
-        added.push_back([name, valueOf = std::move(valueOf)](std::size_t count, bool inDoubles) {
-            return inDoubles ? fieldOf<double>(name, valueOf, count) : fieldOf<float>(name, valueOf, count);
+        added.push_back([name, valueOf = std::move(valueOf)](const ParticleStore& grains, bool inDoubles) {
+            return inDoubles ? fieldOf<double>(name, valueOf, grains) : fieldOf<float>(name, valueOf, grains);
         });
     }
 
@@ -165,11 +180,12 @@ public:
 
 private:
     template <class Real, class Function>
-    static PolyDataField fieldOf(const std::string& name, const Function& valueOf, std::size_t count) {
+    static PolyDataField fieldOf(const std::string& name, const Function& valueOf,
+                                 const ParticleStore& grains) {
         PolyDataField field{name, 1, {}};
         std::vector<Real> numbers;
-        for (std::size_t identity = 0; identity < count; ++identity) {
-            const auto value = valueOf(identity);
+        for (const std::uint32_t place : grains.place) {
+            const auto value = valueOf(std::size_t{grains.identity[place]});
             if constexpr (requires { value.x(); }) {
                 field.components = 3;
                 for (int axis = 0; axis < 3; ++axis) numbers.push_back(static_cast<Real>(value[axis]));
@@ -185,7 +201,7 @@ private:
     [[nodiscard]] SceneFrame frameOf(const Scene& scene) const {
         const auto& store = scene.particleHandler.store();
         SceneFrame frame{scene.getNumberOfTimeSteps(), scene.getTime(), grainPoints<Real>(store), {}, {}};
-        for (const auto& field : added) frame.grains.pointFields.push_back(field(store.size(), doubles));
+        for (const auto& field : added) frame.grains.pointFields.push_back(field(store, doubles));
         if (stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
         if (contacts) frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws());
         if (scene.wallHandler.getSize() > 0) {
@@ -199,12 +215,14 @@ private:
     static std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore& grains,
                                                                const PeriodicBox& periodic) {
         Vector<double> lowest{infinity, infinity, infinity}, highest = -lowest;
-        for (const TranslationRecord& grain : grains.translation)
+        for (const TranslationRecord& grain : grains.translation) {
+            if (grain.radius == 0) continue;  // a gap
             for (const auto axis : axes) {
                 // A gap to a plane of a few radii belongs to the scene.
                 lowest.*axis = std::min(lowest.*axis, grain.position.*axis - 2 * grain.radius);
                 highest.*axis = std::max(highest.*axis, grain.position.*axis + 2 * grain.radius);
             }
+        }
         for (const auto axis : axes) {
             if (!(lowest.*axis <= highest.*axis)) lowest.*axis = highest.*axis = 0;  // no grains
             if (!(periodic.length.*axis > 0)) continue;
@@ -215,7 +233,7 @@ private:
     }
     static constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
 
-    std::vector<std::function<PolyDataField(std::size_t, bool)>> added;
+    std::vector<std::function<PolyDataField(const ParticleStore&, bool)>> added;
 };
 
 }  // namespace pendular

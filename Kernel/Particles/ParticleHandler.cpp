@@ -2,32 +2,105 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/InputError.h"
 
 namespace pendular {
+
+namespace {
+
+Vector<double> finite(std::uint32_t grain, std::string_view field, const Vec3D& value,
+                      std::string_view unit) {
+    if (!value.allFinite())
+        throw InputError(fmt::format("particle {}: {} = ({}, {}, {}) {} is not finite.", grain, field,
+                                     value.x(), value.y(), value.z(), unit));
+    return toVector(value);
+}
+
+/// Of a solid sphere, as the store has it: 5/2 of 1 / (m r^2).
+void setMass(ParticleStore& grains, std::uint32_t at, double inverseMass) {
+    TranslationRecord& grain = grains.translation[at];
+    grain.inverseMass = inverseMass;
+    if (grains.hasSpin)
+        grains.rotation[at].inverseInertia = 2.5 * inverseMass / (grain.radius * grain.radius);
+}
+
+}  // namespace
+
+std::uint32_t GrainReference::place() const { return handler->placeOf(number); }
+TranslationRecord& GrainReference::record() const { return handler->grains.translation[place()]; }
+
+int GrainReference::getSpeciesIndex() const { return handler->grains.species[place()]; }
+
+Vec3D GrainReference::getAngularVelocity() const {
+    const ParticleStore& grains = handler->grains;
+    return grains.hasSpin ? toEigen(grains.rotation[place()].spin) : Vec3D::Zero();
+}
+
+Vec3D GrainReference::getForce() const {
+    if (isFixed()) return Vec3D::Zero();
+    return getMass() * toEigen(handler->grains.acceleration[place()]);
+}
+
+void GrainReference::setVelocity(const Vec3D& velocity) {
+    record().velocity = finite(number, "velocity", velocity, "m/s");
+}
+void GrainReference::setAngularVelocity(const Vec3D& spin) {
+    const Vector<double> value = finite(number, "angular velocity", spin, "rad/s");
+    if (handler->grains.hasSpin) handler->grains.rotation[place()].spin = value;
+}
+void GrainReference::setPosition(const Vec3D& position) {
+    record().position = finite(number, "position", position, "m");
+    handler->changes.moved.push_back(number);
+}
+void GrainReference::setRadius(double radius) {
+    checkValue(fmt::format("particle {}", number), "radius", radius, "m", positive);
+    record().radius = radius;
+    setMass(handler->grains, place(), isFixed() ? 0 : 1 / handler->massOf(radius, getSpeciesIndex()));
+    handler->changes.altered.push_back(number);
+}
+void GrainReference::setSpeciesIndex(int index) {
+    const double mass = handler->massOf(getRadius(), index);  // throws if there is no such species
+    handler->grains.species[place()] = static_cast<std::uint16_t>(index);
+    setMass(handler->grains, place(), isFixed() ? 0 : 1 / mass);
+    handler->changes.altered.push_back(number);
+}
+void GrainReference::fixParticle(bool fix) {
+    const std::uint32_t at = place();
+    ParticleStore& grains = handler->grains;
+    setMass(grains, at, fix ? 0 : 1 / handler->massOf(getRadius(), getSpeciesIndex()));
+    if (fix) {  // it keeps no motion, and no force of its own
+        grains.translation[at].velocity = grains.acceleration[at] = {0, 0, 0};
+        if (grains.hasSpin) grains.rotation[at].spin = grains.rotation[at].angularAcceleration = {0, 0, 0};
+        if (!grains.earlier.empty()) grains.earlier[at] = {};
+    }
+    handler->changes.altered.push_back(number);
+}
+
+double& GrainColumnReference::operator[](std::uint32_t identity) const {
+    return handler->grains.columns[number].values[handler->placeOf(identity)];
+}
 
 void ParticleHandler::setLaws(const ContactLaws& of) {
     laws = &of;
     grains.hasSpin = of.layout.hasTorque;
 }
 
-void GrainReference::setVelocity(const Vec3D& velocity) {
-    if (!velocity.allFinite())
-        throw InputError(fmt::format("particle {}: velocity = ({}, {}, {}) m/s is not finite.", number,
-                                     velocity.x(), velocity.y(), velocity.z()));
-    store->translation[store->place[number]].velocity = toVector(velocity);
+double ParticleHandler::massOf(double radius, int species) const {
+    const double density = laws->density(static_cast<std::size_t>(species));
+    checkValue(laws->name, "density", density, "kg/m^3", positive);
+    return sphereMass(radius, density);
 }
 
 GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain) {
-    const std::string owner = fmt::format("particle {}", grains.size());
+    const std::string owner = fmt::format("particle {}", grains.nextIdentity());
     checkValue(owner, "radius", grain.getRadius(), "m", positive);
     if (grain.getSpeciesIndex() < 0)
         throw InputError(
             fmt::format("{}: species is not set; call setSpecies() with a species of this scene.", owner));
-    const double density = laws->density(static_cast<std::size_t>(grain.getSpeciesIndex()));
-    checkValue(laws->name, "density", density, "kg/m^3", positive);
-    const double mass = sphereMass(grain.getRadius(), density);
+    const double mass = massOf(grain.getRadius(), grain.getSpeciesIndex());
     const Vector<double> nothing{0, 0, 0};  // the motion of a grain that is held in place
     const TranslationRecord record{toVector(grain.getPosition()), grain.getRadius(),
                                    grain.isFixed() ? nothing : toVector(grain.getVelocity()),
@@ -35,19 +108,62 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
     const std::uint32_t identity =
         grains.add(record, grain.isFixed() ? nothing : toVector(grain.getAngularVelocity()),
                    static_cast<std::uint16_t>(grain.getSpeciesIndex()));
-    return {grains, identity};
+    changes.added.push_back(identity);
+    return {*this, identity};
+}
+
+void ParticleHandler::removeObject(std::size_t identity) {
+    const std::uint32_t at = placeOf(identity);
+    if (beforeRemoval) beforeRemoval(at);
+    grains.remove(at);
+    const auto forget = [&](std::vector<std::uint32_t>& list) { std::erase(list, identity); };
+    forget(changes.added);
+    forget(changes.moved);
+    forget(changes.altered);
+}
+
+bool ParticleHandler::contains(std::size_t identity) const {
+    return identity < PlaceIndex::none && grains.place.contains(static_cast<std::uint32_t>(identity));
+}
+
+std::uint32_t ParticleHandler::placeOf(std::size_t identity) const {
+    if (contains(identity)) return grains.place[static_cast<std::uint32_t>(identity)];
+    throw InputError(fmt::format("There is no particle {}; the scene has {}{} (counted from 0).", identity,
+                                 getSize(), identity < grains.nextIdentity() ? ", and it was removed" : ""));
 }
 
 GrainReference ParticleHandler::getObject(std::size_t identity) {
-    if (identity >= grains.size())
-        throw InputError(
-            fmt::format("There is no particle {}; the scene has {} (counted from 0).", identity, getSize()));
-    return {grains, static_cast<std::uint32_t>(identity)};
+    placeOf(identity);
+    return {*this, static_cast<std::uint32_t>(identity)};
 }
+
+GrainColumnReference ParticleHandler::addColumn(const std::string& name, const std::string& unit,
+                                                double initial) {
+    const auto isName = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    if (name.empty() || !std::ranges::all_of(name, isName))
+        throw InputError(
+            fmt::format("The name '{}' of a column of grains must have letters, digits and _ only.", name));
+    for (const GrainColumn& column : grains.columns)
+        if (column.name == name)
+            throw InputError(fmt::format("There is a column '{}' of the grains already.", name));
+    grains.columns.push_back({name, unit, initial, std::vector<double>(grains.size(), initial)});
+    return {*this, grains.columns.size() - 1};
+}
+
+void ParticleHandler::renewMasses() {
+    for (const std::uint32_t at : grains.place) {
+        const TranslationRecord& grain = grains.translation[at];
+        if (grain.inverseMass > 0) setMass(grains, at, 1 / massOf(grain.radius, grains.species[at]));
+    }
+}
+
 void ParticleHandler::visitState(StateArchive& archive) {
     grains.visitState(archive);
     for (const std::uint16_t index : grains.species)
         archive.require(index < laws->speciesCount(), "species", "has one that the scene has not");
+    if (archive.isReading()) changes = {};
 }
 
 }  // namespace pendular

@@ -1,41 +1,80 @@
 #pragma once
 
+#include <functional>
+
 #include "Kernel/Particles/SphericalParticle.h"
 
 namespace pendular {
 
 class ContactLaws;
+class ParticleHandler;
 
-/// A grain of a scene, found by its identity: valid for as long as the scene.
+/// A grain of a scene, found by its identity: valid until the grain is removed; then every call throws
+/// InputError. What is set during a run holds from the next step on, and is checked there as at set-up.
 class GrainReference {
 public:
-    GrainReference(ParticleStore& grains, std::uint32_t identity) : store(&grains), number(identity) {}
+    GrainReference(ParticleHandler& particles, std::uint32_t identity)
+        : handler(&particles), number(identity) {}
 
     [[nodiscard]] std::uint32_t getId() const { return number; }
     [[nodiscard]] Vec3D getPosition() const { return toEigen(record().position); }
     [[nodiscard]] Vec3D getVelocity() const { return toEigen(record().velocity); }
     [[nodiscard]] double getRadius() const { return record().radius; }
+    /// kg; infinite for a grain that is held.
     [[nodiscard]] double getMass() const { return 1 / record().inverseMass; }
+    [[nodiscard]] bool isFixed() const { return record().inverseMass == 0; }
+    [[nodiscard]] int getSpeciesIndex() const;
     /// Zero in scenes without friction.
-    [[nodiscard]] Vec3D getAngularVelocity() const {
-        if (store->hasSpin) return toEigen(store->rotation[store->place[number]].spin);
-        else return Vec3D::Zero();
-    }
+    [[nodiscard]] Vec3D getAngularVelocity() const;
     /// The sum of all forces (N) of the last step, weight included; not kept for a grain held in place: zero.
-    [[nodiscard]] Vec3D getForce() const {
-        if (record().inverseMass == 0) return Vec3D::Zero();
-        return getMass() * toEigen(store->acceleration[store->place[number]]);
-    }
+    [[nodiscard]] Vec3D getForce() const;
+
     void setVelocity(const Vec3D& velocity);
+    /// Without effect in scenes without friction.
+    void setAngularVelocity(const Vec3D& spin);
+    void setPosition(const Vec3D& position);
+    /// The mass follows, at the density of the species.
+    void setRadius(double radius);
+    template <class S>
+    void setSpecies(const S* species) {
+        setSpeciesIndex(species->getIndex());
+    }
+    /// Holds the grain where it is, or lets it go.
+    void fixParticle(bool fix = true);
 
 private:
-    [[nodiscard]] const TranslationRecord& record() const { return store->translation[store->place[number]]; }
+    void setSpeciesIndex(int index);
+    [[nodiscard]] std::uint32_t place() const;
+    [[nodiscard]] TranslationRecord& record() const;
 
-    ParticleStore* store;
+    ParticleHandler* handler;
     std::uint32_t number;
 };
 
-/// Adds grains to a scene and finds them again.
+/// A column of numbers, one for each grain, by identity: particleHandler.addColumn("film_volume", "m3").
+class GrainColumnReference {
+public:
+    GrainColumnReference(ParticleHandler& particles, std::size_t column)
+        : handler(&particles), number(column) {}
+
+    /// Of the grain with this identity. Throws InputError if there is none.
+    [[nodiscard]] double& operator[](std::uint32_t identity) const;
+
+private:
+    ParticleHandler* handler;
+    std::size_t number;
+};
+
+/// What a handler's grains have gone through since the scene last looked.
+struct GrainChanges {
+    // Identities.
+    std::vector<std::uint32_t> added, moved;
+    std::vector<std::uint32_t> altered;  // another size or species, held or let go
+
+    [[nodiscard]] bool any() const { return !added.empty() || !moved.empty() || !altered.empty(); }
+};
+
+/// Adds grains to a scene, removes them, and finds them again: before the run, and in it, from any hook.
 class ParticleHandler {
 public:
     using Grains = ParticleStore;
@@ -49,16 +88,70 @@ public:
 
     /// Adds a copy of the grain. Its mass is that of a solid sphere of its species' density.
     GrainReference copyAndAddObject(const SphericalParticle& grain);
+    /// Removes the grain with this identity; its contacts and bridges end. The identities of all others stay,
+    /// and this one is not given again. Throws InputError if there is no such grain.
+    void removeObject(std::size_t identity);
 
-    [[nodiscard]] std::size_t getSize() const { return grains.size(); }
+    /// How many grains there are.
+    [[nodiscard]] std::size_t getSize() const { return grains.count(); }
+    /// The grain with this identity. Throws InputError if there is none.
     [[nodiscard]] GrainReference getObject(std::size_t identity);
+    /// The same, under MercuryDPM's name.
+    [[nodiscard]] GrainReference getParticleById(std::size_t identity) { return getObject(identity); }
+    [[nodiscard]] bool contains(std::size_t identity) const;
+
+    /// Over all grains, in the order of their identities: for (GrainReference grain : particleHandler).
+    /// Nothing may be added or removed on the way.
+    class Iterator {
+    public:
+        Iterator(ParticleHandler& particles, PlaceIndex::Iterator position)
+            : handler(&particles), at(position) {}
+        GrainReference operator*() const { return {*handler, handler->grains.identity[*at]}; }
+        Iterator& operator++() {
+            ++at;
+            return *this;
+        }
+        friend bool operator==(const Iterator&, const Iterator&) = default;
+
+    private:
+        ParticleHandler* handler;
+        PlaceIndex::Iterator at;
+    };
+    [[nodiscard]] Iterator begin() { return {*this, grains.place.begin()}; }
+    [[nodiscard]] Iterator end() { return {*this, grains.place.end()}; }
+
+    /// A number that is kept of each grain from now on, by name. It is in restart files and in the outputs of
+    /// fields, there as NAME_UNIT. At set-up only. Throws InputError for a name that is there already.
+    GrainColumnReference addColumn(const std::string& name, const std::string& unit, double initial = 0);
+
+    /// kg, of a grain of this size (m) and species
+    [[nodiscard]] double massOf(double radius, int species) const;
+    /// Gives all grains the mass of their species' density.
+    void renewMasses();
+
     void visitState(StateArchive& archive);
     [[nodiscard]] Grains& store() { return grains; }
     [[nodiscard]] const Grains& store() const { return grains; }
 
+    /// Called with the place of a grain before it is removed.
+    void callBeforeRemoval(std::function<void(std::uint32_t)> function) {
+        beforeRemoval = std::move(function);
+    }
+    /// What has changed since this was called last.
+    [[nodiscard]] GrainChanges takeChanges() { return std::exchange(changes, {}); }
+    [[nodiscard]] bool hasChanges() const { return changes.any(); }
+
 private:
+    friend class GrainReference;
+    friend class GrainColumnReference;
+
+    /// Throws InputError.
+    [[nodiscard]] std::uint32_t placeOf(std::size_t identity) const;
+
     const ContactLaws* laws = nullptr;
     Grains grains;
+    GrainChanges changes;
+    std::function<void(std::uint32_t)> beforeRemoval;
 };
 
 }  // namespace pendular

@@ -1,14 +1,48 @@
 #include "Kernel/Particles/ParticleStore.h"
 
+#include <algorithm>
+
 namespace pendular {
 
 template <class Value>
 static void permute(std::vector<Value>& column, const std::vector<std::uint32_t>& order) {
     std::vector<Value> sorted;
-    reserveLarge(sorted, column.size());
-    sorted.resize(column.size());
+    reserveLarge(sorted, order.size());
+    sorted.resize(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = column[order[k]];
     column.swap(sorted);
+}
+
+void ParticleStore::reserve(std::size_t count) {
+    reserveLarge(translation, count);
+    if (hasSpin) reserveLarge(rotation, count);
+    reserveLarge(acceleration, count);
+    reserveLarge(species, count);
+    reserveLarge(identity, count);
+}
+
+std::uint32_t ParticleStore::add(const TranslationRecord& grain, const Vector<double>& spin,
+                                 std::uint16_t speciesIndex) {
+    const std::uint32_t number = next++;
+    place.set(number, static_cast<std::uint32_t>(size()));
+    translation.push_back(grain);
+    acceleration.push_back({0, 0, 0});
+    if (!earlier.empty()) earlier.push_back({});
+    species.push_back(speciesIndex);
+    identity.push_back(number);
+    if (hasSpin)
+        rotation.push_back({spin, 2.5 * grain.inverseMass / (grain.radius * grain.radius), {0, 0, 0}});
+    for (GrainColumn& column : columns) column.values.push_back(column.initial);
+    return number;
+}
+
+void ParticleStore::remove(std::uint32_t at) {
+    place.erase(identity[at]);
+    translation[at].radius = translation[at].inverseMass = 0;
+    translation[at].velocity = {0, 0, 0};
+    acceleration[at] = {0, 0, 0};
+    if (hasSpin) rotation[at] = {};
+    if (!earlier.empty()) earlier[at] = {};
 }
 
 void ParticleStore::reorder(const std::vector<std::uint32_t>& order) {
@@ -18,36 +52,45 @@ void ParticleStore::reorder(const std::vector<std::uint32_t>& order) {
     permute(identity, order);
     if (hasSpin) permute(rotation, order);
     if (!earlier.empty()) permute(earlier, order);
-    for (std::size_t k = 0; k < identity.size(); ++k) place[identity[k]] = static_cast<std::uint32_t>(k);
+    for (GrainColumn& column : columns) permute(column.values, order);
+    for (std::size_t k = 0; k < identity.size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
 }
 
 void ParticleStore::visitState(StateArchive& archive) {
     if (archive.isReading()) return visitColumns(archive);
     ParticleStore byIdentity = *this;
-    byIdentity.reorder(place);
+    byIdentity.reorder({place.begin(), place.end()});
     byIdentity.visitColumns(archive);
 }
 
 void ParticleStore::visitColumns(StateArchive& archive) {
-    auto& [spins, t, r, a, e, s, i, p] = *this;  // a member that is added has to be added here
+    auto& [spins, t, r, a, e, s, i, p, named, n] = *this;  // a member that is added has to be added here
     archive.column<double>("translation", t);
     archive.column<double>("rotation", r);
     archive.column<double>("acceleration", a);
     archive.column<double>("earlier", e);
     archive.column<std::uint16_t>("species", s);
     archive.column<std::uint32_t>("identity", i);
-    if (archive.isReading()) p = i;
+    archive.value("nextIdentity", n);
+    archive.group("columns", [&, &all = named] {
+        for (GrainColumn& column : all) archive.column<double>(column.name, column.values);
+    });
+    if (!archive.isReading()) return;
     requireWhole(archive);
+    place.clear();
+    for (std::size_t k = 0; k < size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
 }
 
 void ParticleStore::requireWhole(const StateArchive& archive) const {
     constexpr std::string_view rows = "has another number of rows than particles/translation";
-    const std::size_t count = size();
-    archive.require(rotation.size() == (hasSpin ? count : 0), "rotation", rows);
-    archive.require(acceleration.size() == count, "acceleration", rows);
-    archive.require(earlier.empty() || earlier.size() == count, "earlier", rows);
-    archive.require(species.size() == count, "species", rows);
-    archive.require(identity.size() == count, "identity", rows);
+    const std::size_t grains = size();
+    archive.require(rotation.size() == (hasSpin ? grains : 0), "rotation", rows);
+    archive.require(acceleration.size() == grains, "acceleration", rows);
+    archive.require(earlier.empty() || earlier.size() == grains, "earlier", rows);
+    archive.require(species.size() == grains, "species", rows);
+    archive.require(identity.size() == grains, "identity", rows);
+    for (const GrainColumn& column : columns)
+        archive.require(column.values.size() == grains, "columns/" + column.name, rows);
     archive.requireFinite("translation", translation);
     archive.requireFinite("rotation", rotation);
     archive.requireFinite("acceleration", acceleration);
@@ -55,8 +98,10 @@ void ParticleStore::requireWhole(const StateArchive& archive) const {
     for (const TranslationRecord& grain : translation)
         archive.require(grain.radius > 0 && grain.inverseMass >= 0, "translation",
                         "has a radius or a mass that is not positive");
-    for (std::size_t k = 0; k < count; ++k)
-        archive.require(identity[k] == k, "identity", "is not 0, 1, 2 ...");
+    const auto isNext = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
+    const bool ascends = std::ranges::adjacent_find(identity, isNext) == identity.end();
+    archive.require(ascends && (identity.empty() || identity.back() < next), "identity",
+                    "does not ascend, or is not below nextIdentity");
 }
 
 }  // namespace pendular

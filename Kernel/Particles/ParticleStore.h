@@ -8,6 +8,8 @@
 
 #include "Kernel/LargePages.h"
 #include "Kernel/Math/Vector.h"
+#include "Kernel/Particles/GrainColumn.h"
+#include "Kernel/Particles/PlaceIndex.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -43,7 +45,10 @@ std::size_t bytesOf(const std::vector<Values>&... columns) {
 }
 
 /// The grains of a scene, as columns. Their order is that of space, and changes when neighbours are searched
-/// anew; the identity (the number in the order of adding) stays. Without spin there is no rotation column.
+/// again; the identity (the number in the order of adding) stays. Without spin there is no rotation column.
+///
+/// A grain that is removed leaves a gap, a record that nothing touches and nothing moves, until the next
+/// reorder(): so the places of all others stay, and the list of contacts with them.
 class ParticleStore {
 public:
     bool hasSpin = false;
@@ -53,46 +58,41 @@ public:
     std::vector<EarlierAcceleration> earlier;  // empty unless the integrator needs it
     std::vector<std::uint16_t> species;
     std::vector<std::uint32_t> identity;  // of the grain at a place
-    std::vector<std::uint32_t> place;     // of the grain with an identity
+    PlaceIndex place;                     // of the grain with an identity
+    std::vector<GrainColumn> columns;     // what else is kept of each grain
 
+    /// Places, gaps included.
     [[nodiscard]] std::size_t size() const { return translation.size(); }
+    /// Grains.
+    [[nodiscard]] std::size_t count() const { return place.size(); }
+    [[nodiscard]] bool isGap(std::size_t at) const { return translation[at].radius == 0; }
+    /// The identity of the grain that is added next: no identity is given twice.
+    [[nodiscard]] std::uint32_t nextIdentity() const { return next; }
+
     /// Of memory that the grains take.
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(translation, rotation, acceleration, earlier, species, identity, place);
+        std::size_t sum =
+            bytesOf(translation, rotation, acceleration, earlier, species, identity) + place.bytes();
+        for (const GrainColumn& column : columns) sum += bytesOf(column.values);
+        return sum;
     }
 
     /// m; infinite without grains.
     [[nodiscard]] double smallestRadius() const {
         double smallest = infinity;
-        for (const TranslationRecord& grain : translation) smallest = std::min(smallest, grain.radius);
+        for (const TranslationRecord& grain : translation)
+            if (grain.radius > 0) smallest = std::min(smallest, grain.radius);
         return smallest;
     }
 
-    void reserve(std::size_t count) {
-        reserveLarge(translation, count);
-        if (hasSpin) reserveLarge(rotation, count);
-        reserveLarge(acceleration, count);
-        reserveLarge(species, count);
-        reserveLarge(identity, count);
-        reserveLarge(place, count);
-    }
+    void reserve(std::size_t count);
 
     /// Adds a grain; returns its identity.
-    std::uint32_t add(const TranslationRecord& grain, const Vector<double>& spin,
-                      std::uint16_t speciesIndex) {
-        const auto number = static_cast<std::uint32_t>(size());
-        translation.push_back(grain);
-        acceleration.push_back({0, 0, 0});
-        if (!earlier.empty()) earlier.push_back({});
-        species.push_back(speciesIndex);
-        identity.push_back(number);
-        place.push_back(number);
-        if (hasSpin)
-            rotation.push_back({spin, 2.5 * grain.inverseMass / (grain.radius * grain.radius), {0, 0, 0}});
-        return number;
-    }
+    std::uint32_t add(const TranslationRecord& grain, const Vector<double>& spin, std::uint16_t speciesIndex);
+    /// Removes the grain at a place; its contacts must have been ended.
+    void remove(std::uint32_t at);
 
-    /// Puts the grain at order[k] to place k, for all k.
+    /// Puts the grain at order[k] to place k, for all k. The order holds all grains, and need hold no gaps.
     void reorder(const std::vector<std::uint32_t>& order);
     /// In the order of identities.
     void visitState(StateArchive& archive);
@@ -100,6 +100,8 @@ public:
 private:
     void visitColumns(StateArchive& archive);
     void requireWhole(const StateArchive& archive) const;
+
+    std::uint32_t next = 0;
 };
 
 }  // namespace pendular

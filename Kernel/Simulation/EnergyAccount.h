@@ -25,7 +25,7 @@ public:
         if (step > 0)
             ledger.driver +=
                 kineticEnergy(grains) - ledger.kinetic + (potential + ledger.carried - ledger.potential);
-        before.resize(grains.size());
+        before.resize(grains.nextIdentity());
         for (std::size_t k = 0; k < grains.size(); ++k) before[grains.identity[k]] = motionOf(grains, k);
     }
 

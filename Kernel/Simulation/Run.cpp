@@ -35,6 +35,8 @@ void Run::setName(std::string beginning) {
 
 void Run::setTimeStep(double step) {
     checkValue("Simulation", "time step", step, "s", positive);
+    timeBefore = getTime();
+    stepsBefore = steps;
     timeStep = step;
 }
 
@@ -69,8 +71,14 @@ void Run::readRestart() {
 }
 
 void Run::visitSteps(StateArchive& archive) {
-    archive.same("timeStep", timeStep, "s");
     archive.value("steps", steps);
+    archive.value("stepsBefore", stepsBefore);
+    archive.finite("timeBefore", timeBefore);
+    archive.require(stepsBefore <= steps && timeBefore >= 0, "stepsBefore",
+                    "is above the number of steps, or its time is negative");
+    if (stepsBefore == 0) return archive.same("timeStep", timeStep, "s");
+    archive.finite("timeStep", timeStep);  // changed during the run
+    archive.require(timeStep > 0, "timeStep", "is not positive");
 }
 
 void Run::visitOutputs(StateArchive& archive) {
@@ -116,18 +124,23 @@ void Run::begin() {
     if (keepsOther) writeRestart(restartFile());
 }
 
+/// Steps until the maximum time; both it and the time step may change on the way.
+std::size_t Run::lastStep() const {
+    const double most = 1e18;  // steps, more than any run has
+    const double remaining = std::ceil((timeMax - timeBefore) / timeStep * (1 - 1e-12));
+    return stepsBefore + static_cast<std::size_t>(std::clamp(remaining, 0.0, most));
+}
+
 void Run::stepToTheEnd(RunControl& control) {
     std::optional<Progress> progress;
     if (!quiet) progress.emplace(std::filesystem::path(name).filename().string(), timeMax, getTime(), steps);
-    const double most = 1e18;  // steps, more than any run has
-    const auto last = static_cast<std::size_t>(std::min(most, std::ceil(timeMax / timeStep * (1 - 1e-12))));
     const auto isAskedToStop = [&] {
         const RunControl::Request request = control.request(steps);
         if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());
         return request == RunControl::Request::Stop;
     };
     bool stops = isAskedToStop();
-    while (!stops && steps < last && continueSolve()) {
+    while (!stops && steps < lastStep() && continueSolve()) {
         step();
         writeOutputs(false);
         if (progress && progress->isDue(steps))

@@ -36,6 +36,7 @@ public:
 
     /// What the names of files begin with that a run writes by itself; a folder may be in it.
     void setName(std::string beginning);
+    /// During a run, the time goes on from where it is.
     /// @param step s
     void setTimeStep(double step);
     /// @param end s
@@ -64,7 +65,10 @@ public:
     void measureStepTimes(bool measure = true) { times.measure(measure); }
 
     [[nodiscard]] const std::string& getName() const { return name; }
-    [[nodiscard]] double getTime() const { return static_cast<double>(steps) * timeStep; }
+    [[nodiscard]] double getTime() const {
+        return steps == stepsBefore ? timeBefore
+                                    : timeBefore + static_cast<double>(steps - stepsBefore) * timeStep;
+    }
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
     [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
@@ -120,6 +124,7 @@ private:
                                 const std::string& remark) = 0;
     [[nodiscard]] virtual RunNumbers numbers() const = 0;
 
+    [[nodiscard]] std::size_t lastStep() const;
     void begin();
     void stepToTheEnd(RunControl& control);
     void writeOutputs(bool atEnd);
@@ -135,6 +140,8 @@ private:
     double timeStep, timeMax = 0;  // s
     std::size_t saveCount = 0;
     std::size_t steps = 0, firstStep = 0;
+    std::size_t stepsBefore = 0;  // those with another time step
+    double timeBefore = 0;        // s, when these had been done
     RestartSchedule restarts;
     std::optional<std::size_t> restartFileSteps;  // in restartFile(), if it is of this run
     std::filesystem::path restartSource;          // empty: a run from its beginning

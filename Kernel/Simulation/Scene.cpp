@@ -1,5 +1,7 @@
 #include "Kernel/Simulation/Scene.h"
 
+#include <algorithm>
+
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Simulation/SceneCheck.h"
@@ -9,12 +11,32 @@ namespace pendular {
 
 using Motion = TimeIntegration;
 
+Scene::Scene() {
+    particleHandler.callBeforeRemoval([this](std::uint32_t place) { endContactsOf(place); });
+    wallHandler.callBeforeRemoval([this](int wall) {
+        const double stored = contactSystem.endContactsAtWall(wall);
+        if (ledgerKept) ledger.driver -= stored;
+    });
+}
+
+/// A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
+void Scene::endContactsOf(std::uint32_t place) {
+    const double stored = contactSystem.endContactsOf(place);
+    if (ledgerKept) ledger.driver -= stored;
+}
+
+void Scene::requireSetUp(std::string_view what) const {
+    if (hasBegun)
+        throw InputError(fmt::format("Simulation: the {} can be set until the run begins, not in it.", what));
+}
+
 void Scene::setGravity(const Vec3D& acceleration) {
     for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
     gravity = toVector(acceleration);
 }
 
 void Scene::setPeriodic(int axis, double lowest, double highest) {
+    requireSetUp("periodic length");
     checkValue("Simulation", "periodic axis", axis, "", fromZeroTo(2));
     checkValue("Simulation", "periodic length", highest - lowest, "m", positive);
     double Vector<double>::*const along[] = {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
@@ -29,12 +51,23 @@ void Scene::setNumberOfThreads(int count) {
 }
 
 double Scene::stabilityLimit() {
-    laws().mixAll();
+    mixChangedLaws();
     return sceneStabilityLimit(laws(), particleHandler.store(), wallHandler, integrator);
 }
 
+double Scene::stabilityLimit(std::span<const SphericalParticle> toCome) {
+    mixChangedLaws();
+    ParticleStore grains = particleHandler.store();
+    for (const SphericalParticle& grain : toCome) {
+        const double mass = particleHandler.massOf(grain.getRadius(), grain.getSpeciesIndex());
+        grains.add({{0, 0, 0}, grain.getRadius(), {0, 0, 0}, grain.isFixed() ? 0 : 1 / mass}, {0, 0, 0},
+                   static_cast<std::uint16_t>(grain.getSpeciesIndex()));
+    }
+    return sceneStabilityLimit(laws(), grains, wallHandler, integrator);
+}
+
 double Scene::shortestContactTime() {
-    laws().mixAll();
+    mixChangedLaws();
     return shortestHalfPeriod(laws(), particleHandler.store(), wallHandler);
 }
 
@@ -44,17 +77,18 @@ void Scene::initialise() {
     requireTimeStep();
     laws().mixAll();
     if (isRestarted()) return readRestart();
-    smallestRadius = particleHandler.store().smallestRadius();
     prepare();
-    contactSystem.refresh(particleHandler.store(), 0, 0);
-    refuseInitialOverlaps(contactSystem, particleHandler.store());
-    Motion::start(particleHandler.store(), integrator);
+    ParticleStore& grains = particleHandler.store();
+    contactSystem.refresh(grains, 0, 0);
+    refuseInitialOverlaps(contactSystem, grains, [](auto&&...) { return true; });
+    Motion::start(grains, integrator);
     advance(0);  // a step of no length: forces and accelerations at the start
     energyAtStart = ledger.total();
-    Motion::start(particleHandler.store(), integrator);
+    Motion::start(grains, integrator);
 }
 
 void Scene::advanceByStep() {
+    takeOverChanges();
     try {
         advance(getTimeStep());
     } catch (const RunError&) {
@@ -65,6 +99,71 @@ void Scene::advanceByStep() {
     }
 }
 
+void Scene::check() {
+    const ParticleStore& grains = particleHandler.store();
+    checkScene(laws(), grains, wallHandler, unstableAccepted ? 0 : getTimeStep(), integrator);
+    checkPeriodicLengths(laws(), grains, wallHandler, periodic);
+    checkedSizes = sizeRanges(grains, laws().speciesCount(), false);
+    checkedFreeSizes = sizeRanges(grains, laws().speciesCount(), true);
+    checkedStep = getTimeStep();
+    knownWalls = wallHandler.generation();
+    const double smallest = grains.smallestRadius();
+    if (hasBegun && smallest < smallestRadius) contactSystem.setSmallestRadius(smallest);
+    smallestRadius = std::min(smallestRadius, smallest);
+}
+
+void Scene::mixChangedLaws() {
+    if (!laws().hasChanged()) return;
+    laws().mixAll();
+    lawsAreNew = true;
+}
+
+void Scene::takeOverChanges() {
+    mixChangedLaws();
+    const bool newLaws = std::exchange(lawsAreNew, false), newWalls = wallHandler.generation() != knownWalls;
+    if (!newLaws && !newWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges()) return;
+    try {
+        const GrainChanges changes = particleHandler.takeChanges();
+        if (newLaws) {
+            particleHandler.renewMasses();
+            speciesChanged = true;
+        }
+        const bool newBodies = newWalls || !changes.moved.empty() || !changes.altered.empty();
+        if (newLaws || newBodies || getTimeStep() != checkedStep || isNewToChecks(changes.added)) check();
+        ParticleStore& grains = particleHandler.store();
+        if (newLaws || newBodies) contactSystem.renew(grains);
+        else if (contactSystem.takeIn(grains, changes.added)) return;
+        else contactSystem.renew(grains);
+        refuseOverlapsOf(changes, newWalls);
+    } catch (const InputError& refusal) {
+        throw RunError(refusal.what());
+    }
+}
+
+bool Scene::isNewToChecks(std::span<const std::uint32_t> added) const {
+    const ParticleStore& grains = particleHandler.store();
+    if (!added.empty() && grains.count() <= contactsInDensestBed + added.size()) return true;
+    return std::ranges::any_of(added, [&](std::uint32_t identity) {
+        const std::uint32_t place = grains.place[identity];
+        const TranslationRecord& grain = grains.translation[place];
+        const std::size_t species = grains.species[place];
+        return species >= checkedSizes.size() || !checkedSizes[species].holds(grain.radius) ||
+               (grain.inverseMass > 0 && !checkedFreeSizes[species].holds(grain.radius));
+    });
+}
+
+/// Of bodies that were put where they are.
+void Scene::refuseOverlapsOf(const GrainChanges& changes, bool atWalls) const {
+    const ParticleStore& grains = particleHandler.store();
+    std::vector<bool> isNew(grains.size());
+    for (const auto* identities : {&changes.added, &changes.moved})
+        for (const std::uint32_t identity : *identities) isNew[grains.place[identity]] = true;
+    refuseInitialOverlaps(contactSystem, grains,
+                          [&](const Bucket& bucket, std::uint32_t first, std::uint32_t second) {
+                              return isNew[first] || isNew[second] || (atWalls && bucket.wall >= 0);
+                          });
+}
+
 RunNumbers Scene::numbers() const {
     std::size_t acting = 0;
     for (const BlockState& state : contactSystem.store().states)
@@ -73,9 +172,10 @@ RunNumbers Scene::numbers() const {
 }
 
 void Scene::prepare() {
-    checkScene(laws(), particleHandler.store(), wallHandler, unstableAccepted ? 0 : getTimeStep(),
-               integrator);
-    checkPeriodicLengths(laws(), particleHandler.store(), wallHandler, periodic);
+    check();
+    static_cast<void>(particleHandler.takeChanges());
+    lawsAreNew = false;
+    hasBegun = true;
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept);
     if (isQuiet()) return;
     for (const BrokenLimit& broken : brokenLimits(laws(), particleHandler.store(), wallHandler))
@@ -103,7 +203,8 @@ void Scene::visitAll(StateArchive& archive) {
 }
 
 void Scene::visitScene(StateArchive& archive) {
-    archive.group("species", [&] { laws().visitState(archive); });
+    archive.group("species", [&] { laws().visitState(archive, speciesChanged); });
+    if (archive.isReading() && speciesChanged) laws().mixAll();
     archive.group("walls", [&] { wallHandler.visitState(archive); });
     visitSteps(archive);
     archive.same("integrator", integrator.name);

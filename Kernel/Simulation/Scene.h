@@ -7,6 +7,7 @@
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/EnergyAccount.h"
 #include "Kernel/Simulation/Run.h"
+#include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -49,13 +50,19 @@ public:
     /// OpenMP threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
     /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
-    void setIntegrator(const Integrator& scheme) { integrator = scheme; }
+    void setIntegrator(const Integrator& scheme) {
+        requireSetUp("integrator");
+        integrator = scheme;
+    }
     /// Runs also with a step above the stability limit. That is sound only where overlaps stay so small that
     /// the contacts are softer than those of the limit, or where no bed comes to rest; else the results mean
     /// nothing.
     void acceptUnstableTimeStep(bool accept = true) { unstableAccepted = accept; }
     /// Keeps account of the energy; costs time, and is off by default.
-    void keepEnergyLedger(bool keep = true) { ledgerKept = keep; }
+    void keepEnergyLedger(bool keep = true) {
+        if (keep != ledgerKept) requireSetUp("energy ledger");
+        ledgerKept = keep;
+    }
 
     [[nodiscard]] bool acceptsUnstableTimeStep() const { return unstableAccepted; }
     [[nodiscard]] int getNumberOfThreads() const { return threads; }
@@ -69,6 +76,8 @@ public:
     /// The time step (s) above which the stiffest possible contacts of this scene, in the densest bed, are no
     /// longer stable: by their springs and dashpots, and the integrator.
     [[nodiscard]] double stabilityLimit();
+    /// The same for a scene to which grains of these sizes and species will come.
+    [[nodiscard]] double stabilityLimit(std::span<const SphericalParticle> toCome);
     [[nodiscard]] const Integrator& getIntegrator() const { return integrator; }
     /// Half a period (s) of the fastest oscillation of two grains: about the shortest time of a contact, for
     /// steps that are as accurate as is wanted (the README of Kernel/Motion says which).
@@ -77,6 +86,7 @@ public:
     void initialise() override;
 
 protected:
+    Scene();
     void setLaws(ContactLaws& of) {
         contactLaws = &of;
         particleHandler.setLaws(of);
@@ -89,6 +99,17 @@ private:
 
     /// When species, walls and grains are known.
     void prepare();
+    /// Throws InputError where set-up would.
+    void check();
+    /// What hooks have changed since the last step: it is checked as at set-up, and holds from now on. Throws
+    /// RunError with the sentence of set-up.
+    void takeOverChanges();
+    void mixChangedLaws();
+    /// Whether the checks must be made again for grains that were added.
+    [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
+    void refuseOverlapsOf(const GrainChanges& changes, bool atWalls) const;
+    void endContactsOf(std::uint32_t place);
+    void requireSetUp(std::string_view what) const;
 
     void warnOfFedSprings() const;
 
@@ -125,6 +146,12 @@ private:
     Vector<double> gravity{0, 0, 0};
     Integrator integrator = integrators::predictedVelocityVerlet;
     double smallestRadius = infinity;
+    std::vector<SizeRange> checkedSizes, checkedFreeSizes;  // of each species
+    std::uint64_t knownWalls = 0;                           // their generation
+    double checkedStep = unset;                             // s
+    bool speciesChanged = false;                            // since the run began
+    bool lawsAreNew = false;                                // prepared ones are to be made again
+    bool hasBegun = false;
     double energyAtStart = 0;   // J, of the ledger
     double approachUnseen = 0;  // m, of two grains since deep overlaps were looked for
     int threads = 1;

@@ -15,12 +15,28 @@
 
 namespace pendular {
 
-/// The smallest and the largest grain of one species, m.
+/// The two smallest and the two largest grains of one species, m; equal where there are two of a size.
 struct SizeRange {
-    double smallest = infinity;
-    double largest = 0;
+    std::size_t count = 0;
+    double smallest = infinity, secondSmallest = infinity;
+    double largest = 0, secondLargest = 0;
 
-    [[nodiscard]] bool empty() const { return largest == 0; }
+    void add(double radius) {
+        ++count;
+        secondSmallest = std::min(secondSmallest, std::max(smallest, radius));
+        smallest = std::min(smallest, radius);
+        secondLargest = std::max(secondLargest, std::min(largest, radius));
+        largest = std::max(largest, radius);
+    }
+    [[nodiscard]] bool empty() const { return count == 0; }
+    /// Whether a grain of this radius is between others.
+    [[nodiscard]] bool holds(double radius) const {
+        return radius >= secondSmallest && radius <= secondLargest;
+    }
+    /// The radii of the extreme partners of a grain with this radius (m) out of these.
+    [[nodiscard]] std::array<double, 2> partnersOf(double radius) const {
+        return {radius == smallest ? secondSmallest : smallest, radius == largest ? secondLargest : largest};
+    }
 };
 
 /// The sizes of the grains of each species; of those that are free to move only, or of all.
@@ -28,17 +44,15 @@ inline std::vector<SizeRange> sizeRanges(const ParticleStore& grains, std::size_
                                          bool freeOnly) {
     std::vector<SizeRange> ranges(speciesCount);
     for (std::size_t k = 0; k < grains.size(); ++k) {
-        if (freeOnly && grains.translation[k].inverseMass == 0) continue;
-        SizeRange& range = ranges[grains.species[k]];
-        range.smallest = std::min(range.smallest, grains.translation[k].radius);
-        range.largest = std::max(range.largest, grains.translation[k].radius);
+        if (grains.isGap(k) || (freeOnly && grains.translation[k].inverseMass == 0)) continue;
+        ranges[grains.species[k]].add(grains.translation[k].radius);
     }
     return ranges;
 }
 
-/// Calls function(laws, bodies, effective mass) for the extreme pairs of bodies of a scene: the smallest and
-/// the largest grains of each two species, and of each species with each wall. (A grain that is held in place
-/// counts as free.)
+/// Calls function(laws, bodies, effective mass) for the extreme pairs of bodies that can meet in a scene: the
+/// smallest and the largest grains of each two species, and of each species with each wall. (A grain that is
+/// held in place counts as free.)
 template <class Function>
 void forEachExtremePair(const ContactLaws& species, const ParticleStore& grains, const WallHandler& walls,
                         Function&& function) {
@@ -52,11 +66,15 @@ void forEachExtremePair(const ContactLaws& species, const ParticleStore& grains,
     for (std::size_t a = 0; a < free.size(); ++a) {
         if (free[a].empty()) continue;
         for (const double r1 : {free[a].smallest, free[a].largest}) {
-            for (std::size_t b = 0; b < sizes.size(); ++b)
-                if (!sizes[b].empty())
-                    for (const double r2 : {sizes[b].smallest, sizes[b].largest}) forBodies(a, b, r1, r2);
+            for (std::size_t b = 0; b < sizes.size(); ++b) {
+                if (sizes[b].count < (a == b ? 2u : 1u)) continue;  // a grain does not meet itself
+                const auto partners = a == b ? sizes[b].partnersOf(r1)
+                                             : std::array<double, 2>{sizes[b].smallest, sizes[b].largest};
+                for (const double r2 : partners) forBodies(a, b, r1, r2);
+            }
             for (std::size_t w = 0; w < walls.getSize(); ++w)
-                forBodies(a, static_cast<std::size_t>(walls.getObject(w).species), r1, infinity);
+                if (!walls.isRemoved(w))
+                    forBodies(a, static_cast<std::size_t>(walls.getObject(w).species), r1, infinity);
         }
     }
 }
@@ -71,7 +89,7 @@ inline std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
 inline double sceneStabilityLimit(const ContactLaws& species, const ParticleStore& grains,
                                   const WallHandler& walls,
                                   const Integrator& integrator = integrators::predictedVelocityVerlet) {
-    const std::size_t contacts = mostContacts(grains.size(), walls);
+    const std::size_t contacts = mostContacts(grains.count(), walls);
     double limit = infinity;
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         limit = std::min(limit, stabilityLimit(laws, bodies, mass, integrator, contacts));
@@ -95,8 +113,9 @@ inline double shortestHalfPeriod(const ContactLaws& species, const ParticleStore
 inline void checkScene(const ContactLaws& species, const ParticleStore& grains, const WallHandler& walls,
                        double timeStep, const Integrator& integrator) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
-        static_cast<void>(
-            species.density(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
+        if (!walls.isRemoved(w))
+            static_cast<void>(
+                species.density(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
     forEachExtremePair(species, grains, walls, [](const PairLaws& laws, const Bodies& bodies, double) {
         if (const auto objection = laws.objection(bodies)) throw InputError(*objection);
     });
@@ -119,6 +138,8 @@ inline void checkPeriodicLengths(const ContactLaws& species, const ParticleStore
         if (bodies.radius2 < infinity)
             reach = std::max(reach, bodies.radius1 + bodies.radius2 + laws.range(bodies));
     });
+    for (const SizeRange& sizes : sizeRanges(grains, species.speciesCount(), false))
+        reach = std::max(reach, sizes.largest);  // a grain and its own image
     const std::array<std::pair<char, double>, 3> lengths{
         {{'x', box.length.x}, {'y', box.length.y}, {'z', box.length.z}}};
     for (const auto& [axis, length] : lengths)
@@ -142,15 +163,17 @@ inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) 
         contact.particle1, other, -contact.separation, 100 * share, 100 * largestSoundOverlap));
 }
 
-/// Throws InputError if two bodies of a new list overlap by more than a sound share of the smaller radius.
-inline void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& grains) {
+/// Throws InputError if two bodies of a list overlap by more than a sound share of the smaller radius.
+/// @param isLookedAt (bucket, places of the grains): whether this contact is
+template <class Function>
+void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& grains,
+                           Function&& isLookedAt) {
     contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
-        const double radius1 = grains.translation[block.first[contact % Pack::lanes]].radius;
-        const double smaller =
-            bucket.wall >= 0
-                ? radius1
-                : std::min(radius1, grains.translation[block.second[contact % Pack::lanes]].radius);
+        const std::uint32_t first = block.first[contact % Pack::lanes];
+        const std::uint32_t second = bucket.wall >= 0 ? first : block.second[contact % Pack::lanes];
+        if (!isLookedAt(bucket, first, second)) return;
+        const double smaller = std::min(grains.translation[first].radius, grains.translation[second].radius);
         refuseOverlap(contacts.observe(grains, bucket, contact), smaller);
     });
 }

@@ -46,7 +46,7 @@ inline double fewestStepsToDouble(const ContactLaws& species, const ParticleStor
         forEachExtremePair(
             species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
                 fewest = std::min(fewest, stepsToDouble(laws, bodies, mass, integrator,
-                                                        mostContacts(grains.size(), walls), step));
+                                                        mostContacts(grains.count(), walls), step));
             });
     return fewest;
 }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <utility>
@@ -22,8 +24,8 @@ class SpeciesHandler {
 public:
     using Mixed = typename S::Mixed;
 
-    /// Adds a copy; the pointer stays valid, and values may still be set through it until the run begins
-    /// (the density: until the first grain of the species is added).
+    /// Adds a copy; the pointer stays valid, and values may be set through it at any time: during a run, a new
+    /// value holds from the next step on, for all contacts and bridges.
     S* copyAndAddObject(const S& species) {
         S& added = all.emplace_back(species);
         added.index = static_cast<int>(all.size()) - 1;
@@ -50,35 +52,67 @@ public:
             species.deriveUnset();
             species.check();
         }
+        mixedFrom.assign(all.begin(), all.end());
+        ownMixedFrom = own;
         mixtures.clear();
         for (const S& a : complete)
             for (const S& b : complete) mixtures.push_back(mixtureOf(a, b));
+    }
+    /// Whether a value has been set since mixAll().
+    [[nodiscard]] bool hasChanged() const {
+        if (mixedFrom.size() != all.size() || ownMixedFrom.size() != own.size()) return true;
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (!isSame(all[k].density, mixedFrom[k].density) || !areSame(all[k], mixedFrom[k])) return true;
+        for (const auto& [pair, laws] : own) {
+            const auto before = ownMixedFrom.find(pair);
+            if (before == ownMixedFrom.end() || !areSame(laws, before->second)) return true;
+        }
+        return false;
     }
     /// The laws between species a and b, after mixAll().
     [[nodiscard]] const Mixed& mixture(int a, int b) const {
         return mixtures[static_cast<std::size_t>(a) * all.size() + static_cast<std::size_t>(b)];
     }
 
-    /// A run goes on with the species that it began with: their fields and the pairs' own values.
-    void visitState(StateArchive& archive) {
+    /// A run goes on with the species that it began with: their fields and the pairs' own values. Where they
+    /// have been changed during the run, it goes on with what they were changed to.
+    /// @param changedInRun as the scene knows it; read from a file, as the file does
+    void visitState(StateArchive& archive, bool& changedInRun) {
         archive.same("name", S::name);
         archive.same("count", all.size());
-        for (const S& species : all)
+        archive.value("changedInRun", changedInRun);
+        for (S& species : all)
             archive.group(fmt::format("{}", species.getIndex()), [&] {
-                archive.same("density", species.getDensity(), "kg/m^3");
-                visitFields(archive, species);
+                if (changedInRun) archive.value("density", species.density);
+                else archive.same("density", species.getDensity(), "kg/m^3");
+                visitFields(archive, species, changedInRun);
             });
         archive.same("countOfPairsWithOwnValues", own.size());
-        for (const auto& [pair, laws] : own)
+        for (auto& [pair, laws] : own)
             archive.group(fmt::format("{}-{}", pair.first, pair.second),
-                          [&, &values = laws] { visitFields(archive, values); });
+                          [&, &values = laws] { visitFields(archive, values, changedInRun); });
     }
 
 private:
-    static void visitFields(StateArchive& archive, const Mixed& laws) {
-        laws.forEachLaw([&]<class Law>(const Law& law) {
+    /// Bit for bit: a value that is not set is not a number.
+    static bool isSame(double a, double b) {
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    }
+    static bool areSame(const Mixed& a, const Mixed& b) {
+        bool same = true;
+        a.forEachLaw([&]<class Law>(const Law& law) {
             for (const auto& field : Law::fields())
-                archive.group(Law::name, [&] { archive.same(field.name, law.*field.member, field.unit); });
+                same &= isSame(law.*field.member, static_cast<const Law&>(b).*field.member);
+        });
+        return same;
+    }
+    static void visitFields(StateArchive& archive, Mixed& laws, bool changedInRun) {
+        laws.forEachLaw([&]<class Law>(Law& law) {
+            for (const auto& field : Law::fields())
+                archive.group(Law::name, [&] {
+                    if (changedInRun) archive.value(field.name, law.*field.member);
+                    else archive.same(field.name, law.*field.member, field.unit);
+                });
         });
     }
     std::size_t checked(std::size_t index) const {
@@ -125,6 +159,8 @@ private:
     std::deque<S> all;
     std::map<std::pair<int, int>, Mixed> own;
     std::vector<Mixed> mixtures;
+    std::vector<S> mixedFrom;  // as they were when they were mixed
+    std::map<std::pair<int, int>, Mixed> ownMixedFrom;
 };
 
 }  // namespace pendular

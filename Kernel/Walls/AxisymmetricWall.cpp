@@ -53,7 +53,7 @@ void AxisymmetricWall::set(const Vec3D& direction, const Vec3D& point, std::vect
                 fmt::format("AxisymmetricWall: profile points {} and {} both lie on the axis.", k - 1, k));
     }
     profile = std::move(polyline);
-    given = true;
+    takePlace();
 }
 
 AxisymmetricWall::Meridian AxisymmetricWall::meridianOf(const Vector<double>& centre) const {

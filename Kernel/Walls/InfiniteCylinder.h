@@ -19,7 +19,7 @@ public:
         checkValue("InfiniteCylinder", "radius", radius, "m", positive);
         cylinderRadius = radius;
         inside = side == CylinderSide::Inside;
-        given = true;
+        takePlace();
     }
 
 protected:

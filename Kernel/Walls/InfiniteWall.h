@@ -11,7 +11,7 @@ public:
     void set(const Vec3D& outward, const Vec3D& point) {
         normal = checkedDirection("InfiniteWall", "length of the normal", outward);
         offset = dot(normal, checkedVector("InfiniteWall", "point", point, "m"));
-        given = true;
+        takePlace();
     }
 
 protected:

@@ -51,6 +51,14 @@ double SurfaceExtent::displacement(const Pose& from, const Pose& to) const {
     return turned == 0 ? carried : carried + turned * radius;
 }
 
+void RigidWall::takePlace() {
+    if (isInRun())
+        throw InputError(
+            "Wall: its place and shape cannot be set again in a run, where it would jump; move it by "
+            "setVelocity(), setAngularVelocity() or setMotion(), or remove it and add another one.");
+    given = true;
+}
+
 void RigidWall::beginSteadyMotion() {
     if (isInRun()) {
         if (!followsFunction) steady = velocityAt(now);
@@ -149,6 +157,15 @@ void RigidWall::visitState(StateArchive& archive) {
     archive.finite("pose", pose);
     archive.finite("velocity", velocity);
     now = hasMoved ? lastMoved : unset;
+}
+
+void RigidWall::join(double time) {
+    if (!atRest) {
+        began = time;
+        if (followsFunction) origin = displacementAt(time).inverse().after(pose);
+        placeAt(time);
+    }
+    now = time;
 }
 
 double RigidWall::moveTo(double time) {

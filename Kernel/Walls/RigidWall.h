@@ -37,6 +37,8 @@ public:
     [[nodiscard]] const Pose& getPose() const { return pose; }
 
     double moveTo(double time) final;
+    /// The wall is added to a run at this time (s): its motion begins now.
+    void join(double time);
     void visitState(StateArchive& archive) override;
     void listParts(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
@@ -58,9 +60,12 @@ protected:
     /// The name and the numbers of the shape, by StateArchive::same().
     virtual void visitShape(StateArchive& /*archive*/) const {}
 
-    bool given = false;
+    /// The shape has been given. Throws InputError in a run, where the wall would jump.
+    void takePlace();
 
 private:
+    bool given = false;
+
     /// By which the motion has displaced the wall from its origin at a time (s).
     [[nodiscard]] Pose displacementAt(double time) const;
     [[nodiscard]] RigidVelocity velocityAt(double time) const;

@@ -115,7 +115,7 @@ bool TriangleMesh::holds(const Face& face, const Vector<double>& point, double t
 
 void TriangleWall::set(std::span<const Triangle> triangles) {
     mesh = std::make_shared<const TriangleMesh>(triangles);
-    given = true;
+    takePlace();
 }
 
 std::size_t TriangleWall::getNumberOfTriangles() const { return mesh ? mesh->triangles : 0; }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -10,10 +11,13 @@
 
 namespace pendular {
 
-/// The walls of a scene, by their numbers in the order of adding.
+/// The walls of a scene, by their numbers in the order of adding. Walls may be added and removed during a run;
+/// numbers stay. A restart file does not hold shapes: the scene that goes on is set up with all walls that the
+/// run had when it was written.
 class WallHandler {
 public:
-    /// Adds a copy; the pointer stays valid.
+    /// Adds a copy; the pointer stays valid until the wall is removed. In a run, a wall with a motion begins
+    /// it now, from where it is.
     template <class Shape>
     requires std::derived_from<Shape, Wall> Shape* copyAndAddObject(const Shape& wall) {
         if (wall.species < 0)
@@ -25,16 +29,45 @@ public:
                 fmt::format("wall {}: its place is not set; call set() before it is added.", walls.size()));
         auto copy = std::make_unique<Shape>(wall);
         Shape* added = copy.get();
+        if (isSet(now)) added->join(now);
         walls.push_back(std::move(copy));
+        ++changes;
         return added;
     }
-    void clear() { walls.clear(); }
+    /// Removes a wall; the numbers of all others stay. Throws InputError if there is none.
+    void removeObject(std::size_t number) {
+        if (number >= walls.size() || isRemoved(number))
+            throw InputError(fmt::format("There is no wall {}; the scene has {} (counted from 0).", number,
+                                         walls.size()));
+        if (beforeRemoval) beforeRemoval(static_cast<int>(number));
+        walls[number] = std::make_unique<RemovedWall>();
+        ++changes;
+    }
+    /// Removes all walls, and begins again with number 0.
+    void clear() {
+        if (beforeRemoval)
+            for (std::size_t w = 0; w < walls.size(); ++w) beforeRemoval(static_cast<int>(w));
+        walls.clear();
+        ++changes;
+    }
+    /// Walls that there are and have been: numbers are less than this.
     [[nodiscard]] std::size_t getSize() const { return walls.size(); }
-    [[nodiscard]] Wall& getObject(std::size_t number) const { return *walls.at(number); }
+    [[nodiscard]] Wall& getObject(std::size_t number) const {
+        if (number >= walls.size())
+            throw InputError(fmt::format("There is no wall {}; the scene has {} (counted from 0).", number,
+                                         walls.size()));
+        return *walls[number];
+    }
+    [[nodiscard]] bool isRemoved(std::size_t number) const { return walls[number]->species < 0; }
+    /// Called with the number of a wall before it is removed.
+    void callBeforeRemoval(std::function<void(int)> function) { beforeRemoval = std::move(function); }
+    /// Counts additions and removals.
+    [[nodiscard]] std::uint64_t generation() const { return changes; }
 
     /// Moves all walls to where they are at a time (s); returns how far (m) any of their points can have
     /// moved.
     double moveTo(double time) {
+        now = time;
         double farthest = 0;
         for (const auto& wall : walls) farthest = std::max(farthest, wall->moveTo(time));
         return farthest;
@@ -47,7 +80,20 @@ public:
     }
 
 private:
+    /// In the place of a wall that was removed: nothing touches it.
+    class RemovedWall final : public Wall {
+    public:
+        void listParts(const Vector<double>&, double, std::vector<std::uint32_t>&) const override {}
+        void findPoints(const Vector<double>&, double, std::span<const std::uint32_t>,
+                        std::span<WallPoint> points) const override {
+            for (WallPoint& point : points) point = {{0, 0, 1}, infinity, {0, 0, 0}};
+        }
+    };
+
     std::vector<std::unique_ptr<Wall>> walls;
+    std::function<void(int)> beforeRemoval;
+    std::uint64_t changes = 0;
+    double now = unset;  // s; not a number before the run
 };
 
 }  // namespace pendular

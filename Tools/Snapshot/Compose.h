@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "Tools/Snapshot/Frame.h"
@@ -76,15 +77,18 @@ inline void addBridges(Picture& picture, const Frame& frame, const View& view) {
     const PolyDataField *bridged = lines.cellField("bridged"), *volume = lines.cellField("bridge_volume_m3"),
                         *overlap = lines.cellField("overlap_m"), *first = lines.cellField("particle1"),
                         *second = lines.cellField("particle2");
-    const PolyDataField* radii = frame.grains.pointField("radius_m");
-    if (!bridged || !volume || !overlap || !first || !second || !radii) return;
+    const PolyDataField *radii = frame.grains.pointField("radius_m"),
+                        *identity = frame.grains.pointField("identity");
+    if (!bridged || !volume || !overlap || !first || !second || !radii || !identity) return;
+    std::map<double, double> radiusOf;  // by identity
+    for (std::size_t k = 0; k < identity->size(); ++k) radiusOf[identity->at(k)] = radii->at(k);
     for (std::size_t k = 0; k < lines.ends.size(); ++k) {
         const auto end = [&](std::size_t which) {
             return lines.points[static_cast<std::size_t>(lines.corners[2 * k + which])];
         };
         if (bridged->at(k) == 0 || !isInside(end(0), view.box) || !isInside(end(1), view.box)) continue;
-        const double r1 = radii->at(static_cast<std::size_t>(first->at(k)));
-        const double r2 = second->at(k) < 0 ? INFINITY : radii->at(static_cast<std::size_t>(second->at(k)));
+        const double r1 = radiusOf.at(first->at(k));
+        const double r2 = second->at(k) < 0 ? INFINITY : radiusOf.at(second->at(k));
         const double radius = bridgeRadius(volume->at(k), -overlap->at(k), 1 / (1 / r1 + 1 / r2));
         picture.rods.push_back({end(0), end(1), radius, {0.15, 0.45, 0.85}, 0.1});
     }
