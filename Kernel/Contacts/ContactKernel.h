@@ -40,14 +40,15 @@ public:
 
     ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactTiming contactTiming,
                   const OverlapWatch& watch, ContactStore& contactStore)
-        : overlaps(watch.part()),
+        : overlaps(watch),
           laws(preparedLaws),
           timeStep(step),
           implicitStep(contactTiming.implicitForces ? step : 0),
           timing(contactTiming),
           store(contactStore),
           memory(contactStore.memory),
-          ledger(!contactStore.memory.energies.empty()) {}
+          ledger(!contactStore.memory.energies.empty()),
+          amongTorques(S::hasTorque || contactStore.memory.getLayout().hasTorque) {}
 
     /// Of the contacts that this kernel has computed.
     OverlapWatch overlaps;
@@ -217,8 +218,11 @@ private:
         storeRecords(base, std::array<Pack, 4>{torque.x, torque.y, torque.z, Pack(0)});
     }
 
+    /// Whether the records of the scene have a torque: always so for laws that have one, and for others where
+    /// another pair of species has one.
+    [[nodiscard]] bool writesTorques() const { return S::hasTorque || amongTorques; }
     [[nodiscard]] double* recordsAt(std::size_t block) const {
-        if constexpr (S::hasTorque) return reinterpret_cast<double*>(&memory.records[block * Pack::lanes]);
+        if (writesTorques()) return reinterpret_cast<double*>(&memory.records[block * Pack::lanes]);
         else return reinterpret_cast<double*>(&memory.forces[block * Pack::lanes]);
     }
     [[nodiscard]] LastForces loadLastForces(std::size_t block) const {
@@ -228,7 +232,7 @@ private:
             const auto [x, y, z, normal] = loadRecords<4>(base + 4, 8, each.data());
             return {{x, y, z}, normal};
         } else {
-            return {{}, gatherColumn(base + 3, 4)};
+            return {{}, writesTorques() ? gatherColumn(base + 7, 8) : gatherColumn(base + 3, 4)};
         }
     }
 
@@ -241,6 +245,9 @@ private:
             const Vector<Pack> torque = cross(direction, tangential);
             storeRecords(base, std::array<Pack, 8>{force.x, force.y, force.z, Pack(0.5) * overlap, torque.x,
                                                    torque.y, torque.z, normalForce});
+        } else if (writesTorques()) {
+            storeRecords(base, std::array<Pack, 8>{along.x, along.y, along.z, Pack(0.5) * overlap, Pack(0),
+                                                   Pack(0), Pack(0), normalForce});
         } else {
             storeRecords(base, std::array<Pack, 4>{along.x, along.y, along.z, normalForce});
         }
@@ -292,7 +299,7 @@ private:
         memory.history.store<History>(block, {});
         memory.normalHistory.store<NormalHistory>(block, {});
         for (int k = 0; k < Pack::lanes; ++k) {
-            if constexpr (S::hasTorque) memory.records[block * Pack::lanes + k] = {};
+            if (writesTorques()) memory.records[block * Pack::lanes + k] = {};
             else memory.forces[block * Pack::lanes + k] = {};
             if constexpr (S::hasContactTorque) memory.torques[block * Pack::lanes + k] = {};
             if (ledger) memory.energies[block * Pack::lanes + k].now = {};
@@ -308,7 +315,7 @@ private:
     ContactTiming timing;
     ContactStore& store;
     ContactMemory& memory;
-    const bool ledger;
+    const bool ledger, amongTorques;
 };
 
 }  // namespace pendular

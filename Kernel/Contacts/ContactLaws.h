@@ -50,8 +50,8 @@ struct FieldValue {
     double value;
 };
 
-/// What a scene asks of the laws of its species, whatever they are: SpeciesLaws gives it for a species type.
-/// All functions of a pair take the indices of two species.
+/// What a scene asks of the laws of its species, whatever they are: SpeciesLaws gives it for a species type,
+/// SeveralSpeciesLaws for species of several types. All functions of a pair take the indices of two species.
 class ContactLaws {
 public:
     ContactLayout layout;
@@ -63,6 +63,8 @@ public:
 
     virtual ~ContactLaws() = default;
 
+    /// Those of a pair alone: their own names, layout and flags, where a scene has species of several types.
+    [[nodiscard]] virtual const ContactLaws& ofPair(int /*a*/, int /*b*/) const { return *this; }
     [[nodiscard]] virtual std::size_t speciesCount() const = 0;
     [[nodiscard]] virtual double density(std::size_t species) const = 0;
     virtual void mixAll() = 0;
@@ -79,14 +81,15 @@ public:
     /// Of each law by its name, what is out of its domain.
     [[nodiscard]] virtual std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const = 0;
-    /// m^3; nothing for laws that have no bridge
+    /// m^3; nothing where no laws of the scene have a bridge
     [[nodiscard]] virtual std::optional<double> bridgeVolume(int a, int b) const = 0;
 
     // What contacts remember, as numbers.
     virtual void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const = 0;
-    [[nodiscard]] virtual double adhesiveForce(const double* interaction, double separation) const = 0;
-    virtual void turn(double* history, const FrameRotation<double>& rotation) const = 0;
-    [[nodiscard]] virtual double springLength(const double* history) const = 0;
+    [[nodiscard]] virtual double adhesiveForce(int a, int b, const double* interaction,
+                                               double separation) const = 0;
+    virtual void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const = 0;
+    [[nodiscard]] virtual double springLength(int a, int b, const double* history) const = 0;
 
     /// Takes the values of the pairs for the buckets of a new list.
     virtual void prepare(const std::vector<Bucket>& buckets) = 0;

@@ -158,7 +158,8 @@ ObservedContact ContactSystem::observe(const Grains& grains, const Bucket& bucke
 double ContactSystem::springLength(std::uint32_t contact) const {
     ContactNumbers history;
     contacts.memory.history.get(contacts.slotOf(contact), history.data());
-    return species->springLength(history.data());
+    const Bucket& bucket = contacts.bucketOf(contact / Pack::lanes);
+    return species->springLength(bucket.species1, bucket.species2, history.data());
 }
 
 /// Buckets of walls come last.

@@ -54,7 +54,8 @@ inline ObservedContact observeContact(const ContactStore& contacts, const Contac
     if (seen.bridged) {
         ContactNumbers interaction;
         contacts.memory.interaction.get(contacts.slotOf(contact), interaction.data());
-        seen.adhesiveForce = laws.adhesiveForce(interaction.data(), seen.separation);
+        seen.adhesiveForce =
+            laws.adhesiveForce(bucket.species1, bucket.species2, interaction.data(), seen.separation);
     }
     seen.normalForce += seen.adhesiveForce;
     return seen;

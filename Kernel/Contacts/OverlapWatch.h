@@ -39,6 +39,13 @@ public:
         fresh.above = 0;
         return fresh;
     }
+    /// The same for laws of their own limit, over the effective radius.
+    [[nodiscard]] OverlapWatch part(double largestOverlap) const {
+        OverlapWatch fresh = part();
+        fresh.limit = largestOverlap;
+        fresh.setThreshold();
+        return fresh;
+    }
     void add(const OverlapWatch& part) {
         largest = std::max(largest, part.largest);
         above += part.above;

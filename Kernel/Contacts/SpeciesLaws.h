@@ -73,13 +73,13 @@ public:
                        [[maybe_unused]] double* to) const override {
         if constexpr (Adhesion::acts) putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies), to);
     }
-    [[nodiscard]] double adhesiveForce([[maybe_unused]] const double* from,
+    [[nodiscard]] double adhesiveForce(int /*a*/, int /*b*/, [[maybe_unused]] const double* from,
                                        [[maybe_unused]] double separation) const override {
         if constexpr (Adhesion::acts)
             return memoryFrom<Interaction<double>>(from).force(separationFor<Adhesion>(-separation));
         else return 0;
     }
-    void turn([[maybe_unused]] double* numbers,
+    void turn(int /*a*/, int /*b*/, [[maybe_unused]] double* numbers,
               [[maybe_unused]] const FrameRotation<double>& rotation) const override {
         if constexpr (requires(History<double> h) { h.turn(rotation); }) {
             auto history = memoryFrom<History<double>>(numbers);
@@ -87,7 +87,8 @@ public:
             putMemory(history, numbers);
         }
     }
-    [[nodiscard]] double springLength([[maybe_unused]] const double* numbers) const override {
+    [[nodiscard]] double springLength(int /*a*/, int /*b*/,
+                                      [[maybe_unused]] const double* numbers) const override {
         if constexpr (requires(History<double> h) { h.displacement.x; })
             return norm(memoryFrom<History<double>>(numbers).displacement);
         else return 0;
@@ -95,7 +96,10 @@ public:
 
     void prepare(const std::vector<Bucket>& buckets) override {
         prepared.clear();
-        for (const Bucket& bucket : buckets) prepared.emplace_back(of(bucket.species1, bucket.species2));
+        for (const Bucket& bucket : buckets)
+            if (species.hasMixture(bucket.species1, bucket.species2))
+                prepared.emplace_back(of(bucket.species1, bucket.species2));
+            else prepared.emplace_back();  // of other laws: never computed here
     }
     bool compute(const ContactTask& task) const override {
         // Values, not references to the task: the kernel's stores could change that, for all the compiler
@@ -137,7 +141,8 @@ private:
         const std::uint32_t* const slots = task.store.slots.data();
         const double* const gaps = task.store.gaps.data();
         const double unlisted = task.unlisted;
-        ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing, *task.overlaps, task.store);
+        ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing,
+                                task.overlaps->part(overlapLimit.largest), task.store);
         bool all = true;
         for (std::size_t b = task.begin, end = task.end; b < end; ++b)
             if (slots[b] != ContactStore::asleep || unlisted > gaps[b])

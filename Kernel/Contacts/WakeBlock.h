@@ -13,7 +13,7 @@ inline void wakeBlock(ContactStore& store, std::size_t block, const Bucket& buck
     if (laws.layout.interaction == 0) return;
     const ContactBlock& places = store.blocks[block];
     Bodies last{-1, -1};
-    ContactNumbers prepared;
+    ContactNumbers prepared{};  // zero beyond the numbers of the pair's own laws
     for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
         if (!store.bitOf(store.states[block].listed, lane)) continue;
         const double r1 = grains.translation[places.first[lane]].radius;

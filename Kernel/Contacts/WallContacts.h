@@ -12,8 +12,8 @@ namespace pendular {
 /// Gives the memory of a wall's contact to another one of the same grain that stands for it from now on (the
 /// next face of a mesh), unless that one has its own: the spring goes on, turned with the normal, and so does
 /// the bridge. The block of the other one has memory.
-inline void handOver(ContactStore& store, const ContactLaws& laws, std::size_t from, std::size_t to,
-                     const Vector<double>& oldNormal, const Vector<double>& newNormal) {
+inline void handOver(ContactStore& store, const ContactLaws& laws, const Bucket& bucket, std::size_t from,
+                     std::size_t to, const Vector<double>& oldNormal, const Vector<double>& newNormal) {
     BlockState& source = store.states[from / Pack::lanes];
     BlockState& target = store.states[to / Pack::lanes];
     if (!store.acts(from) || store.acts(to)) return;
@@ -22,7 +22,8 @@ inline void handOver(ContactStore& store, const ContactLaws& laws, std::size_t f
     ContactNumbers kept;
     double* const numbers = kept.data();
     memory.history.get(old, numbers);
-    laws.turn(numbers, {.normal = newNormal, .normalShift = newNormal - oldNormal, .twist = 0});
+    laws.turn(bucket.species1, bucket.species2, numbers,
+              {.normal = newNormal, .normalShift = newNormal - oldNormal, .twist = 0});
     memory.history.set(next, numbers);
     memory.history.clear(old);
     memory.normalHistory.get(old, numbers);

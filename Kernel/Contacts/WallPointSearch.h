@@ -38,7 +38,7 @@ public:
             for (const HandOver& h : part) {
                 if (!contacts.acts(h.from)) continue;
                 if (contacts.slots[h.to / Pack::lanes] == ContactStore::asleep) wake(h.to / Pack::lanes);
-                handOver(contacts, laws, h.from, h.to, h.oldNormal, h.newNormal);
+                handOver(contacts, laws, bucket, h.from, h.to, h.oldNormal, h.newNormal);
             }
     }
 

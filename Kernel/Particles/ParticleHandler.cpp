@@ -88,9 +88,14 @@ void ParticleHandler::setLaws(const ContactLaws& of) {
     grains.hasSpin = of.layout.hasTorque;
 }
 
+void ParticleHandler::settleSpin() {
+    if (grains.hasSpin && !laws->layout.hasTorque) std::vector<RotationRecord>().swap(grains.rotation);
+    grains.hasSpin = laws->layout.hasTorque;
+}
+
 double ParticleHandler::massOf(double radius, int species) const {
     const double density = laws->density(static_cast<std::size_t>(species));
-    checkValue(laws->name, "density", density, "kg/m^3", positive);
+    checkValue(laws->ofPair(species, species).name, "density", density, "kg/m^3", positive);
     return sphereMass(radius, density);
 }
 

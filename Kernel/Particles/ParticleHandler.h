@@ -82,6 +82,8 @@ public:
     ParticleHandler() = default;
     ParticleHandler(const ParticleHandler&) = delete;
     void setLaws(const ContactLaws& of);
+    /// When the laws are known: grains of a scene without friction have no spin.
+    void settleSpin();
 
     /// Takes the memory for so many grains at once, instead of bit by bit.
     void reserve(std::size_t count) { grains.reserve(count); }

@@ -52,9 +52,10 @@ public:
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                  std::size_t lane, EnergyRecord& record) {
+            const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
             const ContactKind kind{.isWall = bucket.wall >= 0,
-                                   .isPlastic = contacts.laws().isPlastic,
-                                   .adhesionFormsAtContact = contacts.laws().formsAtContact};
+                                   .isPlastic = laws.isPlastic,
+                                   .adhesionFormsAtContact = laws.formsAtContact};
             addContact(record, meanMotion(grains, block.first[lane]),
                        kind.isWall ? BodyMotion{} : meanMotion(grains, block.second[lane]), kind, step,
                        account);

@@ -167,8 +167,10 @@ private:
         rows.add("species", laws.name);
         for (std::size_t k = 0; k < laws.speciesCount(); ++k) {
             const auto owner = fmt::format("species {}", k);
-            rows.add(owner + ": density", laws.density(k), "kg/m^3");
             const auto index = static_cast<int>(k);
+            const std::string_view type = laws.ofPair(index, index).name;
+            if (type != laws.name) rows.add(owner, type);
+            rows.add(owner + ": density", laws.density(k), "kg/m^3");
             for (const FieldValue& field : laws.fields(index, index))
                 rows.add(fmt::format("{}: {}", owner, field.name), field.value, field.unit);
         }

@@ -76,6 +76,7 @@ void Scene::initialise() {
     prepareOutputs();
     requireTimeStep();
     laws().mixAll();
+    particleHandler.settleSpin();
     if (isRestarted()) return readRestart();
     prepare();
     ParticleStore& grains = particleHandler.store();

@@ -1,15 +1,28 @@
 #pragma once
 
 #include "Kernel/Contacts/PopularSpecies.h"
+#include "Kernel/Contacts/SeveralSpeciesLaws.h"
 #include "Kernel/Simulation/Scene.h"
 
 namespace pendular {
 
-/// What a driver derives from: a scene of grains of species S, and its run.
+/// What a driver derives from: a scene of grains, and its run. Simulation<S> has grains of species S;
+/// Simulation<S1, S2> has species of these types, and Simulation<> of any, also such as are chosen by name.
 /// A driver adds species, grains and walls in setupInitialConditions() or before solve(), and overrides
 /// hooks.
-template <class S>
+template <class... Types>
 class Simulation : public Scene {
+public:
+    Simulation() { setLaws(ownLaws); }
+
+    SpeciesHandlerOf<Types...> speciesHandler;
+
+private:
+    SeveralSpeciesLaws ownLaws{speciesHandler};
+};
+
+template <class S>
+class Simulation<S> : public Scene {
 public:
     Simulation() { setLaws(ownLaws); }
 

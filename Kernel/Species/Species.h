@@ -57,6 +57,14 @@ struct MixedSpecies : N, F, A {
     }
 };
 
+/// The values of a pair for which nothing is set.
+template <class Mixed>
+Mixed nothingSet() {
+    Mixed laws;
+    laws.forEachLaw([](auto& law) { unsetFields(law); });
+    return laws;
+}
+
 inline constexpr std::string_view speciesSuffix = "Species";
 
 /// A material: its density and the laws of the contacts between grains of it. The name is the concatenation
@@ -98,6 +106,8 @@ struct Species : MixedSpecies<N, F, A> {
 private:
     template <class>
     friend class SpeciesHandler;
+    template <class>
+    friend class SpeciesInScene;
 
     double density = unset;  // kg/m^3
     int index = -1;

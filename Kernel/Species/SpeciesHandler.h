@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -40,7 +41,7 @@ public:
     Mixed* getMixedObject(const S* a, const S* b) { return getMixedObject(a->getIndex(), b->getIndex()); }
     Mixed* getMixedObject(int a, int b) {
         checked(static_cast<std::size_t>(a)), checked(static_cast<std::size_t>(b));
-        return &own.try_emplace(std::minmax({a, b}), nothingSet()).first->second;
+        return &own.try_emplace(std::minmax({a, b}), nothingSet<Mixed>()).first->second;
     }
 
     /// Derives what is unset, checks every species and mixes every pair. Throws InputError.
@@ -57,6 +58,7 @@ public:
         mixtures.clear();
         for (const S& a : complete)
             for (const S& b : complete) mixtures.push_back(mixtureOf(a, b));
+        count = all.size();
     }
     /// Whether a value has been set since mixAll().
     [[nodiscard]] bool hasChanged() const {
@@ -70,8 +72,16 @@ public:
         return false;
     }
     /// The laws between species a and b, after mixAll().
-    [[nodiscard]] const Mixed& mixture(int a, int b) const {
-        return mixtures[static_cast<std::size_t>(a) * all.size() + static_cast<std::size_t>(b)];
+    [[nodiscard]] const Mixed& mixture(int a, int b) const { return *mixtures[numberOf(a, b)]; }
+    /// Whether the pair has laws of this type: not all have, where a scene has species of several types.
+    [[nodiscard]] bool hasMixture(int a, int b) const { return mixtures[numberOf(a, b)].has_value(); }
+    /// Instead of mixAll(), in a scene of several types: it mixes the pairs itself.
+    void clearMixtures(std::size_t speciesCount) {
+        count = speciesCount;
+        mixtures.assign(count * count, {});
+    }
+    void setMixture(int a, int b, const Mixed& laws) {
+        mixtures[numberOf(a, b)] = mixtures[numberOf(b, a)] = laws;
     }
 
     /// A run goes on with the species that it began with: their fields and the pairs' own values. Where they
@@ -121,12 +131,10 @@ private:
                                          static_cast<std::ptrdiff_t>(index), all.size()));
         return index;
     }
-    static std::size_t indexOf(const S& species) { return static_cast<std::size_t>(species.getIndex()); }
-    static Mixed nothingSet() {
-        Mixed mixed;
-        mixed.forEachLaw([](auto& law) { unsetFields(law); });
-        return mixed;
+    [[nodiscard]] std::size_t numberOf(int a, int b) const {
+        return static_cast<std::size_t>(a) * count + static_cast<std::size_t>(b);
     }
+    static std::size_t indexOf(const S& species) { return static_cast<std::size_t>(species.getIndex()); }
     /// What no user has set, neither for the pair nor for its species, and a law takes from the normal law,
     /// it takes from that of the pair.
     template <class Law>
@@ -139,9 +147,9 @@ private:
     }
     Mixed mixtureOf(const S& a, const S& b) const {
         const auto found = own.find(std::minmax({a.getIndex(), b.getIndex()}));
-        Mixed result = found == own.end()
-                           ? (a.getIndex() == b.getIndex() ? static_cast<const Mixed&>(a) : nothingSet())
-                           : found->second;
+        Mixed result = found == own.end() ? (a.getIndex() == b.getIndex() ? static_cast<const Mixed&>(a)
+                                                                          : nothingSet<Mixed>())
+                                          : found->second;
         using N = typename S::Normal;
         using F = typename S::Friction;
         using A = typename S::Adhesion;
@@ -158,7 +166,8 @@ private:
 
     std::deque<S> all;
     std::map<std::pair<int, int>, Mixed> own;
-    std::vector<Mixed> mixtures;
+    std::size_t count = 0;  // of the species that were mixed
+    std::vector<std::optional<Mixed>> mixtures;
     std::vector<S> mixedFrom;  // as they were when they were mixed
     std::map<std::pair<int, int>, Mixed> ownMixedFrom;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "Kernel/Simulation/Simulation.h"
@@ -52,10 +53,14 @@ S boxMaterial(int kind) {
     return species;
 }
 
+template <class First, class Second>
+using SceneOf =
+    std::conditional_t<std::is_same_v<First, Second>, Simulation<First>, Simulation<First, Second>>;
+
 /// Grains of two sizes and species that fall into a box of six plane walls and settle. Positions and
 /// velocities come from integers and powers of two, so that they are the same on every machine.
-template <class S>
-class SettlingBox : public Simulation<S> {
+template <class Small, class Large = Small, class Base = SceneOf<Small, Large>>
+class SettlingBox : public Base {
 public:
     static constexpr double width = 0.0125;                                  // m, of the square base
     static constexpr double smallRadius = 0x1p-10, largeRadius = 0x1.8p-10;  // m: 0.98 and 1.46 mm
@@ -69,8 +74,8 @@ public:
 
     /// @param layers of 16 grains each
     explicit SettlingBox(int layers) {
-        small = this->speciesHandler.copyAndAddObject(boxMaterial<S>(0));
-        large = this->speciesHandler.copyAndAddObject(boxMaterial<S>(1));
+        small = this->speciesHandler.copyAndAddObject(boxMaterial<Small>(0));
+        large = this->speciesHandler.copyAndAddObject(boxMaterial<Large>(1));
         for (int z = 0; z < layers; ++z)
             for (int y = 0; y < 4; ++y)
                 for (int x = 0; x < 4; ++x) addGrain(x, y, z);
@@ -98,7 +103,8 @@ private:
         const bool isLarge = (x + 2 * y + z) % 3 == 0;
         SphericalParticle grain;
         grain.setRadius(isLarge ? largeRadius : smallRadius);
-        grain.setSpecies(isLarge ? large : small);
+        if (isLarge) grain.setSpecies(large);
+        else grain.setSpecies(small);
         const double jitter = 0x1p-14;  // m: 61 um, so that no two grains overlap
         const double px = spacing * (x + 0.55) + jitter * random(),
                      py = spacing * (y + 0.55) + jitter * random();
@@ -110,6 +116,7 @@ private:
         this->particleHandler.copyAndAddObject(grain);
     }
 
+    template <class S>
     void addWall(const Vec3D& normal, const Vec3D& point, const S* species) {
         InfiniteWall wall;
         wall.set(normal, point);
@@ -118,8 +125,8 @@ private:
         planes.push_back({normal, point, species->getIndex()});
     }
 
-    const S* small = nullptr;
-    const S* large = nullptr;
+    const Small* small = nullptr;
+    const Large* large = nullptr;
     std::uint64_t state = 1;
 };
 

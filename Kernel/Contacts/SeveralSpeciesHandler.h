@@ -1,0 +1,152 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "Kernel/Contacts/SpeciesLaws.h"
+#include "Kernel/Species/SpeciesInScene.h"
+
+namespace pendular {
+
+/// The laws of one type in a scene of several types: their values for the pairs of species that have them.
+class LawsOfType {
+public:
+    virtual ~LawsOfType() = default;
+
+    [[nodiscard]] virtual ContactLaws& laws() = 0;
+    [[nodiscard]] virtual std::unique_ptr<AnyLaws> nothingSetForPair() const = 0;
+    /// To be called before the pairs are mixed, with the number of species of the scene.
+    virtual void begin(std::size_t speciesCount) = 0;
+    /// Mixes the laws of a pair.
+    /// @param own null: the driver sets none
+    virtual void mix(const AnySpecies& a, const AnySpecies& b, const AnyLaws* own, bool isOwn) = 0;
+};
+
+template <class S>
+class LawsOf final : public LawsOfType {
+public:
+    [[nodiscard]] ContactLaws& laws() override { return ownLaws; }
+    [[nodiscard]] std::unique_ptr<AnyLaws> nothingSetForPair() const override {
+        return std::make_unique<OwnLawsOfPair<S>>();
+    }
+    void begin(std::size_t speciesCount) override { mixtures.clearMixtures(speciesCount); }
+    void mix(const AnySpecies& a, const AnySpecies& b, const AnyLaws* own, bool isOwn) override {
+        const auto& set =
+            own ? static_cast<const OwnLawsOfPair<S>*>(own)->laws : nothingSet<typename S::Mixed>();
+        mixtures.setMixture(a.getIndex(), b.getIndex(), mixTypes<S>(set, isOwn, a, b));
+    }
+
+private:
+    SpeciesHandler<S> mixtures;
+    SpeciesLaws<S> ownLaws{mixtures};
+};
+
+/// The species of a scene that has species of several types, or of types that are chosen by name at run time.
+/// Indices count all of them, in the order of adding. The contacts of two species of one type have its laws;
+/// for two of different types the driver says which: setPairType<Type>(a, b). A law of that type which both
+/// species have is mixed by the rule of each field, one that only one of them has is taken from that one, and
+/// one that neither has must be set: getMixedObject<Type>(a, b)->set...().
+class SeveralSpeciesHandler {
+public:
+    SeveralSpeciesHandler() = default;
+    SeveralSpeciesHandler(const SeveralSpeciesHandler&) = delete;
+    SeveralSpeciesHandler& operator=(const SeveralSpeciesHandler&) = delete;
+
+    /// Adds a copy; the pointer stays valid, and values may still be set through it until the run begins (the
+    /// density: until the first grain of the species is added).
+    template <class S>
+    S* copyAndAddObject(const S& species) {
+        return &add<S>(species).species;
+    }
+    /// Adds a species of which nothing is set, of one of the types in instantiatedSpecies(): its fields are
+    /// set by their names. Throws InputError, with the nearest names, if there is none of this name.
+    AnySpecies* addByName(std::string_view type);
+
+    [[nodiscard]] std::size_t getSize() const { return all.size(); }
+    [[nodiscard]] AnySpecies* getObject(std::size_t index) const { return all[checked(index)].species.get(); }
+
+    /// The contacts between the two species have the laws of this type.
+    template <class Type, class First, class Second>
+    void setPairType(const First* a, const Second* b) {
+        static_cast<void>(ownOf<Type>(a->getIndex(), b->getIndex()));
+    }
+    /// The same for a type in instantiatedSpecies(); fields of the pair can be set by their names.
+    AnyLaws* setPairTypeByName(int a, int b, std::string_view type);
+    /// The pair's own values, of laws of this type: nothing is set in them but what the driver sets.
+    template <class Type, class First, class Second>
+    typename Type::Mixed* getMixedObject(const First* a, const Second* b) {
+        return &ownOf<Type>(a->getIndex(), b->getIndex()).laws;
+    }
+    template <class S>
+    typename S::Mixed* getMixedObject(const S* a, const S* b) {
+        return getMixedObject<S, S, S>(a, b);
+    }
+
+    /// Derives what is unset, checks every species and mixes every pair that has laws. Throws InputError.
+    void mixAll();
+    /// The laws of a pair; null where the driver has to say which.
+    [[nodiscard]] LawsOfType* lawsOf(int a, int b) const;
+    /// What to do where there are none: one sentence.
+    [[nodiscard]] std::string sentenceOfNone(int a, int b) const;
+    /// A run goes on with the species that it began with, and with the laws of each pair.
+    void visitState(StateArchive& archive);
+
+private:
+    struct Added {
+        std::unique_ptr<AnySpecies> species;
+        LawsOfType* laws;
+    };
+    struct OwnPair {
+        std::unique_ptr<AnyLaws> own;
+        LawsOfType* laws;
+    };
+
+    template <class S>
+    LawsOf<S>& typeOf() {
+        for (const auto& type : types)
+            if (auto* const found = dynamic_cast<LawsOf<S>*>(type.get())) return *found;
+        auto added = std::make_unique<LawsOf<S>>();
+        LawsOf<S>& result = *added;
+        types.push_back(std::move(added));
+        return result;
+    }
+    template <class S>
+    SpeciesInScene<S>& add(const S& species) {
+        auto added = std::make_unique<SpeciesInScene<S>>(species, static_cast<int>(all.size()));
+        SpeciesInScene<S>& result = *added;
+        all.push_back({std::move(added), &typeOf<S>()});
+        return result;
+    }
+    template <class Type>
+    OwnLawsOfPair<Type>& ownOf(int a, int b) {
+        return static_cast<OwnLawsOfPair<Type>&>(ownOf(a, b, typeOf<Type>()));
+    }
+    AnyLaws& ownOf(int a, int b, LawsOfType& type);
+    std::size_t checked(std::size_t index) const;
+
+    std::vector<std::unique_ptr<LawsOfType>> types;
+    std::vector<Added> all;
+    std::map<std::pair<int, int>, OwnPair> pairs;  // that the driver has spoken of
+};
+
+/// The same, for the types that a scene names, or for any where it names none.
+template <class... Types>
+class SpeciesHandlerOf : public SeveralSpeciesHandler {
+public:
+    template <class S>
+    requires(sizeof...(Types) == 0 || (std::same_as<S, Types> || ...)) S* copyAndAddObject(const S& species) {
+        return SeveralSpeciesHandler::copyAndAddObject(species);
+    }
+};
+
+/// The names of the species types whose laws are compiled into the kernel, and that can be chosen by name at
+/// run time (the list is in Tools/CMake/GenerateLaws.cmake).
+[[nodiscard]] std::vector<std::string_view> instantiatedSpecies();
+
+}  // namespace pendular

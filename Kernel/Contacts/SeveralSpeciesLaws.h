@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Contacts/SeveralSpeciesHandler.h"
+
+namespace pendular {
+
+/// The laws of a scene whose species are of several types: each pair is asked, and computed, by the laws of
+/// its own type. A contact has room for what the pair of the largest layout remembers.
+class SeveralSpeciesLaws final : public ContactLaws {
+public:
+    /// Until the species are known, grains keep a spin.
+    explicit SeveralSpeciesLaws(SeveralSpeciesHandler& speciesHandler);
+
+    /// Throws InputError, with what to do, where the pair has no laws.
+    [[nodiscard]] const ContactLaws& ofPair(int a, int b) const override;
+
+    [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }
+    [[nodiscard]] double density(std::size_t k) const override { return species.getObject(k)->getDensity(); }
+    void mixAll() override;
+    void visitState(StateArchive& archive) override { species.visitState(archive); }
+    [[nodiscard]] std::vector<FieldValue> fields(int a, int b) const override {
+        return ofPair(a, b).fields(a, b);
+    }
+
+    /// Zero where the pair has no laws: only two species of which no grain can touch the other may have none.
+    [[nodiscard]] double range(int a, int b, const Bodies& bodies) const override;
+    [[nodiscard]] std::optional<std::string> objection(int a, int b, const Bodies& bodies) const override {
+        return ofPair(a, b).objection(a, b, bodies);
+    }
+    [[nodiscard]] ContactStiffness stiffness(int a, int b, const Bodies& bodies, double mass) const override {
+        return ofPair(a, b).stiffness(a, b, bodies, mass);
+    }
+    [[nodiscard]] std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
+        int a, int b, const Bodies& bodies) const override {
+        return ofPair(a, b).brokenLimits(a, b, bodies);
+    }
+    /// Zero for a dry pair beside wet ones.
+    [[nodiscard]] std::optional<double> bridgeVolume(int a, int b) const override;
+
+    void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const override {
+        ofPair(a, b).prepareBridge(a, b, bodies, interaction);
+    }
+    [[nodiscard]] double adhesiveForce(int a, int b, const double* interaction,
+                                       double separation) const override {
+        return ofPair(a, b).adhesiveForce(a, b, interaction, separation);
+    }
+    void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const override {
+        ofPair(a, b).turn(a, b, history, rotation);
+    }
+    [[nodiscard]] double springLength(int a, int b, const double* history) const override {
+        return ofPair(a, b).springLength(a, b, history);
+    }
+
+    void prepare(const std::vector<Bucket>& buckets) override;
+    bool compute(const ContactTask& task) const override;
+
+private:
+    [[nodiscard]] const ContactLaws* find(int a, int b) const;
+
+    SeveralSpeciesHandler& species;
+    std::string joinedName, joinedFriction;
+    bool hasBridges = false;
+    std::vector<ContactLaws*> distinct;         // those that a pair has
+    std::vector<const ContactLaws*> ofPairs;    // of species a with all, then of the next; null: none
+    std::vector<const ContactLaws*> ofBuckets;  // of each bucket
+};
+
+}  // namespace pendular
