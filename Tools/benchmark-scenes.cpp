@@ -103,7 +103,9 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--particles", o.choice.particles, "number of grains, about; the scene's own if not given")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--species", o.choice.species, "species by name; the scene's own if not given");
+    app.add_option(
+        "--species", o.choice.species,
+        "species by name, one that 'species --list' marks as instantiated; the scene's own if not given");
     app.add_option("--threads", o.threads, "OpenMP threads")->capture_default_str();
     app.add_option("--steps", o.steps, "steps that are timed")
         ->check(CLI::NonNegativeNumber)

@@ -51,8 +51,6 @@ double leastTimeOf(std::size_t calls, Function&& function) {
 
 constexpr std::size_t framesTimed = 15, stepsTogether = 10;
 
-using Scene = Simulation<HertzianViscoelasticMindlinSpecies>;
-
 /// Writes frames of a scene in one format after the other, into a folder for each.
 class FormatCosts {
 public:
@@ -122,8 +120,8 @@ int run(const Options& options) {
     if (std::filesystem::exists(options.folder, problem))
         throw InputError(
             fmt::format("output-costs: the folder {} exists; give the name of a new one.", options.folder));
-    scenes::withSceneOf<HertzianViscoelasticMindlinSpecies>(options.bed, options.threads,
-                                                            [&](auto& scene) { measure(scene, options); });
+    scenes::withSceneOf(HertzianViscoelasticMindlinSpecies::name, options.bed, options.threads,
+                        [&](auto& scene) { measure(scene, options); });
     return 0;
 }
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
+#include "Kernel/Contacts/SeveralSpeciesHandler.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/Laws.h"
@@ -29,10 +31,14 @@ void list() {
     listLaws<NormalLaws>("Normal");
     listLaws<FrictionLaws>("Friction");
     listLaws<AdhesionLaws>("Adhesion");
-    fmt::print("Species: every normal law with every friction and every adhesion law\n");
-    forEachSpecies([]<class S>() {
-        fmt::print("  {:<72} {} + {} + {}\n", S::name, S::Normal::name, shownName<typename S::Friction>(),
-                   shownName<typename S::Adhesion>());
+    fmt::print(
+        "Species: every normal law with every friction and every adhesion law; those with a * are "
+        "instantiated, and can be chosen by name at run time\n");
+    const std::vector<std::string_view> instantiated = instantiatedSpecies();
+    forEachSpecies([&]<class S>() {
+        const bool isMarked = std::ranges::find(instantiated, S::name) != instantiated.end();
+        fmt::print("{} {:<72} {} + {} + {}\n", isMarked ? '*' : ' ', S::name, S::Normal::name,
+                   shownName<typename S::Friction>(), shownName<typename S::Adhesion>());
     });
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <numbers>
+#include <string_view>
 
 #include "Kernel/Particles/SphericalParticle.h"
-#include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Species/SpeciesInScene.h"
 
 namespace pendular::scenes {
 
@@ -22,27 +25,41 @@ struct BedMaterial {
     double contactAngle = std::numbers::pi / 9;
     double surfaceTension = 0.072;  // N/m
 
+    double rollingFriction = 0.05,
+           rollingStiffness = 1e4;  // N/m: about that of sliding at an overlap of 1 um
+    double workOfAdhesion = 0.05;   // J/m^2
+
+    /// Sets the fields that the species has.
+    void set(AnySpecies& s) const {
+        const auto setIfThere = [&](std::string_view field, double value) {
+            if (s.has(field)) s.set(field, value);
+        };
+        s.setDensity(density);
+        if (auto* const hertzian = s.find<HertzianViscoelastic>())
+            hertzian->setEffectiveElasticModulusAndRestitutionCoefficient(
+                computeEffectiveElasticModulus(elasticModulus, poissonRatio), restitution);
+        if (auto* const linear = s.find<LinearViscoelastic>()) {
+            linear->setCollisionTimeAndRestitutionCoefficient(linearCollisionTime, restitution,
+                                                              sphereMass(1e-3, density));
+            setIfThere("slidingStiffness", 2.0 / 7 * linear->getStiffness());
+        }
+        setIfThere("effectiveShearModulus", computeEffectiveShearModulus(elasticModulus, poissonRatio));
+        setIfThere("slidingFrictionCoefficient", friction);
+        setIfThere("springFactor", 1);  // as the peers have it
+        for (const std::string_view motion : {"rolling", "torsion"}) {
+            setIfThere(fmt::format("{}Stiffness", motion), rollingStiffness);
+            setIfThere(fmt::format("{}FrictionCoefficient", motion), rollingFriction);
+        }
+        setIfThere("liquidBridgeVolume", liquidVolume);
+        setIfThere("contactAngle", contactAngle);
+        setIfThere("surfaceTension", surfaceTension);
+        setIfThere("workOfAdhesion", workOfAdhesion);
+    }
     template <class S>
     [[nodiscard]] S species() const {
-        S s;
-        s.setDensity(density);
-        if constexpr (std::is_same_v<typename S::Normal, HertzianViscoelastic>)
-            s.setEffectiveElasticModulusAndRestitutionCoefficient(
-                computeEffectiveElasticModulus(elasticModulus, poissonRatio), restitution);
-        else
-            s.setCollisionTimeAndRestitutionCoefficient(linearCollisionTime, restitution,
-                                                        sphereMass(1e-3, density));
-        if constexpr (std::is_same_v<typename S::Friction, Mindlin>) {
-            s.setEffectiveShearModulus(computeEffectiveShearModulus(elasticModulus, poissonRatio));
-            s.setSlidingFrictionCoefficient(friction);
-            s.setSpringFactor(1);  // as the peers have it
-        }
-        if constexpr (requires { s.setLiquidBridgeVolume(1.0); }) {
-            s.setLiquidBridgeVolume(liquidVolume);
-            s.setContactAngle(contactAngle);
-            s.setSurfaceTension(surfaceTension);
-        }
-        return s;
+        SpeciesInScene<S> s(S{}, 0);
+        set(s);
+        return s.species;
     }
 };
 

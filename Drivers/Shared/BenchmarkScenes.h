@@ -1,13 +1,12 @@
 #pragma once
 
-#include <array>
+#include <string_view>
 
 #include "BuildFolders.h"
 #include "Drivers/Shared/DrumScene.h"
 #include "Drivers/Shared/PenetrationScene.h"
 #include "Drivers/Shared/SettledGrains.h"
 #include "Kernel/Species/LawNames.h"
-#include "Kernel/Species/Laws.h"
 
 namespace pendular::scenes {
 
@@ -28,10 +27,6 @@ struct BenchmarkChoice {
 inline constexpr double benchmarkStep = 5e-7;   // s
 inline constexpr double settlingSoftness = 30;  // divides the stiffness while a drum or a bed is filled
 
-using BenchmarkSpecies = TypeList<HertzianViscoelasticMindlinSpecies, LinearViscoelasticSpecies,
-                                  HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies,
-                                  HertzianViscoelasticMindlinLiquidBridgeWillettSpecies>;
-
 /// The bed of Dosta et al. (2024) in the box of its peers' scripts; more grains are copies along x.
 inline Settled publishedBed(const BenchmarkChoice& choice) {
     const Settled one{{{-0.05, -0.03, -0.090243}, {0.05, 0.03, infinity}}, readGrainFile(choice.positions)};
@@ -39,47 +34,48 @@ inline Settled publishedBed(const BenchmarkChoice& choice) {
         one, std::max<std::size_t>(1, (choice.particlesOr(1) + one.grains.size() / 2) / one.grains.size()));
 }
 
-/// A gas that fills a twentieth of a periodic cube, with speeds of about 1 m/s and no gravity.
+/// Fills a scene with a gas that takes a twentieth of a periodic cube, with speeds of about 1 m/s and no
+/// gravity.
 template <class S>
-class Gas : public Simulation<S> {
-public:
-    explicit Gas(std::size_t grains) {
-        BedMaterial material;
-        material.restitution = 0.95;
-        const S* species = this->speciesHandler.copyAndAddObject(material.species<S>());
-        const double radius = 1e-3;
-        const auto perSide = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(grains))));
-        const double spacing = std::cbrt(4.0 / 3 * std::numbers::pi / 0.05) * radius;
-        for (int axis = 0; axis < 3; ++axis)
-            this->setPeriodic(axis, 0, spacing * static_cast<double>(perSide));
-        UniformRandom random(1);
-        const auto speed = [&] { return random.uniform(-1, 1); };
-        this->particleHandler.reserve(grains);
-        for (std::size_t k = 0; k < grains; ++k) {
-            const Vec3D position = spacing * Vec3D(static_cast<double>(k % perSide) + 0.5,
-                                                   static_cast<double>(k / perSide % perSide) + 0.5,
-                                                   static_cast<double>(k / perSide / perSide) + 0.5);
-            const double x = speed(), y = speed();
-            addGrainRow(this->particleHandler, species, {radius, position}, {x, y, speed()});
-        }
-        this->setTimeStep(benchmarkStep);
+void fillWithGas(Scene& scene, const S* species, std::size_t grains) {
+    const double radius = 1e-3;
+    const auto perSide = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(grains))));
+    const double spacing = std::cbrt(4.0 / 3 * std::numbers::pi / 0.05) * radius;
+    for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, spacing * static_cast<double>(perSide));
+    UniformRandom random(1);
+    const auto speed = [&] { return random.uniform(-1, 1); };
+    scene.particleHandler.reserve(grains);
+    for (std::size_t k = 0; k < grains; ++k) {
+        const Vec3D position = spacing * Vec3D(static_cast<double>(k % perSide) + 0.5,
+                                               static_cast<double>(k / perSide % perSide) + 0.5,
+                                               static_cast<double>(k / perSide / perSide) + 0.5);
+        const double x = speed(), y = speed();
+        addGrainRow(scene.particleHandler, species, {radius, position}, {x, y, speed()});
     }
-};
+    scene.setTimeStep(benchmarkStep);
+}
 
-/// Calls function(scene) with a bed, a gas or a mixture of this species.
-template <class S, class Function>
-void withSceneOf(const BenchmarkChoice& choice, int threads, Function&& function) {
+/// Calls function(scene) with a bed, a gas or a mixture of this species: one of instantiatedSpecies().
+template <class Function>
+void withSceneOf(std::string_view speciesName, const BenchmarkChoice& choice, int threads,
+                 Function&& function) {
+    Simulation<> scene;
+    AnySpecies* const species = scene.speciesHandler.addByName(speciesName);
+    BedMaterial material;
     if (choice.scene == "gas") {
-        Gas<S> gas(choice.particlesOr(25000));
-        return function(gas);
+        material.restitution = 0.95;
+        material.set(*species);
+        fillWithGas(scene, species, choice.particlesOr(25000));
+        return function(scene);
     }
+    material.set(*species);
     Settled bed;
     if (!choice.positions.empty()) bed = publishedBed(choice);
     else if (choice.scene == "polydisperse")
         bed = settledMixture(choice.particlesOr(200000), 20, choice.states, threads);
     else bed = settledBed(choice.particlesOr(25000), choice.states, threads);
-    BoxScene<S> scene(BedMaterial().species<S>(), bed.grains, bed.box, benchmarkStep);
-    bed.grains = {};  // gives its memory back
+    fillBox(scene, species, bed.grains, bed.box, benchmarkStep);
+    bed = {};  // gives its memory back
     function(scene);
 }
 
@@ -148,8 +144,7 @@ void withBenchmarkScene(const BenchmarkChoice& choice, int threads, Function&& f
     const std::string standard = choice.scene == "wet-bed"
                                      ? "HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies"
                                      : "HertzianViscoelasticMindlinSpecies";
-    withLawNamed<BenchmarkSpecies>("benchmark species", choice.species.empty() ? standard : choice.species,
-                                   [&]<class S>() { withSceneOf<S>(choice, threads, function); });
+    withSceneOf(choice.species.empty() ? standard : choice.species, choice, threads, function);
 }
 
 }  // namespace pendular::scenes

@@ -57,7 +57,7 @@ TEST(BenchmarkProgram, refusesWithOneSentence) {
         support::expectOneSentence(benchmark(arguments), words);
     };
     expectRefusal("--scene bde", "bed");
-    expectRefusal("--scene gas --species Hertz", "benchmark species");
+    expectRefusal("--scene gas --species Hertz", "instantiated species");
     expectRefusal("--scene gas --positions grains.txt", "takes no positions");
     expectRefusal("--scene drum --positions grains.txt", "both positions and walls");
     expectRefusal("--scene bed --walls walls.txt", "takes no walls");

@@ -58,12 +58,12 @@ void expectSameBesideOtherTypes() {
     species.copyAndAddObject(boxMaterial<B>(1));  // no grain has it, and nothing is said of its pairs
     // Values of a pair, as the driver sets them.
     alone.speciesHandler.getMixedObject(0, 1)->setDissipation(0.1);
-    named.speciesHandler.template getMixedObject<A>(named.speciesHandler.getObject(0),
-                                                    named.speciesHandler.getObject(1))
+    named.speciesHandler
+        .template getMixedObject<A>(named.speciesHandler.getObject(0), named.speciesHandler.getObject(1))
         ->setDissipation(0.1);
     species.template getMixedObject<A>(species.getObject(0), species.getObject(1))->setDissipation(0.1);
-    for (Scene* const scene : {static_cast<Scene*>(&alone), static_cast<Scene*>(&named),
-                               static_cast<Scene*>(&beside)})
+    for (Scene* const scene :
+         {static_cast<Scene*>(&alone), static_cast<Scene*>(&named), static_cast<Scene*>(&beside)})
         run(*scene, 1500);
     EXPECT_EQ(hashOf(named), hashOf(alone));
     EXPECT_EQ(hashOfMotion(beside), hashOfMotion(alone));
@@ -73,7 +73,7 @@ void expectSameBesideOtherTypes() {
 
 TEST(SeveralSpecies, thatNoGrainHasChangeNoBit) {
     expectSameBesideOtherTypes<Hertz, Linear>();
-    expectSameBesideOtherTypes<Hertz, Wet>();      // grains get a spin, records a torque
+    expectSameBesideOtherTypes<Hertz, Wet>();  // grains get a spin, records a torque
     expectSameBesideOtherTypes<SmoothWet, Rolling>();
     expectSameBesideOtherTypes<Wet, Rolling>();
     expectSameBesideOtherTypes<Rough, SmoothWet>();
@@ -81,7 +81,7 @@ TEST(SeveralSpecies, thatNoGrainHasChangeNoBit) {
 
 TEST(SeveralSpecies, aSceneOfOneTypeHasRecordsOfThatTypeOnly) {
     static_assert(sizeof(ForceRecord) == 32 && sizeof(ForceTorqueRecord) == 64);
-    static_assert(ContactStore::bytesPerContact(layoutOf<Hertz>) == 11 + 32 + 8);
+    static_assert(ContactStore::bytesPerContact(layoutOf<Hertz>) == 10 + 32 + 8);
     SettlingBox<Hertz> smooth(2);
     run(smooth, 500);
     const ContactMemory& memory = smooth.contacts().store().memory;
@@ -143,7 +143,7 @@ private:
     }
 };
 
-constexpr double stiffness = 1000, dissipation = 0.02;         // N/m, kg/s
+constexpr double stiffness = 1000, dissipation = 0.02;       // N/m, kg/s
 constexpr double modulus = 2.8e6, restitutionOfHertz = 0.7;  // Pa
 
 double effectiveMass(double density1, double density2) {
