@@ -2,28 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "Kernel/Species/LawNames.h"
 
 namespace pendular {
 
-const NamedField* AnyLaws::findField(std::string_view field) {
-    if (known.empty()) known = fields();
-    const auto found = std::ranges::find(known, field, &NamedField::name);
-    return found == known.end() ? nullptr : &*found;
+bool AnyLaws::has(std::string_view field) {
+    return std::ranges::count(fields(), field, &NamedField::name) > 0;
 }
 
-bool AnyLaws::has(std::string_view field) { return findField(field) != nullptr; }
-
-double AnyLaws::get(std::string_view field) {
-    if (const NamedField* const found = findField(field)) return *found->value;
+NamedField AnyLaws::fieldOf(std::string_view name) {
     std::vector<std::string_view> names;
-    for (const NamedField& f : known) names.push_back(f.name);
-    unknownName(fmt::format("field of {}", getName()), field, names);
+    for (const NamedField& field : fields()) {
+        if (field.name == name) return field;
+        names.push_back(field.name);
+    }
+    unknownName(fmt::format("field of {}", getName()), name, names);
 }
+
+double AnyLaws::get(std::string_view field) { return *fieldOf(field).value; }
 
 void AnyLaws::set(std::string_view field, double value) {
-    static_cast<void>(AnyLaws::get(field));  // throws if there is none
-    const NamedField& found = *findField(field);
+    const NamedField found = fieldOf(field);
     checkValue(found.law, found.name, value, found.unit, found.range);
     *found.value = value;
 }

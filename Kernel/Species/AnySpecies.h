@@ -46,10 +46,7 @@ public:
 
 private:
     [[nodiscard]] virtual const void* lawOf(const std::type_info& law) const = 0;
-    [[nodiscard]] const NamedField* findField(std::string_view field);
-    [[nodiscard]] double& valueOf(std::string_view field);
-
-    std::vector<NamedField> known;  // of fields(), once they are asked for
+    [[nodiscard]] NamedField fieldOf(std::string_view name);
 };
 
 /// A species of a scene, whatever its type.
