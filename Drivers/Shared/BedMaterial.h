@@ -26,8 +26,9 @@ struct BedMaterial {
     double surfaceTension = 0.072;  // N/m
 
     double rollingFriction = 0.05,
-           rollingStiffness = 1e4;  // N/m: about that of sliding at an overlap of 1 um
-    double workOfAdhesion = 0.05;   // J/m^2
+           rollingStiffness = 1e4;     // N/m: about that of sliding at an overlap of 1 um
+    double rollingDissipation = 1e-3;  // kg/s
+    double workOfAdhesion = 0.05;      // J/m^2
 
     /// Sets the fields that the species has.
     void set(AnySpecies& s) const {
@@ -42,12 +43,14 @@ struct BedMaterial {
             linear->setCollisionTimeAndRestitutionCoefficient(linearCollisionTime, restitution,
                                                               sphereMass(1e-3, density));
             setIfThere("slidingStiffness", 2.0 / 7 * linear->getStiffness());
+            setIfThere("slidingDissipation", 2.0 / 7 * linear->getDissipation());
         }
         setIfThere("effectiveShearModulus", computeEffectiveShearModulus(elasticModulus, poissonRatio));
         setIfThere("slidingFrictionCoefficient", friction);
         setIfThere("springFactor", 1);  // as the peers have it
         for (const std::string_view motion : {"rolling", "torsion"}) {
             setIfThere(fmt::format("{}Stiffness", motion), rollingStiffness);
+            setIfThere(fmt::format("{}Dissipation", motion), rollingDissipation);
             setIfThere(fmt::format("{}FrictionCoefficient", motion), rollingFriction);
         }
         setIfThere("liquidBridgeVolume", liquidVolume);
