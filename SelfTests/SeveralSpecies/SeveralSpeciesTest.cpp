@@ -26,6 +26,8 @@ using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
 using SmoothWet = HertzianViscoelasticLiquidBridgeWillettSpecies;
 /// With a torque of its own, and histories of another width than those of Mindlin.
 using Rolling = Species<LinearPlasticViscoelastic, SlidingRollingTorsion>;
+/// Acts on grains that have not touched.
+using Attracting = Species<LinearViscoelastic, NoFriction, ReversibleAdhesive>;
 
 template <class Scene>
 void run(Scene& scene, std::size_t steps) {
@@ -77,6 +79,8 @@ TEST(SeveralSpecies, thatNoGrainHasChangeNoBit) {
     expectSameBesideOtherTypes<SmoothWet, Rolling>();
     expectSameBesideOtherTypes<Wet, Rolling>();
     expectSameBesideOtherTypes<Rough, SmoothWet>();
+    expectSameBesideOtherTypes<SmoothWet, Attracting>();  // other contacts are listed
+    expectSameBesideOtherTypes<Attracting, Wet>();
 }
 
 TEST(SeveralSpecies, aSceneOfOneTypeHasRecordsOfThatTypeOnly) {
@@ -305,6 +309,7 @@ TEST(SeveralSpecies, sameBitsWithAnyThreadsAndAfterARestart) {
     expectSameWithThreadsAndRestarts<Hertz, Linear, Hertz>();
     expectSameWithThreadsAndRestarts<Hertz, Wet, Rough>();
     expectSameWithThreadsAndRestarts<SmoothWet, Rolling, SmoothWet>();
+    expectSameWithThreadsAndRestarts<Attracting, Wet, Wet>();
 }
 
 TEST(SeveralSpecies, theLedgerKnowsTheLawsOfEachPair) {
