@@ -26,6 +26,8 @@ struct ContactLayout {
     std::size_t history = 0, normalHistory = 0, interaction = 0;
     bool hasTorque = false;         // contacts have a tangential force, grains a spin
     bool hasContactTorque = false;  // and a torque besides that of the force
+
+    friend bool operator==(const ContactLayout&, const ContactLayout&) = default;
 };
 
 /// A part of a bucket whose forces are to be computed.

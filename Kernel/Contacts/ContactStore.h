@@ -82,6 +82,8 @@ struct Bucket {
     int species1 = 0;
     int species2 = 0;
     int wall = -1;  // -1: grains with grains
+
+    [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 
 /// What contacts remember, and the forces that the kernel writes for them, in blocks of eight. Block 0 is

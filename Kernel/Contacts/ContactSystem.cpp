@@ -96,26 +96,27 @@ double ContactSystem::gapAround(const Grains& grains, std::uint32_t place) const
     return std::max(smallest, 0.0);
 }
 
-double ContactSystem::endContactsOf(std::uint32_t place) {
+double ContactSystem::endContactsOf(const Grains& grains, std::uint32_t place) {
     if (place >= listedGrains) return 0;
     double stored = 0;
     for (const std::uint32_t side : contacts.sides.of(place))
-        stored += endContact(contacts.contactAt(side / 2));
-    for (const std::uint32_t side : contacts.sides.asleepOf(place)) endContact(side / 2);
+        stored += endContact(grains, contacts.contactAt(side / 2));
+    for (const std::uint32_t side : contacts.sides.asleepOf(place)) endContact(grains, side / 2);
     return stored;
 }
 
-double ContactSystem::endContactsAtWall(int wall) {
+double ContactSystem::endContactsAtWall(const Grains& grains, int wall) {
     double stored = 0;
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall == wall)
             for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
-                stored += endContact(c);
+                stored += endContact(grains, c);
     return stored;
 }
 
 /// It is listed no more, and its memory and its force are zero.
-double ContactSystem::endContact(std::uint32_t contact) {
+double ContactSystem::endContact(const Grains& grains, std::uint32_t contact) {
+    contactEvents.end(contacts, contact, grains.identity);
     const std::size_t block = contact / Pack::lanes;
     const auto others = static_cast<std::uint8_t>(~(1u << contact % Pack::lanes));
     BlockState& state = contacts.states[block];
@@ -133,6 +134,7 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
         partsOfWalls.push_back(walls->getObject(w).partCount());
     remembered.visitState(archive, grains, partsOfWalls);
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
+    archive.group("events", [&] { contactEvents.visitState(archive); });
     if (!archive.isReading()) return;
     listAgain(grains, &remembered);
     archive.require(recalledContacts == remembered.size(), "pairs",
@@ -143,10 +145,12 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
 }
 
 void ContactSystem::computePairForces(const Grains& grains, double step, ContactTiming timing) {
+    contactEvents.begin();
     compute(grains, step, timing, 0, firstWallBucket());
 }
 void ContactSystem::computeWallForces(const Grains& grains, double step, ContactTiming timing) {
     compute(grains, step, timing, firstWallBucket(), contacts.buckets.size());
+    contactEvents.finish();
     sumWallForces(grains);
 }
 
@@ -172,7 +176,9 @@ void ContactSystem::compute(const Grains& grains, double step, ContactTiming tim
                             std::size_t end) {
     for (std::size_t k = first; k < end; ++k) {
         if (contacts.buckets[k].wall >= 0) findWallPoints(grains, contacts.buckets[k], step);
+        contactEvents.before(contacts, contacts.buckets[k]);
         computeBucket(grains, step, timing, k);
+        contactEvents.after(contacts, contacts.buckets[k], grains.identity);
     }
 }
 /// Blocks are independent: each writes only its own memory and records.

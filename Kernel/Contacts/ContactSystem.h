@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "Kernel/Contacts/ContactEvents.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ObservedContact.h"
@@ -32,8 +33,11 @@ public:
     void renew(Grains& grains);
     /// Ends the contacts of the grain at a place, or at a wall, which is about to be removed; returns the
     /// energy (J) that was stored in them, where a ledger is kept.
-    double endContactsOf(std::uint32_t place);
-    double endContactsAtWall(int wall);
+    double endContactsOf(const Grains& grains, std::uint32_t place);
+    double endContactsAtWall(const Grains& grains, int wall);
+    /// Finds the begins and ends of touches and bridges in each step from now on.
+    void listen(bool on) { contactEvents.listen(on); }
+    [[nodiscard]] const ContactEvents& events() const { return contactEvents; }
     /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
     /// contacts anew where it is time; says whether it did.
     bool refresh(Grains& grains, double grainShift, double wallShift);
@@ -79,6 +83,16 @@ public:
         }
     }
 
+    /// The same for the contacts of the grain at a place, in the order of its partners.
+    template <class Function>
+    void forEachActingOf(std::uint32_t place, Function&& function) const {
+        if (place >= contacts.sides.grainCount()) return;
+        for (const std::uint32_t side : contacts.sides.of(place)) {
+            const std::uint32_t contact = contacts.contactAt(side / 2);
+            if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
+        }
+    }
+
     /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
     /// step, in the order of identities. Only where a ledger is kept.
     template <class Function>
@@ -110,7 +124,7 @@ private:
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
     void listAgain(Grains& grains, const RememberedContacts* remembered = nullptr, bool keepsBridges = true);
-    double endContact(std::uint32_t contact);
+    double endContact(const Grains& grains, std::uint32_t contact);
     [[nodiscard]] double gapAround(const Grains& grains, std::uint32_t place) const;
     [[nodiscard]] std::size_t firstWallBucket() const;
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
@@ -135,6 +149,7 @@ private:
     std::size_t rebuilds = 0;
     WallPointSearch wallPoints;
     OverlapWatch overlapWatch;
+    ContactEvents contactEvents;
     std::vector<OverlapWatch> watches;  // of each thread
 };
 

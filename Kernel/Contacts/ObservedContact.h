@@ -20,6 +20,16 @@ struct ObservedContact {
     bool bridged;
     Vector<double> shift;  // m, from the centre of particle 1 to that of particle 2 or to the wall's surface
     Vector<double> force;  // N, on particle 1
+    bool touching;
+    double bridgeVolume;   // m^3; 0 without a bridge of liquid
+    Vector<double> point;  // m, in the middle of the overlap or of the gap; at a wall on its surface
+
+    /// m; negative where the surfaces are apart
+    [[nodiscard]] double overlap() const { return -separation; }
+    /// Unit, from particle 1 to particle 2 or into the wall.
+    [[nodiscard]] Vector<double> normal() const { return (1 / norm(shift)) * shift; }
+    /// N, on particle 1
+    [[nodiscard]] Vector<double> tangentialForce() const { return force - dot(force, normal()) * normal(); }
 };
 
 /// @param wall of the bucket; null between grains
@@ -38,18 +48,23 @@ inline ObservedContact observeContact(const ContactStore& contacts, const Contac
                          0,
                          (state.bridged >> lane & 1) != 0,
                          {},
-                         contacts.forceOf(contact)};
+                         contacts.forceOf(contact),
+                         contacts.touches(contact),
+                         0,
+                         {}};
     if (bucket.wall < 0) {
         const TranslationRecord& second = grains.translation[block.second[lane]];
         seen.particle2 = grains.identity[block.second[lane]];
         seen.shift = periodic.nearest(second.position - first.position);
         seen.separation = norm(seen.shift) - (first.radius + second.radius);
+        seen.point = first.position + (first.radius + 0.5 * seen.separation) * seen.normal();
     } else {
         const std::uint32_t part = block.second[lane];
         WallPoint point;
         wall->findPoints(first.position, first.radius, {&part, 1}, {&point, 1});
         seen.separation = point.distance - first.radius;
         seen.shift = point.distance * point.normal;
+        seen.point = first.position + seen.shift;
     }
     if (seen.bridged) {
         ContactNumbers interaction;
@@ -57,6 +72,7 @@ inline ObservedContact observeContact(const ContactStore& contacts, const Contac
         seen.adhesiveForce =
             laws.adhesiveForce(bucket.species1, bucket.species2, interaction.data(), seen.separation);
     }
+    if (seen.bridged) seen.bridgeVolume = laws.bridgeVolume(bucket.species1, bucket.species2).value_or(0);
     seen.normalForce += seen.adhesiveForce;
     return seen;
 }

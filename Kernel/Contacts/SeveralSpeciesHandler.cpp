@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+
 #include "Kernel/Contacts/PopularSpecies.h"
 #include "Kernel/Species/LawNames.h"
 
@@ -58,6 +61,19 @@ void SeveralSpeciesHandler::mixAll() {
     if (all.empty())
         throw InputError("The scene has no species; add one with speciesHandler.copyAndAddObject().");
     for (const Added& added : all) added.species->complete();
+    mixedFrom.clear();
+    const auto remember = [&](const std::vector<NamedField>& fields) {
+        for (const NamedField& field : fields)
+            mixedFrom.push_back({field.value, std::bit_cast<std::uint64_t>(*field.value)});
+    };
+    for (const Added& added : all) {
+        remember(added.species->fields());
+        const double& density = added.species->densityPlace();
+        mixedFrom.push_back({&density, std::bit_cast<std::uint64_t>(density)});
+    }
+    for (const auto& [pair, laws] : pairs) remember(laws.own->fields());
+    mixedSpecies = all.size();
+    mixedPairs = pairs.size();
     for (const auto& type : types) type->begin(all.size());
     for (std::size_t a = 0; a < all.size(); ++a)
         for (std::size_t b = a; b < all.size(); ++b) {
@@ -69,15 +85,23 @@ void SeveralSpeciesHandler::mixAll() {
         }
 }
 
-void SeveralSpeciesHandler::visitState(StateArchive& archive) {
+bool SeveralSpeciesHandler::hasChanged() const {
+    if (mixedSpecies != all.size() || mixedPairs != pairs.size()) return true;
+    return std::ranges::any_of(mixedFrom, [](const MixedValue& value) {
+        return std::bit_cast<std::uint64_t>(*value.place) != value.bits;
+    });
+}
+
+void SeveralSpeciesHandler::visitState(StateArchive& archive, bool& changedInRun) {
     archive.same("count", all.size());
+    archive.value("changedInRun", changedInRun);
     for (const Added& added : all)
         archive.group(fmt::format("{}", added.species->getIndex()),
-                      [&] { added.species->visitState(archive); });
+                      [&] { added.species->visitState(archive, changedInRun); });
     archive.same("countOfPairsWithOwnLaws", pairs.size());
     for (const auto& [pair, laws] : pairs)
         archive.group(fmt::format("{}-{}", pair.first, pair.second),
-                      [&, &values = laws] { values.own->visitState(archive); });
+                      [&, &values = laws] { values.own->visitState(archive, changedInRun); });
 }
 
 }  // namespace pendular

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -94,8 +95,11 @@ public:
     [[nodiscard]] LawsOfType* lawsOf(int a, int b) const;
     /// What to do where there are none: one sentence.
     [[nodiscard]] std::string sentenceOfNone(int a, int b) const;
-    /// A run goes on with the species that it began with, and with the laws of each pair.
-    void visitState(StateArchive& archive);
+    /// Whether a value has been set, or a species added, since mixAll().
+    [[nodiscard]] bool hasChanged() const;
+    /// A run goes on with the species that it began with, and with the laws of each pair; with their values
+    /// as they have been changed during the run, where they have.
+    void visitState(StateArchive& archive, bool& changedInRun);
 
 private:
     struct Added {
@@ -133,6 +137,14 @@ private:
     std::vector<std::unique_ptr<LawsOfType>> types;
     std::vector<Added> all;
     std::map<std::pair<int, int>, OwnPair> pairs;  // that the driver has spoken of
+
+    // As they were when they were mixed.
+    struct MixedValue {
+        const double* place;
+        std::uint64_t bits;
+    };
+    std::vector<MixedValue> mixedFrom;
+    std::size_t mixedSpecies = 0, mixedPairs = 0;
 };
 
 /// The same, for the types that a scene names, or for any where it names none.

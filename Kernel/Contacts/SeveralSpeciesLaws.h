@@ -21,7 +21,10 @@ public:
     [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }
     [[nodiscard]] double density(std::size_t k) const override { return species.getObject(k)->getDensity(); }
     void mixAll() override;
-    void visitState(StateArchive& archive) override { species.visitState(archive); }
+    [[nodiscard]] bool hasChanged() const override { return species.hasChanged(); }
+    void visitState(StateArchive& archive, bool& changedInRun) override {
+        species.visitState(archive, changedInRun);
+    }
     [[nodiscard]] std::vector<FieldValue> fields(int a, int b) const override {
         return ofPair(a, b).fields(a, b);
     }

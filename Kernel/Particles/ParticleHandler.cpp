@@ -138,7 +138,7 @@ std::uint32_t ParticleHandler::placeOf(std::size_t identity) const {
 }
 
 GrainReference ParticleHandler::getObject(std::size_t identity) {
-    placeOf(identity);
+    static_cast<void>(placeOf(identity));
     return {*this, static_cast<std::uint32_t>(identity)};
 }
 

@@ -101,6 +101,9 @@ public:
     /// The same, under MercuryDPM's name.
     [[nodiscard]] GrainReference getParticleById(std::size_t identity) { return getObject(identity); }
     [[nodiscard]] bool contains(std::size_t identity) const;
+    /// Where the store keeps it, until the next list of contacts. Throws InputError if there is no such
+    /// grain.
+    [[nodiscard]] std::uint32_t placeOf(std::size_t identity) const;
 
     /// Over all grains, in the order of their identities: for (GrainReference grain : particleHandler).
     /// Nothing may be added or removed on the way.
@@ -146,9 +149,6 @@ public:
 private:
     friend class GrainReference;
     friend class GrainColumnReference;
-
-    /// Throws InputError.
-    [[nodiscard]] std::uint32_t placeOf(std::size_t identity) const;
 
     const ContactLaws* laws = nullptr;
     Grains grains;

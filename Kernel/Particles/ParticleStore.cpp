@@ -75,8 +75,8 @@ void ParticleStore::visitColumns(StateArchive& archive) {
     archive.group("columns", [&, &all = named] {
         for (GrainColumn& column : all) archive.column<double>(column.name, column.values);
     });
-    if (!archive.isReading()) return;
     requireWhole(archive);
+    if (!archive.isReading()) return;
     place.clear();
     for (std::size_t k = 0; k < size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
 }

@@ -107,6 +107,13 @@ private:
         rows.add("touching contacts", touching);
         rows.add("bridges", bridged);
         rows.add("lists of contacts made", scene.contacts().rebuildCount());
+        if (scene.contacts().events().isListening()) {
+            const ContactEventCounts& counts = scene.contactEventCounts();
+            rows.add("touches begun", counts.touchesBegun);
+            rows.add("touches ended", counts.touchesEnded);
+            rows.add("bridges formed", counts.bridgesFormed);
+            rows.add("bridges ruptured", counts.bridgesRuptured);
+        }
         rows.addNumber("largest speed", std::sqrt(speed2), "m/s");
         rows.addNumber("kinetic energy", kineticEnergy(grains), "J");
         if (!scene.keepsEnergyLedger()) return;

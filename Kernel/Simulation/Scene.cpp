@@ -14,15 +14,40 @@ using Motion = TimeIntegration;
 Scene::Scene() {
     particleHandler.callBeforeRemoval([this](std::uint32_t place) { endContactsOf(place); });
     wallHandler.callBeforeRemoval([this](int wall) {
-        const double stored = contactSystem.endContactsAtWall(wall);
+        const double stored = contactSystem.endContactsAtWall(particleHandler.store(), wall);
         if (ledgerKept) ledger.driver -= stored;
     });
 }
 
 /// A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
 void Scene::endContactsOf(std::uint32_t place) {
-    const double stored = contactSystem.endContactsOf(place);
+    const double stored = contactSystem.endContactsOf(particleHandler.store(), place);
     if (ledgerKept) ledger.driver -= stored;
+}
+
+std::vector<ObservedContact> Scene::interactions() const {
+    std::vector<ObservedContact> all;
+    const ParticleStore& grains = particleHandler.store();
+    contactSystem.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
+        all.push_back(contactSystem.observe(grains, bucket, contact));
+    });
+    return all;
+}
+
+std::vector<ObservedContact> Scene::interactionsOf(std::size_t identity) const {
+    std::vector<ObservedContact> all;
+    const std::uint32_t place = particleHandler.placeOf(identity);
+    contactSystem.forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
+        all.push_back(contactSystem.observe(particleHandler.store(), bucket, contact));
+    });
+    return all;
+}
+
+Vec3D Scene::contactForceOn(std::size_t identity) const {
+    Vector<double> sum{0, 0, 0};
+    for (const ObservedContact& contact : interactionsOf(identity))
+        sum += contact.particle1 == identity ? contact.force : -contact.force;
+    return toEigen(sum);
 }
 
 void Scene::requireSetUp(std::string_view what) const {
@@ -126,6 +151,11 @@ void Scene::takeOverChanges() {
     try {
         const GrainChanges changes = particleHandler.takeChanges();
         if (newLaws) {
+            if (laws().layout != contactSystem.store().memory.getLayout())
+                throw InputError(
+                    "Simulation: a species was added in the run whose contacts remember more, or have "
+                    "friction "
+                    "where no others have; add it before the run begins.");
             particleHandler.renewMasses();
             speciesChanged = true;
         }
@@ -249,6 +279,7 @@ void Scene::advance(double length) {
     Motion::finish(grains, contactSystem.store(), gravity, length, threads, integrator);
     enter(StepTimes::Part::Other);
     intoLedger([&] { account.finish(grains, contactSystem, gravity, length, integrator, ledger); });
+    for (const ContactEvent& event : contactSystem.events().ofStep()) actionsOnContactEvent(event);
 }
 
 void Scene::bringBack(ParticleStore& grains) {

@@ -20,6 +20,10 @@ public:
 
     virtual void setupInitialConditions() {}
 
+    /// Called at the end of a step for each begin and end of a touch or a bridge in it, in the order of
+    /// identities; only after listenToContacts().
+    virtual void actionsOnContactEvent(const ContactEvent& /*event*/) {}
+
     ParticleHandler particleHandler;
     WallHandler wallHandler;
 
@@ -62,6 +66,38 @@ public:
     void keepEnergyLedger(bool keep = true) {
         if (keep != ledgerKept) requireSetUp("energy ledger");
         ledgerKept = keep;
+    }
+
+    /// From now on the begins and ends of touches and bridges are found in each step; off by default.
+    void listenToContacts(bool listen = true) { contactSystem.listen(listen); }
+    /// Those of the last step, and how many there have been.
+    [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const {
+        return contactSystem.events().ofStep();
+    }
+    [[nodiscard]] const ContactEventCounts& contactEventCounts() const {
+        return contactSystem.events().counts();
+    }
+
+    /// All contacts that have a force, in the order of identities, as of the last step.
+    [[nodiscard]] std::vector<ObservedContact> interactions() const;
+    /// Those of one grain. Throws InputError if there is no such grain.
+    [[nodiscard]] std::vector<ObservedContact> interactionsOf(std::size_t identity) const;
+    /// N, of all contacts on a grain, also on one that is held in place; without its weight.
+    [[nodiscard]] Vec3D contactForceOn(std::size_t identity) const;
+
+    // Of the grains that can move.
+    [[nodiscard]] double getTotalMass() const { return sumGrains(particleHandler.store()).mass; }  // kg
+    [[nodiscard]] Vec3D getCentreOfMass() const {                                                  // m
+        return toEigen(sumGrains(particleHandler.store()).centreOfMass());
+    }
+    [[nodiscard]] Vec3D getTotalMomentum() const {  // kg m/s
+        return toEigen(sumGrains(particleHandler.store()).momentum);
+    }
+    [[nodiscard]] double getKineticEnergy() const {  // J, of the centres
+        return translationalEnergy(particleHandler.store());
+    }
+    [[nodiscard]] double getRotationalEnergy() const {  // J
+        return sumGrains(particleHandler.store()).rotationalEnergy;
     }
 
     [[nodiscard]] bool acceptsUnstableTimeStep() const { return unstableAccepted; }

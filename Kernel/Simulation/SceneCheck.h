@@ -50,12 +50,16 @@ inline std::vector<SizeRange> sizeRanges(const ParticleStore& grains, std::size_
     return ranges;
 }
 
-/// Calls function(laws, bodies, effective mass) for the extreme pairs of bodies that can meet in a scene: the
-/// smallest and the largest grains of each two species, and of each species with each wall. (A grain that is
-/// held in place counts as free.)
+/// Which pairs of a scene are looked at: those of all sizes that there are, of which more grains may come, or
+/// those of the grains that there are (a grain that is the only one of its size has no pair of two such).
+enum class Pairs { OfSizes, OfGrains };
+
+/// Calls function(laws, bodies, effective mass) for the extreme pairs of bodies of a scene: the smallest and
+/// the largest grains of each two species, and of each species with each wall. (A grain that is held in place
+/// counts as free.)
 template <class Function>
 void forEachExtremePair(const ContactLaws& species, const ParticleStore& grains, const WallHandler& walls,
-                        Function&& function) {
+                        Function&& function, Pairs pairs = Pairs::OfSizes) {
     const std::vector<SizeRange> free = sizeRanges(grains, species.speciesCount(), true);
     const std::vector<SizeRange> sizes = sizeRanges(grains, species.speciesCount(), false);
     const auto mass = [&](std::size_t s, double radius) { return sphereMass(radius, species.density(s)); };
@@ -67,9 +71,11 @@ void forEachExtremePair(const ContactLaws& species, const ParticleStore& grains,
         if (free[a].empty()) continue;
         for (const double r1 : {free[a].smallest, free[a].largest}) {
             for (std::size_t b = 0; b < sizes.size(); ++b) {
-                if (sizes[b].count < (a == b ? 2u : 1u)) continue;  // a grain does not meet itself
-                const auto partners = a == b ? sizes[b].partnersOf(r1)
-                                             : std::array<double, 2>{sizes[b].smallest, sizes[b].largest};
+                const bool withoutItself = a == b && pairs == Pairs::OfGrains;
+                if (sizes[b].count < (withoutItself ? 2u : 1u)) continue;
+                const auto partners = withoutItself
+                                          ? sizes[b].partnersOf(r1)
+                                          : std::array<double, 2>{sizes[b].smallest, sizes[b].largest};
                 for (const double r2 : partners) forBodies(a, b, r1, r2);
             }
             for (std::size_t w = 0; w < walls.getSize(); ++w)
@@ -116,9 +122,12 @@ inline void checkScene(const ContactLaws& species, const ParticleStore& grains, 
         if (!walls.isRemoved(w))
             static_cast<void>(
                 species.density(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
-    forEachExtremePair(species, grains, walls, [](const PairLaws& laws, const Bodies& bodies, double) {
-        if (const auto objection = laws.objection(bodies)) throw InputError(*objection);
-    });
+    forEachExtremePair(
+        species, grains, walls,
+        [](const PairLaws& laws, const Bodies& bodies, double) {
+            if (const auto objection = laws.objection(bodies)) throw InputError(*objection);
+        },
+        Pairs::OfGrains);
     const double limit = sceneStabilityLimit(species, grains, walls, integrator);
     if (timeStep > limit)
         throw InputError(
@@ -138,8 +147,6 @@ inline void checkPeriodicLengths(const ContactLaws& species, const ParticleStore
         if (bodies.radius2 < infinity)
             reach = std::max(reach, bodies.radius1 + bodies.radius2 + laws.range(bodies));
     });
-    for (const SizeRange& sizes : sizeRanges(grains, species.speciesCount(), false))
-        reach = std::max(reach, sizes.largest);  // a grain and its own image
     const std::array<std::pair<char, double>, 3> lengths{
         {{'x', box.length.x}, {'y', box.length.y}, {'z', box.length.z}}};
     for (const auto& [axis, length] : lengths)

@@ -23,17 +23,21 @@ struct BrokenLimit {
 inline std::vector<BrokenLimit> brokenLimits(const ContactLaws& species, const ParticleStore& grains,
                                              const WallHandler& walls) {
     std::vector<BrokenLimit> broken;
-    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {
-        for (const auto& [law, limit] : laws.laws.brokenLimits(laws.a, laws.b, bodies)) {
-            const auto isLow = [](const DomainLimit& l) { return l.value < l.range.highest; };
-            const auto same = std::ranges::find_if(broken, [&, &law = law,
-                                                            &limit = limit](const BrokenLimit& b) {
-                return b.law == law && b.limit.quantity == limit.quantity && isLow(b.limit) == isLow(limit);
-            });
-            if (same == broken.end()) broken.push_back({law, limit});
-            else if (isLow(limit) == (limit.value < same->limit.value)) same->limit = limit;
-        }
-    });
+    forEachExtremePair(
+        species, grains, walls,
+        [&](const PairLaws& laws, const Bodies& bodies, double) {
+            for (const auto& [law, limit] : laws.laws.brokenLimits(laws.a, laws.b, bodies)) {
+                const auto isLow = [](const DomainLimit& l) { return l.value < l.range.highest; };
+                const auto same =
+                    std::ranges::find_if(broken, [&, &law = law, &limit = limit](const BrokenLimit& b) {
+                        return b.law == law && b.limit.quantity == limit.quantity &&
+                               isLow(b.limit) == isLow(limit);
+                    });
+                if (same == broken.end()) broken.push_back({law, limit});
+                else if (isLow(limit) == (limit.value < same->limit.value)) same->limit = limit;
+            }
+        },
+        Pairs::OfGrains);
     return broken;
 }
 

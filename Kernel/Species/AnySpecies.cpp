@@ -29,10 +29,13 @@ void AnyLaws::set(std::string_view field, double value) {
     *found.value = value;
 }
 
-void AnyLaws::visitState(StateArchive& archive) {
+void AnyLaws::visitState(StateArchive& archive, bool changedInRun) {
     archive.same("name", getName());
     for (const NamedField& field : fields())
-        archive.group(field.law, [&] { archive.same(field.name, *field.value, field.unit); });
+        archive.group(field.law, [&] {
+            if (changedInRun) archive.value(field.name, *field.value);
+            else archive.same(field.name, *field.value, field.unit);
+        });
 }
 
 void AnySpecies::set(std::string_view field, double value) {
@@ -44,9 +47,12 @@ double AnySpecies::get(std::string_view field) {
     return field == "density" ? getDensity() : AnyLaws::get(field);
 }
 
-void AnySpecies::visitState(StateArchive& archive) {
-    archive.same("density", getDensity(), "kg/m^3");
-    AnyLaws::visitState(archive);
+void AnySpecies::visitState(StateArchive& archive, bool changedInRun) {
+    double density = getDensity();
+    if (changedInRun) archive.value("density", density);
+    else archive.same("density", density, "kg/m^3");
+    if (archive.isReading() && changedInRun) setDensity(density);
+    AnyLaws::visitState(archive, changedInRun);
 }
 
 }  // namespace pendular

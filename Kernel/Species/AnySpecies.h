@@ -41,8 +41,8 @@ public:
         return static_cast<const Law*>(lawOf(typeid(Law)));
     }
 
-    /// A run goes on with the values that it began with.
-    virtual void visitState(StateArchive& archive);
+    /// A run goes on with the values that it began with, or to which they have been changed during the run.
+    virtual void visitState(StateArchive& archive, bool changedInRun);
 
 private:
     [[nodiscard]] virtual const void* lawOf(const std::type_info& law) const = 0;
@@ -53,7 +53,9 @@ private:
 class AnySpecies : public AnyLaws {
 public:
     [[nodiscard]] virtual int getIndex() const = 0;
-    [[nodiscard]] virtual double getDensity() const = 0;
+    [[nodiscard]] double getDensity() const { return densityPlace(); }
+    /// kg/m^3, where it is kept
+    [[nodiscard]] virtual const double& densityPlace() const = 0;
     /// @param density kg/m^3
     virtual void setDensity(double density) = 0;
     /// The same as setDensity() for the field "density".
@@ -68,7 +70,7 @@ public:
         return static_cast<const Law*>(completeLawOf(typeid(Law)));
     }
 
-    void visitState(StateArchive& archive) override;
+    void visitState(StateArchive& archive, bool changedInRun) override;
 
 private:
     [[nodiscard]] virtual const void* completeLawOf(const std::type_info& law) const = 0;

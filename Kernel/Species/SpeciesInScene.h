@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::string_view getName() const override { return S::name; }
     [[nodiscard]] std::vector<NamedField> fields() override { return namedFields<MixedOf>(species); }
     [[nodiscard]] int getIndex() const override { return species.getIndex(); }
-    [[nodiscard]] double getDensity() const override { return species.getDensity(); }
+    [[nodiscard]] const double& densityPlace() const override { return species.density; }
     void setDensity(double density) override { species.setDensity(density); }
     void complete() override {
         completed = species;

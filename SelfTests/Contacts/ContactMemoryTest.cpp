@@ -132,7 +132,7 @@ TEST(ContactMemory, isCarriedOverARebuildBitForBit) {
     EXPECT_TRUE(std::ranges::any_of(before, [](const auto& m) { return std::get<0>(m.first) >= 0; }));
 
     // Turned upside down, grains are sorted in another order; nothing else happens to the pairs.
-    const std::vector<std::uint32_t> placesBefore = grains.place;
+    const PlaceIndex placesBefore = grains.place;
     for (TranslationRecord& grain : grains.translation) grain.position = -grain.position;
     const auto expected = records();
     run.system.refresh(grains, 1, 0);

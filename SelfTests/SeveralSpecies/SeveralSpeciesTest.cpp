@@ -356,5 +356,30 @@ TEST(SeveralSpecies, thePairIsTheSameFromEitherSideAndInEitherOrder) {
     EXPECT_EQ(values.at("liquidBridgeVolume"), 2e-12);
 }
 
+// A value that is set during a run holds from the next step on, also in a restart file.
+TEST(SeveralSpecies, mayBeChangedInARun) {
+    const support::TestFolder folder;
+    const auto make = [] { return mixedBox<Hertz, Rough, Rough>(1, 2); };
+    const auto frictionIn = [](const Scene& scene) {
+        for (const FieldValue& field : scene.laws().fields(1, 1))
+            if (field.name == "slidingFrictionCoefficient") return field.value;
+        return unset;
+    };
+    const auto changed = make(), unchanged = make();
+    run(*changed, 800);
+    changed->speciesHandler.getObject(1)->set("slidingFrictionCoefficient", 0.05);
+    run(*changed, 801);
+    EXPECT_EQ(frictionIn(*changed), 0.05);
+    changed->writeRestart(folder.path() / "changed.h5");
+    for (const auto* scene : {&changed, &unchanged}) run(**scene, 1500);
+    EXPECT_NE(hashOf(*changed), hashOf(*unchanged));
+    const auto again = make();
+    again->restartFrom(folder.path() / "changed.h5");
+    again->initialise();
+    EXPECT_EQ(frictionIn(*again), 0.05);
+    run(*again, 1500);
+    EXPECT_EQ(hashOf(*again), hashOf(*changed));
+}
+
 }  // namespace
 }  // namespace pendular

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "Kernel/State/StateArchive.h"
+
+namespace pendular {
+
+/// What happened to a contact in a step.
+struct ContactEvent {
+    enum class Kind : std::uint8_t { TouchBegins, TouchEnds, BridgeForms, BridgeRuptures };
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    std::uint32_t particle1;  // identity; the lower one
+    std::uint32_t particle2;  // `none` at a wall
+    int wall;                 // -1: grain with grain
+    std::uint32_t part;       // of the wall
+    Kind kind;
+
+    friend auto operator<=>(const ContactEvent&, const ContactEvent&) = default;
+};
+
+/// How many events there have been since the scene began to listen to them.
+struct ContactEventCounts {
+    std::uint64_t touchesBegun = 0, touchesEnded = 0, bridgesFormed = 0, bridgesRuptured = 0;
+
+    void add(ContactEvent::Kind kind) {
+        using Kind = ContactEvent::Kind;
+        ++(kind == Kind::TouchBegins   ? touchesBegun
+           : kind == Kind::TouchEnds   ? touchesEnded
+           : kind == Kind::BridgeForms ? bridgesFormed
+                                       : bridgesRuptured);
+    }
+};
+
+}  // namespace pendular

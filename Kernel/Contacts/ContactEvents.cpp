@@ -1,0 +1,59 @@
+#include "Kernel/Contacts/ContactEvents.h"
+
+#include <algorithm>
+
+namespace pendular {
+
+namespace {
+
+using Kind = ContactEvent::Kind;
+
+ContactEvent eventOf(const ContactStore& store, const Bucket& bucket, std::uint32_t contact,
+                     const std::vector<std::uint32_t>& identity, Kind kind) {
+    const ContactBlock& block = store.blocks[contact / Pack::lanes];
+    const std::uint32_t first = identity[block.first[contact % Pack::lanes]],
+                        second = block.second[contact % Pack::lanes];
+    if (bucket.wall >= 0) return {first, ContactEvent::none, bucket.wall, second, kind};
+    return {first, identity[second], -1, 0, kind};
+}
+
+/// Calls function(lane, kind) for each bit that differs.
+template <class Function>
+void forEachChange(const BlockState& before, const BlockState& after, Function&& function) {
+    const auto look = [&](unsigned old, unsigned now, Kind begins, Kind ends) {
+        for (unsigned changed = old ^ now, lane = 0; changed != 0; changed >>= 1, ++lane)
+            if ((changed & 1) != 0) function(lane, (now >> lane & 1) != 0 ? begins : ends);
+    };
+    look(before.touching, after.touching, Kind::TouchBegins, Kind::TouchEnds);
+    look(before.bridged, after.bridged, Kind::BridgeForms, Kind::BridgeRuptures);
+}
+
+}  // namespace
+
+void ContactEvents::after(const ContactStore& store, const Bucket& bucket,
+                          const std::vector<std::uint32_t>& identity) {
+    if (!listening) return;
+    for (std::uint32_t b = bucket.begin; b < bucket.end; ++b)
+        forEachChange(states[b - bucket.begin], store.states[b], [&](unsigned lane, Kind kind) {
+            events.push_back(eventOf(store, bucket, b * Pack::lanes + lane, identity, kind));
+        });
+}
+
+void ContactEvents::end(const ContactStore& store, std::uint32_t contact,
+                        const std::vector<std::uint32_t>& identity) {
+    if (!listening) return;
+    const std::size_t block = contact / Pack::lanes;
+    BlockState ended = store.states[block];
+    for (std::uint8_t* bits : {&ended.touching, &ended.bridged})
+        *bits = static_cast<std::uint8_t>(*bits & ~(1u << contact % Pack::lanes));
+    forEachChange(store.states[block], ended, [&](unsigned, Kind kind) {
+        early.push_back(eventOf(store, store.bucketOf(block), contact, identity, kind));
+    });
+}
+
+void ContactEvents::finish() {
+    std::ranges::sort(events);
+    for (const ContactEvent& event : events) sums.add(event.kind);
+}
+
+}  // namespace pendular

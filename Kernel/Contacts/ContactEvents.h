@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "Kernel/Contacts/ContactEvent.h"
+#include "Kernel/Contacts/ContactStore.h"
+
+namespace pendular {
+
+/// The events of a step, found from the bits of blocks before and after it: no work for the kernel, and none
+/// at all in a scene that does not listen.
+class ContactEvents {
+public:
+    void listen(bool on) { listening = on; }
+    [[nodiscard]] bool isListening() const { return listening; }
+
+    /// A step begins: what has ended since the last one, because bodies were removed, belongs to it.
+    void begin() {
+        events.clear();
+        events.swap(early);
+    }
+    /// To be called before and after the forces of a bucket.
+    void before(const ContactStore& store, const Bucket& bucket) {
+        if (listening)
+            states.assign(&store.states[bucket.begin], &store.states[bucket.begin] + bucket.size());
+    }
+    void after(const ContactStore& store, const Bucket& bucket, const std::vector<std::uint32_t>& identity);
+    /// A contact is about to end because a body is removed.
+    void end(const ContactStore& store, std::uint32_t contact, const std::vector<std::uint32_t>& identity);
+    /// Puts the events of the step into the order of identities, and counts them.
+    void finish();
+
+    [[nodiscard]] const std::vector<ContactEvent>& ofStep() const { return events; }
+    [[nodiscard]] const ContactEventCounts& counts() const { return sums; }
+    void visitState(StateArchive& archive) { archive.record<std::uint64_t>("counts", sums); }
+
+private:
+    bool listening = false;
+    std::vector<BlockState> states;  // of a bucket before the step
+    std::vector<ContactEvent> events, early;
+    ContactEventCounts sums;
+};
+
+}  // namespace pendular
