@@ -1,0 +1,47 @@
+#include "SelfTests/HowDoI/HowDoI.h"
+
+namespace {
+
+// [snippet]
+struct OpenGate : FirstDriver {
+    void setupInitialConditions() override {
+        FirstDriver::setupInitialConditions();
+        InfiniteWall gate;
+        gate.setSpecies(speciesHandler.getLastObject());
+        gate.set({1, 0, 0}, {0.0115, 0, 0});
+        wallHandler.copyAndAddObject(gate);
+    }
+    void actionsBeforeTimeStep() override {
+        if (getNumberOfTimeSteps() == 500) wallHandler.removeObject(0);
+    }
+};
+// [end]
+
+TEST_F(HowDoI, OpenGate) {
+    OpenGate scene;
+    run(scene);
+    // It is open when the grain comes.
+    EXPECT_EQ(scene.particleHandler.getObject(0).getVelocity(), Vec3D(0.1, 0, 0));
+    EXPECT_TRUE(scene.wallHandler.isRemoved(0));
+    WithPlate<FirstDriver> closed;
+    run(closed);
+    EXPECT_LT(closed.particleHandler.getObject(0).getVelocity().x(), 0);
+}
+
+// The walls that the run had: those that were removed are removed.
+TEST_F(HowDoI, OpenGateGoesOn) {
+    OpenGate scene;
+    scene.keepRestartFile();
+    run(scene);
+    struct Opened : OpenGate {
+        void setupInitialConditions() override {
+            OpenGate::setupInitialConditions();
+            wallHandler.removeObject(0);
+        }
+    } opened;
+    opened.restartFrom(scene.restartFile());
+    run(opened);
+    EXPECT_EQ(opened.getFirstStep(), scene.getNumberOfTimeSteps());
+}
+
+}  // namespace

@@ -1,0 +1,21 @@
+#include "Kernel/Simulation/Program.h"
+#include "SelfTests/HowDoI/HowDoI.h"
+
+namespace {
+
+#define main mainOfOutsideDriver
+// [snippet]
+int main() {
+    return runProgram([] {
+        FirstDriver driver;
+        driver.setName("first");  // what the names of its files begin with
+        driver.solve();
+        return 0;
+    });
+}
+// [end]
+#undef main
+
+TEST_F(HowDoI, OutsideDriver) { EXPECT_TRUE(contains(runProgramOf(mainOfOutsideDriver), "0.01")); }
+
+}  // namespace
