@@ -1,7 +1,7 @@
 #include <map>
 #include <sstream>
 
-#include "Generated/BuildFolders.h"
+#include "BuildFolders.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 #include "SelfTests/Support/RunProgram.h"
 

@@ -1,3 +1,4 @@
+#include "Kernel/Math/Random.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -5,7 +5,6 @@ namespace {
 struct TwoMaterialsScene : FirstDriver {
     void setupInitialConditions() override {
         FirstDriver::setupInitialConditions();
-        auto material = speciesHandler.getLastObject();
         // [snippet]
         auto steel = speciesHandler.copyAndAddObject({});
         steel->setDensity(7850);                                               // kg/m^3

@@ -5,8 +5,8 @@ namespace {
 // [snippet]
 struct UntilAtRest : FirstDriver {
     [[nodiscard]] bool continueSolve() const override {
-        if (getTime() < 0.005) return true;                         // s: they are at rest at the start, too
-        return getKineticEnergy() + getRotationalEnergy() > 1e-12;  // J
+        const double energy = getKineticEnergy() + getRotationalEnergy();  // J
+        return getTime() < 0.005 || energy > 1e-12;  // in the first 5 ms they may be at rest, too
     }
 };
 // [end]
