@@ -22,10 +22,7 @@ void addGrainRow(ParticleHandler& particles, const S* species, const GrainRow& r
 /// Radii and positions of all grains of a scene, in the order of adding: the initial state of another scene.
 inline std::vector<GrainRow> grainRows(ParticleHandler& particles) {
     std::vector<GrainRow> rows;
-    for (std::size_t k = 0; k < particles.getSize(); ++k) {
-        const auto grain = particles.getObject(k);
-        rows.push_back({grain.getRadius(), grain.getPosition()});
-    }
+    for (const GrainReference grain : particles) rows.push_back({grain.getRadius(), grain.getPosition()});
     return rows;
 }
 

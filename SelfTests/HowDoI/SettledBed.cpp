@@ -28,4 +28,18 @@ TEST_F(HowDoI, SettledBed) {
     }
 }
 
+// Also where the first scene has removed grains.
+TEST_F(HowDoI, SettledBedOfTheGrainsThatAreLeft) {
+    FirstDriver scene;
+    run(scene);
+    SphericalParticle second;
+    second.setSpecies(scene.speciesHandler.getObject(0));
+    second.setRadius(2e-3);
+    scene.particleHandler.copyAndAddObject(second);
+    scene.particleHandler.removeObject(0);
+    const std::vector<GrainRow> rows = grainRows(scene.particleHandler);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].radius, 2e-3);
+}
+
 }  // namespace
