@@ -19,7 +19,7 @@ struct BeltScene : FirstDriver {
 TEST_F(HowDoI, Belt) {
     BeltScene scene;
     run(scene);
-    const auto& belt = dynamic_cast<const InfiniteWall&>(scene.wallHandler.getObject(0));
+    const auto& belt = dynamic_cast<const InfiniteWall&>(scene.wallHandler.getObject(1));
     EXPECT_EQ(belt.getVelocityAt({0.01, 0.01, 0}), Vec3D(0.5, 0, 0));
     EXPECT_EQ(belt.getPose().shift.x, 0);
 }

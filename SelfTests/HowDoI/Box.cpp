@@ -24,7 +24,7 @@ TEST_F(HowDoI, Box) {
     BoxScene scene;
     run(scene);
     // To the wall at x = 0.021 m in 0.1 s, and back more slowly.
-    EXPECT_EQ(scene.wallHandler.getSize(), 6u);
+    EXPECT_EQ(scene.wallHandler.getSize(), 7u);
     EXPECT_LT(scene.particleHandler.getObject(0).getVelocity().x(), 0);
     EXPECT_LT(scene.particleHandler.getObject(0).getPosition().x(), 0.02);
 }

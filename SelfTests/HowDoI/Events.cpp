@@ -19,7 +19,7 @@ struct Events : FirstDriver {
 TEST_F(HowDoI, Events) {
     WithPlate<Events> scene;
     const std::string printed = run(scene);
-    EXPECT_EQ(printed, "grain 0 meets wall 0\n");
+    EXPECT_EQ(printed, "grain 0 meets wall 1\n");
     EXPECT_EQ(scene.contactEventCounts().touchesEnded, 1u);
 }
 

@@ -17,6 +17,10 @@ struct FirstDriver : Simulation<HertzianViscoelasticMindlinSpecies> {
         grain.setRadius(1e-3), grain.setPosition({0.01, 0.01, 0.01});  // m
         grain.setVelocity({0.1, 0, 0});                                // m/s
         particleHandler.copyAndAddObject(grain);
+        InfiniteWall floor;
+        floor.setSpecies(material);
+        floor.set({0, 0, -1}, {0, 0, 0});  // its normal points out, away from the grains
+        wallHandler.copyAndAddObject(floor);
         setTimeStep(shortestContactTime() / 30), setTimeMax(0.01);  // s
     }
 };

@@ -28,7 +28,7 @@ TEST_F(HowDoI, Funnel) {
     FunnelScene scene;
     run(scene);
     // On the cone, at 45 degrees to the axis, the grain turns towards the axis.
-    EXPECT_EQ(scene.wallHandler.getSize(), 2u);
+    EXPECT_EQ(scene.wallHandler.getSize(), 3u);
     const Vec3D velocity = scene.particleHandler.getObject(0).getVelocity();
     EXPECT_LT(velocity.x() + velocity.y(), 0);
 }

@@ -22,7 +22,7 @@ TEST_F(HowDoI, Mesh) {
     MeshScene scene;
     run(scene);
     // The plate of the file is at x = 0.0115 m.
-    EXPECT_EQ(scene.wallHandler.getSize(), 1u);
+    EXPECT_EQ(scene.wallHandler.getSize(), 2u);
     EXPECT_LT(scene.particleHandler.getObject(0).getVelocity().x(), 0);
 }
 

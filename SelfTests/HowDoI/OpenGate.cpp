@@ -12,7 +12,7 @@ struct OpenGate : FirstDriver {
         wallHandler.copyAndAddObject(gate);
     }
     void actionsBeforeTimeStep() override {
-        if (getNumberOfTimeSteps() == 500) wallHandler.removeObject(0);
+        if (getNumberOfTimeSteps() == 500) wallHandler.removeObject(1);  // 0 is the floor
     }
 };
 // [end]
@@ -22,7 +22,7 @@ TEST_F(HowDoI, OpenGate) {
     run(scene);
     // It is open when the grain comes.
     EXPECT_EQ(scene.particleHandler.getObject(0).getVelocity(), Vec3D(0.1, 0, 0));
-    EXPECT_TRUE(scene.wallHandler.isRemoved(0));
+    EXPECT_TRUE(scene.wallHandler.isRemoved(1));
     WithPlate<FirstDriver> closed;
     run(closed);
     EXPECT_LT(closed.particleHandler.getObject(0).getVelocity().x(), 0);
@@ -37,7 +37,7 @@ TEST_F(HowDoI, OpenGateGoesOn) {
     struct Opened : OpenGate {
         void setupInitialConditions() override {
             OpenGate::setupInitialConditions();
-            wallHandler.removeObject(0);
+            wallHandler.removeObject(1);
         }
     } opened;
     opened.restartFrom(scene.restartFile());

@@ -6,6 +6,7 @@ struct PeriodicScene : FirstDriver {
     void setupInitialConditions() override {
         FirstDriver::setupInitialConditions();
 
+        wallHandler.clear();
         // [snippet]
         setPeriodic(0, 0, 0.02);  // along x, from 0 to 0.02 m
         setPeriodic(1, 0, 0.02);  // along y

@@ -19,7 +19,7 @@ TEST_F(HowDoI, ReadContacts) {
     WithPlate<ReadContacts> scene;
     scene.setSaveCount(5);
     const std::string printed = run(scene);
-    EXPECT_TRUE(printed.starts_with("grain 0 with wall 0: overlap ")) << printed;
+    EXPECT_TRUE(printed.starts_with("grain 0 with wall 1: overlap ")) << printed;
 }
 
 }  // namespace

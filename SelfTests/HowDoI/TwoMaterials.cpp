@@ -12,8 +12,8 @@ struct TwoMaterialsScene : FirstDriver {
         steel->setEffectiveShearModulus(2e7);                                  // Pa
         steel->setSlidingFrictionCoefficient(0.2);
         SphericalParticle ball;
-        ball.setSpecies(steel);  // and the other grains with `material`
-        ball.setRadius(2e-3);    // m
+        ball.setSpecies(steel);                                      // and the other grains with `material`
+        ball.setRadius(2e-3), ball.setPosition({0.02, 0.01, 0.01});  // m
         particleHandler.copyAndAddObject(ball);
         // [end]
     }

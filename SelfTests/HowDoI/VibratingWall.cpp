@@ -22,7 +22,7 @@ struct VibratingWallScene : FirstDriver {
 TEST_F(HowDoI, VibratingWall) {
     VibratingWallScene scene;
     run(scene);
-    const auto& floor = dynamic_cast<const InfiniteWall&>(scene.wallHandler.getObject(0));
+    const auto& floor = dynamic_cast<const InfiniteWall&>(scene.wallHandler.getObject(1));
     EXPECT_NEAR(floor.getPose().shift.z, 1e-4 * std::sin(2 * constants::pi * 50 * scene.getTime()), 1e-15);
 }
 

@@ -16,7 +16,7 @@ struct WetGrains : Simulation<HertzianViscoelasticMindlinLiquidBridgeYoungLaplac
         SphericalParticle grain;
         grain.setSpecies(material), grain.setRadius(1e-3);
         particleHandler.copyAndAddObject(grain);
-        grain.setPosition({2e-3, 0, 0});
+        grain.setPosition({1.999e-3, 0, 0});  // it touches the first one
         particleHandler.copyAndAddObject(grain);
         fmt::print("{}\n", bridgeAdvice(*this, 0.05));  // the cheapest law within 5 %
         setTimeStep(shortestContactTime() / 30), setTimeMax(0.001);
