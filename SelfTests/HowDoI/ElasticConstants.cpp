@@ -14,6 +14,7 @@ struct ElasticConstantsScene : FirstDriver {
         material->setRestitutionCoefficient(0.5);  // after the modulus
         material->setSlidingFrictionCoefficient(0.3);
         // [end]
+        setTimeStep(0.5 * stabilityLimit());
     }
 };
 

@@ -19,7 +19,7 @@ struct OwnFieldScene : FirstDriver {
 TEST_F(HowDoI, OwnField) {
     OwnFieldScene scene;
     run(scene);
-    EXPECT_TRUE(contains(support::contentOf("pendular-particles-0.vtp"), "distance_m"));
+    EXPECT_TRUE(contains(support::contentOf("pendular-particles-000000000.vtp"), "distance_m"));
 }
 
 }  // namespace

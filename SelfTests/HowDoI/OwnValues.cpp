@@ -20,7 +20,7 @@ TEST_F(HowDoI, OwnValues) {
     scene.addOutput(ParaViewOutput());
     run(scene);
     EXPECT_NEAR(scene.film[0] / (1e-12 - 5e-11 * scene.getTime()), 1, 1e-9);
-    EXPECT_TRUE(contains(support::contentOf("pendular-particles-0.vtp"), "film_volume_m3"));
+    EXPECT_TRUE(contains(support::contentOf("pendular-particles-000000000.vtp"), "film_volume_m3"));
 }
 
 }  // namespace
