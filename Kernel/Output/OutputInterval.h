@@ -21,10 +21,13 @@ public:
     [[nodiscard]] bool isGiven() const { return seconds > 0; }
     /// Whether a multiple of the interval lies within half a step around this step. Two steps compute the
     /// border between them from the same numbers, so that no multiple is left out or counted twice.
-    /// @param timeStep s
-    [[nodiscard]] bool isDueAfter(std::size_t step, double timeStep) const {
-        const double perStep = timeStep / seconds, place = static_cast<double>(step);
-        return perStep >= 1 || std::floor((place + 0.5) * perStep) > std::floor((place - 0.5) * perStep);
+    /// @param timeStep s; @param timeBefore s, of the steps that are not counted: those with another time
+    /// step
+    [[nodiscard]] bool isDueAfter(std::size_t step, double timeStep, double timeBefore = 0) const {
+        const double perStep = timeStep / seconds, place = static_cast<double>(step),
+                     before = timeBefore / seconds;
+        return perStep >= 1 ||
+               std::floor(before + (place + 0.5) * perStep) > std::floor(before + (place - 0.5) * perStep);
     }
 
 private:

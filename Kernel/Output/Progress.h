@@ -19,8 +19,8 @@ struct RunNumbers {
 /// is left out, from its end. It takes a hundredth of the run's time at most.
 class Progress {
 public:
-    /// @param ofWhat the name of the run, at the start of the line; @param endTime s; @param time s, and
-    /// @param step, where the run starts
+    /// @param ofWhat the name of the run, at the start of the line
+    /// @param endTime s; @param time s, at the start of the run; @param step at the start of the run
     explicit Progress(std::string ofWhat, double endTime, double time = 0, std::size_t step = 0);
     ~Progress();
     Progress(const Progress&) = delete;

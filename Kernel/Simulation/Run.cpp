@@ -186,7 +186,8 @@ void Run::writeAll() {
 void Run::writeOutputs(bool atEnd) {
     const bool own = (saveCount > 0 && steps % saveCount == 0) != atEnd;
     const auto isDue = [&](const KeptOutput& output) {
-        return output.interval.isGiven() ? atEnd || output.interval.isDueAfter(steps, timeStep) : own;
+        if (!output.interval.isGiven()) return own;
+        return atEnd || output.interval.isDueAfter(steps - stepsBefore, timeStep, timeBefore);
     };
     if (!own && std::none_of(outputs.begin(), outputs.end(), isDue)) return;
     const StepTimes::Part before = times.enter(StepTimes::Part::Output);

@@ -47,8 +47,12 @@ TEST(ContactEvent, tellsTheStoryOfAWetCollision) {
             EXPECT_EQ(event.particle1, 0u);
             EXPECT_EQ(event.particle2, 1u);
             EXPECT_EQ(event.wall, -1);
-            if (event.kind == Kind::TouchBegins) EXPECT_TRUE(before >= 0 && atEnd < 0);
-            if (event.kind == Kind::TouchEnds) EXPECT_TRUE(before < 0 && atEnd >= 0);
+            if (event.kind == Kind::TouchBegins) {
+                EXPECT_TRUE(before >= 0 && atEnd < 0);
+            }
+            if (event.kind == Kind::TouchEnds) {
+                EXPECT_TRUE(before < 0 && atEnd >= 0);
+            }
         }
     }
     ASSERT_EQ(scene.heard.size(), 4u);
@@ -86,9 +90,8 @@ TEST(ContactEvent, addsUpToTheContactsThatThereAre) {
                 const ContactEvent& e = scene->heard[heard];
                 auto& set = e.kind == Kind::TouchBegins || e.kind == Kind::TouchEnds ? touching : bridged;
                 const std::tuple key{e.particle1, e.particle2, e.wall};
-                if (e.kind == Kind::TouchBegins || e.kind == Kind::BridgeForms)
-                    EXPECT_TRUE(set.insert(key).second);
-                else EXPECT_EQ(set.erase(key), 1u);
+                const bool begins = e.kind == Kind::TouchBegins || e.kind == Kind::BridgeForms;
+                EXPECT_EQ(begins ? set.insert(key).second : set.erase(key) == 1, true);
             }
             if (k % 50 != 0) continue;
             std::set<std::tuple<std::uint32_t, std::uint32_t, int>> touchingNow, bridgedNow;

@@ -27,6 +27,14 @@ TEST(OutputInterval, isDueAtTheStepNearestToEachMultiple) {
     EXPECT_EQ(dueSteps(1e300, 1e-6, 1000), (Steps{0}));
 }
 
+// With another time step from 2.3 s on: at 3.05, 4.05, 5.05 s.
+TEST(OutputInterval, goesOnWithAnotherTimeStep) {
+    std::vector<std::size_t> steps;
+    for (std::size_t step = 1; step <= 12; ++step)
+        if (OutputInterval("Test", 1).isDueAfter(step, 0.25, 2.3)) steps.push_back(step);
+    EXPECT_EQ(steps, (std::vector<std::size_t>{3, 7, 11}));
+}
+
 /// Whatever the numbers, each multiple has its step, and no other step is due. A quotient of the order of 1e3
 /// is rounded by some 1e-13: two steps may be called equally near to it.
 TEST(OutputInterval, leavesNoMultipleOut) {

@@ -122,8 +122,11 @@ TEST(ComingAndGoing, aColumnFollowsItsGrains) {
     // A grain's age is the time since it came: those of the start have the time of the run.
     for (GrainReference grain : flow.particleHandler) {
         const double age = (*flow.age)[grain.getId()];
-        if (grain.getId() < 64) EXPECT_NEAR(age, flow.getTime(), 1e-12);
-        else EXPECT_LT(age, flow.getTime() - 49 * flow.getTimeStep() + 1e-12);
+        if (grain.getId() < 64) {
+            EXPECT_NEAR(age, flow.getTime(), 1e-12);
+        } else {
+            EXPECT_LT(age, flow.getTime() - 49 * flow.getTimeStep() + 1e-12);
+        }
     }
     EXPECT_TRUE(isOneSentence(support::refusal([&] { flow.particleHandler.addColumn("age", "s"); })));
     EXPECT_TRUE(isOneSentence(support::refusal([&] { flow.particleHandler.addColumn("a b", "s"); })));
