@@ -5,6 +5,7 @@
 
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/WallContacts.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Parallel.h"
 
 namespace pendular {
@@ -22,6 +23,9 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
 }
 
 bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift) {
+    // Grains that came after the list, also those that have gone again, have no contacts yet.
+    if (rebuilds > 0)
+        while (contacts.sides.grainCount() < grains.size()) contacts.sides.addGrain();
     unlisted += grainShift + std::max(grainShift, wallShift);
     ++stepsListed;
     if (unlisted < std::min(skin.width(), listBefore)) return false;
@@ -48,12 +52,13 @@ void ContactSystem::listAgain(Grains& grains, const RememberedContacts* remember
 }
 
 bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> identities) {
+    // What acts at a distance may reach farther than all that the cells were made for.
+    if (species->actsApart && !identities.empty()) return false;
     if (!takesInGrains) {  // from now on lists keep their cells; for this time, look at all grains
         takesInGrains = true;
         cells.reset();
     }
     for (const std::uint32_t identity : identities) {
-        contacts.sides.addGrain();
         const double gap = gapAround(grains, grains.place[identity]);
         if (!(gap > 0)) return false;
         listBefore = std::min(listBefore, unlisted + gap);
@@ -106,12 +111,12 @@ double ContactSystem::endContactsOf(const Grains& grains, std::uint32_t place) {
 }
 
 double ContactSystem::endContactsAtWall(const Grains& grains, int wall) {
-    double stored = 0;
+    ExactSum stored;  // in the order of the list
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall == wall)
             for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c)
-                stored += endContact(grains, c);
-    return stored;
+                stored.add(endContact(grains, c));
+    return stored.value();
 }
 
 /// It is listed no more, and its memory and its force are zero.

@@ -18,6 +18,7 @@ public:
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
     /// if one is not a number.
     static double begin(Grains& grains, double step, int threads, const Integrator& scheme) {
+        if (scheme.remembersEarlier()) grains.earlier.resize(grains.size());  // of the first grains in a run
         std::vector<double> largest(static_cast<std::size_t>(threads), 0);
         inParts(grains.size(), threads, [&](int part, std::size_t first, std::size_t end) {
             auto& farthest = largest[static_cast<std::size_t>(part)];

@@ -145,10 +145,11 @@ void Scene::mixChangedLaws() {
 }
 
 void Scene::takeOverChanges() {
-    mixChangedLaws();
-    const bool newLaws = std::exchange(lawsAreNew, false), newWalls = wallHandler.generation() != knownWalls;
-    if (!newLaws && !newWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges()) return;
     try {
+        mixChangedLaws();
+        const bool newLaws = std::exchange(lawsAreNew, false),
+                   newWalls = wallHandler.generation() != knownWalls;
+        if (!newLaws && !newWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges()) return;
         const GrainChanges changes = particleHandler.takeChanges();
         if (newLaws) {
             if (laws().layout != contactSystem.store().memory.getLayout())
@@ -227,6 +228,8 @@ void Scene::warnOfFedSprings() const {
 }
 
 void Scene::visitAll(StateArchive& archive) {
+    // A file holds bodies, laws and contacts that fit together: what hooks have just changed is taken over.
+    if (archive.isWriting() && hasBegun) takeOverChanges();
     visitScene(archive);
     if (archive.isReading()) prepare();
     archive.group("contacts", [&] { contactSystem.visitState(archive, particleHandler.store()); });

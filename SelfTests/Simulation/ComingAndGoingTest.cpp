@@ -234,6 +234,29 @@ TEST(ComingAndGoing, aSceneMayBeginWithoutGrains) {
     EXPECT_GT(scene.particleHandler.getObject(0).getForce().z(), 0);
 }
 
+// Also one that a hook adds and takes away again at once, with another one behind it, and with an integrator
+// that remembers the step before the last.
+TEST(ComingAndGoing, mayHappenInOneHook) {
+    for (const Integrator& scheme : {integrators::predictedVelocityVerlet, integrators::adamsMoulton}) {
+        Hooked<Smooth> scene(smooth(), {}, step);
+        scene.setIntegrator(scheme);
+        scene.setGravity({0, 0, -9.81});
+        scene.hook = [](Hooked<Smooth>& s) {
+            if (s.getNumberOfTimeSteps() % 5 != 0) return;
+            const double x = 3 * r * static_cast<double>(s.getNumberOfTimeSteps());
+            const auto first = s.particleHandler.copyAndAddObject(s.grain(r, {x, 0, 0}));
+            s.particleHandler.copyAndAddObject(s.grain(r, {x, 3 * r, 0}));
+            s.particleHandler.removeObject(first.getId());
+        };
+        scene.run(50);
+        EXPECT_EQ(scene.particleHandler.getSize(), 10u);
+        // Each falls freely: v = -g t for the steps since it came, the first of which has no acceleration
+        // yet.
+        for (GrainReference grain : scene.particleHandler)
+            EXPECT_LT(grain.getVelocity().z(), 0.1 * -9.81 * step);
+    }
+}
+
 // The ledger has what grains bring and take, and their contacts, as given by the driver.
 TEST(ComingAndGoing, isInTheLedgerOfTheEnergy) {
     Hooked<Smooth> scene(smooth(), {{.position = {-1.96 * r, 0, 0}}, {}, {.position = {1.96 * r, 0, 0}}},
@@ -447,6 +470,32 @@ TEST(ChangeInARun, survivesARestart) {
     for (int k = 0; k < 50; ++k) again->step();
     EXPECT_EQ(again->getTime(), whole->getTime());
     EXPECT_EQ(stateHash(again->particleHandler.store()), stateHash(whole->particleHandler.store()));
+}
+
+// A restart file between a change and the next step: it is that of a run in which both have happened.
+TEST(ChangeInARun, isInARestartFileThatIsWrittenAtOnce) {
+    const TestFolder folder;
+    const std::vector<scenes::GrainMotion> grains{
+        {}, {.position = {1.99 * r, 0, 0}}, {.position = {0, 5 * r, 0}}};
+    const auto make = [&] { return std::make_unique<Hooked<Wet>>(wet(), grains, 1e-6); };
+    for (const auto& change : std::vector<std::function<void(Hooked<Wet>&)>>{
+             [](auto& s) {
+                 s.particleHandler.getObject(1).setPosition({50 * r, 0, 0});
+             },
+             [](auto& s) { s.particleHandler.getObject(1).setRadius(1.005 * r); },
+             [](auto& s) { s.particleHandler.getObject(1).fixParticle(); },
+             [](auto& s) { s.particleHandler.removeObject(0); },
+             [](auto& s) { s.speciesHandler.getObject(0)->setSurfaceTension(0.03); }}) {
+        auto whole = make(), again = make();
+        whole->run(20);
+        change(*whole);
+        whole->writeRestart(folder.path() / "changed.h5");
+        for (int k = 0; k < 50; ++k) whole->step();
+        again->restartFrom(folder.path() / "changed.h5");
+        again->initialise();
+        for (int k = 0; k < 50; ++k) again->step();
+        EXPECT_EQ(stateHash(again->particleHandler.store()), stateHash(whole->particleHandler.store()));
+    }
 }
 
 // ---- Walls
