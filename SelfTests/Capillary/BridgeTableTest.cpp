@@ -187,6 +187,7 @@ struct Scan {
 /// the bridge's largest one at them.
 double largestError(const Scan& scan, const std::vector<double>& shares) {
     double worst = 0;
+    int solved = 0, asked = 0;
     constexpr int angles = 25, volumes = 7;
     for (int i = 0; i < angles; ++i)
         for (int k = 0; k < volumes; ++k)
@@ -199,13 +200,18 @@ double largestError(const Scan& scan, const std::vector<double>& shares) {
                 const double end = findRupture(shape.conditions())->last.gap();
                 double largest = 0, error = 0;
                 for (const double share : shares) {
-                    const double force = solveBridge(shape.conditions(), share * end)->pinnedForce();
+                    ++asked;
+                    const auto bridge = solveBridge(shape.conditions(), share * end);
+                    if (!bridge) continue;
+                    ++solved;
+                    const double force = bridge->pinnedForce();
                     const double difference = std::abs(curve.at(share * end) - force);
                     largest = std::max(largest, std::abs(force));
                     error = std::max(error, scan.ofTheLargest ? difference : difference / std::abs(force));
                 }
                 worst = std::max(worst, scan.ofTheLargest ? error / largest : error);
             }
+    EXPECT_GE(solved, 0.99 * asked) << scan.fromAngle << " " << scan.leastVolume;
     return worst;
 }
 
