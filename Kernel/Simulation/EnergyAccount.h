@@ -25,8 +25,8 @@ public:
         if (step > 0)
             ledger.driver +=
                 kineticEnergy(grains) - ledger.kinetic + (potential + ledger.carried - ledger.potential);
-        before.resize(grains.nextIdentity());
-        for (std::size_t k = 0; k < grains.size(); ++k) before[grains.identity[k]] = motionOf(grains, k);
+        before.clear();
+        for (const std::uint32_t place : grains.place) before.push_back(motionOf(grains, place));
     }
 
     /// Where the step failed.
@@ -48,6 +48,10 @@ public:
     /// At the end of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const Vector<double>& gravity, double step,
                 const Integrator& scheme, EnergyLedger& ledger) {
+        // Grains may have been sorted since the begin of the step; the order of identities is the same.
+        rank.resize(grains.size());
+        std::uint32_t next = 0;
+        for (const std::uint32_t place : grains.place) rank[place] = next++;
         ledger.stepError -= workBesidesContacts(grains, gravity, step, scheme, ledger.gravityBefore);
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
@@ -83,7 +87,7 @@ private:
     }
 
     BodyMotion meanMotion(const Grains& grains, std::size_t k) const {
-        const Motion &then = before[grains.identity[k]], now = motionOf(grains, k);
+        const Motion &then = before[rank[k]], now = motionOf(grains, k);
         return {0.5 * (then.velocity + now.velocity), 0.5 * (then.spin + now.spin),
                 grains.translation[k].radius, grains.translation[k].inverseMass == 0};
     }
@@ -99,7 +103,7 @@ private:
             const BodyMotion mean = meanMotion(grains, k);
             sum.add(0.5 * step / grain.inverseMass * dot(gravityBefore + gravity, mean.velocity));
             if (!scheme.remembersEarlier()) continue;
-            const Motion &then = before[grains.identity[k]], now = motionOf(grains, k);
+            const Motion &then = before[rank[k]], now = motionOf(grains, k);
             const Vector<double> gained =
                 now.velocity - then.velocity - (0.5 * step) * (then.acceleration + now.acceleration);
             sum.add(dot(gained, mean.velocity) / grain.inverseMass);
@@ -126,7 +130,8 @@ private:
             ledger.*summed += account.*summed;
     }
 
-    std::vector<Motion> before;  // by identity
+    std::vector<Motion> before;       // in the order of identities
+    std::vector<std::uint32_t> rank;  // of the grain at each place in that order
     EnergyLedger atBegin;
     double potential = 0;  // J, at the places where the grains are
 };
