@@ -30,8 +30,20 @@ void forEachChange(const BlockState& before, const BlockState& after, Function&&
 
 }  // namespace
 
-void ContactEvents::after(const ContactStore& store, const Bucket& bucket,
+void ContactEvents::startColumns(ContactStore& store, const Bucket& bucket) const {
+    for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
+        const BlockState &then = states[b - bucket.begin], &now = store.states[b];
+        const unsigned before = unsigned{then.touching} | then.bridged;
+        const unsigned begins = (unsigned{now.touching} | now.bridged) & ~before;
+        for (std::size_t lane = 0; begins >> lane != 0; ++lane)
+            if ((begins >> lane & 1) != 0)
+                store.memory.named.set(store.slotOf(b * Pack::lanes + lane), startsOfColumns.data());
+    }
+}
+
+void ContactEvents::after(ContactStore& store, const Bucket& bucket,
                           const std::vector<std::uint32_t>& identity) {
+    if (!startsOfColumns.empty()) startColumns(store, bucket);
     if (!listening) return;
     for (std::uint32_t b = bucket.begin; b < bucket.end; ++b)
         forEachChange(states[b - bucket.begin], store.states[b], [&](unsigned lane, Kind kind) {

@@ -19,23 +19,30 @@ public:
         events.clear();
         events.swap(early);
     }
-    /// To be called before and after the forces of a bucket.
+    /// To be called before and after the forces of a bucket; after() also gives the columns of contacts that
+    /// begin to act the numbers with which they start.
     void before(const ContactStore& store, const Bucket& bucket) {
-        if (listening)
+        if (listening || !startsOfColumns.empty())
             states.assign(&store.states[bucket.begin], &store.states[bucket.begin] + bucket.size());
     }
-    void after(const ContactStore& store, const Bucket& bucket, const std::vector<std::uint32_t>& identity);
+    void after(ContactStore& store, const Bucket& bucket, const std::vector<std::uint32_t>& identity);
     /// A contact is about to end because a body is removed.
     void end(const ContactStore& store, std::uint32_t contact, const std::vector<std::uint32_t>& identity);
     /// Puts the events of the step into the order of identities, and counts them.
     void finish();
+
+    /// A contact has a column more, which starts at this number.
+    void addColumn(double initial) { startsOfColumns.push_back(initial); }
 
     [[nodiscard]] const std::vector<ContactEvent>& ofStep() const { return events; }
     [[nodiscard]] const ContactEventCounts& counts() const { return sums; }
     void visitState(StateArchive& archive) { archive.record<std::uint64_t>("counts", sums); }
 
 private:
+    void startColumns(ContactStore& store, const Bucket& bucket) const;
+
     bool listening = false;
+    std::vector<double> startsOfColumns;
     std::vector<BlockState> states;  // of a bucket before the step
     std::vector<ContactEvent> events, early;
     ContactEventCounts sums;

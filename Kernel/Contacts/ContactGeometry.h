@@ -21,6 +21,7 @@ struct ContactGeometry {
 
     // For laws with a torque of the contact's own.
     Vector<T> spinDifference;  // rad/s, of body 1 against body 2
+    T asymmetry;               // (r2 - r1) / (r1 + r2), 1 at a wall: for bridges that resist rolling
     T rotationResponse;        // 1/kg, R*^2 (1/I1 + 1/I2): of R* times the relative spin, to the torque / R*
 };
 
@@ -74,6 +75,8 @@ struct PairGeometry {
             g.spinSum = spin1 + spin2;
             if constexpr (S::hasContactTorque) {
                 g.spinDifference = spin1 - spin2;
+                if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
+                    g.asymmetry = (radius2 - radius1) / sum;
                 g.rotationResponse =
                     Pack(2.5) * (im1 * square(radius2) + im2 * square(radius1)) / square(sum);
             }
@@ -133,6 +136,8 @@ struct WallGeometry {
             g.spinLever = (radius - Pack(0.5) * g.overlap) * own;  // the wall's is in its velocity
             if constexpr (S::hasContactTorque) {
                 g.spinDifference = own - wall;
+                if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
+                    g.asymmetry = Pack(1);
                 g.rotationResponse = Pack(2.5) * im;
             }
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Kernel/Contacts/BridgeDrag.h"
 #include "Kernel/Contacts/ContactGeometry.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactTiming.h"
@@ -37,6 +38,7 @@ public:
     using NormalHistory = typename NormalHistoryOf<Normal>::template type<T>;
     template <class T>
     using Interaction = typename Adhesion::template Interaction<T>;
+    static constexpr BridgeResists resists = bridgeResists<Adhesion>;
 
     ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactTiming contactTiming,
                   const OverlapWatch& watch, ContactStore& contactStore)
@@ -80,21 +82,30 @@ public:
 
         Pack adhesive = 0;
         Mask bridged = touching & !touching;
+        BridgeResistance<Pack> resistance;
         if constexpr (Adhesion::acts) {
             const auto interaction = memory.interaction.load<Interaction>(block);
             const Pack separation = separationFor<Adhesion>(g.overlap);
             bridged = joined & (separation < interaction.range());
             adhesive = select(bridged, interaction.force(separation), Pack(0));
+            if constexpr (resists != BridgeResists::Nothing)
+                resistance = askResistance(block, interaction, g, bridged, maskFromBits(state.bridged));
         }
         const LastForces last = loadLastForces(block);
-        const NormalPart normal = computeNormal(block, state, g, last, touching, begins, adhesive);
-        const Pack normalForce = normal.repulsion - adhesive;
+        const NormalPart normal =
+            computeNormal(block, state, g, last, touching, begins, adhesive, resistance.normal);
+        Pack normalForce = normal.repulsion - adhesive;
+        if constexpr (resists != BridgeResists::Nothing) normalForce = normalForce + normal.viscous;
         if (ledger) [[unlikely]]
             writeSamples(block, g, normal, adhesive, touching, bridged);
-        Vector<Pack> tangential = zero;
+        Vector<Pack> tangential = zero, lastTorque = zero;
+        if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
         if constexpr (Friction::acts) tangential = computeFriction(block, g, last, touching, begins, normal);
+        if constexpr (resists >= BridgeResists::Sliding)
+            tangential =
+                tangential + computeDrag(block, g, last, lastTorque, bridged, resistance, tangential);
 
-        writeRecords(block, g.normal, normal.contact.overlap, normalForce, tangential);
+        writeRecords(block, g.normal, normal.lever, normalForce, tangential);
         state.touching = bits(touching);
         state.bridged = bits(bridged);
         state.closing = bits(normal.closing);
@@ -113,6 +124,8 @@ private:
         Pack elastic;    // N
         Pack damping;    // kg/s
         Pack approach;   // m/s, at the sample
+        Pack viscous;    // N, repulsion of a bridge that resists
+        Pack lever;      // m, of the overlap: half of it, each body's lever arm is shorter than its radius
         Contact<Pack> contact;
         SampleTiming<Pack> timing;
         Mask closing;
@@ -123,9 +136,13 @@ private:
     /// (F - F_last) dt / (2 m*), in which the dashpot is implicit. For two grains that makes the step exactly
     /// the trapezoidal rule.
     NormalPart computeNormal(std::size_t block, const BlockState& state, const ContactGeometry<Pack>& g,
-                             const LastForces& last, Mask touching, Mask begins, Pack adhesive) {
+                             const LastForces& last, Mask touching, Mask begins, Pack adhesive,
+                             [[maybe_unused]] Pack resistance) {
         NormalPart part;
         part.contact = {max(g.overlap, Pack(0)), g.effectiveRadius, g.effectiveMass};
+        part.lever = part.contact.overlap;
+        if constexpr (resists >= BridgeResists::Sliding)
+            part.lever = g.overlap;  // a bridge pulls in the middle of its gap
         auto history = memory.normalHistory.load<NormalHistory>(block);
         NormalForce<Pack> force = normalForce<Normal>(laws.normal, part.contact, history);
         memory.normalHistory.store<NormalHistory>(block, selectColumns<NormalHistory>(touching, history));
@@ -134,6 +151,7 @@ private:
         const Pack halfStep = Pack(0.5 * implicitStep) * g.inverseMass;
         const Pack predicted = dot(g.velocity, g.normal);
         const auto approachWith = [&](Pack damping) {
+            if constexpr (resists != BridgeResists::Nothing) damping = damping + resistance;
             return (predicted - halfStep * (force.elastic - adhesive - last.normalForce)) /
                    (Pack(1) + halfStep * damping);
         };
@@ -161,6 +179,7 @@ private:
             part.approach = approachWith(part.damping);
         }
         part.elastic = force.elastic;
+        if constexpr (resists != BridgeResists::Nothing) part.viscous = resistance * part.approach;
         part.repulsion = select(touching, force.elastic + part.damping * part.approach, Pack(0));
         return part;
     }
@@ -187,9 +206,54 @@ private:
                                                               max(normal.repulsion, Pack(0)), slip, history);
         if (ledger) [[unlikely]]
             writeSample(block, &ContactSample::sliding, force, touching);
-        if constexpr (S::hasContactTorque) computeRotation(block, g, touching, normal, slip, history);
+        if constexpr (HasContactTorque<Friction>) computeRotation(block, g, touching, normal, slip, history);
         memory.history.store<History>(block, selectColumns<History>(touching, history));
         return select(touching, force.force, zero);
+    }
+
+    /// What the bridges resist in this step; nothing where there are none.
+    BridgeResistance<Pack> askResistance(std::size_t block, const Interaction<Pack>& interaction,
+                                         const ContactGeometry<Pack>& g, Mask bridged, Mask before) {
+        Interaction<Pack> moved = interaction;
+        Pack asymmetry = 0;
+        if constexpr (resists >= BridgeResists::Rolling) asymmetry = g.asymmetry;
+        BridgeResistance<Pack> r = moved.resist({.separation = -g.overlap,
+                                                 .approach = dot(g.velocity, g.normal),
+                                                 .step = Pack(timeStep),
+                                                 .asymmetry = asymmetry,
+                                                 .forms = bridged & !before});
+        for (Pack* part : {&r.normal, &r.sliding, &r.coupling, &r.rolling})
+            *part = select(bridged, *part, Pack(0));
+        memory.interaction.store<Interaction>(block, selectColumns<Interaction>(bridged, moved, interaction));
+        return r;
+    }
+
+    /// The tangential force of the bridges; their torque is added to that of friction. As in
+    /// computeFriction, velocities get the change of the contact's own force and torque since the last step.
+    /// @param friction N, that acts on body 1 besides
+    Vector<Pack> computeDrag(std::size_t block, const ContactGeometry<Pack>& g, const LastForces& last,
+                             const Vector<Pack>& lastTorque, Mask bridged,
+                             const BridgeResistance<Pack>& resistance, const Vector<Pack>& friction) {
+        const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
+        const Vector<Pack> sideways = g.velocity - dot(g.velocity, g.normal) * g.normal;
+        const Vector<Pack> predicted = sideways + cross(g.spinLever, g.normal);
+        Vector<Pack> own = zero;  // N m, of friction
+        BridgeSlip<Pack> motion{.slip = predicted + response * (friction - cross(last.leverless, g.normal)),
+                                .roll = zero,
+                                .slipResponse = response,
+                                .rollResponse = Pack(0)};
+        if constexpr (resists >= BridgeResists::Rolling) {
+            motion.rollResponse = Pack(0.5 * implicitStep) * g.rotationResponse;
+            if constexpr (HasContactTorque<Friction>) own = loadTorques(block);
+            motion.roll = cross(g.normal, g.effectiveRadius * g.spinDifference +
+                                              (motion.rollResponse / g.effectiveRadius) * (own - lastTorque));
+        }
+        const BridgeDrag<Pack> drag = bridgeDrag(resistance, motion, g.normal);
+        if constexpr (resists >= BridgeResists::Rolling)
+            storeTorques(block, own + g.effectiveRadius * drag.torque);
+        if (ledger) [[unlikely]]
+            writeDrag(block, drag, bridged);
+        return drag.force;
     }
 
     /// Writes the contact's own torque. Velocity and response are those of R* times the relative spin, as in
@@ -198,11 +262,8 @@ private:
     template <class History>
     void computeRotation(std::size_t block, const ContactGeometry<Pack>& g, Mask touching,
                          const NormalPart& normal, const Slip<Pack>& sliding, History& history) {
-        static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
-        auto* base = reinterpret_cast<double*>(&memory.torques[block * Pack::lanes]);
-        const auto [x, y, z] = loadRecords<3>(base, 4, each.data());
         const Pack response = Pack(0.5 * implicitStep) * g.rotationResponse;
-        const Vector<Pack> last = (Pack(1) / g.effectiveRadius) * Vector<Pack>{x, y, z};
+        const Vector<Pack> last = (Pack(1) / g.effectiveRadius) * loadTorques(block);
         const Slip<Pack> turning{.velocity = g.effectiveRadius * g.spinDifference - response * last,
                                  .timeBefore = sliding.timeBefore,
                                  .timeAfter = sliding.timeAfter,
@@ -213,8 +274,19 @@ private:
             writeSample(block, &ContactSample::rolling, forces.rolling, touching);
             writeSample(block, &ContactSample::torsion, forces.torsion, touching);
         }
-        const Vector<Pack> torque =
-            g.effectiveRadius * select(touching, forces.rolling.force + forces.torsion.force, zero);
+        storeTorques(block,
+                     g.effectiveRadius * select(touching, forces.rolling.force + forces.torsion.force, zero));
+    }
+
+    // N m, of eight contacts, on body 1.
+    [[nodiscard]] Vector<Pack> loadTorques(std::size_t block) const {
+        static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
+        const auto* base = reinterpret_cast<const double*>(&memory.torques[block * Pack::lanes]);
+        const auto [x, y, z] = loadRecords<3>(base, 4, each.data());
+        return {x, y, z};
+    }
+    void storeTorques(std::size_t block, const Vector<Pack>& torque) {
+        auto* base = reinterpret_cast<double*>(&memory.torques[block * Pack::lanes]);
         storeRecords(base, std::array<Pack, 4>{torque.x, torque.y, torque.z, Pack(0)});
     }
 
@@ -266,9 +338,10 @@ private:
             sample.touching = touches ? 1 : 0;
             sample.bridged = joins ? 1 : 0;
             sample.normal = laneOf(g.normal, k);
-            sample.halfOverlap = 0.5 * normal.contact.overlap[k];
+            sample.halfOverlap = 0.5 * normal.lever[k];
             sample.effectiveRadius = g.effectiveRadius[k];
             sample.adhesiveForce = adhesive[k];
+            if constexpr (resists != BridgeResists::Nothing) sample.bridge.normalForce = normal.viscous[k];
             if (!touches) continue;
             const Contact<double> contact{normal.contact.overlap[k], normal.contact.effectiveRadius[k],
                                           normal.contact.effectiveMass[k]};
@@ -289,6 +362,16 @@ private:
                 memory.energies[block * Pack::lanes + static_cast<std::size_t>(k)].now.*
                     part = {laneOf(spring, k), laneOf(rest, k), stretch2[k], slider.stiffness[k],
                             laneOf(slider.slides | slider.slips, k) ? 1.0 : 0.0};
+    }
+    [[gnu::noinline, gnu::cold]] void writeDrag(std::size_t block, const BridgeDrag<Pack>& drag,
+                                                Mask bridged) {
+        for (int k = 0; k < Pack::lanes; ++k) {
+            if (!laneOf(bridged, k)) continue;
+            BridgeSample& sample =
+                memory.energies[block * Pack::lanes + static_cast<std::size_t>(k)].now.bridge;
+            sample.drag = laneOf(drag.force, k);
+            if constexpr (resists >= BridgeResists::Rolling) sample.torque = laneOf(drag.torque, k);
+        }
     }
     static bool laneOf(Mask mask, int k) { return (bits(mask) >> k & 1) != 0; }
     static Vector<double> laneOf(const Vector<Pack>& v, int k) { return {v.x[k], v.y[k], v.z[k]}; }

@@ -24,6 +24,7 @@ struct RotationRecord;
 /// How many numbers a contact remembers, and what it gives to its bodies.
 struct ContactLayout {
     std::size_t history = 0, normalHistory = 0, interaction = 0;
+    std::size_t named = 0;          // columns of a driver's own
     bool hasTorque = false;         // contacts have a tangential force, grains a spin
     bool hasContactTorque = false;  // and a torque besides that of the force
 
@@ -88,6 +89,8 @@ public:
 
     // What contacts remember, as numbers.
     virtual void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const = 0;
+    /// A bridge that was prepared again goes on with what it remembered.
+    virtual void takeBridgeState(int a, int b, double* interaction, const double* before) const = 0;
     [[nodiscard]] virtual double adhesiveForce(int a, int b, const double* interaction,
                                                double separation) const = 0;
     virtual void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const = 0;

@@ -35,7 +35,7 @@ public:
 
     /// Sorts the grains in space and lists their contacts.
     void rebuild(Grains& grains, ContactStore& store) {
-        RememberedContacts old(laws.layout, ledger);
+        RememberedContacts old(store.memory.getLayout(), ledger);
         old.take(store, grains.identity);
         rebuild(grains, store, old);
     }
@@ -160,11 +160,11 @@ private:
     void findWallContacts(const Grains& grains, const RememberedContacts& old) {
         for (std::size_t w = 0; w < walls.getSize(); ++w)
             if (!walls.isRemoved(w))
-            listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
-                std::vector<std::uint32_t> parts;
-                for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
-                    findWallContacts(grains, old, w, i, own, parts);
-            });
+                listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
+                    std::vector<std::uint32_t> parts;
+                    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+                        findWallContacts(grains, old, w, i, own, parts);
+                });
     }
 
     void findWallContacts(const Grains& grains, const RememberedContacts& old, std::size_t w, std::uint32_t i,
@@ -286,7 +286,14 @@ private:
                     wakeBlock(store, c / Pack::lanes, bucket, laws, grains);
             }
             forEachListed(bucket, [&](std::size_t c) {
-                if (entries[c]) old.recall(*entries[c], store, c, keepsBridges);
+                if (!entries[c]) return;
+                old.recall(*entries[c], store, c, keepsBridges);
+                if (keepsBridges || laws.layout.interaction == 0) return;
+                ContactNumbers bridge{};
+                store.memory.interaction.get(store.slotOf(c), bridge.data());
+                laws.takeBridgeState(bucket.species1, bucket.species2, bridge.data(),
+                                     old.bridgeOf(*entries[c]));
+                store.memory.interaction.set(store.slotOf(c), bridge.data());
             });
         }
         return recalled;

@@ -16,6 +16,13 @@ struct SliderSample {
     [[nodiscard]] double stored() const { return 0.5 * stiffness * stretch2; }
 };
 
+/// What a bridge gives body 1 against the motion of its ends, at the end of a step.
+struct BridgeSample {
+    double normalForce = 0;          // N, repulsion
+    Vector<double> drag{0, 0, 0};    // N, tangential
+    Vector<double> torque{0, 0, 0};  // N, over the effective radius
+};
+
 /// What a contact does at the end of a step, by mechanism; all zero where it does not act.
 struct ContactSample {
     double touching = 0, bridged = 0;      // 1 or 0
@@ -30,6 +37,7 @@ struct ContactSample {
     double elasticEnergy = 0;              // J, that the overlap gives back
     SliderSample sliding;
     SliderSample rolling, torsion;  // torques on body 1 over the effective radius
+    BridgeSample bridge;
 
     [[nodiscard]] bool acts() const { return touching + bridged > 0; }
 };

@@ -93,6 +93,7 @@ public:
     MemoryColumns history;  // of the friction law
     MemoryColumns normalHistory;
     MemoryColumns interaction;
+    MemoryColumns named;                     // of the driver's own columns
     std::vector<ForceTorqueRecord> records;  // of laws with friction
     std::vector<ForceRecord> forces;         // of laws without
     std::vector<TorqueRecord> torques;       // empty unless the friction law has a torque of its own
@@ -104,6 +105,7 @@ public:
         history.count = of.history;
         normalHistory.count = of.normalHistory;
         interaction.count = of.interaction;
+        named.count = of.named;
     }
     [[nodiscard]] const ContactLayout& getLayout() const { return layout; }
 
@@ -120,6 +122,7 @@ public:
         history.reserve(blocks);
         normalHistory.reserve(blocks);
         interaction.reserve(blocks);
+        named.reserve(blocks);
         if (layout.hasTorque) reserveLarge(records, blocks * Pack::lanes);
         else reserveLarge(forces, blocks * Pack::lanes);
         if (layout.hasContactTorque) reserveLarge(torques, blocks * Pack::lanes);
@@ -138,8 +141,8 @@ public:
     /// Forgets one contact; returns the energy (J) that was stored in it, where a ledger is kept.
     double clear(std::size_t slot);
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(history.columns, normalHistory.columns, interaction.columns, records, forces, torques,
-                       energies, blockOf);
+        return bytesOf(history.columns, normalHistory.columns, interaction.columns, named.columns, records,
+                       forces, torques, energies, blockOf);
     }
 
 private:
@@ -147,6 +150,7 @@ private:
         history.resize(blocks);
         normalHistory.resize(blocks);
         interaction.resize(blocks);
+        named.resize(blocks);
         if (layout.hasTorque) records.resize(blocks * Pack::lanes);
         else forces.resize(blocks * Pack::lanes);
         if (layout.hasContactTorque) torques.resize(blocks * Pack::lanes);
@@ -238,7 +242,7 @@ public:
                    Pack::lanes +
                (layout.hasTorque ? sizeof(ForceTorqueRecord) : sizeof(ForceRecord)) +
                2 * sizeof(std::uint32_t) + (layout.hasContactTorque ? sizeof(TorqueRecord) : 0) +
-               sizeof(double) * (layout.history + layout.normalHistory + layout.interaction);
+               sizeof(double) * (layout.history + layout.normalHistory + layout.interaction + layout.named);
     }
     /// Bytes of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const {

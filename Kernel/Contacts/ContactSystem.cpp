@@ -18,7 +18,9 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     skin = skinChoice;
     ledger = withLedger;
     unlisted = infinity;
-    contacts.memory.setLayout(species->layout);
+    ContactLayout layout = species->layout;
+    layout.named = namedColumns.size();
+    contacts.memory.setLayout(layout);
     overlapWatch = OverlapWatch(species->overlapLimit.largest);
 }
 
@@ -132,7 +134,10 @@ double ContactSystem::endContact(const Grains& grains, std::uint32_t contact) {
 }
 
 void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
-    RememberedContacts remembered(species->layout, ledger);
+    std::string names;
+    for (const NamedColumn& column : namedColumns) names += column.fieldName() + " ";
+    archive.same("columns", names);
+    RememberedContacts remembered(contacts.memory.getLayout(), ledger);
     if (archive.isWriting()) remembered.take(contacts, grains.identity);
     std::vector<std::size_t> partsOfWalls;
     for (std::size_t w = 0; w < walls->getSize(); ++w)
@@ -162,7 +167,33 @@ void ContactSystem::computeWallForces(const Grains& grains, double step, Contact
 ObservedContact ContactSystem::observe(const Grains& grains, const Bucket& bucket,
                                        std::uint32_t contact) const {
     const Wall* wall = bucket.wall < 0 ? nullptr : &wallOf(bucket);
-    return observeContact(contacts, *species, grains, periodic, bucket, wall, contact);
+    ObservedContact seen = observeContact(contacts, *species, grains, periodic, bucket, wall, contact);
+    seen.list = rebuilds;
+    return seen;
+}
+
+std::size_t ContactSystem::addColumn(const NamedColumn& column) {
+    requireNewColumn(column, "contacts", hasColumn(namedColumns, column.name));
+    if (constexpr std::size_t most = std::tuple_size_v<ContactNumbers>; namedColumns.size() == most)
+        throw InputError(fmt::format("The column '{}' of the contacts is one too many; there can be {}.",
+                                     column.name, most));
+    namedColumns.push_back(column);
+    contactEvents.addColumn(column.initial);
+    return namedColumns.size() - 1;
+}
+double& ContactSystem::columnOf(const ObservedContact& seen, std::size_t column) {
+    return contacts.memory.named.at(slotOf(seen), column);
+}
+double ContactSystem::columnOf(const ObservedContact& seen, std::size_t column) const {
+    return contacts.memory.named.at(slotOf(seen), column);
+}
+std::size_t ContactSystem::slotOf(const ObservedContact& seen) const {
+    if (seen.list != rebuilds)
+        throw InputError(fmt::format(
+            "The contact of particle {} was observed before contacts were listed again; observe it "
+            "in the step in which its columns are asked for.",
+            seen.particle1));
+    return contacts.slotOf(seen.number);
 }
 double ContactSystem::springLength(std::uint32_t contact) const {
     ContactNumbers history;

@@ -11,9 +11,26 @@
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Contacts/SkinChoice.h"
 #include "Kernel/Contacts/WallPointSearch.h"
+#include "Kernel/Particles/NamedColumn.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
+
+class ContactSystem;
+
+/// A column of numbers, one for each contact that acts, by the contact as it was observed in this step:
+/// for (const ObservedContact& contact : interactions()) age[contact] += getTimeStep().
+class ContactColumnReference {
+public:
+    ContactColumnReference(ContactSystem& system, std::size_t column) : contacts(&system), number(column) {}
+
+    /// Throws InputError where contacts have been listed again since the contact was observed.
+    [[nodiscard]] double& operator[](const ObservedContact& contact) const;
+
+private:
+    ContactSystem* contacts;
+    std::size_t number;
+};
 
 /// The contacts of a scene: their list, and the forces of a step.
 class ContactSystem {
@@ -114,6 +131,15 @@ public:
             }
     }
 
+    /// A number of the driver's own that is kept of each contact from its first touch (or bridge) until it
+    /// neither touches nor is bridged. Returns the column's number. Before prepare(). Throws InputError for a
+    /// name that is there already.
+    std::size_t addColumn(const NamedColumn& column);
+    [[nodiscard]] const std::vector<NamedColumn>& columns() const { return namedColumns; }
+    /// Of a contact as it was observed. Throws InputError if contacts have been listed again since then.
+    [[nodiscard]] double& columnOf(const ObservedContact& seen, std::size_t column);
+    [[nodiscard]] double columnOf(const ObservedContact& seen, std::size_t column) const;
+
     [[nodiscard]] ObservedContact observe(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
     /// m, of the tangential spring.
@@ -123,6 +149,7 @@ private:
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
+    [[nodiscard]] std::size_t slotOf(const ObservedContact& seen) const;
     void listAgain(Grains& grains, const RememberedContacts* remembered = nullptr, bool keepsBridges = true);
     double endContact(const Grains& grains, std::uint32_t contact);
     [[nodiscard]] double gapAround(const Grains& grains, std::uint32_t place) const;
@@ -137,6 +164,7 @@ private:
     const WallHandler* walls = nullptr;
     PeriodicBox periodic;
     ContactStore contacts;
+    std::vector<NamedColumn> namedColumns;
     SkinChoice skin;
     std::size_t stepsListed = 0;   // since the contacts were listed
     double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
@@ -152,5 +180,9 @@ private:
     ContactEvents contactEvents;
     std::vector<OverlapWatch> watches;  // of each thread
 };
+
+inline double& ContactColumnReference::operator[](const ObservedContact& contact) const {
+    return contacts->columnOf(contact, number);
+}
 
 }  // namespace pendular

@@ -34,6 +34,15 @@ Memory<Pack> selectColumns(Mask mask, const Memory<Pack>& memory) {
     return std::bit_cast<Memory<Pack>>(packs);
 }
 
+/// The first memory where the mask is set, the second elsewhere.
+template <template <class> class Memory>
+Memory<Pack> selectColumns(Mask mask, const Memory<Pack>& yes, const Memory<Pack>& no) {
+    auto packs = std::bit_cast<std::array<Pack, columnsOf<Memory>>>(yes);
+    const auto others = std::bit_cast<std::array<Pack, columnsOf<Memory>>>(no);
+    for (std::size_t c = 0; c < packs.size(); ++c) packs[c] = select(mask, packs[c], others[c]);
+    return std::bit_cast<Memory<Pack>>(packs);
+}
+
 /// The numbers that contacts remember: block b has columns[b * count] ... and lane k of each is contact k's
 /// number. How many there are is known at run time; the kernel, which knows the law, takes a block as
 /// Memory<Pack>, whose numbers come first.
@@ -66,7 +75,13 @@ struct MemoryColumns {
         }
     }
 
-    /// The numbers of one contact, `count` of them.
+    /// One number of a contact, and all `count` of them.
+    [[nodiscard]] const double& at(std::size_t contact, std::size_t column) const {
+        return columns[contact / Pack::lanes * count + column].lane[contact % Pack::lanes];
+    }
+    [[nodiscard]] double& at(std::size_t contact, std::size_t column) {
+        return columns[contact / Pack::lanes * count + column].lane[contact % Pack::lanes];
+    }
     void get(std::size_t contact, double* numbers) const {
         for (std::size_t c = 0; c < count; ++c) numbers[c] = at(contact, c);
     }
@@ -75,14 +90,6 @@ struct MemoryColumns {
     }
     void clear(std::size_t contact) {
         for (std::size_t c = 0; c < count; ++c) at(contact, c) = 0;
-    }
-
-private:
-    [[nodiscard]] const double& at(std::size_t contact, std::size_t column) const {
-        return columns[contact / Pack::lanes * count + column].lane[contact % Pack::lanes];
-    }
-    [[nodiscard]] double& at(std::size_t contact, std::size_t column) {
-        return columns[contact / Pack::lanes * count + column].lane[contact % Pack::lanes];
     }
 };
 

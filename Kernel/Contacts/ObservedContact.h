@@ -21,8 +21,10 @@ struct ObservedContact {
     Vector<double> shift;  // m, from the centre of particle 1 to that of particle 2 or to the wall's surface
     Vector<double> force;  // N, on particle 1
     bool touching;
-    double bridgeVolume;   // m^3; 0 without a bridge of liquid
-    Vector<double> point;  // m, in the middle of the overlap or of the gap; at a wall on its surface
+    double bridgeVolume;       // m^3; 0 without a bridge of liquid
+    Vector<double> point;      // m, in the middle of the overlap or of the gap; at a wall on its surface
+    std::uint32_t number = 0;  // in the list of contacts
+    std::size_t list = 0;      // which list that is
 
     /// m; negative where the surfaces are apart
     [[nodiscard]] double overlap() const { return -separation; }
@@ -51,7 +53,8 @@ inline ObservedContact observeContact(const ContactStore& contacts, const Contac
                          contacts.forceOf(contact),
                          contacts.touches(contact),
                          0,
-                         {}};
+                         {},
+                         contact};
     if (bucket.wall < 0) {
         const TranslationRecord& second = grains.translation[block.second[lane]];
         seen.particle2 = grains.identity[block.second[lane]];

@@ -30,7 +30,7 @@ void takeRecord(const double*& from, Record& record) {
 RememberedContacts::RememberedContacts(const ContactLayout& contactLayout, bool withLedger)
     : layout(contactLayout),
       ledger(withLedger),
-      width(layout.history + layout.normalHistory + layout.interaction +
+      width(layout.history + layout.normalHistory + layout.interaction + layout.named +
             ((layout.hasTorque ? sizeof(ForceTorqueRecord) : sizeof(ForceRecord)) +
              (layout.hasContactTorque ? sizeof(TorqueRecord) : 0)) /
                 sizeof(double)) {}
@@ -75,7 +75,8 @@ void RememberedContacts::take(const ContactStore& store, const std::vector<std::
 
 void RememberedContacts::keep(const ContactStore& store, std::size_t slot, double* to) const {
     const ContactMemory& memory = store.memory;
-    for (const MemoryColumns* columns : {&memory.history, &memory.normalHistory, &memory.interaction}) {
+    for (const MemoryColumns* columns :
+         {&memory.history, &memory.normalHistory, &memory.interaction, &memory.named}) {
         columns->get(slot, to);
         to += columns->count;
     }
@@ -90,7 +91,8 @@ void RememberedContacts::recall(const Entry& entry, ContactStore& store, std::si
     const auto number = static_cast<std::size_t>(&entry - entries.data());
     const std::size_t slot = store.slotOf(to);
     const double* from = numbers.data() + number * width;
-    for (MemoryColumns* columns : {&memory.history, &memory.normalHistory, &memory.interaction}) {
+    for (MemoryColumns* columns :
+         {&memory.history, &memory.normalHistory, &memory.interaction, &memory.named}) {
         if (withBridge || columns != &memory.interaction) columns->set(slot, from);
         from += columns->count;
     }

@@ -39,6 +39,11 @@ public:
     /// Null if there is none.
     [[nodiscard]] const Entry* find(std::uint32_t place, std::uint32_t wall, std::uint32_t other) const;
 
+    /// The numbers of the bridge of a contact.
+    [[nodiscard]] const double* bridgeOf(const Entry& entry) const {
+        return numbers.data() + static_cast<std::size_t>(&entry - entries.data()) * width + layout.history +
+               layout.normalHistory;
+    }
     /// Gives all that the contact remembered to a contact of a new store, whose block has memory.
     /// @param withBridge also the bridge as it was prepared
     void recall(const Entry& entry, ContactStore& store, std::size_t to, bool withBridge) const;

@@ -47,6 +47,9 @@ public:
     void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const override {
         ofPair(a, b).prepareBridge(a, b, bodies, interaction);
     }
+    void takeBridgeState(int a, int b, double* interaction, const double* before) const override {
+        ofPair(a, b).takeBridgeState(a, b, interaction, before);
+    }
     [[nodiscard]] double adhesiveForce(int a, int b, const double* interaction,
                                        double separation) const override {
         return ofPair(a, b).adhesiveForce(a, b, interaction, separation);

@@ -12,6 +12,7 @@ inline constexpr ContactLayout layoutOf{
     .history = columnsOf<S::Friction::template History>,
     .normalHistory = columnsOf<NormalHistoryOf<typename S::Normal>::template type>,
     .interaction = columnsOf<S::Adhesion::template Interaction>,
+    .named = 0,
     .hasTorque = S::hasTorque,
     .hasContactTorque = S::hasContactTorque};
 
@@ -72,6 +73,14 @@ public:
     void prepareBridge([[maybe_unused]] int a, [[maybe_unused]] int b, [[maybe_unused]] const Bodies& bodies,
                        [[maybe_unused]] double* to) const override {
         if constexpr (Adhesion::acts) putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies), to);
+    }
+    void takeBridgeState(int /*a*/, int /*b*/, [[maybe_unused]] double* to,
+                         [[maybe_unused]] const double* before) const override {
+        if constexpr (bridgeResists<Adhesion> != BridgeResists::Nothing) {
+            auto bridge = memoryFrom<Interaction<double>>(to);
+            bridge.takeState(memoryFrom<Interaction<double>>(before));
+            putMemory(bridge, to);
+        }
     }
     [[nodiscard]] double adhesiveForce(int /*a*/, int /*b*/, [[maybe_unused]] const double* from,
                                        [[maybe_unused]] double separation) const override {

@@ -31,6 +31,8 @@ inline void handOver(ContactStore& store, const ContactLaws& laws, const Bucket&
     memory.normalHistory.clear(old);
     memory.interaction.get(old, numbers);
     memory.interaction.set(next, numbers);
+    memory.named.get(old, numbers);
+    memory.named.set(next, numbers);
     // The kernel reads the forces of the last step.
     const auto move = [&](auto& column) {
         if (column.empty()) return;

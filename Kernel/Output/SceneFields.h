@@ -50,7 +50,7 @@ PolyData grainPoints(const ParticleStore& grains) {
         numbers.reserve(count);
         for (const std::uint32_t place : grains.place)
             numbers.push_back(static_cast<Real>(column.values[place]));
-        data.pointFields.push_back({column.name + "_" + column.unit, 1, std::move(numbers)});
+        data.pointFields.push_back({column.fieldName(), 1, std::move(numbers)});
     }
     return data;
 }
@@ -105,6 +105,7 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
     contacts.forEachActing(grains, [&](const Bucket&, std::uint32_t) { ++count; });
     std::vector<Real> force, normal, adhesive, overlap, volume;
     std::vector<std::int32_t> bridged, first, second, wall;
+    std::vector<std::vector<Real>> named(contacts.columns().size());
     force.reserve(3 * count), data.corners.reserve(2 * count);
     for (auto* column : {&normal, &adhesive, &overlap}) column->reserve(count);
     for (auto* column : {&bridged, &first, &second, &wall, &data.ends}) column->reserve(count);
@@ -135,6 +136,8 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
         first.push_back(static_cast<std::int32_t>(seen.particle1));
         second.push_back(bucket.wall < 0 ? static_cast<std::int32_t>(seen.particle2) : -1);
         wall.push_back(bucket.wall);
+        for (std::size_t c = 0; c < named.size(); ++c)
+            named[c].push_back(static_cast<Real>(contacts.columnOf(seen, c)));
     });
     data.cellFields = {{"force_N", 3, std::move(force)},
                        {"normal_force_N", 1, std::move(normal)},
@@ -145,6 +148,8 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
                        {"particle2", 1, std::move(second)},
                        {"wall", 1, std::move(wall)}};
     if (laws.bridgeVolume(0, 0)) data.cellFields.push_back({"bridge_volume_m3", 1, std::move(volume)});
+    for (std::size_t c = 0; c < named.size(); ++c)
+        data.cellFields.push_back({contacts.columns()[c].fieldName(), 1, std::move(named[c])});
     return data;
 }
 

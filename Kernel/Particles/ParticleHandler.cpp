@@ -144,16 +144,9 @@ GrainReference ParticleHandler::getObject(std::size_t identity) {
 
 GrainColumnReference ParticleHandler::addColumn(const std::string& name, const std::string& unit,
                                                 double initial) {
-    const auto isName = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    };
-    if (name.empty() || !std::ranges::all_of(name, isName))
-        throw InputError(
-            fmt::format("The name '{}' of a column of grains must have letters, digits and _ only.", name));
-    for (const GrainColumn& column : grains.columns)
-        if (column.name == name)
-            throw InputError(fmt::format("There is a column '{}' of the grains already.", name));
-    grains.columns.push_back({name, unit, initial, std::vector<double>(grains.size(), initial)});
+    const NamedColumn added{name, unit, initial};
+    requireNewColumn(added, "grains", hasColumn(grains.columns, name));
+    grains.columns.push_back({added, std::vector<double>(grains.size(), initial)});
     return {*this, grains.columns.size() - 1};
 }
 

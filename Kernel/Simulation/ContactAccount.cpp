@@ -21,12 +21,12 @@ RelativeMotion relativeMotion(const ContactSample& sample, const BodyMotion& fir
 
 /// W, that bodies which are held give to the contact: the force on each times its velocity, reversed.
 double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMotion& second, bool isWall) {
-    const Vector<double> tangential = s.sliding.spring + s.sliding.rest;
-    const Vector<double> force =
-        (s.adhesiveForce - s.elasticForce - s.dashpotForce) * s.normal + tangential;  // on body 1
+    const Vector<double> tangential = s.sliding.spring + s.sliding.rest + s.bridge.drag;
+    const Vector<double> force =  // on body 1
+        (s.adhesiveForce - s.elasticForce - s.dashpotForce - s.bridge.normalForce) * s.normal + tangential;
     const Vector<double> leverless = cross(s.normal, tangential);
-    const Vector<double> own =
-        s.effectiveRadius * (s.rolling.spring + s.rolling.rest + s.torsion.spring + s.torsion.rest);
+    const Vector<double> own = s.effectiveRadius * (s.rolling.spring + s.rolling.rest + s.torsion.spring +
+                                                    s.torsion.rest + s.bridge.torque);
     if (isWall) return dot(force, s.wallVelocity) + dot(own, s.wallSpin);
     double given = 0;
     if (first.isHeld)
@@ -86,6 +86,12 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
         (kind.adhesionFormsAtContact ? account.brokenAdhesion : account.stepError) += record.adhesionWork;
         record.adhesionWork = 0;
     }
+
+    const auto lostInBridge = [&](const BridgeSample& bridge, const RelativeMotion& motion) {
+        return half * (bridge.normalForce * motion.approach - dot(bridge.drag, motion.slip) -
+                       dot(bridge.torque, motion.turning));
+    };
+    account.viscousBridges += lostInBridge(last.bridge, before) + lostInBridge(now.bridge, after);
 
     const bool lasts = last.touching > 0 && now.touching > 0;
     addSlider(last.sliding, now.sliding, before.slip, after.slip, lasts, step,

@@ -126,7 +126,7 @@ private:
         if (!isStep) return;
         for (double L::*summed :
              {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding, &L::rolling, &L::torsion,
-              &L::brokenAdhesion, &L::stiffening, &L::walls, &L::stepError})
+              &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls, &L::stepError})
             ledger.*summed += account.*summed;
     }
 

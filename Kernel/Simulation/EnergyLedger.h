@@ -27,6 +27,7 @@ struct EnergyLedger {
     double rolling = 0;  // sliders and dashpots
     double torsion = 0;
     double brokenAdhesion = 0;  // net work done against adhesions and bridges that have broken
+    double viscousBridges = 0;  // by bridges that resist motion
     /// Of tangential springs whose stiffness follows the overlap while they are stretched, for which the laws
     /// have no force: lost as contacts open, negative as they close.
     double stiffening = 0;
@@ -51,7 +52,7 @@ struct EnergyLedger {
     [[nodiscard]] double stored() const { return springs() + adhesive; }
     [[nodiscard]] double lost() const {
         return normalDashpots + plastic + tangentialDashpots + sliding + rolling + torsion + brokenAdhesion +
-               stiffening;
+               viscousBridges + stiffening;
     }
     /// Constant but for the error of the time steps.
     [[nodiscard]] double total() const { return kinetic + potential + stored() + lost() - walls - driver; }
@@ -80,6 +81,7 @@ struct EnergyLedger {
                                      {"lost_in_rolling", &L::rolling},
                                      {"lost_in_torsion", &L::torsion},
                                      {"lost_in_broken_adhesion", &L::brokenAdhesion},
+                                     {"lost_in_viscous_bridges", &L::viscousBridges},
                                      {"lost_in_stiffening", &L::stiffening},
                                      {"given_by_walls", &L::walls},
                                      {"given_by_driver", &L::driver},

@@ -152,7 +152,9 @@ void Scene::takeOverChanges() {
         if (!newLaws && !newWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges()) return;
         const GrainChanges changes = particleHandler.takeChanges();
         if (newLaws) {
-            if (laws().layout != contactSystem.store().memory.getLayout())
+            ContactLayout asked = laws().layout;
+            asked.named = contactSystem.columns().size();
+            if (asked != contactSystem.store().memory.getLayout())
                 throw InputError(
                     "Simulation: a species was added in the run whose contacts remember more, or have "
                     "friction "

@@ -78,6 +78,16 @@ public:
         return contactSystem.events().counts();
     }
 
+    /// A number that is kept of each contact from now on, by name: from its first touch or bridge, when it
+    /// has the initial value, until it neither touches nor is bridged. It is in restart files and in the
+    /// outputs of fields, there as NAME_UNIT. At set-up only. Throws InputError for a name that is there
+    /// already.
+    ContactColumnReference addContactColumn(const std::string& columnName, const std::string& unit,
+                                            double initial = 0) {
+        requireSetUp("columns of contacts");
+        return {contactSystem, contactSystem.addColumn({columnName, unit, initial})};
+    }
+
     /// All contacts that have a force, in the order of identities, as of the last step.
     [[nodiscard]] std::vector<ObservedContact> interactions() const;
     /// Those of one grain. Throws InputError if there is no such grain.

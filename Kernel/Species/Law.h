@@ -211,6 +211,59 @@ concept HasAdhesionForce = requires(const typename Law::template Interaction<T> 
     { interaction.range() } -> std::same_as<T>;  // m
 };
 
+/// What of the motion of its ends a bridge resists, besides its force; each has those before it. A law says
+/// so by a member `resists`; one without it feels the separation only, and its scenes pay for nothing else.
+enum class BridgeResists { Nothing, Approach, Sliding, Rolling };
+template <class Law>
+inline constexpr BridgeResists bridgeResists = [] {
+    if constexpr (requires { Law::resists; }) return Law::resists;
+    else return BridgeResists::Nothing;
+}();
+
+/// How the ends of a bridge move in a step.
+template <class T>
+struct BridgeMotion {
+    T separation;     // m, of the surfaces; negative where they overlap
+    T approach;       // m/s, of the surfaces, predicted for the end of the step
+    T step;           // s; zero at the start of a scene
+    T asymmetry;      // (r2 - r1) / (r1 + r2), 1 at a wall; 0 for a law that does not resist rolling
+    MaskOf<T> forms;  // the bridge was not there in the last step: what it remembers starts
+};
+
+/// What a bridge gives against the motion of its ends, as coefficients (kg/s), so that the kernel can make
+/// the forces implicit. With the slip u (m/s) of surface 1 against surface 2, and W = R* n x (spin 1 - spin
+/// 2), the speed (m/s) with which body 1 rolls along the surface of body 2, the bridge gives body 1
+///     the normal force  -normal x approach,
+///     the tangential force  F = -(sliding u + coupling W)  at the contact point, and
+///     the torque  R* m x n  with  m = -(coupling u + rolling W);
+/// body 2 gets the opposite. Against the twist about n there is nothing. Source of the form: the resistance
+/// matrix of lubrication theory, Jeffrey and Onishi (1984), J. Fluid Mech. 139, which is symmetric and
+/// positive definite: sliding x rolling > coupling^2.
+template <class T>
+struct BridgeResistance {
+    T normal = T(0), sliding = T(0), coupling = T(0), rolling = T(0);
+};
+
+/// A law whose bridge resists motion: its Interaction has a function resist(motion), which may change what
+/// the interaction remembers, and takeState(before), which takes over what a bridge remembers when it is
+/// prepared again; largestResistance(bodies) is for the stability limit.
+template <class Law, class T>
+concept HasResistance = requires(typename Law::template Interaction<T> interaction,
+                                 const BridgeMotion<T>& motion) {
+    { interaction.resist(motion) } -> std::same_as<BridgeResistance<T>>;
+};
+template <class Law>
+concept ResistsAsItSays = (bridgeResists<Law> == BridgeResists::Nothing
+                               ? !HasResistance<Law, double>
+                               : HasResistance<Law, double> && HasResistance<Law, Pack> &&
+                                     requires(const Law law, const Bodies bodies,
+                                              typename Law::template Interaction<double> bridge) {
+                                         {
+                                             law.largestResistance(bodies)
+                                             } -> std::same_as<BridgeResistance<double>>;
+                                         bridge.takeState(bridge);
+                                     });
+
 /// The separation (m) that an adhesion law is given at an overlap (m): 0 in contact, or negative for a law
 /// that says `readsOverlap`.
 template <class Law, class T>
@@ -224,7 +277,7 @@ template <class Law, class T>
 /// range.
 template <class Law>
 concept AdhesionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<decltype(Law::acts), const bool> &&
-    (!Law::acts || (HasAdhesionForce<Law, double> && HasAdhesionForce<Law, Pack> &&
+    (!Law::acts || (HasAdhesionForce<Law, double> && HasAdhesionForce<Law, Pack> && ResistsAsItSays<Law> &&
                     std::same_as<decltype(Law::formsAtContact), const bool> &&
                     requires(const Law law, const Bodies bodies) {
                         { law.prepare(bodies) } -> std::same_as<typename Law::template Interaction<double>>;

@@ -78,9 +78,10 @@ struct Species : MixedSpecies<N, F, A> {
     [[nodiscard]] std::string getName() const { return std::string(name); }
 
     /// Grains of this species have a spin and their contacts a torque.
-    static constexpr bool hasTorque = F::acts;
+    static constexpr bool hasTorque = F::acts || bridgeResists<A> >= BridgeResists::Sliding;
     /// Contacts give their bodies a torque of their own, besides that of the tangential force.
-    static constexpr bool hasContactTorque = HasContactTorque<F>;
+    static constexpr bool hasContactTorque =
+        HasContactTorque<F> || bridgeResists<A> >= BridgeResists::Rolling;
 
     void setDensity(double value) {
         checkValue(name, "density", value, "kg/m^3", positive);

@@ -45,6 +45,9 @@ ContactStiffness contactStiffness(const Mixed& laws, const Bodies& bodies, doubl
             (interaction.force(shift - contact.overlap) - interaction.force(-shift - contact.overlap)) /
             (2 * shift);
     }
+    BridgeResistance<double> bridge;
+    if constexpr (bridgeResists<Adhesion> != BridgeResists::Nothing)
+        bridge = static_cast<const Adhesion&>(laws).largestResistance(bodies);
     if constexpr (Friction::acts) {
         constexpr double sticking = 1e100;  // N
         const auto friction = static_cast<const Friction&>(laws).prepare(normal);
@@ -69,6 +72,9 @@ ContactStiffness contactStiffness(const Mixed& laws, const Bodies& bodies, doubl
             found.torsion = turning(along);
         }
     }
+    found.normal.dashpot += bridge.normal;
+    found.sliding.dashpot += bridge.sliding + std::abs(bridge.coupling);
+    found.rolling.dashpot += bridge.rolling + std::abs(bridge.coupling);
     return found;
 }
 

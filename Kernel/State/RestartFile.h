@@ -8,7 +8,7 @@
 namespace pendular {
 
 /// The format of restart files that this version writes, and the only one that it reads.
-inline constexpr int restartFormat = 4;
+inline constexpr int restartFormat = 5;
 
 /// Throws InputError in a build without the HDF5 library, in which there are no restart files.
 void requireRestartFiles();

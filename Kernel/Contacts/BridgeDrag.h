@@ -1,0 +1,38 @@
+#pragma once
+
+#include "Kernel/Species/Law.h"
+
+namespace pendular {
+
+/// What a bridge that resists sliding and rolling gives body 1.
+template <class T>
+struct BridgeDrag {
+    Vector<T> force;   // N, at the contact point
+    Vector<T> torque;  // N, the torque over the effective radius
+};
+
+/// Two tangential motions of a contact at the moment of the force: without it, slip and roll are the
+/// velocities (m/s) of BridgeResistance, and they change by the responses (m/s per N) times force and torque
+/// over R*.
+template <class T>
+struct BridgeSlip {
+    Vector<T> slip, roll;
+    T slipResponse, rollResponse;
+};
+
+/// The drag at the velocities that it leaves itself: with C the symmetric matrix of the resistance and P the
+/// diagonal one of the responses, (1 + P C) v = v0 and drag = -C v. (The response of the roll to the force,
+/// zero between equal grains, is left to the next step.)
+template <class T>
+BridgeDrag<T> bridgeDrag(const BridgeResistance<T>& c, const BridgeSlip<T>& motion, const Vector<T>& normal) {
+    const T slipBySlip = T(1) + motion.slipResponse * c.sliding;
+    const T rollByRoll = T(1) + motion.rollResponse * c.rolling;
+    const T slipByRoll = motion.slipResponse * c.coupling, rollBySlip = motion.rollResponse * c.coupling;
+    const T inverse = T(1) / (slipBySlip * rollByRoll - slipByRoll * rollBySlip);
+    const Vector<T> slip = (rollByRoll * inverse) * motion.slip - (slipByRoll * inverse) * motion.roll;
+    const Vector<T> roll = (slipBySlip * inverse) * motion.roll - (rollBySlip * inverse) * motion.slip;
+    const Vector<T> along = c.coupling * slip + c.rolling * roll;
+    return {-(c.sliding * slip + c.coupling * roll), -cross(along, normal)};
+}
+
+}  // namespace pendular
