@@ -146,6 +146,7 @@ private:
 
     void addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const {
         if (grains.translation[i].inverseMass == 0 && grains.translation[j].inverseMass == 0) return;
+        if (grains.bodies.areJoined(grains.identity[i], grains.identity[j])) return;
         const std::size_t low = std::min(grains.species[i], grains.species[j]);
         const std::size_t high = std::max(grains.species[i], grains.species[j]);
         // The groups of pairs stand first, in the order of a triangle of species.

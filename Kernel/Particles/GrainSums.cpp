@@ -6,55 +6,66 @@ namespace pendular {
 
 namespace {
 
-/// The sum of what function(place) gives for each grain that can move.
+/// Calls function(mass, position, velocity) for each body that can move: single grains and rigid bodies.
 template <class Function>
-double exactSum(const ParticleStore& grains, Function&& function) {
-    ExactSum sum;
-    for (std::size_t k = 0; k < grains.size(); ++k)
-        if (grains.translation[k].inverseMass > 0) sum.add(function(k));
-    return sum.value();
+void forEachMovingBody(const ParticleStore& grains, Function&& function) {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        const TranslationRecord& grain = grains.translation[k];
+        if (grains.isFree(k)) function(1 / grain.inverseMass, grain.position, grain.velocity);
+    }
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        const RigidBody& body = grains.bodies[k];
+        function(body.mass, body.position, body.velocity);
+    }
 }
 
-double translationOf(const TranslationRecord& grain) {
-    return 0.5 / grain.inverseMass * squaredNorm(grain.velocity);
+void addRotation(const ParticleStore& grains, ExactSum& sum) {
+    if (grains.hasSpin)
+        for (std::size_t k = 0; k < grains.size(); ++k)
+            if (grains.isFree(k))
+                sum.add(0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin));
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) sum.add(grains.bodies[k].rotationalEnergy());
 }
-double rotationOf(const ParticleStore& grains, std::size_t k) {
-    return 0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin);
+void addTranslation(const ParticleStore& grains, ExactSum& sum) {
+    forEachMovingBody(grains, [&](double mass, const Vector<double>&, const Vector<double>& velocity) {
+        sum.add(0.5 * mass * squaredNorm(velocity));
+    });
 }
 
 }  // namespace
 
 GrainSums sumGrains(const ParticleStore& grains) {
-    ExactSum mass;
+    ExactSum mass, rotation;
     ExactVectorSum moment, momentum;
-    for (const TranslationRecord& grain : grains.translation) {
-        if (grain.inverseMass == 0) continue;
-        const double own = 1 / grain.inverseMass;
-        mass.add(own);
-        moment.add(own * grain.position);
-        momentum.add(own * grain.velocity);
-    }
-    GrainSums sums{mass.value(), moment.value(), momentum.value(), translationalEnergy(grains), 0};
-    if (grains.hasSpin)
-        sums.rotationalEnergy = exactSum(grains, [&](std::size_t k) { return rotationOf(grains, k); });
-    return sums;
+    forEachMovingBody(grains,
+                      [&](double own, const Vector<double>& position, const Vector<double>& velocity) {
+                          mass.add(own);
+                          moment.add(own * position);
+                          momentum.add(own * velocity);
+                      });
+    addRotation(grains, rotation);
+    return {mass.value(), moment.value(), momentum.value(), translationalEnergy(grains), rotation.value()};
 }
 
 double translationalEnergy(const ParticleStore& grains) {
-    return exactSum(grains, [&](std::size_t k) { return translationOf(grains.translation[k]); });
+    ExactSum sum;
+    addTranslation(grains, sum);
+    return sum.value();
 }
 
 double kineticEnergy(const ParticleStore& grains) {
-    if (!grains.hasSpin) return translationalEnergy(grains);
-    return exactSum(
-        grains, [&](std::size_t k) { return translationOf(grains.translation[k]) + rotationOf(grains, k); });
+    ExactSum sum;
+    addTranslation(grains, sum);
+    addRotation(grains, sum);
+    return sum.value();
 }
 
 double potentialEnergy(const ParticleStore& grains, const Vector<double>& gravity) {
-    return exactSum(grains, [&](std::size_t k) {
-        const TranslationRecord& grain = grains.translation[k];
-        return -dot(gravity, grain.position) / grain.inverseMass;
+    ExactSum sum;
+    forEachMovingBody(grains, [&](double mass, const Vector<double>& position, const Vector<double>&) {
+        sum.add(-mass * dot(gravity, position));
     });
+    return sum.value();
 }
 
 }  // namespace pendular

@@ -44,30 +44,43 @@ Vec3D GrainReference::getForce() const {
     return getMass() * toEigen(handler->grains.acceleration[place()]);
 }
 
+void GrainReference::requireOwnBody(std::string_view what) const {
+    if (handler->grains.bodies.contains(number))
+        throw InputError(
+            fmt::format("particle {}: its {} cannot be changed, as it is part of the rigid body {}.", number,
+                        what, handler->grains.bodies.bodyOf(number)));
+}
+
 void GrainReference::setVelocity(const Vec3D& velocity) {
+    requireOwnBody("velocity");
     record().velocity = finite(number, "velocity", velocity, "m/s");
 }
 void GrainReference::setAngularVelocity(const Vec3D& spin) {
+    requireOwnBody("angular velocity");
     const Vector<double> value = finite(number, "angular velocity", spin, "rad/s");
     if (handler->grains.hasSpin) handler->grains.rotation[place()].spin = value;
 }
 void GrainReference::setPosition(const Vec3D& position) {
+    requireOwnBody("position");
     record().position = finite(number, "position", position, "m");
     handler->changes.moved.push_back(number);
 }
 void GrainReference::setRadius(double radius) {
+    requireOwnBody("radius");
     checkValue(fmt::format("particle {}", number), "radius", radius, "m", positive);
     record().radius = radius;
     setMass(handler->grains, place(), isFixed() ? 0 : 1 / handler->massOf(radius, getSpeciesIndex()));
     handler->changes.altered.push_back(number);
 }
 void GrainReference::setSpeciesIndex(int index) {
+    requireOwnBody("species");
     const double mass = handler->massOf(getRadius(), index);  // throws if there is no such species
     handler->grains.species[place()] = static_cast<std::uint16_t>(index);
     setMass(handler->grains, place(), isFixed() ? 0 : 1 / mass);
     handler->changes.altered.push_back(number);
 }
 void GrainReference::fixParticle(bool fix) {
+    requireOwnBody("being held");
     const std::uint32_t at = place();
     ParticleStore& grains = handler->grains;
     setMass(grains, at, fix ? 0 : 1 / handler->massOf(getRadius(), getSpeciesIndex()));
@@ -119,6 +132,10 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
 
 void ParticleHandler::removeObject(std::size_t identity) {
     const std::uint32_t at = placeOf(identity);
+    if (grains.bodies.contains(static_cast<std::uint32_t>(identity)))
+        throw InputError(fmt::format(
+            "particle {} is part of the rigid body {}; remove that by bodyHandler.removeObject().", identity,
+            grains.bodies.bodyOf(static_cast<std::uint32_t>(identity))));
     if (beforeRemoval) beforeRemoval(at);
     grains.remove(at);
     const auto forget = [&](std::vector<std::uint32_t>& list) { std::erase(list, identity); };
@@ -153,7 +170,7 @@ GrainColumnReference ParticleHandler::addColumn(const std::string& name, const s
 void ParticleHandler::renewMasses() {
     for (const std::uint32_t at : grains.place) {
         const TranslationRecord& grain = grains.translation[at];
-        if (grain.inverseMass > 0) setMass(grains, at, 1 / massOf(grain.radius, grains.species[at]));
+        if (grains.isFree(at)) setMass(grains, at, 1 / massOf(grain.radius, grains.species[at]));
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "Kernel/Particles/SphericalParticle.h"
 
@@ -10,7 +11,8 @@ class ContactLaws;
 class ParticleHandler;
 
 /// A grain of a scene, found by its identity: valid until the grain is removed; then every call throws
-/// InputError. What is set during a run holds from the next step on, and is checked there as at set-up.
+/// InputError. A grain of a rigid body cannot be changed by itself. What is set during a run holds from the
+/// next step on, and is checked there as at set-up.
 class GrainReference {
 public:
     GrainReference(ParticleHandler& particles, std::uint32_t identity)
@@ -45,6 +47,8 @@ public:
 private:
     void setSpeciesIndex(int index);
     [[nodiscard]] std::uint32_t place() const;
+    /// Throws InputError for a grain of a rigid body.
+    void requireOwnBody(std::string_view what) const;
     [[nodiscard]] TranslationRecord& record() const;
 
     ParticleHandler* handler;
@@ -91,7 +95,8 @@ public:
     /// Adds a copy of the grain. Its mass is that of a solid sphere of its species' density.
     GrainReference copyAndAddObject(const SphericalParticle& grain);
     /// Removes the grain with this identity; its contacts and bridges end. The identities of all others stay,
-    /// and this one is not given again. Throws InputError if there is no such grain.
+    /// and this one is not given again. Throws InputError if there is no such grain, or if it is part of a
+    /// rigid body.
     void removeObject(std::size_t identity);
 
     /// How many grains there are.
@@ -138,6 +143,10 @@ public:
     [[nodiscard]] Grains& store() { return grains; }
     [[nodiscard]] const Grains& store() const { return grains; }
 
+    /// Grains have been joined to a rigid body.
+    void noteJoined(std::span<const std::uint32_t> identities) {
+        changes.altered.insert(changes.altered.end(), identities.begin(), identities.end());
+    }
     /// Called with the place of a grain before it is removed.
     void callBeforeRemoval(std::function<void(std::uint32_t)> function) {
         beforeRemoval = std::move(function);

@@ -57,14 +57,19 @@ void ParticleStore::reorder(const std::vector<std::uint32_t>& order) {
 }
 
 void ParticleStore::visitState(StateArchive& archive) {
-    if (archive.isReading()) return visitColumns(archive);
+    if (archive.isReading()) {
+        visitColumns(archive);
+        return visitBodies(archive);
+    }
     ParticleStore byIdentity = *this;
     byIdentity.reorder({place.begin(), place.end()});
     byIdentity.visitColumns(archive);
+    byIdentity.visitBodies(archive);
 }
 
 void ParticleStore::visitColumns(StateArchive& archive) {
-    auto& [spins, t, r, a, e, s, i, p, named, n] = *this;  // a member that is added has to be added here
+    auto& [spins, t, r, a, e, s, i, p, named, joined, n] =
+        *this;  // a member that is added has to be added here
     archive.column<double>("translation", t);
     archive.column<double>("rotation", r);
     archive.column<double>("acceleration", a);
@@ -79,6 +84,10 @@ void ParticleStore::visitColumns(StateArchive& archive) {
     if (!archive.isReading()) return;
     place.clear();
     for (std::size_t k = 0; k < size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
+}
+
+void ParticleStore::visitBodies(StateArchive& archive) {
+    archive.group("bodies", [&] { bodies.visitState(archive, *this); });
 }
 
 void ParticleStore::requireWhole(const StateArchive& archive) const {

@@ -10,6 +10,7 @@
 #include "Kernel/Math/Vector.h"
 #include "Kernel/Particles/GrainColumn.h"
 #include "Kernel/Particles/PlaceIndex.h"
+#include "Kernel/Particles/RigidBodies.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -60,11 +61,16 @@ public:
     std::vector<std::uint32_t> identity;  // of the grain at a place
     PlaceIndex place;                     // of the grain with an identity
     std::vector<GrainColumn> columns;     // what else is kept of each grain
+    RigidBodies bodies;                   // of several grains; a grain in none is its own
 
     /// Places, gaps included.
     [[nodiscard]] std::size_t size() const { return translation.size(); }
     /// Grains.
     [[nodiscard]] std::size_t count() const { return place.size(); }
+    /// Whether the grain at a place moves by itself: it is not held, and no part of a rigid body.
+    [[nodiscard]] bool isFree(std::size_t at) const {
+        return translation[at].inverseMass > 0 && !bodies.contains(identity[at]);
+    }
     [[nodiscard]] bool isGap(std::size_t at) const { return translation[at].radius == 0; }
     /// The identity of the grain that is added next: no identity is given twice.
     [[nodiscard]] std::uint32_t nextIdentity() const { return next; }
@@ -99,6 +105,7 @@ public:
 
 private:
     void visitColumns(StateArchive& archive);
+    void visitBodies(StateArchive& archive);
     void requireWhole(const StateArchive& archive) const;
 
     std::uint32_t next = 0;

@@ -119,6 +119,7 @@ void Scene::advanceByStep() {
         advance(getTimeStep());
     } catch (const RunError&) {
         Motion::takeBack(particleHandler.store(), getTimeStep(), integrator);
+        if (!particleHandler.store().bodies.empty()) bodyMotion.takeBack(particleHandler.store());
         wallHandler.moveTo(getTime());
         if (ledgerKept) account.takeBack(ledger);
         throw;
@@ -127,6 +128,7 @@ void Scene::advanceByStep() {
 
 void Scene::check() {
     const ParticleStore& grains = particleHandler.store();
+    refuseForBodies(grains.bodies);
     checkScene(laws(), grains, wallHandler, unstableAccepted ? 0 : getTimeStep(), integrator);
     checkPeriodicLengths(laws(), grains, wallHandler, periodic);
     checkedSizes = sizeRanges(grains, laws().speciesCount(), false);
@@ -136,6 +138,17 @@ void Scene::check() {
     const double smallest = grains.smallestRadius();
     if (hasBegun && smallest < smallestRadius) contactSystem.setSmallestRadius(smallest);
     smallestRadius = std::min(smallestRadius, smallest);
+}
+
+void Scene::refuseForBodies(const RigidBodies& bodies) const {
+    if (bodies.empty()) return;
+    if (ledgerKept)
+        throw InputError("Simulation: the energy ledger does not know rigid bodies; leave it out.");
+    if (integrator.remembersEarlier())
+        throw InputError(
+            fmt::format("Simulation: the integrator {} does not move rigid bodies; take "
+                        "integrators::predictedVelocityVerlet or velocityVerlet.",
+                        integrator.name));
 }
 
 void Scene::mixChangedLaws() {
@@ -268,7 +281,9 @@ void Scene::advance(double length) {
     auto& grains = particleHandler.store();
     intoLedger([&] { account.begin(grains, gravity, length, ledger); });
     enter(StepTimes::Part::Motion);
-    const double grainShift = std::sqrt(Motion::begin(grains, length, threads, integrator));
+    double farthest = Motion::begin(grains, length, threads, integrator);
+    if (!grains.bodies.empty()) farthest = std::max(farthest, bodyMotion.begin(grains, length, integrator));
+    const double grainShift = std::sqrt(farthest);
     refuseRunaway(grainShift);
     const double wallShift = wallHandler.moveTo(getTime() + length);
     enter(StepTimes::Part::Search);
@@ -282,6 +297,8 @@ void Scene::advance(double length) {
     contactSystem.computeWallForces(grains, length, integrator.contacts);
     enter(StepTimes::Part::Sum);
     Motion::finish(grains, contactSystem.store(), gravity, length, threads, integrator);
+    if (!grains.bodies.empty())
+        RigidBodyMotion::finish(grains, contactSystem.store(), gravity, length, integrator);
     enter(StepTimes::Part::Other);
     intoLedger([&] { account.finish(grains, contactSystem, gravity, length, integrator, ledger); });
     for (const ContactEvent& event : contactSystem.events().ofStep()) actionsOnContactEvent(event);
@@ -290,6 +307,9 @@ void Scene::advance(double length) {
 void Scene::bringBack(ParticleStore& grains) {
     if (!periodic.any() || getNumberOfTimeSteps() % stepsBetweenBringingBack != 0) return;
     for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k)
+        grains.bodies[k].position = periodic.wrap(grains.bodies[k].position);
+    grains.bodies.place(grains);  // each body stays whole
     intoLedger([&] { account.wentRound(grains, gravity, ledger); });
 }
 

@@ -4,6 +4,8 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/Motion/RigidBodyMotion.h"
+#include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/EnergyAccount.h"
 #include "Kernel/Simulation/Run.h"
@@ -25,6 +27,8 @@ public:
     virtual void actionsOnContactEvent(const ContactEvent& /*event*/) {}
 
     ParticleHandler particleHandler;
+    /// Grains that are joined to rigid bodies.
+    BodyHandler bodyHandler{particleHandler};
     WallHandler wallHandler;
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
@@ -151,6 +155,7 @@ private:
     /// RunError with the sentence of set-up.
     void takeOverChanges();
     void mixChangedLaws();
+    void refuseForBodies(const RigidBodies& bodies) const;
     /// Whether the checks must be made again for grains that were added.
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
     void refuseOverlapsOf(const GrainChanges& changes, bool atWalls) const;
@@ -186,6 +191,7 @@ private:
 
     ContactLaws* contactLaws = nullptr;
     ContactSystem contactSystem;
+    RigidBodyMotion bodyMotion;
     EnergyLedger ledger;
     EnergyAccount account;
     PeriodicBox periodic;

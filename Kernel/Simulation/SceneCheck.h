@@ -100,7 +100,7 @@ inline double sceneStabilityLimit(const ContactLaws& species, const ParticleStor
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         limit = std::min(limit, stabilityLimit(laws, bodies, mass, integrator, contacts));
     });
-    return limit;
+    return grains.bodies.stepFactor() * limit;
 }
 
 /// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without

@@ -1,0 +1,176 @@
+#include "Kernel/Particles/BodyHandler.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "Kernel/InputError.h"
+
+namespace pendular {
+
+namespace {
+
+/// Of solid spheres that do not overlap, about their common centre of mass.
+struct SphereSums {
+    double mass = 0;                                    // kg
+    Vec3D centre = Vec3D::Zero();                       // m
+    Vec3D velocity = Vec3D::Zero();                     // m/s
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // kg m^2
+    Vec3D angularMomentum = Vec3D::Zero();              // kg m^2/s
+    double largest = 0;                                 // kg, of one sphere
+};
+
+SphereSums sumSpheres(ParticleHandler& particles, std::span<const std::uint32_t> identities) {
+    SphereSums sums;
+    for (const std::uint32_t identity : identities) {
+        const GrainReference grain = particles.getObject(identity);
+        const double mass = grain.getMass();
+        sums.mass += mass;
+        sums.centre += mass * grain.getPosition();
+        sums.velocity += mass * grain.getVelocity();
+        sums.largest = std::max(sums.largest, mass);
+    }
+    sums.centre /= sums.mass;
+    sums.velocity /= sums.mass;
+    for (const std::uint32_t identity : identities) {
+        const GrainReference grain = particles.getObject(identity);
+        const double mass = grain.getMass(), own = 0.4 * mass * grain.getRadius() * grain.getRadius();
+        const Vec3D arm = grain.getPosition() - sums.centre;
+        const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+        sums.inertia += own * one + mass * (arm.squaredNorm() * one - arm * arm.transpose());
+        sums.angularMomentum += own * grain.getAngularVelocity() + mass * arm.cross(grain.getVelocity());
+    }
+    return sums;
+}
+
+void requireJoinable(ParticleHandler& particles, std::span<const std::uint32_t> identities) {
+    if (identities.empty()) throw InputError("A rigid body must have at least one grain.");
+    for (std::size_t k = 0; k < identities.size(); ++k) {
+        const GrainReference grain = particles.getObject(identities[k]);
+        if (grain.isFixed())
+            throw InputError(
+                fmt::format("particle {} is held in place and can be in no rigid body; let it go by "
+                            "fixParticle(false) first.",
+                            identities[k]));
+        if (particles.store().bodies.contains(identities[k]) ||
+            std::ranges::count(identities, identities[k]) > 1)
+            throw InputError(fmt::format("particle {} is in a rigid body already.", identities[k]));
+    }
+}
+
+void refuseOverlaps(ParticleHandler& particles, std::span<const std::uint32_t> identities) {
+    for (std::size_t a = 0; a < identities.size(); ++a)
+        for (std::size_t b = a + 1; b < identities.size(); ++b) {
+            const GrainReference first = particles.getObject(identities[a]),
+                                 second = particles.getObject(identities[b]);
+            const double sum = first.getRadius() + second.getRadius();
+            const double overlap = sum - (first.getPosition() - second.getPosition()).norm();
+            if (overlap > 1e-9 * sum)
+                throw InputError(fmt::format(
+                    "particles {} and {} of a rigid body overlap by {:.3g} m, so that their masses "
+                    "would count the overlap twice; give the mass, the centre and the inertia of "
+                    "the body.",
+                    identities[a], identities[b], overlap));
+        }
+}
+
+/// The principal moments and axes of an inertia tensor; throws InputError where no body has it.
+std::pair<Vec3D, Eigen::Quaterniond> principalAxes(const Eigen::Matrix3d& inertia) {
+    const double size = inertia.cwiseAbs().maxCoeff();
+    constexpr double roundOff = 1e-9;  // of what a user computes
+    if (!inertia.allFinite() || (inertia - inertia.transpose()).cwiseAbs().maxCoeff() > roundOff * size)
+        throw InputError("The inertia of a rigid body must be a finite symmetric matrix (kg m^2).");
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
+    const Vec3D moments = solver.eigenvalues();  // they grow
+    if (!(moments[0] > 0) || moments[0] + moments[1] < (1 - roundOff) * moments[2])
+        throw InputError(
+            fmt::format("The principal moments of inertia of a rigid body are {:.6g}, {:.6g}, {:.6g} kg m^2; "
+                        "they must be "
+                        "positive, and the largest at most the sum of the others.",
+                        moments[0], moments[1], moments[2]));
+    Eigen::Matrix3d axes = solver.eigenvectors();
+    if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+    return {moments, Eigen::Quaterniond(axes).normalized()};
+}
+
+}  // namespace
+
+std::size_t BodyReference::at() const {
+    const std::uint32_t found = grains->bodies.find(number);
+    if (found == RigidBodies::none) throw InputError(fmt::format("There is no rigid body {}.", number));
+    return found;
+}
+Eigen::Quaterniond BodyReference::getOrientation() const {
+    const Quaternion& q = body().orientation;
+    return {q.real, q.imaginary.x, q.imaginary.y, q.imaginary.z};
+}
+std::vector<std::uint32_t> BodyReference::getGrains() const {
+    std::vector<std::uint32_t> all;
+    for (const BodyMember& member : grains->bodies.membersOf(at())) all.push_back(member.grain);
+    return all;
+}
+template <class Change>
+void BodyReference::change(std::string_view what, const Vec3D& value, std::string_view unit, Change&& set) {
+    if (!value.allFinite())
+        throw InputError(fmt::format("rigid body {}: {} = ({}, {}, {}) {} is not finite.", number, what,
+                                     value.x(), value.y(), value.z(), unit));
+    set(body(), toVector(value));
+    grains->bodies.place(*grains, at());
+}
+void BodyReference::setVelocity(const Vec3D& velocity) {
+    change("velocity", velocity, "m/s", [](RigidBody& b, const Vector<double>& v) { b.velocity = v; });
+}
+void BodyReference::setAngularVelocity(const Vec3D& spin) {
+    change("angular velocity", spin, "rad/s", [](RigidBody& b, const Vector<double>& w) { b.setSpin(w); });
+}
+
+BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
+                                const std::optional<BodyMass>& mass) {
+    requireJoinable(particles, identities);
+    const SphereSums spheres = sumSpheres(particles, identities);
+    if (!mass) refuseOverlaps(particles, identities);
+    const BodyMass own = mass.value_or(BodyMass{spheres.mass, spheres.centre, spheres.inertia});
+    checkValue("rigid body", "mass", own.mass, "kg", positive);
+    for (const double part : own.centre) checkValue("rigid body", "centre", part, "m", anyFinite);
+    const auto [moments, axes] = principalAxes(own.inertia);
+    RigidBody body{.mass = own.mass,
+                   .inertia = toVector(moments),
+                   .position = toVector(own.centre),
+                   .velocity = toVector(spheres.velocity),
+                   .orientation = {axes.w(), toVector(axes.vec())},
+                   .largestFreeMass = spheres.largest};
+    body.setSpin(toVector(spheres.inertia.ldlt().solve(spheres.angularMomentum)));
+    ParticleStore& grains = particles.store();
+    std::vector<BodyMember> members;
+    for (const std::uint32_t identity : identities)
+        members.push_back(
+            {identity,
+             body.orientation.turnBack(grains.translation[grains.place[identity]].position - body.position)});
+    const std::uint32_t number = grains.bodies.add(body, members);
+    grains.bodies.place(grains, grains.bodies.size() - 1);
+    particles.noteJoined(identities);
+    return {grains, number};
+}
+
+void BodyHandler::removeObject(std::size_t number) {
+    const std::vector<std::uint32_t> identities = getObject(number).getGrains();
+    ParticleStore& grains = particles.store();
+    grains.bodies.remove(grains.bodies.find(number));
+    for (const std::uint32_t identity : identities) particles.removeObject(identity);
+}
+
+BodyReference BodyHandler::getObject(std::size_t number) {
+    if (particles.store().bodies.find(number) == RigidBodies::none)
+        throw InputError(
+            fmt::format("There is no rigid body {}; the scene has {} (counted from 0).", number, getSize()));
+    return {particles.store(), static_cast<std::uint32_t>(number)};
+}
+
+std::optional<std::uint32_t> BodyHandler::bodyOf(std::uint32_t grain) const {
+    const std::uint32_t number = particles.store().bodies.bodyOf(grain);
+    return number == RigidBodies::none ? std::nullopt : std::optional(number);
+}
+
+}  // namespace pendular

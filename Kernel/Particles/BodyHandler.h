@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+
+#include "Kernel/Particles/ParticleHandler.h"
+
+namespace pendular {
+
+/// The mass of a rigid body, where it is not that of its spheres: overlapping ones would count twice.
+struct BodyMass {
+    double mass;              // kg
+    Vec3D centre;             // m, of mass, in space as the grains are now
+    Eigen::Matrix3d inertia;  // kg m^2, about the centre of mass
+};
+
+/// A rigid body of a scene, found by its number: valid until it is removed; then every call throws
+/// InputError.
+class BodyReference {
+public:
+    BodyReference(ParticleStore& store, std::uint32_t body) : grains(&store), number(body) {}
+
+    [[nodiscard]] std::uint32_t getId() const { return number; }
+    [[nodiscard]] double getMass() const { return body().mass; }                       // kg
+    [[nodiscard]] Vec3D getInertia() const { return toEigen(body().inertia); }         // kg m^2, principal
+    [[nodiscard]] Vec3D getPosition() const { return toEigen(body().position); }       // m, centre of mass
+    [[nodiscard]] Vec3D getVelocity() const { return toEigen(body().velocity); }       // m/s
+    [[nodiscard]] Vec3D getAngularVelocity() const { return toEigen(body().spin()); }  // rad/s
+    [[nodiscard]] Vec3D getAngularMomentum() const {                                   // kg m^2/s
+        return toEigen(body().angularMomentum);
+    }
+    /// Of all contacts and of its weight, N, in the last step.
+    [[nodiscard]] Vec3D getForce() const { return body().mass * toEigen(body().acceleration); }
+    /// N m, of all contacts about the centre of mass, in the last step.
+    [[nodiscard]] Vec3D getTorque() const { return toEigen(body().torque); }
+    /// Turns the principal axes into space.
+    [[nodiscard]] Eigen::Quaterniond getOrientation() const;
+    /// The identities of its grains.
+    [[nodiscard]] std::vector<std::uint32_t> getGrains() const;
+
+    void setVelocity(const Vec3D& velocity);
+    void setAngularVelocity(const Vec3D& spin);
+
+private:
+    [[nodiscard]] std::size_t at() const;
+    [[nodiscard]] RigidBody& body() const { return grains->bodies[at()]; }
+    template <class Change>
+    void change(std::string_view what, const Vec3D& value, std::string_view unit, Change&& set);
+
+    ParticleStore* grains;
+    std::uint32_t number;
+};
+
+/// Joins grains of a scene to rigid bodies. From then on these move together; contacts between them are not
+/// looked for. Everything else about them is as before: laws, walls, outputs.
+class BodyHandler {
+public:
+    explicit BodyHandler(ParticleHandler& particleHandler) : particles(particleHandler) {}
+
+    /// Joins grains to a body, which takes over their momentum and angular momentum. The mass is that of the
+    /// spheres, if it is not given. Throws InputError for grains that are held, or in a body already; that
+    /// overlap without a given mass; or for a mass or an inertia that no body can have.
+    BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass = {});
+    BodyReference join(std::initializer_list<std::uint32_t> identities,
+                       const std::optional<BodyMass>& mass = {}) {
+        return join(std::span(identities.begin(), identities.size()), mass);
+    }
+    /// Removes a body and all its grains.
+    void removeObject(std::size_t number);
+
+    [[nodiscard]] std::size_t getSize() const { return particles.store().bodies.size(); }
+    /// The body with this number. Throws InputError if there is none.
+    [[nodiscard]] BodyReference getObject(std::size_t number);
+    /// The number of the body that a grain is part of, if any.
+    [[nodiscard]] std::optional<std::uint32_t> bodyOf(std::uint32_t grain) const;
+
+private:
+    ParticleHandler& particles;
+};
+
+}  // namespace pendular

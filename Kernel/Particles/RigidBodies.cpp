@@ -1,0 +1,136 @@
+#include "Kernel/Particles/RigidBodies.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "Kernel/Particles/ParticleStore.h"
+
+namespace pendular {
+
+std::uint32_t RigidBodies::find(std::size_t number) const {
+    const auto found = std::ranges::lower_bound(numbers, number);
+    return found != numbers.end() && *found == number ? static_cast<std::uint32_t>(found - numbers.begin())
+                                                      : none;
+}
+
+std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember> grains) {
+    bodies.push_back(body);
+    numbers.push_back(next);
+    members.insert(members.end(), grains.begin(), grains.end());
+    begins.push_back(static_cast<std::uint32_t>(members.size()));
+    for (const BodyMember& member : grains) bodyOfGrain[member.grain] = next;
+    return next++;
+}
+
+void RigidBodies::remove(std::size_t at) {
+    const auto first = members.begin() + begins[at], end = members.begin() + begins[at + 1];
+    const auto count = static_cast<std::uint32_t>(end - first);
+    for (auto member = first; member != end; ++member) bodyOfGrain.erase(member->grain);
+    members.erase(first, end);
+    begins.erase(begins.begin() + static_cast<std::ptrdiff_t>(at));
+    for (std::size_t k = at; k < begins.size(); ++k) begins[k] -= count;
+    bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(at));
+    numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+void RigidBodies::place(ParticleStore& grains) const {
+    for (std::size_t k = 0; k < size(); ++k) place(grains, k);
+}
+void RigidBodies::place(ParticleStore& grains, std::size_t at) const {
+    const RigidBody& body = bodies[at];
+    const Vector<double> spin = body.spin();
+    for (const BodyMember& member : membersOf(at)) {
+        const std::uint32_t place = grains.place[member.grain];
+        const Vector<double> arm = body.orientation.turn(member.arm);
+        TranslationRecord& grain = grains.translation[place];
+        grain.inverseMass = 1 / body.mass;
+        grain.position = body.position + arm;
+        grain.velocity = body.velocity + cross(spin, arm);
+        grains.acceleration[place] = body.acceleration;
+        if (!grains.hasSpin) continue;
+        RotationRecord& turning = grains.rotation[place];
+        turning.spin = spin;
+        turning.angularAcceleration = {0, 0, 0};
+        turning.inverseInertia = 2.5 / (body.mass * grain.radius * grain.radius);
+    }
+}
+
+namespace {
+
+/// 1/kg: how much a force on the grain at an arm accelerates that point by the turning of the body, at most:
+/// the largest eigenvalue of A^T I^-1 A, with A n = arm x n.
+double responseOfTurning(const Vector<double>& arm, const Vector<double>& inertia) {
+    Eigen::Matrix3d cross;
+    cross << 0, -arm.z, arm.y, arm.z, 0, -arm.x, -arm.y, arm.x, 0;
+    const Eigen::Vector3d inverse(1 / inertia.x, 1 / inertia.y, 1 / inertia.z);
+    const Eigen::Matrix3d response = cross.transpose() * inverse.asDiagonal() * cross;
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(response, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
+}  // namespace
+
+double RigidBodies::stepFactor() const {
+    double smallest = 1;
+    for (std::size_t k = 0; k < size(); ++k) {
+        const RigidBody& body = bodies[k];
+        double response = 0;  // 1/kg
+        for (const BodyMember& member : membersOf(k))
+            response += 1 / body.mass + responseOfTurning(member.arm, body.inertia);
+        smallest = std::min(smallest, 1 / (response * body.largestFreeMass));
+    }
+    return std::sqrt(smallest);
+}
+
+void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains) {
+    std::vector<std::uint32_t> grainsOf;
+    std::vector<Vector<double>> arms;
+    for (const BodyMember& member : members) {
+        grainsOf.push_back(member.grain);
+        arms.push_back(member.arm);
+    }
+    archive.column<double>("motion", bodies);
+    archive.column<std::uint32_t>("numbers", numbers);
+    archive.column<std::uint32_t>("begins", begins);
+    archive.column<std::uint32_t>("grains", grainsOf);
+    archive.column<double>("arms", arms);
+    archive.value("next", next);
+    if (!archive.isReading()) return;
+    archive.require(grainsOf.size() == arms.size(), "arms", "has another number of rows than bodies/grains");
+    archive.requireFinite("arms", arms);
+    members.clear();
+    for (std::size_t k = 0; k < arms.size(); ++k) members.push_back({grainsOf[k], arms[k]});
+    requireWhole(archive, grains);
+    bodyOfGrain.clear();
+    for (std::size_t k = 0; k < size(); ++k)
+        for (const BodyMember& member : membersOf(k)) {
+            archive.require(!bodyOfGrain.contains(member.grain), "grains", "has a grain in two bodies");
+            bodyOfGrain[member.grain] = numbers[k];
+        }
+}
+
+void RigidBodies::requireWhole(const StateArchive& archive, const ParticleStore& grains) const {
+    archive.requireFinite("motion", bodies);
+    for (const RigidBody& body : bodies) {
+        const Vector<double>& inertia = body.inertia;
+        const Quaternion& q = body.orientation;
+        archive.require(
+            body.mass > 0 && body.largestFreeMass > 0 && inertia.x > 0 && inertia.y > 0 && inertia.z > 0,
+            "motion", "has a mass or a moment of inertia that is not positive");
+        archive.require(std::abs(q.real * q.real + squaredNorm(q.imaginary) - 1) < 1e-6, "motion",
+                        "has an orientation that is no rotation");
+    }
+    archive.require(numbers.size() == size() &&
+                        std::ranges::adjacent_find(numbers, std::greater_equal{}) == numbers.end(),
+                    "numbers", "does not have the number of each body");
+    archive.require(numbers.empty() || numbers.back() < next, "next", "is the number of a body");
+    archive.require(begins.size() == size() + 1 && begins.front() == 0 && begins.back() == members.size() &&
+                        std::ranges::is_sorted(begins),
+                    "begins", "does not have the grains of each body");
+    for (const BodyMember& member : members)
+        archive.require(grains.place.contains(member.grain) &&
+                            grains.translation[grains.place[member.grain]].inverseMass > 0,
+                        "grains", "has a grain that is not in the scene or is held");
+}
+
+}  // namespace pendular
