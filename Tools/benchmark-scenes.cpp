@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <deque>
 
 #include "Drivers/Shared/BenchmarkScenes.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
@@ -22,6 +23,7 @@ struct Options {
     scenes::BenchmarkChoice choice;
     int threads = 1;
     std::size_t steps = 2000, warm = 500;
+    std::size_t exchange = 0;  // grains that come and go in a step
     bool header = false;
     std::string paraView;  // beginning of the names of frames; empty: none
 };
@@ -52,14 +54,74 @@ void measureFrames(Scene& scene, const std::string& name, double stepTime) {
     }
 }
 
+/// A steady flow of grains: in each step some are put above the scene, at rest, and as many that were put
+/// there fifty steps ago are removed.
+class Exchange {
+public:
+    Exchange(Scene& changed, std::size_t count) : scene(changed), perStep(count) {
+        if (count == 0) return;
+        Vec3D lowest = Vec3D::Constant(infinity), highest = -lowest;
+        for (GrainReference grain : scene.particleHandler) {
+            lowest = lowest.cwiseMin(grain.getPosition());
+            highest = highest.cwiseMax(grain.getPosition());
+            radius = std::max(radius, grain.getRadius());
+        }
+        start = {lowest.x() + radius, lowest.y() + radius, highest.z() + 3 * radius};
+        width = std::max<std::size_t>(1, static_cast<std::size_t>((highest.x() - lowest.x()) / (3 * radius)));
+    }
+    void operator()() {
+        if (perStep == 0) return;
+        const auto begin = std::chrono::steady_clock::now();
+        for (std::size_t k = 0; k < perStep; ++k) {
+            if (alive.size() == stay * perStep) {
+                scene.particleHandler.removeObject(alive.front());
+                alive.pop_front();
+            }
+            const std::size_t place = added % (2 * stay * perStep);
+            const auto at = static_cast<double>(place % width), row = static_cast<double>(place / width);
+            SphericalParticle grain;
+            grain.setSpecies(&first);
+            grain.setRadius(radius);
+            grain.setPosition(start + 3 * radius * Vec3D(at, 0, row));
+            alive.push_back(scene.particleHandler.copyAndAddObject(grain).getId());
+            ++added;
+        }
+        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+    void report(double all) const {
+        if (perStep == 0) return;
+        fmt::print(stderr,
+                   "{} grains came and {} went: {:.3g} us each, {:.2g} % of the time without what the "
+                   "step does with them\n",
+                   added, added - alive.size(), 0.5e6 * seconds / static_cast<double>(added),
+                   100 * seconds / all);
+    }
+
+private:
+    static constexpr std::size_t stay = 50;  // steps
+    struct {
+        [[nodiscard]] int getIndex() const { return 0; }
+    } first;
+    Scene& scene;
+    std::size_t perStep, added = 0, width = 1;
+    double radius = 0, seconds = 0;  // m, s
+    Vec3D start = Vec3D::Zero();     // m
+    std::deque<std::uint32_t> alive;
+};
+
 void measure(Scene& scene, const Options& options, double memoryBefore) {
     scene.setNumberOfThreads(options.threads);
     scene.initialise();
     for (std::size_t k = 0; k < options.warm; ++k) scene.step();
     const std::size_t rebuildsBefore = scene.contacts().rebuildCount();
+    Exchange exchange(scene, options.exchange);
     const auto start = std::chrono::steady_clock::now();
-    for (std::size_t k = 0; k < options.steps; ++k) scene.step();
+    for (std::size_t k = 0; k < options.steps; ++k) {
+        exchange();
+        scene.step();
+    }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    exchange.report(seconds);
 
     const auto& grains = scene.particleHandler.store();
     const auto count = static_cast<double>(grains.size());
@@ -118,6 +180,10 @@ int main(int argc, char** argv) {
                    "number of --particles, or their drum or penetration");
     app.add_option("--walls", o.choice.walls, "file of triangles, for the positions of drum and penetration");
     app.add_option("--states", o.choice.states, "folder of initial states")->capture_default_str();
+    app.add_option("--exchange", o.exchange,
+                   "grains that come above the scene in each step, and leave it 50 steps later")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     app.add_option("--paraview", o.paraView,
                    "writes a frame for ParaView of this name behind the timed steps, and says what it costs");
     app.add_flag("--header", o.header, "print the names of the columns first");

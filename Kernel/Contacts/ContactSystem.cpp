@@ -49,7 +49,7 @@ void ContactSystem::listAgain(Grains& grains, const RememberedContacts* remember
     stepsListed = 0;
     unlisted = 0;
     listBefore = infinity;
-    listedGrains = grains.size();
+    late.clear();
     ++rebuilds;
 }
 
@@ -60,6 +60,9 @@ bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> 
         takesInGrains = true;
         cells.reset();
     }
+    if (late.size() + identities.size() > late.capacity())  // some have gone again: it does not grow for ever
+        std::erase_if(late, [&](std::uint32_t identity) { return !grains.place.contains(identity); });
+    late.insert(late.end(), identities.begin(), identities.end());
     for (const std::uint32_t identity : identities) {
         const double gap = gapAround(grains, grains.place[identity]);
         if (!(gap > 0)) return false;
@@ -82,10 +85,14 @@ double ContactSystem::gapAround(const Grains& grains, std::uint32_t place) const
                 species->range(grains.species[place], grains.species[other], {grain.radius, body.radius});
         smallest = std::min(smallest, norm(periodic.nearest(body.position - grain.position)) - reach);
     };
-    // Bodies have moved by at most `unlisted` since the cells were filled; grains that came later are behind.
+    // Bodies have moved by at most `unlisted` since the cells were filled; some came later.
     if (cells && unlisted < infinity) cells->forEachNear(grain.position, grain.radius, unlisted, look);
-    const std::size_t late = cells ? listedGrains : 0;
-    for (std::size_t other = late; other < grains.size(); ++other) look(static_cast<std::uint32_t>(other));
+    if (cells) {
+        for (const std::uint32_t identity : late)
+            if (grains.place.contains(identity)) look(grains.place[identity]);
+    } else {
+        for (const std::uint32_t other : grains.place) look(other);
+    }
     std::vector<std::uint32_t> parts;
     for (std::size_t w = 0; w < walls->getSize(); ++w) {
         if (walls->isRemoved(w)) continue;
@@ -104,7 +111,7 @@ double ContactSystem::gapAround(const Grains& grains, std::uint32_t place) const
 }
 
 double ContactSystem::endContactsOf(const Grains& grains, std::uint32_t place) {
-    if (place >= listedGrains) return 0;
+    if (place >= contacts.sides.grainCount()) return 0;
     double stored = 0;
     for (const std::uint32_t side : contacts.sides.of(place))
         stored += endContact(grains, contacts.contactAt(side / 2));

@@ -169,8 +169,9 @@ private:
     std::size_t stepsListed = 0;   // since the contacts were listed
     double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
     double listBefore = infinity;  // m, at which they must be listed, because of grains that came later
-    std::size_t listedGrains = 0, recalledContacts = 0;
-    bool takesInGrains = false;  // and keeps the cells for it
+    std::size_t recalledContacts = 0;
+    std::vector<std::uint32_t> late;  // identities of grains that came after the list
+    bool takesInGrains = false;       // and keeps the cells for it
     std::optional<NeighbourSearch> cells;
     bool ledger = false;
     int threads = 1;

@@ -44,9 +44,9 @@ double enlargement(const std::array<double, 3>& lengths, double cellSize, std::s
     return factor;
 }
 
-/// The ranks of boxes of a grid along Morton's curve: boxes that are near in space mostly have near ranks. Two
-/// boxes are compared along the axis in whose numbers the highest bit differs, as of Chan (2002), Proc. 13th
-/// ACM-SIAM Symp. Discrete Algorithms, 472.
+/// The ranks of boxes of a grid along Morton's curve: boxes that are near in space mostly have near ranks.
+/// Two boxes are compared along the axis in whose numbers the highest bit differs, as of Chan (2002), Proc.
+/// 13th ACM-SIAM Symp. Discrete Algorithms, 472.
 std::vector<std::uint32_t> ranksInZOrder(const std::array<std::uint32_t, 3>& count) {
     std::vector<std::array<std::uint32_t, 3>> boxes;
     for (std::uint32_t z = 0; z < count[2]; ++z)

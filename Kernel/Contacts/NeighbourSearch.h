@@ -49,8 +49,8 @@ public:
         }
     }
 
-    /// Calls function(grain) at least for each grain whose surface was nearer than the margin and `farther` (m)
-    /// to a sphere; grains may come that are not.
+    /// Calls function(grain) at least for each grain whose surface was nearer than the margin and `farther`
+    /// (m) to a sphere; grains may come that are not.
     template <class Function>
     void forEachNear(const Vector<double>& centre, double radius, double farther, Function&& function) const {
         const Point sphere{periodic.wrap(centre), radius + halfMargin + farther, 0};

@@ -16,9 +16,9 @@ struct SampleTiming {
     T before;
     T after;
 
-    /// The factor on a force that grows with the power a (0, 1/4, 1/2, 1 or 3/2) of the overlap. Near its begin
-    /// the overlap grows linearly in time, so the force's mean over the sample's time, against its value t
-    /// after the begin, is
+    /// The factor on a force that grows with the power a (0, 1/4, 1/2, 1 or 3/2) of the overlap. Near its
+    /// begin the overlap grows linearly in time, so the force's mean over the sample's time, against its
+    /// value t after the begin, is
     /// ((t + 1/2)/t)^a / (1 + a); the end is the same backwards. However small t is, and however much of the
     /// overlap is round-off: t was found from the same overlap, so that their product is the mean.
     [[nodiscard]] T factor(double exponent, MaskOf<T> first, MaskOf<T> last) const {

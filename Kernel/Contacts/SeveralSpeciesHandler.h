@@ -59,8 +59,8 @@ public:
     SeveralSpeciesHandler(const SeveralSpeciesHandler&) = delete;
     SeveralSpeciesHandler& operator=(const SeveralSpeciesHandler&) = delete;
 
-    /// Adds a copy; the pointer stays valid, and values may be set through it at any time: during a run, a new
-    /// value holds from the next step on. Species are added before the run.
+    /// Adds a copy; the pointer stays valid, and values may be set through it at any time: during a run, a
+    /// new value holds from the next step on. Species are added before the run.
     template <class S>
     S* copyAndAddObject(const S& species) {
         return &add<S>(species).species;

@@ -22,7 +22,8 @@ public:
               const ContactLaws& laws, double step, int threads, Wake&& wake) {
         const std::size_t first = bucket.begin * Pack::lanes;
         std::size_t end = bucket.end * Pack::lanes;
-        while (end > first && !contacts.bitOf(contacts.states[(end - 1) / Pack::lanes].listed, end - 1)) --end;
+        while (end > first && !contacts.bitOf(contacts.states[(end - 1) / Pack::lanes].listed, end - 1))
+            --end;
         const auto atNextGrain = [&](std::size_t c) {
             while (c > first && c < end && grainOf(contacts, c) == grainOf(contacts, c - 1)) ++c;
             return c;
@@ -67,7 +68,8 @@ private:
             for (; c < end && grainOf(contacts, c) == grain; ++c)
                 parts.push_back(contacts.blocks[c / Pack::lanes].second[c % Pack::lanes]);
             points.resize(parts.size());
-            if (grains.isGap(grain)) continue;
+            // Of a grain that has gone; another one may have its place.
+            if (!ContactStore::bitOf(contacts.states[begin / Pack::lanes].listed, begin)) continue;
             const TranslationRecord& record = grains.translation[grain];
             if (laws.layout.interaction > 0 && record.radius != last.radius1) {
                 last = {record.radius};

@@ -24,19 +24,34 @@ void ParticleStore::reserve(std::size_t count) {
 std::uint32_t ParticleStore::add(const TranslationRecord& grain, const Vector<double>& spin,
                                  std::uint16_t speciesIndex) {
     const std::uint32_t number = next++;
-    place.set(number, static_cast<std::uint32_t>(size()));
-    translation.push_back(grain);
-    acceleration.push_back({0, 0, 0});
-    if (!earlier.empty()) earlier.push_back({});
-    species.push_back(speciesIndex);
-    identity.push_back(number);
-    if (hasSpin)
-        rotation.push_back({spin, 2.5 * grain.inverseMass / (grain.radius * grain.radius), {0, 0, 0}});
-    for (GrainColumn& column : columns) column.values.push_back(column.initial);
+    const std::uint32_t at = freePlace();
+    place.set(number, at);
+    translation[at] = grain;
+    acceleration[at] = {0, 0, 0};
+    species[at] = speciesIndex;
+    identity[at] = number;
+    if (!earlier.empty()) earlier[at] = {};
+    if (hasSpin) rotation[at] = {spin, 2.5 * grain.inverseMass / (grain.radius * grain.radius), {0, 0, 0}};
+    for (GrainColumn& column : columns) column.values[at] = column.initial;
     return number;
 }
 
+std::uint32_t ParticleStore::freePlace() {
+    if (!gaps.empty()) {
+        const std::uint32_t at = gaps.back();
+        gaps.pop_back();
+        return at;
+    }
+    const std::size_t count = size() + 1;
+    translation.resize(count), acceleration.resize(count), species.resize(count), identity.resize(count);
+    if (!earlier.empty()) earlier.resize(count);
+    if (hasSpin) rotation.resize(count);
+    for (GrainColumn& column : columns) column.values.resize(count);
+    return static_cast<std::uint32_t>(count - 1);
+}
+
 void ParticleStore::remove(std::uint32_t at) {
+    gaps.push_back(at);
     place.erase(identity[at]);
     translation[at].radius = translation[at].inverseMass = 0;
     translation[at].velocity = {0, 0, 0};
@@ -46,6 +61,7 @@ void ParticleStore::remove(std::uint32_t at) {
 }
 
 void ParticleStore::reorder(const std::vector<std::uint32_t>& order) {
+    gaps.clear();
     permute(translation, order);
     permute(acceleration, order);
     permute(species, order);
@@ -68,8 +84,8 @@ void ParticleStore::visitState(StateArchive& archive) {
 }
 
 void ParticleStore::visitColumns(StateArchive& archive) {
-    auto& [spins, t, r, a, e, s, i, p, named, joined, n] =
-        *this;  // a member that is added has to be added here
+    // A member that is added has to be added here.
+    auto& [spins, t, r, a, e, s, i, p, named, joined, n, free] = *this;
     archive.column<double>("translation", t);
     archive.column<double>("rotation", r);
     archive.column<double>("acceleration", a);

@@ -48,8 +48,9 @@ std::size_t bytesOf(const std::vector<Values>&... columns) {
 /// The grains of a scene, as columns. Their order is that of space, and changes when neighbours are searched
 /// again; the identity (the number in the order of adding) stays. Without spin there is no rotation column.
 ///
-/// A grain that is removed leaves a gap, a record that nothing touches and nothing moves, until the next
-/// reorder(): so the places of all others stay, and the list of contacts with them.
+/// A grain that is removed leaves a gap, a record that nothing touches and nothing moves, until another one
+/// comes to that place, or until the next reorder(): so the places of all others stay, and the list of
+/// contacts with them.
 class ParticleStore {
 public:
     bool hasSpin = false;
@@ -93,7 +94,7 @@ public:
 
     void reserve(std::size_t count);
 
-    /// Adds a grain; returns its identity.
+    /// Adds a grain, at the end or in a gap; returns its identity.
     std::uint32_t add(const TranslationRecord& grain, const Vector<double>& spin, std::uint16_t speciesIndex);
     /// Removes the grain at a place; its contacts must have been ended.
     void remove(std::uint32_t at);
@@ -104,11 +105,13 @@ public:
     void visitState(StateArchive& archive);
 
 private:
+    [[nodiscard]] std::uint32_t freePlace();
     void visitColumns(StateArchive& archive);
     void visitBodies(StateArchive& archive);
     void requireWhole(const StateArchive& archive) const;
 
     std::uint32_t next = 0;
+    std::vector<std::uint32_t> gaps;
 };
 
 }  // namespace pendular

@@ -178,6 +178,8 @@ void Scene::takeOverChanges() {
         const bool newBodies = newWalls || !changes.moved.empty() || !changes.altered.empty();
         if (newLaws || newBodies || getTimeStep() != checkedStep || isNewToChecks(changes.added)) check();
         ParticleStore& grains = particleHandler.store();
+        for (const std::uint32_t identity : changes.added)  // there was no step that could have found it
+            if (grains.isFree(grains.place[identity])) grains.acceleration[grains.place[identity]] = gravity;
         if (newLaws || newBodies) contactSystem.renew(grains);
         else if (contactSystem.takeIn(grains, changes.added)) return;
         else contactSystem.renew(grains);
