@@ -61,19 +61,6 @@ void SeveralSpeciesHandler::mixAll() {
     if (all.empty())
         throw InputError("The scene has no species; add one with speciesHandler.copyAndAddObject().");
     for (const Added& added : all) added.species->complete();
-    mixedFrom.clear();
-    const auto remember = [&](const std::vector<NamedField>& fields) {
-        for (const NamedField& field : fields)
-            mixedFrom.push_back({field.value, std::bit_cast<std::uint64_t>(*field.value)});
-    };
-    for (const Added& added : all) {
-        remember(added.species->fields());
-        const double& density = added.species->densityPlace();
-        mixedFrom.push_back({&density, std::bit_cast<std::uint64_t>(density)});
-    }
-    for (const auto& [pair, laws] : pairs) remember(laws.own->fields());
-    mixedSpecies = all.size();
-    mixedPairs = pairs.size();
     for (const auto& type : types) type->begin(all.size());
     for (std::size_t a = 0; a < all.size(); ++a)
         for (std::size_t b = a; b < all.size(); ++b) {
@@ -83,13 +70,26 @@ void SeveralSpeciesHandler::mixAll() {
             if (LawsOfType* const laws = lawsOf(first.getIndex(), second.getIndex()))
                 laws->mix(first, second, isOwn ? found->second.own.get() : nullptr, isOwn);
         }
+    for (const auto& type : types) type->finish();
+    remember();
+}
+
+void SeveralSpeciesHandler::remember() {
+    mixedFrom.clear();
+    const auto add = [&](const std::vector<NamedField>& fields) {
+        for (const NamedField& field : fields) mixedFrom.add(*field.value);
+    };
+    for (const Added& added : all) {
+        add(added.species->fields());
+        mixedFrom.add(added.species->densityPlace());
+    }
+    for (const auto& [pair, laws] : pairs) add(laws.own->fields());
+    mixedSpecies = all.size();
+    mixedPairs = pairs.size();
 }
 
 bool SeveralSpeciesHandler::hasChanged() const {
-    if (mixedSpecies != all.size() || mixedPairs != pairs.size()) return true;
-    return std::ranges::any_of(mixedFrom, [](const MixedValue& value) {
-        return std::bit_cast<std::uint64_t>(*value.place) != value.bits;
-    });
+    return mixedSpecies != all.size() || mixedPairs != pairs.size() || mixedFrom.haveChanged();
 }
 
 void SeveralSpeciesHandler::visitState(StateArchive& archive, bool& changedInRun) {

@@ -2,9 +2,9 @@
 
 #include <concepts>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,9 +24,11 @@ public:
     [[nodiscard]] virtual std::unique_ptr<AnyLaws> nothingSetForPair() const = 0;
     /// To be called before the pairs are mixed, with the number of species of the scene.
     virtual void begin(std::size_t speciesCount) = 0;
-    /// Mixes the laws of a pair.
+    /// Mixes the laws of a pair. Throws InputError.
     /// @param own null: the driver sets none
     virtual void mix(const AnySpecies& a, const AnySpecies& b, const AnyLaws* own, bool isOwn) = 0;
+    /// All pairs have been mixed: from now on they have these values, and until now those of before.
+    virtual void finish() = 0;
 };
 
 template <class S>
@@ -36,14 +38,22 @@ public:
     [[nodiscard]] std::unique_ptr<AnyLaws> nothingSetForPair() const override {
         return std::make_unique<OwnLawsOfPair<S>>();
     }
-    void begin(std::size_t speciesCount) override { mixtures.clearMixtures(speciesCount); }
+    void begin(std::size_t speciesCount) override {
+        count = speciesCount;
+        mixed.assign(count * count, {});
+    }
     void mix(const AnySpecies& a, const AnySpecies& b, const AnyLaws* own, bool isOwn) override {
         const auto& set =
             own ? static_cast<const OwnLawsOfPair<S>*>(own)->laws : nothingSet<typename S::Mixed>();
-        mixtures.setMixture(a.getIndex(), b.getIndex(), mixTypes<S>(set, isOwn, a, b));
+        const auto first = static_cast<std::size_t>(a.getIndex()),
+                   second = static_cast<std::size_t>(b.getIndex());
+        mixed[first * count + second] = mixed[second * count + first] = mixTypes<S>(set, isOwn, a, b);
     }
+    void finish() override { mixtures.setMixtures(count, std::move(mixed)); }
 
 private:
+    std::size_t count = 0;  // of species
+    std::vector<std::optional<typename S::Mixed>> mixed;
     SpeciesHandler<S> mixtures;
     SpeciesLaws<S> ownLaws{mixtures};
 };
@@ -89,7 +99,8 @@ public:
         return getMixedObject<S, S, S>(a, b);
     }
 
-    /// Derives what is unset, checks every species and mixes every pair that has laws. Throws InputError.
+    /// Derives what is unset, checks every species and mixes every pair that has laws. Throws InputError; all
+    /// pairs then have the values that they had.
     void mixAll();
     /// The laws of a pair; null where the driver has to say which.
     [[nodiscard]] LawsOfType* lawsOf(int a, int b) const;
@@ -138,12 +149,9 @@ private:
     std::vector<Added> all;
     std::map<std::pair<int, int>, OwnPair> pairs;  // that the driver has spoken of
 
-    // As they were when they were mixed.
-    struct MixedValue {
-        const double* place;
-        std::uint64_t bits;
-    };
-    std::vector<MixedValue> mixedFrom;
+    void remember();
+
+    KnownValues mixedFrom;
     std::size_t mixedSpecies = 0, mixedPairs = 0;
 };
 

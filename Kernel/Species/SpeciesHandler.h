@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <bit>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "Kernel/InputError.h"
+#include "Kernel/Species/KnownValues.h"
 #include "Kernel/Species/Species.h"
 #include "Kernel/State/StateArchive.h"
 
@@ -24,6 +25,10 @@ template <class S>
 class SpeciesHandler {
 public:
     using Mixed = typename S::Mixed;
+
+    SpeciesHandler() = default;
+    SpeciesHandler(const SpeciesHandler&) = delete;
+    SpeciesHandler& operator=(const SpeciesHandler&) = delete;
 
     /// Adds a copy; the pointer stays valid, and values may be set through it at any time: during a run, a new
     /// value holds from the next step on, for all contacts and bridges.
@@ -44,7 +49,8 @@ public:
         return &own.try_emplace(std::minmax({a, b}), nothingSet<Mixed>()).first->second;
     }
 
-    /// Derives what is unset, checks every species and mixes every pair. Throws InputError.
+    /// Derives what is unset, checks every species and mixes every pair. Throws InputError; all pairs then
+    /// have the values that they had.
     void mixAll() {
         if (all.empty())
             throw InputError("The scene has no species; add one with speciesHandler.copyAndAddObject().");
@@ -53,35 +59,31 @@ public:
             species.deriveUnset();
             species.check();
         }
-        mixedFrom.assign(all.begin(), all.end());
-        ownMixedFrom = own;
-        mixtures.clear();
+        std::vector<std::optional<Mixed>> mixed;
         for (const S& a : complete)
-            for (const S& b : complete) mixtures.push_back(mixtureOf(a, b));
+            for (const S& b : complete) mixed.push_back(mixtureOf(a, b));
+        mixtures = std::move(mixed);
         count = all.size();
+        remember();
     }
     /// Whether a value has been set since mixAll().
     [[nodiscard]] bool hasChanged() const {
-        if (mixedFrom.size() != all.size() || ownMixedFrom.size() != own.size()) return true;
-        for (std::size_t k = 0; k < all.size(); ++k)
-            if (!isSame(all[k].density, mixedFrom[k].density) || !areSame(all[k], mixedFrom[k])) return true;
-        for (const auto& [pair, laws] : own) {
-            const auto before = ownMixedFrom.find(pair);
-            if (before == ownMixedFrom.end() || !areSame(laws, before->second)) return true;
-        }
-        return false;
+        return count != all.size() || mixedPairs != own.size() || mixedFrom.haveChanged();
     }
-    /// The laws between species a and b, after mixAll().
-    [[nodiscard]] const Mixed& mixture(int a, int b) const { return *mixtures[numberOf(a, b)]; }
+    /// The laws between species a and b, after mixAll(). Throws InputError if one of them was added since.
+    [[nodiscard]] const Mixed& mixture(int a, int b) const {
+        if (static_cast<std::size_t>(std::max(a, b)) >= count)
+            throw InputError(fmt::format("Species {} has no laws yet: it was added after the last mixAll().",
+                                         std::max(a, b)));
+        return *mixtures[numberOf(a, b)];
+    }
     /// Whether the pair has laws of this type: not all have, where a scene has species of several types.
     [[nodiscard]] bool hasMixture(int a, int b) const { return mixtures[numberOf(a, b)].has_value(); }
     /// Instead of mixAll(), in a scene of several types: it mixes the pairs itself.
-    void clearMixtures(std::size_t speciesCount) {
+    /// @param mixed of species a with all, then of the next; nothing where the pair has other laws
+    void setMixtures(std::size_t speciesCount, std::vector<std::optional<Mixed>> mixed) {
         count = speciesCount;
-        mixtures.assign(count * count, {});
-    }
-    void setMixture(int a, int b, const Mixed& laws) {
-        mixtures[numberOf(a, b)] = mixtures[numberOf(b, a)] = laws;
+        mixtures = std::move(mixed);
     }
 
     /// A run goes on with the species that it began with: their fields and the pairs' own values. Where they
@@ -104,17 +106,20 @@ public:
     }
 
 private:
-    /// Bit for bit: a value that is not set is not a number.
-    static bool isSame(double a, double b) {
-        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-    }
-    static bool areSame(const Mixed& a, const Mixed& b) {
-        bool same = true;
-        a.forEachLaw([&]<class Law>(const Law& law) {
-            for (const auto& field : Law::fields())
-                same &= isSame(law.*field.member, static_cast<const Law&>(b).*field.member);
-        });
-        return same;
+    /// Takes note of what the pairs were mixed from.
+    void remember() {
+        mixedFrom.clear();
+        const auto add = [&](const Mixed& laws) {
+            laws.forEachLaw([&]<class Law>(const Law& law) {
+                for (const auto& field : Law::fields()) mixedFrom.add(law.*field.member);
+            });
+        };
+        for (const S& species : all) {
+            mixedFrom.add(species.density);
+            add(species);
+        }
+        for (const auto& [pair, laws] : own) add(laws);
+        mixedPairs = own.size();
     }
     static void visitFields(StateArchive& archive, Mixed& laws, bool changedInRun) {
         laws.forEachLaw([&]<class Law>(Law& law) {
@@ -168,8 +173,8 @@ private:
     std::map<std::pair<int, int>, Mixed> own;
     std::size_t count = 0;  // of the species that were mixed
     std::vector<std::optional<Mixed>> mixtures;
-    std::vector<S> mixedFrom;  // as they were when they were mixed
-    std::map<std::pair<int, int>, Mixed> ownMixedFrom;
+    KnownValues mixedFrom;
+    std::size_t mixedPairs = 0;  // with own values
 };
 
 }  // namespace pendular

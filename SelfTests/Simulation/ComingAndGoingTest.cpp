@@ -3,10 +3,9 @@
 #include <functional>
 #include <memory>
 
-#include "Kernel/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
-#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -16,7 +15,7 @@
 namespace pendular {
 namespace {
 
-using scenes::FewGrains;
+using scenes::endOf;
 using scenes::SettlingBox;
 using support::contains;
 using support::isOneSentence;
@@ -142,23 +141,8 @@ Smooth smooth(double stiffness = 1000) {
 constexpr double r = 1e-3;     // m
 constexpr double step = 1e-6;  // s
 
-/// A scene with a hook that a test gives.
 template <class S>
-class Hooked : public FewGrains<S> {
-public:
-    using FewGrains<S>::FewGrains;
-    void actionsBeforeTimeStep() override {
-        if (hook) hook(*this);
-    }
-    SphericalParticle grain(double radius, const Vec3D& position) {
-        SphericalParticle result;
-        result.setSpecies(this->speciesHandler.getObject(0));
-        result.setRadius(radius);
-        result.setPosition(position);
-        return result;
-    }
-    std::function<void(Hooked&)> hook;
-};
+using Hooked = scenes::HookedGrains<S>;
 
 // Two grains that press on a third between them; without it they move on with what they have, freely.
 TEST(ComingAndGoing, theContactsOfARemovedGrainEnd) {
@@ -279,27 +263,6 @@ TEST(ComingAndGoing, isInTheLedgerOfTheEnergy) {
 }
 
 // ---- What set-up refuses is refused in a run, with the same sentence.
-
-/// The sentence with which a run ends that does this in its fifth step.
-template <class S>
-std::string endOf(Hooked<S>& scene, std::function<void(Hooked<S>&)> action) {
-    const TestFolder folder;
-    scene.setName(folder.name());
-    scene.setQuiet();
-    scene.setTimeMax(20 * scene.getTimeStep());
-    scene.hook = [action = std::move(action)](Hooked<S>& s) {
-        if (s.getNumberOfTimeSteps() == 5) action(s);
-    };
-    try {
-        scene.solve();
-    } catch (const RunError& error) {
-        EXPECT_TRUE(std::filesystem::exists(folder.name() + "-last-state.csv"));
-        return error.what();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
-}
 
 Hooked<Smooth> twoGrains(double timeStep = step) {
     return {smooth(), {{}, {.position = {3 * r, 0, 0}}}, timeStep};
