@@ -47,7 +47,8 @@ void StateArchive::same(std::string_view name, std::string_view text) {
     if (!isReading()) return file.write(fullName(name), text);
     std::string kept;
     this->text(name, kept);
-    expectSame(name, kept, std::string(text), {}, "a run goes on with the values it began with");
+    requireSame(kept == text, name, kept, std::string(text), {},
+                "a run goes on with the values it began with");
 }
 
 void StateArchive::expectEqual(std::string_view name, bool equal) const {
@@ -58,9 +59,9 @@ void StateArchive::expectEqual(std::string_view name, bool equal) const {
                         file.path().string(), fullName(name)));
 }
 
-void StateArchive::expectSame(std::string_view name, const std::string& kept, const std::string& now,
-                              std::string_view unit, std::string_view advice) const {
-    if (kept == now) return;
+void StateArchive::requireSame(bool isSame, std::string_view name, const std::string& kept,
+                               const std::string& now, std::string_view unit, std::string_view advice) const {
+    if (isSame) return;
     const std::string space = unit.empty() ? "" : " ";
     throw InputError(
         fmt::format("The restart file {} does not fit this scene: {} is {}{}{} in the file and {}{}{} in the "

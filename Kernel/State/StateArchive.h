@@ -123,9 +123,14 @@ public:
         if (!isReading()) return value(name, number);
         Number kept{};
         value(name, kept);
-        expectSame(name, shown(kept), shown(number), unit, advice);
+        const std::string before = shown(kept), after = shown(number);
+        requireSame(before == after, name, before, after, unit, advice);
     }
     void same(std::string_view name, std::string_view text);
+    /// For what is compared in another way, of a file that is read.
+    /// @param kept, now: what the sentence shows
+    void requireSame(bool isSame, std::string_view name, const std::string& kept, const std::string& now,
+                     std::string_view unit, std::string_view advice) const;
     template <class Number, RecordOf<Number> Record>
     void same(std::string_view name, std::span<const Record> records) {
         std::vector<Number> numbers(records.size_bytes() / sizeof(Number));
@@ -155,8 +160,6 @@ private:
     [[noreturn]] void refuseMissing(std::string_view name) const;
     void transfer(std::string_view name, const TableShape& shape, void* numbers);
     void expectEqual(std::string_view name, bool equal) const;
-    void expectSame(std::string_view name, const std::string& kept, const std::string& now,
-                    std::string_view unit, std::string_view advice) const;
     static std::string shown(double number);
     static std::string shown(std::integral auto number) { return std::to_string(number); }
 

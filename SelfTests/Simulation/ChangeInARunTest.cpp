@@ -19,7 +19,9 @@ namespace {
 
 using scenes::endOf;
 using support::contains;
+using support::isOneSentence;
 using support::refusal;
+using support::TestFolder;
 
 using Smooth = Species<LinearViscoelastic>;
 using Rolling = Species<LinearViscoelastic, SlidingRollingTorsion>;
@@ -92,6 +94,48 @@ TEST(FirstGrainInARun, meetsTheSecondOne) {
     EXPECT_NEAR(scene.motion(0).velocity.x(), -1, 1e-3);
     EXPECT_NEAR(scene.motion(1).velocity.x(), 1, 1e-3);
     EXPECT_GT(scene.contacts().rebuildCount(), 2u);
+}
+
+// ---- Walls
+
+/// A wall that shakes along its normal.
+class Shaken : public Hooked<Smooth> {
+public:
+    Shaken(double frequency, double amplitude, bool turns = false) : Hooked<Smooth>(smooth(), {{}}, 1e-5) {
+        InfiniteWall wall;
+        wall.setSpecies(speciesHandler.getObject(0));
+        wall.set({0, 0, -1}, {0, 0, -5 * r});
+        wall.setMotion([=](double time) {
+            const double phase = std::sin(2 * std::numbers::pi * frequency * time);
+            Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+            if (turns) pose.rotate(Eigen::AngleAxisd(amplitude * phase, Vec3D::UnitY()));
+            else pose.translation().z() = amplitude * phase;
+            return pose;
+        });
+        wallHandler.copyAndAddObject(wall);
+    }
+};
+
+TEST(WallOfAResumedRun, hasTheFunctionThatItHad) {
+    const TestFolder folder;
+    const auto file = folder.path() / "run.h5";
+    const auto refusalOf = [&](const Shaken& given, double frequency, double amplitude, bool turns = false) {
+        const_cast<Shaken&>(given).writeRestart(file);
+        Shaken other(frequency, amplitude, turns);
+        other.restartFrom(file);
+        const std::string text = refusal([&] { other.initialise(); });
+        if (!text.empty()) {
+            EXPECT_TRUE(isOneSentence(text));
+        }
+        return text;
+    };
+    Shaken scene(50, 1e-4);
+    scene.run(0);
+    EXPECT_TRUE(contains(refusalOf(scene, 60, 1e-4), "walls/0/velocity is (0, 0, 0.0314"));
+    scene.steps(1234);
+    EXPECT_EQ(refusalOf(scene, 50, 1e-4), "");
+    EXPECT_TRUE(contains(refusalOf(scene, 50, 2e-4), "walls/0/pose is (0, 0, "));
+    EXPECT_TRUE(contains(refusalOf(scene, 50, 1e-4, true), "function of setMotion()"));
 }
 
 // ---- Laws
