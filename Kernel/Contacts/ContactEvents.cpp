@@ -1,12 +1,19 @@
 #include "Kernel/Contacts/ContactEvents.h"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 namespace pendular {
 
 namespace {
 
 using Kind = ContactEvent::Kind;
+using Row = std::array<std::uint32_t, 5>;  // an event in a file; the wall's number + 1, 0: none
+
+auto contactOf(const ContactEvent& event) {
+    return std::tuple(event.particle1, event.particle2, event.wall, event.part);
+}
 
 ContactEvent eventOf(const ContactStore& store, const Bucket& bucket, std::uint32_t contact,
                      const std::vector<std::uint32_t>& identity, Kind kind) {
@@ -64,8 +71,23 @@ void ContactEvents::end(const ContactStore& store, std::uint32_t contact,
 }
 
 void ContactEvents::finish() {
-    std::ranges::sort(events);
+    std::ranges::stable_sort(events, {}, contactOf);
     for (const ContactEvent& event : events) sums.add(event.kind);
+}
+
+void ContactEvents::visitState(StateArchive& archive) {
+    archive.record<std::uint64_t>("counts", sums);
+    std::vector<Row> rows;
+    for (const ContactEvent& e : early)
+        rows.push_back({e.particle1, e.particle2, static_cast<std::uint32_t>(e.wall + 1), e.part,
+                        static_cast<std::uint32_t>(e.kind)});
+    archive.column<std::uint32_t>("beforeNextStep", rows);
+    early.clear();
+    for (const auto& [particle1, particle2, wall, part, kind] : rows) {
+        archive.require(kind <= static_cast<std::uint32_t>(Kind::BridgeRuptures), "beforeNextStep",
+                        "has an event of no kind that there is");
+        early.push_back({particle1, particle2, static_cast<int>(wall) - 1, part, static_cast<Kind>(kind)});
+    }
 }
 
 }  // namespace pendular

@@ -14,7 +14,8 @@ public:
     void listen(bool on) { listening = on; }
     [[nodiscard]] bool isListening() const { return listening; }
 
-    /// A step begins: what has ended since the last one, because bodies were removed, belongs to it.
+    /// A step begins: what has ended since the last one, because bodies were removed or changed, belongs to
+    /// it.
     void begin() {
         events.clear();
         events.swap(early);
@@ -26,9 +27,10 @@ public:
             states.assign(&store.states[bucket.begin], &store.states[bucket.begin] + bucket.size());
     }
     void after(ContactStore& store, const Bucket& bucket, const std::vector<std::uint32_t>& identity);
-    /// A contact is about to end because a body is removed.
+    /// A contact is about to end because a body is removed or changed.
     void end(const ContactStore& store, std::uint32_t contact, const std::vector<std::uint32_t>& identity);
-    /// Puts the events of the step into the order of identities, and counts them.
+    /// Puts the events of the step into the order of identities, those of one contact as they happened, and
+    /// counts them.
     void finish();
 
     /// A contact has a column more, which starts at this number.
@@ -36,7 +38,7 @@ public:
 
     [[nodiscard]] const std::vector<ContactEvent>& ofStep() const { return events; }
     [[nodiscard]] const ContactEventCounts& counts() const { return sums; }
-    void visitState(StateArchive& archive) { archive.record<std::uint64_t>("counts", sums); }
+    void visitState(StateArchive& archive);
 
 private:
     void startColumns(ContactStore& store, const Bucket& bucket) const;

@@ -98,6 +98,8 @@ public:
 
     /// Takes the values of the pairs for the buckets of a new list.
     virtual void prepare(const std::vector<Bucket>& buckets) = 0;
+    /// The laws with which a bucket of the list, by its number, was prepared.
+    [[nodiscard]] virtual const ContactLaws& ofBucket(std::size_t /*bucket*/) const { return *this; }
     /// The forces of a part of a bucket; false if a block needs memory first: it is marked then.
     virtual bool compute(const ContactTask& task) const = 0;
 };

@@ -60,10 +60,12 @@ public:
         });
     }
 
-    /// A grain has come to the end of the store, and has no contacts yet.
-    void addGrain() {
-        ends.push_back(begins.back());
-        begins.push_back(begins.back());
+    /// Grains have come to the end of the store, which has so many places now; they have no contacts yet.
+    void addGrains(std::size_t places) {
+        if (places <= ends.size()) return;
+        const auto last = static_cast<std::uint32_t>(sides.size());
+        begins.resize(places + 1, last);
+        ends.resize(places, last);
     }
 
     /// The contact of a grain has got memory.

@@ -25,9 +25,8 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
 }
 
 bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift) {
-    // Grains that came after the list, also those that have gone again, have no contacts yet.
-    if (rebuilds > 0)
-        while (contacts.sides.grainCount() < grains.size()) contacts.sides.addGrain();
+    // Also those that have gone again.
+    contacts.sides.addGrains(grains.size());
     unlisted += grainShift + std::max(grainShift, wallShift);
     ++stepsListed;
     if (unlisted < std::min(skin.width(), listBefore)) return false;
@@ -37,11 +36,40 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     return true;
 }
 
-void ContactSystem::renew(Grains& grains) { listAgain(grains, nullptr, false); }
+double ContactSystem::renew(Grains& grains) {
+    double stored = 0;
+    forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
+        if (!lastsThroughChange(grains, bucket, contact)) stored += endContact(grains, contact);
+    });
+    listAgain(grains, nullptr, false);
+    return stored;
+}
 
-void ContactSystem::listAgain(Grains& grains, const RememberedContacts* remembered, bool keepsBridges) {
+bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucket,
+                                       std::uint32_t contact) const {
+    const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
+    const std::size_t lane = contact % Pack::lanes;
+    const std::uint32_t first = block.first[lane], second = block.second[lane];
+    const bool isWall = bucket.wall >= 0;
+    const TranslationRecord& grain = grains.translation[first];
+    if (grain.inverseMass == 0 && (isWall || grains.translation[second].inverseMass == 0)) return false;
+    if (!isWall && grains.bodies.areJoined(grains.identity[first], grains.identity[second])) return false;
+    const int species1 = grains.species[first],
+              species2 = isWall ? wallOf(bucket).species : grains.species[second];
+    const auto number = static_cast<std::size_t>(&bucket - contacts.buckets.data());
+    if (&species->ofPair(species1, species2) != &species->ofBucket(number)) return false;
+    const ObservedContact seen = observe(grains, bucket, contact);
+    const double other = isWall ? infinity : grains.translation[second].radius;
+    double reach = 1e-12 * grain.radius;  // round-off of the separation, which the kernel computes otherwise
+    if (seen.bridged) reach += species->range(species1, species2, {grain.radius, other});
+    return seen.separation < reach;
+}
+
+std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts* remembered,
+                                     bool keepsBridges) {
     ContactList list(*species, *walls, periodic, skin.width(), ledger, threads, keepsBridges);
-    if (remembered) recalledContacts = list.rebuild(grains, contacts, *remembered);
+    std::size_t recalled = 0;
+    if (remembered) recalled = list.rebuild(grains, contacts, *remembered);
     else list.rebuild(grains, contacts);
     if (takesInGrains) cells = list.takeSearch();
     skin.listed(contacts, grains.size());
@@ -51,6 +79,7 @@ void ContactSystem::listAgain(Grains& grains, const RememberedContacts* remember
     listBefore = infinity;
     late.clear();
     ++rebuilds;
+    return recalled;
 }
 
 bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> identities) {
@@ -153,8 +182,7 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
     archive.group("events", [&] { contactEvents.visitState(archive); });
     if (!archive.isReading()) return;
-    listAgain(grains, &remembered);
-    archive.require(recalledContacts == remembered.size(), "pairs",
+    archive.require(listAgain(grains, &remembered) == remembered.size(), "pairs",
                     "has a contact of bodies that are out of reach");
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);

@@ -47,7 +47,10 @@ public:
     /// so near that contacts must be listed at once.
     bool takeIn(const Grains& grains, std::span<const std::uint32_t> identities);
     /// Bodies or laws have changed: contacts are listed again at once, and their bridges prepared again.
-    void renew(Grains& grains);
+    /// Those that the change takes apart end, also where both bodies are held now, and those whose pair has
+    /// other laws now, which know nothing of what the contact remembers. Returns the energy (J) that was
+    /// stored in what has ended, where a ledger is kept.
+    double renew(Grains& grains);
     /// Ends the contacts of the grain at a place, or at a wall, which is about to be removed; returns the
     /// energy (J) that was stored in them, where a ledger is kept.
     double endContactsOf(const Grains& grains, std::uint32_t place);
@@ -90,45 +93,31 @@ public:
     /// 1, then of body 2, then walls by number and part.
     template <class Function>
     void forEachActing(const Grains& grains, Function&& function) const {
-        for (const std::uint32_t place : grains.place) {
-            if (place >= contacts.sides.grainCount()) continue;  // it came after the list
-            for (const std::uint32_t side : contacts.sides.of(place)) {
-                if (side % 2 == 1) continue;  // the contact is that of its first body
-                const std::uint32_t contact = contacts.contactAt(side / 2);
-                if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
-            }
-        }
+        forEachWithMemory(grains, [&](std::uint32_t slot) { callIfActing(slot, function); });
     }
 
     /// The same for the contacts of the grain at a place, in the order of its partners.
     template <class Function>
     void forEachActingOf(std::uint32_t place, Function&& function) const {
-        if (place >= contacts.sides.grainCount()) return;
-        for (const std::uint32_t side : contacts.sides.of(place)) {
-            const std::uint32_t contact = contacts.contactAt(side / 2);
-            if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
-        }
+        for (const std::uint32_t side : sidesOf(place)) callIfActing(side / 2, function);
     }
 
     /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
     /// step, in the order of identities. Only where a ledger is kept.
     template <class Function>
     void forEachEnergyRecord(const Grains& grains, Function&& function) {
-        for (const std::uint32_t place : grains.place)
-            for (const std::uint32_t side : contacts.sides.of(place)) {
-                if (side % 2 == 1) continue;  // the contact is that of its first body
-                EnergyRecord& record = contacts.memory.energies[side / 2];
-                if (!record.now.acts() && !record.last.acts()) continue;
-                const std::uint32_t contact = contacts.contactAt(side / 2);
-                const std::size_t b = contact / Pack::lanes, lane = contact % Pack::lanes;
-                const Bucket& bucket = contacts.bucketOf(b);
-                if (bucket.wall >= 0) {
-                    record.now.wallVelocity =
-                        contacts.wallPoints[b - contacts.firstWallBlock()].velocityAt(lane);
-                    record.now.wallSpin = wallOf(bucket).angularVelocity();
-                }
-                function(bucket, contacts.blocks[b], lane, record);
+        forEachWithMemory(grains, [&](std::uint32_t slot) {
+            EnergyRecord& record = contacts.memory.energies[slot];
+            if (!record.now.acts() && !record.last.acts()) return;
+            const std::uint32_t contact = contacts.contactAt(slot);
+            const std::size_t b = contact / Pack::lanes, lane = contact % Pack::lanes;
+            const Bucket& bucket = contacts.bucketOf(b);
+            if (bucket.wall >= 0) {
+                record.now.wallVelocity = contacts.wallPoints[b - contacts.firstWallBlock()].velocityAt(lane);
+                record.now.wallSpin = wallOf(bucket).angularVelocity();
             }
+            function(bucket, contacts.blocks[b], lane, record);
+        });
     }
 
     /// A number of the driver's own that is kept of each contact from its first touch (or bridge) until it
@@ -150,8 +139,30 @@ private:
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
     [[nodiscard]] std::size_t slotOf(const ObservedContact& seen) const;
-    void listAgain(Grains& grains, const RememberedContacts* remembered = nullptr, bool keepsBridges = true);
+    /// None of a grain that came after the list.
+    [[nodiscard]] std::span<const std::uint32_t> sidesOf(std::uint32_t place) const {
+        if (place >= contacts.sides.grainCount()) return {};
+        return contacts.sides.of(place);
+    }
+    /// Calls function(place in the memory) for each contact with memory, in the order of identities: of body
+    /// 1, then of body 2.
+    template <class Function>
+    void forEachWithMemory(const Grains& grains, Function&& function) const {
+        for (const std::uint32_t place : grains.place)
+            for (const std::uint32_t side : sidesOf(place))
+                if (side % 2 == 0) function(side / 2);  // the contact is that of its first body
+    }
+    template <class Function>
+    void callIfActing(std::uint32_t slot, Function& function) const {
+        const std::uint32_t contact = contacts.contactAt(slot);
+        if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
+    }
+    /// Returns how many of the remembered contacts are listed again.
+    std::size_t listAgain(Grains& grains, const RememberedContacts* remembered = nullptr,
+                          bool keepsBridges = true);
     double endContact(const Grains& grains, std::uint32_t contact);
+    [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket,
+                                          std::uint32_t contact) const;
     [[nodiscard]] double gapAround(const Grains& grains, std::uint32_t place) const;
     [[nodiscard]] std::size_t firstWallBucket() const;
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
@@ -169,7 +180,6 @@ private:
     std::size_t stepsListed = 0;   // since the contacts were listed
     double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
     double listBefore = infinity;  // m, at which they must be listed, because of grains that came later
-    std::size_t recalledContacts = 0;
     std::vector<std::uint32_t> late;  // identities of grains that came after the list
     bool takesInGrains = false;       // and keeps the cells for it
     std::optional<NeighbourSearch> cells;

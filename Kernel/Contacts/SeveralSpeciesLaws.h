@@ -62,6 +62,9 @@ public:
     }
 
     void prepare(const std::vector<Bucket>& buckets) override;
+    [[nodiscard]] const ContactLaws& ofBucket(std::size_t bucket) const override {
+        return *ofBuckets[bucket];
+    }
     bool compute(const ContactTask& task) const override;
 
 private:

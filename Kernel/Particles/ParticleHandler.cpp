@@ -63,14 +63,15 @@ void GrainReference::setAngularVelocity(const Vec3D& spin) {
 void GrainReference::setPosition(const Vec3D& position) {
     requireOwnBody("position");
     record().position = finite(number, "position", position, "m");
-    handler->changes.moved.push_back(number);
+    handler->changes.placed.push_back(number);
 }
 void GrainReference::setRadius(double radius) {
     requireOwnBody("radius");
     checkValue(fmt::format("particle {}", number), "radius", radius, "m", positive);
+    const bool grows = radius > getRadius();
     record().radius = radius;
     setMass(handler->grains, place(), isFixed() ? 0 : 1 / handler->massOf(radius, getSpeciesIndex()));
-    handler->changes.altered.push_back(number);
+    (grows ? handler->changes.placed : handler->changes.altered).push_back(number);
 }
 void GrainReference::setSpeciesIndex(int index) {
     requireOwnBody("species");
@@ -82,6 +83,7 @@ void GrainReference::setSpeciesIndex(int index) {
 void GrainReference::fixParticle(bool fix) {
     requireOwnBody("being held");
     const std::uint32_t at = place();
+    const bool isLetGo = isFixed() && !fix;
     ParticleStore& grains = handler->grains;
     setMass(grains, at, fix ? 0 : 1 / handler->massOf(getRadius(), getSpeciesIndex()));
     if (fix) {  // it keeps no motion, and no force of its own
@@ -89,7 +91,7 @@ void GrainReference::fixParticle(bool fix) {
         if (grains.hasSpin) grains.rotation[at].spin = grains.rotation[at].angularAcceleration = {0, 0, 0};
         if (!grains.earlier.empty()) grains.earlier[at] = {};
     }
-    handler->changes.altered.push_back(number);
+    (isLetGo ? handler->changes.placed : handler->changes.altered).push_back(number);
 }
 
 double& GrainColumnReference::operator[](std::uint32_t identity) const {
@@ -114,6 +116,10 @@ double ParticleHandler::massOf(double radius, int species) const {
 
 GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain) {
     const std::string owner = fmt::format("particle {}", grains.nextIdentity());
+    if (grains.nextIdentity() > ParticleStore::largestIdentity)
+        throw InputError(
+            fmt::format("{}: no more grains can be added; the number of a grain must be at most {}.", owner,
+                        ParticleStore::largestIdentity));
     checkValue(owner, "radius", grain.getRadius(), "m", positive);
     if (grain.getSpeciesIndex() < 0)
         throw InputError(
@@ -140,7 +146,7 @@ void ParticleHandler::removeObject(std::size_t identity) {
     grains.remove(at);
     const auto forget = [&](std::vector<std::uint32_t>& list) { std::erase(list, identity); };
     forget(changes.added);
-    forget(changes.moved);
+    forget(changes.placed);
     forget(changes.altered);
 }
 

@@ -72,10 +72,11 @@ private:
 /// What a handler's grains have gone through since the scene last looked.
 struct GrainChanges {
     // Identities.
-    std::vector<std::uint32_t> added, moved;
-    std::vector<std::uint32_t> altered;  // another size or species, held or let go
+    std::vector<std::uint32_t> added;
+    std::vector<std::uint32_t> placed;   // put elsewhere, made larger, or let go: they may overlap others
+    std::vector<std::uint32_t> altered;  // made smaller, of another species, or held
 
-    [[nodiscard]] bool any() const { return !added.empty() || !moved.empty() || !altered.empty(); }
+    [[nodiscard]] bool any() const { return !added.empty() || !placed.empty() || !altered.empty(); }
 };
 
 /// Adds grains to a scene, removes them, and finds them again: before the run, and in it, from any hook.
@@ -92,7 +93,8 @@ public:
     /// Takes the memory for so many grains at once, instead of bit by bit.
     void reserve(std::size_t count) { grains.reserve(count); }
 
-    /// Adds a copy of the grain. Its mass is that of a solid sphere of its species' density.
+    /// Adds a copy of the grain. Its mass is that of a solid sphere of its species' density. Throws
+    /// InputError when 2^31 grains have been added in all.
     GrainReference copyAndAddObject(const SphericalParticle& grain);
     /// Removes the grain with this identity; its contacts and bridges end. The identities of all others stay,
     /// and this one is not given again. Throws InputError if there is no such grain, or if it is part of a

@@ -127,6 +127,7 @@ void ParticleStore::requireWhole(const StateArchive& archive) const {
     const bool ascends = std::ranges::adjacent_find(identity, isNext) == identity.end();
     archive.require(ascends && (identity.empty() || identity.back() < next), "identity",
                     "does not ascend, or is not below nextIdentity");
+    archive.require(next <= largestIdentity + 1, "nextIdentity", "is above 2^31");
 }
 
 }  // namespace pendular

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -63,6 +64,9 @@ public:
     PlaceIndex place;                     // of the grain with an identity
     std::vector<GrainColumn> columns;     // what else is kept of each grain
     RigidBodies bodies;                   // of several grains; a grain in none is its own
+
+    /// Numbers of grains are written as 32-bit integers with a sign.
+    static constexpr std::uint32_t largestIdentity = std::numeric_limits<std::int32_t>::max();
 
     /// Places, gaps included.
     [[nodiscard]] std::size_t size() const { return translation.size(); }

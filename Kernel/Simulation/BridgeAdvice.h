@@ -23,7 +23,7 @@ std::vector<BridgeCase> bridgesOf(Simulation<S>& scene, std::size_t count) {
         if (laws.liquidBridgeVolume > 0)
             bridges.push_back({bodies, laws.liquidBridgeVolume, laws.contactAngle});
     };
-    forEachExtremePair(scene.laws(), grains, scene.wallHandler,
+    forEachExtremePair(scene.laws(), {grains, scene.laws().speciesCount()}, scene.wallHandler,
                        [&](const PairLaws& pair, const Bodies& bodies, double) {
                            add(scene.speciesHandler.mixture(pair.a, pair.b), bodies);
                        });

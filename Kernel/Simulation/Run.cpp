@@ -38,6 +38,7 @@ void Run::setTimeStep(double step) {
     timeBefore = getTime();
     stepsBefore = steps;
     timeStep = step;
+    stepChanged |= begun;
 }
 
 void Run::setTimeMax(double end) {
@@ -76,8 +77,9 @@ void Run::visitSteps(StateArchive& archive) {
     archive.finite("timeBefore", timeBefore);
     archive.require(stepsBefore <= steps && timeBefore >= 0, "stepsBefore",
                     "is above the number of steps, or its time is negative");
-    if (stepsBefore == 0) return archive.same("timeStep", timeStep, "s");
-    archive.finite("timeStep", timeStep);  // changed during the run
+    archive.value("timeStepChanged", stepChanged);
+    if (!stepChanged) return archive.same("timeStep", timeStep, "s");
+    archive.finite("timeStep", timeStep);
     archive.require(timeStep > 0, "timeStep", "is not positive");
 }
 
@@ -170,6 +172,7 @@ void Run::step() {
     actionsBeforeTimeStep();
     advanceByStep();
     ++steps;
+    tellEvents();
     actionsAfterTimeStep();
     times.endStep();
 }

@@ -36,7 +36,7 @@ public:
 
     /// What the names of files begin with that a run writes by itself; a folder may be in it.
     void setName(std::string beginning);
-    /// During a run, the time goes on from where it is.
+    /// During a run, it holds from the next step on: the time goes on from where it is.
     /// @param step s
     void setTimeStep(double step);
     /// @param end s
@@ -109,6 +109,9 @@ protected:
     /// Throws InputError.
     void requireTimeStep() const;
     void readRestart();
+    /// The scene has been set up or read: what is changed from now on, is changed in the run.
+    void setHasBegun() { begun = true; }
+    [[nodiscard]] bool hasBegun() const { return begun; }
     /// What a restart file holds of the run itself; its numbers, and what its outputs and the driver
     /// remember.
     void visitSteps(StateArchive& archive);
@@ -118,6 +121,8 @@ protected:
 private:
     /// A step of the scene. Where it throws, the scene is as it was before the step.
     virtual void advanceByStep() = 0;
+    /// Calls the hooks of what has happened in the last step.
+    virtual void tellEvents() = 0;
     /// All that a restart file holds.
     virtual void visitAll(StateArchive& archive) = 0;
     virtual void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
@@ -142,6 +147,8 @@ private:
     std::size_t steps = 0, firstStep = 0;
     std::size_t stepsBefore = 0;  // those with another time step
     double timeBefore = 0;        // s, when these had been done
+    bool begun = false;
+    bool stepChanged = false;  // since the run began
     RestartSchedule restarts;
     std::optional<std::size_t> restartFileSteps;  // in restartFile(), if it is of this run
     std::filesystem::path restartSource;          // empty: a run from its beginning

@@ -81,10 +81,9 @@ private:
         rows.add("steps", scene.getNumberOfTimeSteps());
         if (scene.getFirstStep() > 0) rows.add("restarted after steps", scene.getFirstStep());
         rows.addNumber("time step", scene.getTimeStep(), "s");
-        rows.addNumber("stability limit",
-                       sceneStabilityLimit(scene.laws(), scene.particleHandler.store(), scene.wallHandler,
-                                           scene.getIntegrator()),
-                       "s");
+        rows.addNumber(
+            "stability limit",
+            sceneStabilityLimit(scene.laws(), sizes(scene), scene.wallHandler, scene.getIntegrator()), "s");
         if (scene.acceptsUnstableTimeStep()) rows.add("step above the stability limit", "accepted");
         rows.add("threads", scene.getNumberOfThreads());
         rows.add("grains", scene.particleHandler.getSize());
@@ -149,7 +148,11 @@ private:
     }
     template <class Scene>
     static std::vector<BrokenLimit> broken(const Scene& scene) {
-        return brokenLimits(scene.laws(), scene.particleHandler.store(), scene.wallHandler);
+        return brokenLimits(scene.laws(), sizes(scene), scene.wallHandler);
+    }
+    template <class Scene>
+    static GrainSizes sizes(const Scene& scene) {
+        return {scene.particleHandler.store(), scene.laws().speciesCount()};
     }
     template <class Scene>
     static std::size_t bridgesOut(const Scene& scene) {

@@ -12,16 +12,15 @@ namespace pendular {
 using Motion = TimeIntegration;
 
 Scene::Scene() {
-    particleHandler.callBeforeRemoval([this](std::uint32_t place) { endContactsOf(place); });
-    wallHandler.callBeforeRemoval([this](int wall) {
-        const double stored = contactSystem.endContactsAtWall(particleHandler.store(), wall);
-        if (ledgerKept) ledger.driver -= stored;
+    // A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
+    particleHandler.callBeforeRemoval([this](std::uint32_t place) {
+        bookEnded(contactSystem.endContactsOf(particleHandler.store(), place));
     });
+    wallHandler.callBeforeRemoval(
+        [this](int wall) { bookEnded(contactSystem.endContactsAtWall(particleHandler.store(), wall)); });
 }
 
-/// A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
-void Scene::endContactsOf(std::uint32_t place) {
-    const double stored = contactSystem.endContactsOf(particleHandler.store(), place);
+void Scene::bookEnded(double stored) {
     if (ledgerKept) ledger.driver -= stored;
 }
 
@@ -51,13 +50,14 @@ Vec3D Scene::contactForceOn(std::size_t identity) const {
 }
 
 void Scene::requireSetUp(std::string_view what) const {
-    if (hasBegun)
+    if (hasBegun())
         throw InputError(fmt::format("Simulation: the {} can be set until the run begins, not in it.", what));
 }
 
 void Scene::setGravity(const Vec3D& acceleration) {
     for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
     gravity = toVector(acceleration);
+    gravityChanged |= hasBegun();
 }
 
 void Scene::setPeriodic(int axis, double lowest, double highest) {
@@ -77,7 +77,8 @@ void Scene::setNumberOfThreads(int count) {
 
 double Scene::stabilityLimit() {
     mixChangedLaws();
-    return sceneStabilityLimit(laws(), particleHandler.store(), wallHandler, integrator);
+    return sceneStabilityLimit(laws(), {particleHandler.store(), laws().speciesCount()}, wallHandler,
+                               integrator);
 }
 
 double Scene::stabilityLimit(std::span<const SphericalParticle> toCome) {
@@ -88,12 +89,12 @@ double Scene::stabilityLimit(std::span<const SphericalParticle> toCome) {
         grains.add({{0, 0, 0}, grain.getRadius(), {0, 0, 0}, grain.isFixed() ? 0 : 1 / mass}, {0, 0, 0},
                    static_cast<std::uint16_t>(grain.getSpeciesIndex()));
     }
-    return sceneStabilityLimit(laws(), grains, wallHandler, integrator);
+    return sceneStabilityLimit(laws(), {grains, laws().speciesCount()}, wallHandler, integrator);
 }
 
 double Scene::shortestContactTime() {
     mixChangedLaws();
-    return shortestHalfPeriod(laws(), particleHandler.store(), wallHandler);
+    return shortestHalfPeriod(laws(), {particleHandler.store(), laws().speciesCount()}, wallHandler);
 }
 
 void Scene::initialise() {
@@ -111,6 +112,7 @@ void Scene::initialise() {
     advance(0);  // a step of no length: forces and accelerations at the start
     energyAtStart = ledger.total();
     Motion::start(grains, integrator);
+    tellEvents();
 }
 
 void Scene::advanceByStep() {
@@ -126,17 +128,20 @@ void Scene::advanceByStep() {
     }
 }
 
+void Scene::tellEvents() {
+    for (const ContactEvent& event : contactSystem.events().ofStep()) actionsOnContactEvent(event);
+}
+
 void Scene::check() {
-    const ParticleStore& grains = particleHandler.store();
-    refuseForBodies(grains.bodies);
-    checkScene(laws(), grains, wallHandler, unstableAccepted ? 0 : getTimeStep(), integrator);
-    checkPeriodicLengths(laws(), grains, wallHandler, periodic);
-    checkedSizes = sizeRanges(grains, laws().speciesCount(), false);
-    checkedFreeSizes = sizeRanges(grains, laws().speciesCount(), true);
+    refuseForBodies(particleHandler.store().bodies);
+    GrainSizes sizes(particleHandler.store(), laws().speciesCount());
+    checkScene(laws(), sizes, wallHandler, unstableAccepted ? 0 : getTimeStep(), integrator);
+    checkPeriodicLengths(laws(), sizes, wallHandler, periodic);
     checkedStep = getTimeStep();
-    knownWalls = wallHandler.generation();
-    const double smallest = grains.smallestRadius();
-    if (hasBegun && smallest < smallestRadius) contactSystem.setSmallestRadius(smallest);
+    wallHandler.changesAreKnown();
+    const double smallest = sizes.smallest();
+    checkedSizes = std::move(sizes);
+    if (hasBegun() && smallest < smallestRadius) contactSystem.setSmallestRadius(smallest);
     smallestRadius = std::min(smallestRadius, smallest);
 }
 
@@ -160,9 +165,10 @@ void Scene::mixChangedLaws() {
 void Scene::takeOverChanges() {
     try {
         mixChangedLaws();
-        const bool newLaws = std::exchange(lawsAreNew, false),
-                   newWalls = wallHandler.generation() != knownWalls;
-        if (!newLaws && !newWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges()) return;
+        const bool newLaws = std::exchange(lawsAreNew, false), newWalls = wallHandler.hasOtherWalls(),
+                   changedWalls = wallHandler.hasChanges();
+        if (!newLaws && !changedWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges())
+            return;
         const GrainChanges changes = particleHandler.takeChanges();
         if (newLaws) {
             ContactLayout asked = laws().layout;
@@ -175,14 +181,14 @@ void Scene::takeOverChanges() {
             particleHandler.renewMasses();
             speciesChanged = true;
         }
-        const bool newBodies = newWalls || !changes.moved.empty() || !changes.altered.empty();
+        const bool newBodies = changedWalls || !changes.placed.empty() || !changes.altered.empty();
         if (newLaws || newBodies || getTimeStep() != checkedStep || isNewToChecks(changes.added)) check();
         ParticleStore& grains = particleHandler.store();
         for (const std::uint32_t identity : changes.added)  // there was no step that could have found it
             if (grains.isFree(grains.place[identity])) grains.acceleration[grains.place[identity]] = gravity;
-        if (newLaws || newBodies) contactSystem.renew(grains);
-        else if (contactSystem.takeIn(grains, changes.added)) return;
-        else contactSystem.renew(grains);
+        const bool isRenewed = newLaws || newBodies;
+        if (!isRenewed && contactSystem.takeIn(grains, changes.added)) return;
+        bookEnded(contactSystem.renew(grains));
         refuseOverlapsOf(changes, newWalls);
     } catch (const InputError& refusal) {
         throw RunError(refusal.what());
@@ -195,9 +201,7 @@ bool Scene::isNewToChecks(std::span<const std::uint32_t> added) const {
     return std::ranges::any_of(added, [&](std::uint32_t identity) {
         const std::uint32_t place = grains.place[identity];
         const TranslationRecord& grain = grains.translation[place];
-        const std::size_t species = grains.species[place];
-        return species >= checkedSizes.size() || !checkedSizes[species].holds(grain.radius) ||
-               (grain.inverseMass > 0 && !checkedFreeSizes[species].holds(grain.radius));
+        return !checkedSizes.hold(grains.species[place], grain.radius, grain.inverseMass > 0);
     });
 }
 
@@ -205,7 +209,7 @@ bool Scene::isNewToChecks(std::span<const std::uint32_t> added) const {
 void Scene::refuseOverlapsOf(const GrainChanges& changes, bool atWalls) const {
     const ParticleStore& grains = particleHandler.store();
     std::vector<bool> isNew(grains.size());
-    for (const auto* identities : {&changes.added, &changes.moved})
+    for (const auto* identities : {&changes.added, &changes.placed})
         for (const std::uint32_t identity : *identities) isNew[grains.place[identity]] = true;
     refuseInitialOverlaps(contactSystem, grains,
                           [&](const Bucket& bucket, std::uint32_t first, std::uint32_t second) {
@@ -224,17 +228,16 @@ void Scene::prepare() {
     check();
     static_cast<void>(particleHandler.takeChanges());
     lawsAreNew = false;
-    hasBegun = true;
+    setHasBegun();
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept);
     if (isQuiet()) return;
-    for (const BrokenLimit& broken : brokenLimits(laws(), particleHandler.store(), wallHandler))
+    for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, wallHandler))
         fmt::print(stderr, "Warning: {}.\n", broken.text());
     warnOfFedSprings();
 }
 
 void Scene::warnOfFedSprings() const {
-    const double fewest =
-        fewestStepsToDouble(laws(), particleHandler.store(), wallHandler, integrator, getTimeStep());
+    const double fewest = fewestStepsToDouble(laws(), checkedSizes, wallHandler, integrator, getTimeStep());
     if (fewest > 1e7) return;
     const std::string time = fewest < 1 ? "less than one step" : fmt::format("some {:.0f} steps", fewest);
     fmt::print(stderr,
@@ -246,7 +249,7 @@ void Scene::warnOfFedSprings() const {
 
 void Scene::visitAll(StateArchive& archive) {
     // A file holds bodies, laws and contacts that fit together: what hooks have just changed is taken over.
-    if (archive.isWriting() && hasBegun) takeOverChanges();
+    if (archive.isWriting() && hasBegun()) takeOverChanges();
     visitScene(archive);
     if (archive.isReading()) prepare();
     archive.group("contacts", [&] { contactSystem.visitState(archive, particleHandler.store()); });
@@ -263,14 +266,28 @@ void Scene::visitScene(StateArchive& archive) {
                  "the energy ledger is kept from the begin of a run to its end or not at all, so give "
                  "--energy-interval-s (or keepEnergyLedger()) as it was: above 0 where the file has 1, 0 "
                  "where it has 0");
-    archive.finite("gravity", gravity);
-    archive.finite("periodic", periodic);
+    visitSurroundings(archive);
     archive.finite("ledger", ledger);
     archive.finite("energyAtStart", energyAtStart);
     archive.finite("approachUnseen", approachUnseen);
     archive.value("smallestRadius", smallestRadius);
     archive.require(smallestRadius > 0, "smallestRadius", "is not positive");
     archive.group("particles", [&] { particleHandler.visitState(archive); });
+}
+
+/// The directions in which the scene repeats itself are as they were set up, and so is gravity unless the run
+/// has changed it.
+void Scene::visitSurroundings(StateArchive& archive) {
+    constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+    constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+    archive.value("gravityChanged", gravityChanged);
+    if (gravityChanged) archive.finite("gravity", gravity);
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!gravityChanged)
+            archive.group("gravity", [&] { archive.same(axes[k], gravity.*along[k], "m/s^2"); });
+        archive.group("periodicLowest", [&] { archive.same(axes[k], periodic.lowest.*along[k], "m"); });
+        archive.group("periodicLength", [&] { archive.same(axes[k], periodic.length.*along[k], "m"); });
+    }
 }
 
 void Scene::writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
@@ -303,7 +320,6 @@ void Scene::advance(double length) {
         RigidBodyMotion::finish(grains, contactSystem.store(), gravity, length, integrator);
     enter(StepTimes::Part::Other);
     intoLedger([&] { account.finish(grains, contactSystem, gravity, length, integrator, ledger); });
-    for (const ContactEvent& event : contactSystem.events().ofStep()) actionsOnContactEvent(event);
 }
 
 void Scene::bringBack(ParticleStore& grains) {

@@ -22,8 +22,8 @@ public:
 
     virtual void setupInitialConditions() {}
 
-    /// Called at the end of a step for each begin and end of a touch or a bridge in it, in the order of
-    /// identities; only after listenToContacts().
+    /// Called after a step, before actionsAfterTimeStep(), for each begin and end of a touch or a bridge in
+    /// it, in the order of identities; only after listenToContacts().
     virtual void actionsOnContactEvent(const ContactEvent& /*event*/) {}
 
     ParticleHandler particleHandler;
@@ -50,6 +50,7 @@ public:
         if constexpr (requires { kept->interval(); }) calls.interval = kept->interval();
         keepOutput(std::move(calls));
     }
+    /// During a run, it holds from the next step on.
     /// @param acceleration m/s^2
     void setGravity(const Vec3D& acceleration);
     /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m). The length must
@@ -144,6 +145,7 @@ protected:
 
 private:
     void advanceByStep() override;
+    void tellEvents() override;
 
     [[nodiscard]] RunNumbers numbers() const override;
 
@@ -159,13 +161,15 @@ private:
     /// Whether the checks must be made again for grains that were added.
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
     void refuseOverlapsOf(const GrainChanges& changes, bool atWalls) const;
-    void endContactsOf(std::uint32_t place);
+    /// What was stored (J) in contacts that the driver has ended.
+    void bookEnded(double stored);
     void requireSetUp(std::string_view what) const;
 
     void warnOfFedSprings() const;
 
     void visitAll(StateArchive& archive) override;
     void visitScene(StateArchive& archive);
+    void visitSurroundings(StateArchive& archive);
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;
 
@@ -198,14 +202,13 @@ private:
     Vector<double> gravity{0, 0, 0};
     Integrator integrator = integrators::predictedVelocityVerlet;
     double smallestRadius = infinity;
-    std::vector<SizeRange> checkedSizes, checkedFreeSizes;  // of each species
-    std::uint64_t knownWalls = 0;                           // their generation
-    double checkedStep = unset;                             // s
-    bool speciesChanged = false;                            // since the run began
-    bool lawsAreNew = false;                                // prepared ones are to be made again
-    bool hasBegun = false;
-    double energyAtStart = 0;   // J, of the ledger
-    double approachUnseen = 0;  // m, of two grains since deep overlaps were looked for
+    GrainSizes checkedSizes;
+    double checkedStep = unset;   // s
+    bool speciesChanged = false;  // since the run began
+    bool gravityChanged = false;  // since the run began
+    bool lawsAreNew = false;      // prepared ones are to be made again
+    double energyAtStart = 0;     // J, of the ledger
+    double approachUnseen = 0;    // m, of two grains since deep overlaps were looked for
     int threads = 1;
     bool unstableAccepted = false;
     bool ledgerKept = false;

@@ -39,16 +39,36 @@ struct SizeRange {
     }
 };
 
-/// The sizes of the grains of each species; of those that are free to move only, or of all.
-inline std::vector<SizeRange> sizeRanges(const ParticleStore& grains, std::size_t speciesCount,
-                                         bool freeOnly) {
-    std::vector<SizeRange> ranges(speciesCount);
-    for (std::size_t k = 0; k < grains.size(); ++k) {
-        if (grains.isGap(k) || (freeOnly && grains.translation[k].inverseMass == 0)) continue;
-        ranges[grains.species[k]].add(grains.translation[k].radius);
+/// The sizes of the grains of each species: of all, and of those that are free to move.
+struct GrainSizes {
+    std::size_t count = 0;  // of grains
+    std::vector<SizeRange> all, free;
+    double stepFactor = 1;  // of the stability limit, because of rigid bodies
+
+    GrainSizes() = default;
+    GrainSizes(const ParticleStore& grains, std::size_t speciesCount)
+        : count(grains.count()),
+          all(speciesCount),
+          free(speciesCount),
+          stepFactor(grains.bodies.stepFactor()) {
+        for (std::size_t k = 0; k < grains.size(); ++k) {
+            if (grains.isGap(k)) continue;
+            const TranslationRecord& grain = grains.translation[k];
+            all[grains.species[k]].add(grain.radius);
+            if (grain.inverseMass > 0) free[grains.species[k]].add(grain.radius);
+        }
     }
-    return ranges;
-}
+    /// m; infinite without grains
+    [[nodiscard]] double smallest() const {
+        double radius = infinity;
+        for (const SizeRange& range : all) radius = std::min(radius, range.smallest);
+        return radius;
+    }
+    /// Whether a grain of this radius (m) is between others of its species.
+    [[nodiscard]] bool hold(std::size_t species, double radius, bool isFree) const {
+        return species < all.size() && all[species].holds(radius) && (!isFree || free[species].holds(radius));
+    }
+};
 
 /// Which pairs of a scene are looked at: those of all sizes that there are, of which more grains may come, or
 /// those of the grains that there are (a grain that is the only one of its size has no pair of two such).
@@ -58,10 +78,9 @@ enum class Pairs { OfSizes, OfGrains };
 /// the largest grains of each two species, and of each species with each wall. (A grain that is held in place
 /// counts as free.)
 template <class Function>
-void forEachExtremePair(const ContactLaws& species, const ParticleStore& grains, const WallHandler& walls,
+void forEachExtremePair(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                         Function&& function, Pairs pairs = Pairs::OfSizes) {
-    const std::vector<SizeRange> free = sizeRanges(grains, species.speciesCount(), true);
-    const std::vector<SizeRange> sizes = sizeRanges(grains, species.speciesCount(), false);
+    const std::vector<SizeRange>&free = grains.free, &sizes = grains.all;
     const auto mass = [&](std::size_t s, double radius) { return sphereMass(radius, species.density(s)); };
     const auto forBodies = [&](std::size_t a, std::size_t b, double r1, double r2) {
         function(PairLaws{species, static_cast<int>(a), static_cast<int>(b)}, Bodies{r1, r2},
@@ -92,20 +111,20 @@ inline std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
 }
 
 /// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains.
-inline double sceneStabilityLimit(const ContactLaws& species, const ParticleStore& grains,
+inline double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains,
                                   const WallHandler& walls,
                                   const Integrator& integrator = integrators::predictedVelocityVerlet) {
-    const std::size_t contacts = mostContacts(grains.count(), walls);
+    const std::size_t contacts = mostContacts(grains.count, walls);
     double limit = infinity;
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         limit = std::min(limit, stabilityLimit(laws, bodies, mass, integrator, contacts));
     });
-    return grains.bodies.stepFactor() * limit;
+    return grains.stepFactor * limit;
 }
 
 /// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without
 /// grains.
-inline double shortestHalfPeriod(const ContactLaws& species, const ParticleStore& grains,
+inline double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains,
                                  const WallHandler& walls) {
     double shortest = infinity;
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
@@ -116,7 +135,7 @@ inline double shortestHalfPeriod(const ContactLaws& species, const ParticleStore
 
 /// Throws InputError if a law cannot serve bodies of the scene, or if the time step (s) is above the
 /// stability limit.
-inline void checkScene(const ContactLaws& species, const ParticleStore& grains, const WallHandler& walls,
+inline void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                        double timeStep, const Integrator& integrator) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
         if (!walls.isRemoved(w))
@@ -140,7 +159,7 @@ inline void checkScene(const ContactLaws& species, const ParticleStore& grains, 
 
 /// Throws InputError if the scene repeats itself so soon that a grain could meet two images of another: a
 /// contact knows the nearest image only.
-inline void checkPeriodicLengths(const ContactLaws& species, const ParticleStore& grains,
+inline void checkPeriodicLengths(const ContactLaws& species, const GrainSizes& grains,
                                  const WallHandler& walls, const PeriodicBox& box) {
     double reach = 0;  // m, of two centres that act on each other
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {

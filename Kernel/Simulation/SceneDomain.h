@@ -20,7 +20,7 @@ struct BrokenLimit {
 };
 
 /// Of the extreme pairs of bodies of a scene: one for each law, quantity, and side of its range.
-inline std::vector<BrokenLimit> brokenLimits(const ContactLaws& species, const ParticleStore& grains,
+inline std::vector<BrokenLimit> brokenLimits(const ContactLaws& species, const GrainSizes& grains,
                                              const WallHandler& walls) {
     std::vector<BrokenLimit> broken;
     forEachExtremePair(
@@ -43,14 +43,14 @@ inline std::vector<BrokenLimit> brokenLimits(const ContactLaws& species, const P
 
 /// The fewest steps (infinite: never) in which the integrator doubles a motion of grains at rest, with
 /// springs of friction whose dashpots cannot stop it.
-inline double fewestStepsToDouble(const ContactLaws& species, const ParticleStore& grains,
+inline double fewestStepsToDouble(const ContactLaws& species, const GrainSizes& grains,
                                   const WallHandler& walls, const Integrator& integrator, double step) {
     double fewest = infinity;
     if (species.layout.hasTorque)
         forEachExtremePair(
             species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
                 fewest = std::min(fewest, stepsToDouble(laws, bodies, mass, integrator,
-                                                        mostContacts(grains.count(), walls), step));
+                                                        mostContacts(grains.count, walls), step));
             });
     return fewest;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -17,7 +19,7 @@ namespace pendular {
 class WallHandler {
 public:
     /// Adds a copy; the pointer stays valid until the wall is removed. In a run, a wall with a motion begins
-    /// it now, from where it is.
+    /// it now, from where it is; and a species that is set by the pointer holds from the next step on.
     template <class Shape>
     requires std::derived_from<Shape, Wall> Shape* copyAndAddObject(const Shape& wall) {
         if (wall.species < 0)
@@ -61,8 +63,18 @@ public:
     [[nodiscard]] bool isRemoved(std::size_t number) const { return walls[number]->species < 0; }
     /// Called with the number of a wall before it is removed.
     void callBeforeRemoval(std::function<void(int)> function) { beforeRemoval = std::move(function); }
-    /// Counts additions and removals.
-    [[nodiscard]] std::uint64_t generation() const { return changes; }
+    /// Whether walls were added or removed since changesAreKnown().
+    [[nodiscard]] bool hasOtherWalls() const { return changes != knownChanges; }
+    /// The same, or whether a wall has got another species.
+    [[nodiscard]] bool hasChanges() const {
+        return hasOtherWalls() ||
+               !std::ranges::equal(walls, knownSpecies, {}, [](const auto& wall) { return wall->species; });
+    }
+    void changesAreKnown() {
+        knownChanges = changes;
+        knownSpecies.clear();
+        for (const auto& wall : walls) knownSpecies.push_back(wall->species);
+    }
 
     /// Moves all walls to where they are at a time (s); returns how far (m) any of their points can have
     /// moved.
@@ -75,6 +87,8 @@ public:
 
     void visitState(StateArchive& archive) {
         archive.same("count", walls.size());
+        archive.value("time", now);
+        archive.require(!std::isinf(now), "time", "is not finite");
         for (std::size_t w = 0; w < walls.size(); ++w)
             archive.group(std::to_string(w), [&] { walls[w]->visitState(archive); });
     }
@@ -92,8 +106,10 @@ private:
 
     std::vector<std::unique_ptr<Wall>> walls;
     std::function<void(int)> beforeRemoval;
-    std::uint64_t changes = 0;
-    double now = unset;  // s; not a number before the run
+    std::uint64_t changes = 0;  // additions and removals
+    std::uint64_t knownChanges = 0;
+    std::vector<int> knownSpecies;  // of each wall
+    double now = unset;             // s; not a number before the run
 };
 
 }  // namespace pendular

@@ -18,13 +18,16 @@ namespace pendular {
 namespace {
 
 using scenes::endOf;
+using scenes::GrainMotion;
 using support::contains;
 using support::isOneSentence;
 using support::refusal;
 using support::TestFolder;
 
+using Kind = ContactEvent::Kind;
 using Smooth = Species<LinearViscoelastic>;
 using Rolling = Species<LinearViscoelastic, SlidingRollingTorsion>;
+using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 template <class S>
 using Hooked = scenes::HookedGrains<S>;
 
@@ -96,7 +99,171 @@ TEST(FirstGrainInARun, meetsTheSecondOne) {
     EXPECT_GT(scene.contacts().rebuildCount(), 2u);
 }
 
+// ---- Contacts that a change takes apart
+
+struct PartingChange {
+    const char* name;
+    std::function<void(Hooked<Smooth>&)> change;
+};
+
+// They end in order: with an event, and with their energy given back to the driver. The force of the last
+// step acts on for half a step: the account lacks 1/2 h F v.
+TEST(ContactOfAChangedGrain, endsWhereTheChangeTakesItApart) {
+    for (const auto& [name, change] : std::vector<PartingChange>{
+             {"far",
+              [](auto& s) {
+                  s.particleHandler.getObject(1).setPosition({50 * r, 0, 0});
+              }},
+             {"near",
+              [](auto& s) {
+                  s.particleHandler.getObject(1).setPosition({2.0001 * r, 0, 0});
+              }},
+             {"smaller", [](auto& s) { s.particleHandler.getObject(1).setRadius(0.9 * r); }},
+             {"held", [](auto& s) { s.particleHandler.getObject(1).fixParticle(); }}}) {
+        SCOPED_TRACE(name);
+        Hooked<Smooth> scene(smooth(), {{.fixed = true}, {.position = {1.98 * r, 0, 0}}}, step);
+        scene.keepEnergyLedger();
+        scene.listenToContacts();
+        scene.run(5);
+        scene.heard.clear();
+        const EnergyLedger before = scene.energyLedger();
+        const double force = scene.particleHandler.getObject(1).getForce().x(),
+                     speed = scene.motion(1).velocity.x();
+        EXPECT_GT(before.elastic, 0.4 * stiffness * std::pow(0.02 * r, 2));
+        change(scene);
+        scene.step();
+        ASSERT_EQ(scene.heard.size(), 1u);
+        EXPECT_EQ(scene.heard[0], (ContactEvent{0, 1, -1, 0, Kind::TouchEnds}));
+        EXPECT_EQ(scene.energyLedger().elastic, 0);
+        EXPECT_EQ(scene.energyLedger().stepError, before.stepError);
+        // The mass of the one that is made smaller goes with the driver, too.
+        EXPECT_NEAR(scene.energyLedger().total(), before.total(), 2 * step * force * speed);
+        EXPECT_LT(2 * step * force * speed, 0.01 * before.elastic);
+        scene.steps(3);
+        EXPECT_EQ(scene.heard.size(), 1u);
+    }
+}
+
+// So do those of bridges, and those at walls.
+TEST(ContactOfAChangedGrain, endsWithItsBridgeAndAtWalls) {
+    Hooked<Wet> wet(scenes::boxMaterial<Wet>(0), {{}, {.position = {1.99 * r, 0, 0}}}, step);
+    wet.listenToContacts();
+    wet.run(5);
+    wet.heard.clear();
+    wet.particleHandler.getObject(0).setPosition({-3 * r, 0, 0});
+    wet.step();
+    ASSERT_EQ(wet.heard.size(), 2u);
+    EXPECT_EQ(wet.heard[0].kind, Kind::TouchEnds);
+    EXPECT_EQ(wet.heard[1].kind, Kind::BridgeRuptures);
+    EXPECT_EQ(wet.contactEventCounts().bridgesRuptured, 1u);
+
+    Hooked<Smooth> walled(smooth(), {{.position = {0, 0, 0.99 * r}}}, step, {{{0, 0, -1}, {0, 0, 0}}});
+    walled.listenToContacts();
+    walled.run(5);
+    walled.heard.clear();
+    walled.particleHandler.getObject(0).fixParticle();
+    walled.step();
+    ASSERT_EQ(walled.heard.size(), 1u);
+    EXPECT_EQ(walled.heard[0], (ContactEvent{0, ContactEvent::none, 0, 0, Kind::TouchEnds}));
+}
+
+// One that is moved and still touches goes on: with the friction that it has built up.
+TEST(ContactOfAChangedGrain, goesOnWhereItStillTouches) {
+    Hooked<Wet> scene(scenes::boxMaterial<Wet>(0), {{.fixed = true}, {.position = {1.99 * r, 0, 0}}}, step);
+    scene.listenToContacts();
+    scene.particleHandler.getObject(1).setVelocity({0, 0.1, 0});
+    scene.run(20);
+    const auto spring = [&] {
+        const ContactSystem& contacts = scene.contacts();
+        double length = 0;
+        contacts.forEachActing(scene.particleHandler.store(), [&](const Bucket&, std::uint32_t contact) {
+            length = contacts.springLength(contact);
+        });
+        return length;
+    };
+    const double before = spring();
+    EXPECT_GT(before, 1e-7);
+    scene.heard.clear();
+    GrainReference grain = scene.particleHandler.getObject(1);
+    grain.setPosition(grain.getPosition() + Vec3D(1e-8, 0, 0));
+    grain.setRadius(0.9999 * r);
+    scene.step();
+    EXPECT_NEAR(spring() / before, 1, 0.2);
+    EXPECT_TRUE(scene.heard.empty());
+}
+
+// ---- Overlaps that a change makes
+
+TEST(OverlapOfAChangedGrain, isRefusedAsAtSetUp) {
+    const auto pair = [](double distance, bool held) {
+        return std::make_unique<Hooked<Smooth>>(
+            smooth(),
+            std::vector<GrainMotion>{{.fixed = held}, {.position = {distance, 0, 0}, .fixed = held}}, step);
+    };
+    auto swelling = pair(2.01 * r, false), letGo = pair(1.8 * r, true), shrinking = pair(1.8 * r, true);
+    std::string text =
+        endOf<Smooth>(*swelling, [](auto& s) { s.particleHandler.getObject(1).setRadius(1.21 * r); });
+    EXPECT_TRUE(
+        contains(text, "particle 0 and particle 1: initial overlap = 0.0002 m is 20 % of the smaller"));
+    text = endOf<Smooth>(*letGo, [](auto& s) { s.particleHandler.getObject(0).fixParticle(false); });
+    EXPECT_TRUE(
+        contains(text, "particle 0 and particle 1: initial overlap = 0.0002 m is 20 % of the smaller"));
+    // A held pair has no contact; and what is within the bound goes on.
+    EXPECT_EQ(endOf<Smooth>(*shrinking, [](auto& s) { s.particleHandler.getObject(1).setRadius(0.9 * r); }),
+              "");
+    auto little = pair(1.99 * r, true);
+    EXPECT_EQ(endOf<Smooth>(*little, [](auto& s) { s.particleHandler.getObject(1).fixParticle(false); }), "");
+    EXPECT_GT(little->motion(1).velocity.x(), 0);
+}
+
 // ---- Walls
+
+InfiniteWall floorOf(Hooked<Smooth>& scene) {
+    InfiniteWall wall;
+    wall.setSpecies(scene.speciesHandler.getObject(0));
+    wall.set({0, 0, -1}, {0, 0, -5 * r});
+    wall.setVelocity({0, 0, 0.5});
+    return wall;
+}
+
+TEST(WallOfAResumedRun, beginsItsMotionWhenItIsAdded) {
+    const TestFolder folder;
+    const auto file = folder.path() / "run.h5";
+    Hooked<Smooth> whole(smooth(), {{}}, step), again(smooth(), {{}}, step);
+    whole.run(1000);
+    whole.writeRestart(file);
+    again.restartFrom(file);
+    again.initialise();
+    for (Hooked<Smooth>* scene : {&whole, &again}) {
+        const InfiniteWall* added = scene->wallHandler.copyAndAddObject(floorOf(*scene));
+        EXPECT_EQ(added->getPose().shift.z, 0);
+        scene->steps(100);
+        EXPECT_NEAR(added->getPose().shift.z, 0.5 * 100 * step, 1e-15);
+    }
+}
+
+TEST(WallInARun, hasItsNewSpeciesFromTheNextStepOn) {
+    const auto make = [](double otherStiffness) {
+        auto scene = std::make_unique<Hooked<Smooth>>(
+            smooth(), std::vector<GrainMotion>{{.position = {0, 0, 0.99 * r}}}, step,
+            std::vector<scenes::PlaneAt>{{{0, 0, -1}, {0, 0, 0}}});
+        scene->speciesHandler.copyAndAddObject(smooth(otherStiffness));
+        return scene;
+    };
+    const auto change = [](Hooked<Smooth>& s) {
+        dynamic_cast<InfiniteWall&>(s.wallHandler.getObject(0)).setSpecies(s.speciesHandler.getObject(1));
+    };
+    auto scene = make(3 * stiffness), same = make(3 * stiffness);
+    for (const auto& s : {scene.get(), same.get()}) s->run(2);
+    change(*scene);
+    for (const auto& s : {scene.get(), same.get()}) s->step();
+    const auto force = [](Hooked<Smooth>& s) { return s.particleHandler.getObject(0).getForce().z(); };
+    // The harmonic mean of k and 3 k.
+    EXPECT_NEAR(force(*scene) / force(*same), 1.5, 1e-12);
+    auto stiff = make(stiffness);
+    stiff->speciesHandler.getMixedObject(0, 1)->setStiffness(1e12);  // no grain or wall of this pair yet
+    EXPECT_TRUE(contains(endOf<Smooth>(*stiff, change), "is above the stability limit"));
+}
 
 /// A wall that shakes along its normal.
 class Shaken : public Hooked<Smooth> {
@@ -138,6 +305,67 @@ TEST(WallOfAResumedRun, hasTheFunctionThatItHad) {
     EXPECT_TRUE(contains(refusalOf(scene, 50, 1e-4, true), "function of setMotion()"));
 }
 
+// ---- Time steps
+
+// An event's hook is called when the step has been counted: what it sets holds from the next step on. A grain
+// that flies freely at 1 m/s has gone as far as the time says.
+TEST(TimeStepThatAnEventSets, holdsFromTheNextStepOn) {
+    const TestFolder folder;
+    const auto file = folder.path() / "run.h5";
+    const auto make = [] {
+        auto scene = std::make_unique<Hooked<Smooth>>(
+            smooth(),
+            std::vector<GrainMotion>{{.position = {0, 0.1, 0}, .velocity = {1, 0, 0}},
+                                     {.velocity = {1, 0, 0}},
+                                     {.position = {2.0105 * r, 0, 0}}},
+            step);
+        scene->listenToContacts();
+        scene->onEvent = [](auto& s) {
+            if (s.heard.size() == 1) s.setTimeStep(0.5 * step);
+        };
+        return scene;
+    };
+    auto whole = make();
+    whole->initialise();
+    while (whole->heard.empty()) whole->step();
+    const std::size_t atEvent = whole->getNumberOfTimeSteps();
+    EXPECT_NEAR(whole->getTime(), static_cast<double>(atEvent) * step, 1e-18);
+    // In the step in which 0.0105 r at 1 m/s are gone.
+    EXPECT_EQ(atEvent, 11u);
+    whole->writeRestart(file);
+    whole->steps(100);
+    EXPECT_NEAR(whole->getTime(), (static_cast<double>(atEvent) + 50) * step, 1e-18);
+    EXPECT_NEAR(whole->motion(0).position.x(), whole->getTime(), 1e-17);
+    auto again = make();
+    again->restartFrom(file);
+    again->initialise();
+    again->onEvent = {};
+    again->steps(100);
+    EXPECT_EQ(again->getTime(), whole->getTime());
+    EXPECT_EQ(stateHash(again->particleHandler.store()), stateHash(whole->particleHandler.store()));
+}
+
+TEST(TimeStep, thatIsSetBeforeTheFirstStepOfARunSurvivesARestart) {
+    const TestFolder folder;
+    const auto file = folder.path() / "run.h5";
+    const auto make = [] {
+        auto scene = std::make_unique<Hooked<Smooth>>(
+            smooth(), std::vector<GrainMotion>{{.velocity = {1, 0, 0}}}, step);
+        scene->hook = [](auto& s) {
+            if (s.getNumberOfTimeSteps() == 0) s.setTimeStep(0.5 * step);
+        };
+        return scene;
+    };
+    auto whole = make(), again = make();
+    whole->run(10);
+    EXPECT_EQ(whole->getTime(), 10 * 0.5 * step);
+    whole->writeRestart(file);
+    again->restartFrom(file);
+    EXPECT_EQ(refusal([&] { again->initialise(); }), "");
+    EXPECT_EQ(again->getTimeStep(), 0.5 * step);
+    EXPECT_EQ(again->getTime(), whole->getTime());
+}
+
 // ---- Laws
 
 Rolling rolling() {
@@ -150,6 +378,52 @@ Rolling rolling() {
     species.setRollingStiffness(300);
     species.setRollingFrictionCoefficient(0.3);
     return species;
+}
+
+// A grain that turns on another one, and gets a species without friction: from then on its spin stays.
+TEST(ContactOfAnotherLaw, knowsNothingOfTheOneBefore) {
+    Simulation<Rolling, Smooth> scene;
+    const auto* rough = scene.speciesHandler.copyAndAddObject(rolling());
+    const auto* slippery = scene.speciesHandler.copyAndAddObject(smooth());
+    scene.speciesHandler.setPairType<Smooth>(rough, slippery);
+    for (const bool isLower : {true, false}) {
+        SphericalParticle grain;
+        grain.setSpecies(rough);
+        grain.setRadius(r);
+        if (isLower) grain.fixParticle();
+        else grain.setPosition({0, 0, 1.999 * r});
+        if (!isLower) grain.setAngularVelocity({20, 0, 0});
+        scene.particleHandler.copyAndAddObject(grain);
+    }
+    scene.setTimeStep(step);
+    scene.listenToContacts();
+    scene.initialise();
+    const auto steps = [&](int count) {
+        for (int k = 0; k < count; ++k) scene.step();
+    };
+    GrainReference grain = scene.particleHandler.getObject(1);
+    const auto spin = [&] { return grain.getAngularVelocity().x(); };
+    steps(10);
+    const double before = spin();
+    steps(1);
+    EXPECT_GT(std::abs(spin() - before), 1e-6 * std::abs(before));
+    const auto isWithoutTorque = [&] {
+        for (const TorqueRecord& record : scene.contacts().store().memory.torques)
+            if (record.torque.x != 0 || record.torque.y != 0 || record.torque.z != 0) return false;
+        return true;
+    };
+    EXPECT_FALSE(isWithoutTorque());
+    grain.setSpecies(slippery);
+    steps(1);  // the torque of the last step acts on for half of it
+    // One contact has ended and another one has begun.
+    ASSERT_EQ(scene.contactEvents().size(), 2u);
+    EXPECT_EQ(scene.contactEvents()[0].kind, Kind::TouchEnds);
+    EXPECT_EQ(scene.contactEvents()[1].kind, Kind::TouchBegins);
+    EXPECT_TRUE(isWithoutTorque());
+    const double after = spin();
+    steps(20);
+    EXPECT_EQ(spin(), after);
+    EXPECT_GT(grain.getForce().z(), 0);  // it touches still
 }
 
 // A value of a pair that no law can have: all pairs keep what they had, and the run ends with the last state.
@@ -183,6 +457,110 @@ TEST(MixtureThatIsRefused, leavesThePairsAsTheyWere) {
         endOf<Smooth>(scene, [](auto& s) { s.speciesHandler.getMixedObject(0, 0)->stiffnessConstant = -1; }),
         "stiffness = -1 N/m"));
     EXPECT_EQ(scene.interactions().size(), 1u);
+}
+
+// ---- Restarts
+
+// What has ended before a restart file is written is told in the next step, by the run that goes on too.
+TEST(EventBeforeTheNextStep, isInTheRestartFile) {
+    const TestFolder folder;
+    const auto file = folder.path() / "run.h5";
+    const auto make = [] {
+        auto scene = std::make_unique<Hooked<Wet>>(
+            scenes::boxMaterial<Wet>(0),
+            std::vector<GrainMotion>{{}, {.position = {1.99 * r, 0, 0}}, {.position = {3.98 * r, 0, 0}}},
+            step, std::vector<scenes::PlaneAt>{{{0, 0, -1}, {0, 0, -0.99 * r}}});
+        scene->listenToContacts();
+        return scene;
+    };
+    auto whole = make(), again = make();
+    whole->run(20);
+    whole->particleHandler.removeObject(0);                                  // a wall and a grain
+    whole->particleHandler.getObject(2).setPosition({3.98 * r, 0, 20 * r});  // these, too
+    whole->writeRestart(file);
+    again->restartFrom(file);
+    again->initialise();
+    for (const auto& scene : {whole.get(), again.get()}) {
+        scene->heard.clear();
+        scene->step();
+        EXPECT_EQ(scene->heard.size(), 8u);
+    }
+    EXPECT_EQ(again->heard, whole->heard);
+    EXPECT_EQ(again->contactEventCounts().touchesEnded, whole->contactEventCounts().touchesEnded);
+    EXPECT_EQ(again->contactEventCounts().bridgesRuptured, 4u);
+}
+
+TEST(SurroundingsOfAResumedRun, areThoseThatItHad) {
+    const TestFolder folder;
+    const auto file = folder.path() / "run.h5";
+    const auto make = [](const Vec3D& gravity, double period) {
+        auto scene = std::make_unique<Hooked<Smooth>>(smooth(), std::vector<GrainMotion>{{}}, step);
+        scene->setGravity(gravity);
+        if (period > 0) scene->setPeriodic(1, 0, period);
+        return scene;
+    };
+    const auto refusalBy = [&](const Vec3D& gravity, double period) {
+        auto other = make(gravity, period);
+        other->restartFrom(file);
+        const std::string text = refusal([&] { other->initialise(); });
+        if (!text.empty()) {
+            EXPECT_TRUE(isOneSentence(text));
+        }
+        return text;
+    };
+    const Vec3D earth(0, 0, -9.81), moon(0, 0, -1.62);
+    auto scene = make(earth, 0.5);
+    scene->run(10);
+    scene->writeRestart(file);
+    EXPECT_EQ(refusalBy(earth, 0.5), "");
+    EXPECT_TRUE(
+        contains(refusalBy(moon, 0.5), "gravity/z is -9.81 m/s^2 in the file and -1.62 m/s^2 in the"));
+    EXPECT_TRUE(contains(refusalBy(earth, 0.25), "periodicLength/y is 0.5 m in the file and 0.25 m in the"));
+    EXPECT_TRUE(contains(refusalBy(earth, 0), "periodicLength/y is 0.5 m in the file and 0 m in the scene"));
+    // What the run has changed, it goes on with.
+    scene->setGravity(moon);
+    scene->writeRestart(file);
+    auto again = make(earth, 0.5);
+    again->restartFrom(file);
+    again->initialise();
+    EXPECT_EQ(again->getGravity(), moon);
+}
+
+// Numbers of grains are 32 bits with a sign in files.
+TEST(NumberOfAGrain, isAtMost2147483647) {
+    const TestFolder folder;
+    const auto file = folder.path() / "grains.h5";
+    const auto write = [&](std::uint32_t next) {
+        writeRestartFile(file, [&](StateArchive& archive) {
+            std::vector<TranslationRecord> translation;
+            std::vector<RotationRecord> rotation;
+            std::vector<Vector<double>> acceleration;
+            std::vector<EarlierAcceleration> earlier;
+            std::vector<std::uint16_t> species;
+            std::vector<std::uint32_t> identity;
+            archive.column<double>("translation", translation);
+            archive.column<double>("rotation", rotation);
+            archive.column<double>("acceleration", acceleration);
+            archive.column<double>("earlier", earlier);
+            archive.column<std::uint16_t>("species", species);
+            archive.column<std::uint32_t>("identity", identity);
+            archive.value("nextIdentity", next);
+        });
+    };
+    Hooked<Smooth> scene(smooth(), {}, step);
+    const auto read = [&] {
+        readRestartFile(file, [&](StateArchive& archive) { scene.particleHandler.visitState(archive); });
+    };
+    write(2147483647);
+    read();
+    EXPECT_EQ(scene.particleHandler.copyAndAddObject(scene.grain(r, {0, 0, 0})).getId(), 2147483647u);
+    const std::string text = refusal([&] {
+        scene.particleHandler.copyAndAddObject(scene.grain(r, {0, 3 * r, 0}));
+    });
+    EXPECT_TRUE(isOneSentence(text));
+    EXPECT_TRUE(contains(text, "the number of a grain must be at most 2147483647"));
+    write(2147483649);
+    EXPECT_TRUE(contains(refusal(read), "nextIdentity is above 2^31"));
 }
 
 }  // namespace
