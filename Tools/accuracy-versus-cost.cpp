@@ -57,8 +57,8 @@ int main(int argc, char** argv) {
     add(ofBridges, "--runs", chart.runs, "measurements of time, of which the fastest counts");
     add(ofFailures, "--volumes", map.volumes, "of a failure map, from V* = 1e-9 to 10");
     add(ofFailures, "--angles", map.angles, "of a failure map, from 0 to 180 degrees");
-    add(ofTime, "--offsets", time.offsets, "begins of a touch within a step");
-    add(ofContacts, "--map-offsets", contacts.offsets, "begins of a touch within a step");
+    add(ofTime, "--offsets", time.offsets, "starts of a touch within a step");
+    add(ofContacts, "--map-offsets", contacts.offsets, "starts of a touch within a step");
     add(ofBulk, "--elastic-modulus-Pa", bulk.elasticModulus, "Young's modulus of the reference, Pa");
     addFormerName(app, "--elastic-modulus-pa", bulk.elasticModulus)->needs(ofBulk);
     add(ofBulk, "--scene", bulk.scene, "bed, drum or both");

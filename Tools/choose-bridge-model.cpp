@@ -152,7 +152,7 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--cost-at-most", o.mostCost,
                    fmt::format("of a bridge and step, in those of {}", reference));
     app.add_option("--steps-per-list", o.stepsPerList,
-                   "steps from one list of contacts to the next, at which bridges are prepared anew");
+                   "steps from one list of contacts to the next, at which bridges are prepared again");
     app.add_flag("--all", o.all, "a table of all laws, as CSV, before the advice");
     app.add_option("--count", o.count, "random bridges");
     app.add_option("--seed", o.seed, "of the random bridges");

@@ -14,7 +14,7 @@ struct Panel {
 };
 
 /// Panels for the integrals along an arc, in units of its halfSpan.
-/// The integrands are analytic but for branch points where y = 0 and poles of ds/dt, all known in closed
+/// The integrands are analytic except for branch points where y = 0 and poles of ds/dt, all known in closed
 /// form. A Gauss-Legendre rule of n nodes converges as rho^(-2n), where rho is the sum of the semi-axes of
 /// the Bernstein ellipse through the nearest of them (Trefethen, Approximation Theory and Approximation
 /// Practice, chapter 19). A panel that lies too near, as at a thin neck, is halved.

@@ -15,7 +15,7 @@
 
 namespace pendular {
 
-/// Lists anew the contacts that can act before two bodies have approached by the skin, and takes over the
+/// Lists again the contacts that can act before two bodies have approached by the skin, and takes over the
 /// memory of those that were listed before. A bridge that forms at contact only needs no search at its own
 /// length: the pairs it joins are remembered, and all others must touch first.
 class ContactList {

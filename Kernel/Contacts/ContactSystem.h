@@ -38,7 +38,7 @@ public:
     using Grains = ParticleStore;
 
     /// To be called when species, walls and grains are known.
-    /// @param skinChoice contacts are listed anew when bodies can have approached by the skin: the sum over
+    /// @param skinChoice contacts are listed again when bodies can have approached by the skin: the sum over
     /// the steps of the largest shifts of two bodies
     void prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
                  const SkinChoice& skinChoice, bool withLedger);
@@ -55,11 +55,11 @@ public:
     /// energy (J) that was stored in them, where a ledger is kept.
     double endContactsOf(const Grains& grains, std::uint32_t place);
     double endContactsAtWall(const Grains& grains, int wall);
-    /// Finds the begins and ends of touches and bridges in each step from now on.
+    /// Finds the starts and ends of touches and bridges in each step from now on.
     void listen(bool on) { contactEvents.listen(on); }
     [[nodiscard]] const ContactEvents& events() const { return contactEvents; }
     /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
-    /// contacts anew where it is time; says whether it did.
+    /// contacts again where it is time; says whether it did.
     bool refresh(Grains& grains, double grainShift, double wallShift);
     /// What contacts remember, by who they join: how they are listed is not kept. After prepare(); the
     /// species, the walls and the grains are visited by themselves, before.

@@ -7,7 +7,7 @@ namespace pendular {
 struct ContactTiming {
     /// The change of a contact's own force enters the velocity that its dashpots see: they are implicit.
     bool implicitForces = true;
-    /// Forces at the first and the last step of a touch stand for the time since its begin and to its end,
+    /// Forces at the first and the last step of a touch stand for the time since its start and to its end,
     /// and tangential springs are kept half a step ahead; else they move by a step with the velocity at the
     /// force.
     bool timesTouches = true;

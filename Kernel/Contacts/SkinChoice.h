@@ -34,7 +34,7 @@ public:
         chosen = std::min(chosen, 0.1 * radius);
     }
 
-    /// The list was made anew with this skin.
+    /// The list was made again with this skin.
     void listed(const ContactStore& store, std::size_t grains) {
         rebuildCost = rebuildOfGrain * static_cast<double>(grains);
         farCost = 0;

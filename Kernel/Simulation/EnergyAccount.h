@@ -8,7 +8,7 @@
 namespace pendular {
 
 /// Keeps the ledger of the energy. In a step h of velocity Verlet the kinetic energy of a grain changes by
-/// exactly h/2 (F + F+) . (v + v+)/2, with the forces and velocities at its begin and at its end; with spins
+/// exactly h/2 (F + F+) . (v + v+)/2, with the forces and velocities at its start and at its end; with spins
 /// and torques alike. The work of each force of each contact is summed by the same formula, so that the
 /// account closes to round-off for any number of steps, and what elastic forces did but is not found as
 /// stored energy is told apart as the error of the time steps. Sums are made in the order of identities, by
@@ -48,7 +48,7 @@ public:
     /// At the end of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const Vector<double>& gravity, double step,
                 const Integrator& scheme, EnergyLedger& ledger) {
-        // Grains may have been sorted since the begin of the step; the order of identities is the same.
+        // Grains may have been sorted since the start of the step; the order of identities is the same.
         rank.resize(grains.size());
         std::uint32_t next = 0;
         for (const std::uint32_t place : grains.place) rank[place] = next++;
@@ -71,7 +71,7 @@ public:
     }
 
 private:
-    /// Of a grain at the begin of the step.
+    /// Of a grain at the start of the step.
     struct Motion {
         Vector<double> velocity, acceleration;     // m/s, m/s^2
         Vector<double> spin, angularAcceleration;  // rad/s, rad/s^2

@@ -116,7 +116,7 @@ std::string bridgeAdviceText(const BridgeChoice& own, const BridgeAdvice& advice
 /// What a bridge law costs, of one bridge.
 struct BridgeLawCost {
     double force;    // in each step
-    double prepare;  // when its contact is listed anew
+    double prepare;  // when its contact is listed again
 
     /// A bridge and a step. Eight contacts in a row of grains of one size are prepared as one.
     /// @param steps from one list to the next

@@ -19,7 +19,7 @@
 namespace pendular {
 
 /// The species of a scene and the values of each pair of them. The laws of a pair are mixed from its two
-/// species by the rule of each field, but for the values that getMixedObject(a, b)->set...() gives to that
+/// species by the rule of each field, except for the values that getMixedObject(a, b)->set...() gives to that
 /// pair.
 template <class S>
 class SpeciesHandler {

@@ -154,13 +154,13 @@ void checkRestartFile(const fs::path& path) {
     Seal seal;
     const int found = std::sscanf(text.data(), "Pendular restart file\nformat %d\nbytes %llu\nchecksum %llx",
                                   &seal.format, &seal.bytes, &seal.checksum);
-    if (found < 1) refuse("is not a restart file of Pendular, or its begin is damaged");
+    if (found < 1) refuse("is not a restart file of Pendular, or its start is damaged");
     if (seal.format >= 1 && seal.format != restartFormat)
         refuse(
             fmt::format("has the format {}, and this version of Pendular reads the format {}: take the "
                         "version that wrote it",
                         seal.format, restartFormat));
-    constexpr std::string_view advice = "take another one, or begin the run anew";
+    constexpr std::string_view advice = "take another one, or start the run again";
     const std::uintmax_t size = fs::file_size(path);
     if (found == 3 && size < seal.bytes)
         refuse(fmt::format("is truncated, {} of its {} bytes are there: {}", size, seal.bytes, advice));

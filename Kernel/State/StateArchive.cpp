@@ -16,7 +16,7 @@ void StateArchive::refuseMissing(std::string_view name) const {
 void StateArchive::refuse(std::string_view name, std::string_view whatIsWrong) const {
     if (isReading())
         throw InputError(fmt::format(
-            "The restart file {} is not consistent: {} {}; take another one, or begin the run anew.",
+            "The restart file {} is not consistent: {} {}; take another one, or start the run again.",
             file.path().string(), fullName(name), whatIsWrong));
     throw InputError(
         fmt::format("The state cannot be kept for a restart: {} {}.", fullName(name), whatIsWrong));

@@ -83,7 +83,7 @@ public:
         archive.same("species", species);
         const Vector<double> about = kept.about;
         archive.finite("force", kept);
-        kept.about = about;  // as this scene has it; the contacts give the sums anew
+        kept.about = about;  // as this scene has it; the contacts give the sums again
     }
 
     int species = -1;

@@ -9,7 +9,7 @@ namespace {
 
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
-// The mean of the stress over all contacts is that at the wall, but for two terms of the momentum balance:
+// The mean of the stress over all contacts is that at the wall, except for two terms of the momentum balance:
 // the change of sum(m v_x z) during the time T, which is rho phi rate H^2 / (12 T) = 1.0 Pa if a linear
 // profile becomes a plug (H = 16 mm, T = 0.3 s), and the stress of the fluctuations, rho phi (rate d)^2 = 0.6
 // Pa.

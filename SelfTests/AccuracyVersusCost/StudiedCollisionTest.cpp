@@ -9,7 +9,7 @@ namespace {
 
 // Thornton and Ning (1998), Powder Technology 99, 154: without a dashpot the neck takes
 // 7.09 (w^5 R*^4 / E*^2)^(1/3) (7.0895 by the integral of the force). The snap is seen up to a step late, at
-// 5/9 of F_c = 3/2 pi w R*, and so is the begin at 8/9 of it: with the speed v_0 of the touch, which grows to
+// 5/9 of F_c = 3/2 pi w R*, and so is the start at 8/9 of it: with the speed v_0 of the touch, which grows to
 // no more than 1.3 v_0, at most 13/9 F_c 1.3 v_0 dt.
 TEST(StudiedCollision, losesToTheNeckWhatThorntonAndNingGive) {
     const auto studied = collisions::sticky(1);

@@ -9,7 +9,7 @@ namespace {
 
 using scenes::BenchmarkChoice;
 
-/// The hash when the contacts have been listed anew a few times.
+/// The hash when the contacts have been listed again a few times.
 std::uint64_t hashWith(const BenchmarkChoice& choice, int threads) {
     std::uint64_t hash = 0;
     scenes::withMovingBenchmark(choice, threads, [&](auto& scene) {

@@ -111,7 +111,7 @@ TEST(BridgeTable, isWhatTheGeneratorWrote) {
     EXPECT_LE(sizeof(BridgeTable), 64u * 1024u);
 }
 
-// A sample of the nodes, where the series is the solver's value but for the rounding of its coefficients:
+// A sample of the nodes, where the series is the solver's value except for the rounding of its coefficients:
 // 1120 of them (force) and 3584 (rupture), each by up to half a unit of 1e-6, so 0.3e-6 sqrt(3584) = 1.7e-5
 // of standard deviation at most; five of them.
 TEST(BridgeTable, holdsTheSolversValuesAtASampleOfItsNodes) {

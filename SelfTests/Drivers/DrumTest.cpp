@@ -82,7 +82,7 @@ TEST(Drum, settledGrainsLieAtRestBelowTheAxis) {
     scene.setTimeMax(0.02);
     scene.solve();
     // At rest: in free fall each grain would gain 1/2 m (g t)^2 in this time, m g times 2 mm; the grains are
-    // put back without their springs of friction and find them anew, which costs a thousandth of that.
+    // put back without their springs of friction and find them again, which costs a thousandth of that.
     EXPECT_LT(scene.kineticEnergy(), 1e-2 * weight * 0.5 * 9.8 * 0.02 * 0.02);
     const auto counts = scene.countQuarters();
     EXPECT_EQ(counts[0][M1] + counts[1][M1] + counts[0][M2] + counts[1][M2], 0u);

@@ -93,7 +93,7 @@ TEST(ObliqueImpact, refusesToGoOnWithRowsOfOtherOptions) {
     EXPECT_EQ(rowsOf(folder.path() / "impacts.csv").size(), 6u);
 }
 
-/// A run that begins anew leaves no energy.csv of another one, nor one that is not complete.
+/// A run that starts again leaves no energy.csv of another one, nor one that is not complete.
 TEST(ObliqueImpact, leavesNoEnergyOfAnotherRun) {
     const TestFolder folder;
     const std::string impact = drivers + "/ObliqueImpact/ObliqueImpact --angles-deg 20 --quiet ";
@@ -126,7 +126,7 @@ constexpr double impactEnergy = 0.5 * impactMass * 3.9 * 3.9;                   
 /// where it enters.
 constexpr double impactScheme = 2 * 0.001;
 
-/// What every impact has: the spring has let go, and what is gone is told, but for round-off of 200 sums.
+/// What every impact has: the spring has let go, and what is gone is told, except for round-off of 200 sums.
 void expectBalance(std::map<std::string, double>& row) {
     EXPECT_NEAR(row["kinetic_before_J"], impactEnergy, 1e-12 * impactEnergy);
     EXPECT_NEAR(row["balance_J"], 0, 2e-14 * impactEnergy);

@@ -91,7 +91,7 @@ TEST(Penetration, takesAStableStepThatItsGrainsDoNotChange) {
     }
 }
 
-/// Before it meets the bed, the intruder falls: z = z0 - v t - g t^2/2. Verlet is exact for it but for
+/// Before it meets the bed, the intruder falls: z = z0 - v t - g t^2/2. Verlet is exact for it except for
 /// rounding, some 1e-16 of z a step over 60 steps.
 TEST(Penetration, intruderFallsFreelyUntilItMeetsTheBed) {
     PenetrationScene scene(bed(), bedBoxFor(number), 5, softening);

@@ -43,7 +43,7 @@ private:
     int master, slave = -1, before;
 };
 
-/// What a run shows on the terminal at a time (s) of 2 s, without the return to the begin of the line.
+/// What a run shows on the terminal at a time (s) of 2 s, without the return to the start of the line.
 std::string shownAt(double time, unsigned short columns) {
     Terminal terminal(columns);
     if (!terminal.works) return {};

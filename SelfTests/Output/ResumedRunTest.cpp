@@ -211,7 +211,7 @@ TEST_F(OutputFiles, mayBeInAFolderWithTwoSlashes) {
     expectSameFiles(whole, part);
     runTo(twoSlashes, wholeRun + 50, 0);
     std::filesystem::remove(part / "run-restart.h5");
-    runTo(twoSlashes, wholeRun, 0);  // anew
+    runTo(twoSlashes, wholeRun, 0);  // again
     expectSameFiles(whole, part);
 }
 
@@ -238,7 +238,7 @@ TEST_F(OutputFiles, areListedByStepsAndTimesThatFit) {
     }
 }
 
-/// A run that begins anew where a longer one has been. What the series of that one do not list, or what they
+/// A run that starts again where a longer one has been. What the series of that one do not list, or what they
 /// list that is not called as their frames are, is not theirs.
 TEST_F(OutputFiles, ofAFormerRunAreGoneAndNoOthers) {
     runTo(whole, wholeRun, 0);
@@ -268,7 +268,7 @@ TEST_F(OutputFiles, ofAFormerRunAreGoneAndNoOthers) {
     expectSameFiles(whole, part);
 }
 
-/// Whatever is in the indices of a former run, a run that begins anew writes its own.
+/// Whatever is in the indices of a former run, a run that starts again writes its own.
 TEST_F(OutputFiles, mayReplaceADamagedSeries) {
     std::filesystem::create_directories(part);
     for (const char* index : {"run.pvd", "run-fields.h5"}) std::ofstream(part / index) << "no series";

@@ -109,7 +109,7 @@ Flight fly(const WetCollision& collision, double stepsPerContact, double offset)
 
 /// What the numbers of a flight may err, with Newton's second law as the only input.
 /// A bridge's force begins and ends within a step, but acts in whole steps: its impulse errs by up to F dt/2.
-/// At the begin that changes the speed by F(0) dt / (2 m*), at the rupture by F(S_c) dt / (2 m*): first order
+/// At the start that changes the speed by F(0) dt / (2 m*), at the rupture by F(S_c) dt / (2 m*): first order
 /// in dt. All else is smaller: the dry contact's error is, with e = 0.86, below (4.03/n)^2/24 + 2 (ln e/n)^2
 /// (see DryCollisionTest).
 struct Tolerance {
@@ -171,7 +171,7 @@ TEST(WetCollision, followsTheIndependentSolution) {
 
 TEST(WetCollision, convergesWithTheStep) {
     // The largest error over 64 offsets is halved with the step. Their mean is much smaller, because the
-    // begin of the bridge errs as much to the one side as to the other: an eighth of the largest one at 64
+    // start of the bridge errs as much to the one side as to the other: an eighth of the largest one at 64
     // evenly spread offsets.
     const auto errors = [](const WetCollision& collision, double steps) {
         double largest = 0, sum = 0;

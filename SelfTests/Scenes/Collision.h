@@ -9,7 +9,7 @@
 namespace pendular::scenes {
 
 /// A head-on collision along x: grain 1 comes from the left, grain 2 (or a wall at rest) from the right. The
-/// momentum of two grains is zero but for the drift.
+/// momentum of two grains is zero except for the drift.
 struct Approach {
     double radius1 = 1e-3;  // m
     double radius2 = 1e-3;  // m; infinite: a plane wall
@@ -94,7 +94,7 @@ public:
         return sum;
     }
 
-    /// Steps until the first touch has ended. Before and after it the motion is straight, so that its begin
+    /// Steps until the first touch has ended. Before and after it the motion is straight, so that its start
     /// and its end are known between steps; the largest overlap is that of the parabola through three steps.
     Touch finishTouch() {
         std::array<double, 3> last{separation(), separation(), separation()};

@@ -28,7 +28,7 @@ inline BenchmarkChoice smallBenchmark(const char* scene, const std::filesystem::
     return choice;
 }
 
-/// Calls function(scene) with grains that were given speeds, so that contacts are soon listed anew: along x,
+/// Calls function(scene) with grains that were given speeds, so that contacts are soon listed again: along x,
 /// in turn to and fro.
 template <class Function>
 void withMovingBenchmark(const BenchmarkChoice& choice, int threads, Function&& function) {

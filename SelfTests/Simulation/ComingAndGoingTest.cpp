@@ -398,7 +398,7 @@ TEST(ChangeInARun, ofARadiusTakesTheMassWithIt) {
     scene.step();
     const double mass = scene.particleHandler.getObject(1).getMass();
     scene.particleHandler.getObject(1).setRadius(1.02 * r);
-    for (int k = 0; k < 2; ++k) scene.step();  // the first one stands for the begin of the touch
+    for (int k = 0; k < 2; ++k) scene.step();  // the first one stands for the start of the touch
     EXPECT_NEAR(scene.particleHandler.getObject(1).getMass() / mass, 1.02 * 1.02 * 1.02, 1e-12);
     EXPECT_NEAR(scene.particleHandler.getObject(1).getForce().x() / (1000 * 0.01 * r), 1, 1e-6);
     // Held, and let go.

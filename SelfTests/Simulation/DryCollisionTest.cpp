@@ -97,7 +97,7 @@ TEST(DryCollision, linearRestitutionIsTheGivenOneAtEverySpeed) {
                     EXPECT_NEAR(measuredRestitution(linear(e), steps, spreadOffset(k), speed) / e, 1,
                                 linearTolerance(e, steps))
                         << "e = " << e << ", " << steps << " steps, " << speed << " m/s, offset " << k;
-    // That is below 0.2 % at 50 steps but for the two strongest dashpots.
+    // That is below 0.2 % at 50 steps except for the two strongest dashpots.
     EXPECT_LT(linearTolerance(0.3, 50), 0.002);
     EXPECT_LT(linearTolerance(0.2, 50), 0.0026);
     EXPECT_LT(linearTolerance(0.1, 50), 0.005);

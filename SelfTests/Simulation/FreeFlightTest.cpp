@@ -91,7 +91,7 @@ TYPED_TEST(FreeFlight, ofAFixedGrainIsNone) {
 }
 
 TYPED_TEST(FreeFlight, ofManyGrainsIsThatOfEach) {
-    // The list of contacts is made anew many times on the way; grains keep their identity.
+    // The list of contacts is made again many times on the way; grains keep their identity.
     std::vector<GrainMotion> grains;
     for (int k = 0; k < 40; ++k)
         grains.push_back({.radius = 1e-3 * (1 + k % 7),

@@ -277,7 +277,7 @@ TYPED_TEST(ObliqueCollision, wallIsTheLimitOfALargeSphere) {
             EXPECT_LT((sphere.motion(0).spin - wall.motion(0).spin).norm(), 5e3 / ratio);
             EXPECT_LT((sphere.motion(0).position - wall.motion(0).position).norm(), 5e-3 / ratio);
             if (ratio > 1e4) {
-                EXPECT_LT(difference, 0.2 * last) << ratio;  // 0.1, but for round-off
+                EXPECT_LT(difference, 0.2 * last) << ratio;  // 0.1, except for round-off
             }
             last = difference;
         }

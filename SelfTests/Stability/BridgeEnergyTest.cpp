@@ -87,7 +87,7 @@ constexpr double touchError() {
     return 5 * h * h * h * h;
 }
 
-/// What the bridge's force (N) at contact adds to it at most: the begin of a touch is reckoned from the
+/// What the bridge's force (N) at contact adds to it at most: the start of a touch is reckoned from the
 /// overlap and the speed alone, t' = x / v (in steps), so that with the acceleration a = F / m* it errs by a
 /// t^2 dt / (2 v) and the sample's impulse, k v dt^2 (t + 1/2)^2 / 2, by k a dt^3 (t^3 - t/4) / 4, at most
 /// 3/16 k a dt^3 (1/32 in the mean over t). Under a push (a < 0) the first sample
@@ -158,7 +158,7 @@ TEST(HeavyBridgeEnergy, aPinnedPairGainsNoneAboveRightAngle) {
 // A free collision: the bridge forms at the touch with the force that it has there, and takes with it at the
 // rupture what it then holds. In equilibrium that is never negative, so that collisions only lose. A bridge
 // with pinned contact lines that pushes more than it pulls gives its work to the grains in every collision:
-// by design, and only where grains come together anew.
+// by design, and only where grains come together again.
 TEST(BridgeEnergy, aCollisionLosesTheWorkOfTheBridge) {
     for (const bool pinned : {false, true})
         for (const double degrees : {30.0, 95.0, 120.0, 150.0}) {

@@ -11,7 +11,7 @@ namespace pendular {
 
 struct ContactMapOptions {
     std::filesystem::path folder = "contact-maps";
-    int offsets = 16;  // begins of the touch within a step
+    int offsets = 16;  // starts of the touch within a step
 };
 
 /// Where contact laws fail: a table for each question. contact-maps.gp draws them.

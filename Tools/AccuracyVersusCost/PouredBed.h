@@ -25,7 +25,7 @@ inline Vec3D randomVelocity(UniformRandom& random) {
     const double x = speed(), y = speed();
     return {x, y, speed()};
 }
-inline constexpr double looseCell = 2.2 * largestRadius;  // m, edge of a grain's cell at the begin
+inline constexpr double looseCell = 2.2 * largestRadius;  // m, edge of a grain's cell at the start
 
 struct BedOptions {
     int grains = 1200, across = 7;  // loose cells along x and y

@@ -15,7 +15,7 @@ struct RestitutionError {
     bool allParted = true;
 };
 
-/// Over begins of the touch within a step. Grains that stick together for ten contact times count as e = 0.
+/// Over starts of the touch within a step. Grains that stick together for ten contact times count as e = 0.
 template <class S>
 RestitutionError restitutionError(CollisionCase<S> studied, const Loss& loss, int steps,
                                   const Integrator& integrator, int offsets) {

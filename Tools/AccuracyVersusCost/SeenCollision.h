@@ -24,7 +24,7 @@ struct CollisionMoment {
 
 /// Steps until the grains have parted, or for the longest time (s) since the first touch, and calls
 /// visit(CollisionMoment) after each step in which they touch. The motion outside of the touch is straight,
-/// so that its begin and its end are known between steps.
+/// so that its start and its end are known between steps.
 template <class S, class Visit>
 SeenCollision watchCollision(StudiedCollision<S>& collision, const Encounter& encounter, double longestTime,
                              Visit&& visit) {

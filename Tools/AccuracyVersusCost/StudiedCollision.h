@@ -12,7 +12,7 @@ struct Encounter {
     double speed = 0.2;         // m/s, of approach
     double slip = 0;            // m/s, relative, across the line of centres
     double spin = 0;            // rad/s, of both
-    double gap = 0;             // m, of the surfaces at the begin
+    double gap = 0;             // m, of the surfaces at the start
     double reach = 0;           // m: parted when the surfaces are so far from each other
     double longest = infinity;  // s, after which grains that have not parted stay together
 };

@@ -21,7 +21,7 @@ struct Camera {
     [[nodiscard]] static double slope() { return std::tan(halfAngle); }
 };
 
-/// Looks at points from a direction, near enough that they fill the picture but for its margin.
+/// Looks at points from a direction, near enough that they fill the picture except for its margin.
 /// @param from the direction to the eye, of any length; @param margin of the half picture
 inline Camera cameraOn(std::span<const Vector<double>> points, const Vector<double>& from, int width,
                        int height, bool withLegend) {

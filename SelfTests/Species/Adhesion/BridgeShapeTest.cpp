@@ -33,7 +33,7 @@ void forAllShapes(Function&& function) {
         }
 }
 
-/// That the force nowhere grows with the separation up to the end, but for rounding.
+/// That the force nowhere grows with the separation up to the end, except for rounding.
 template <class Interaction>
 void expectFall(const Interaction& interaction, double end) {
     double last = std::abs(interaction.force(0.0));

@@ -128,7 +128,7 @@ TEST(JKR, takesTheModulusOfAHertzianNormalLaw) {
 }
 
 // 2 pi R* w in contact: the pull-off force of Derjaguin, Muller and Toporov, at overlap 0. Outside it is van
-// der Waals' F_0 / (1 + S/z_0)^2 but for 1 % of F_0 that goes from nothing at contact to all at the range.
+// der Waals' F_0 / (1 + S/z_0)^2 except for 1 % of F_0 that goes from nothing at contact to all at the range.
 TEST(DMT, pullsWithTwoPiTimesRadiusAndWork) {
     const double work = 0.05, distance = 4e-10, z = distance;
     DMT law;

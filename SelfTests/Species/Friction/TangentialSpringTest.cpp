@@ -140,7 +140,7 @@ TEST(TangentialSpring, turnsAlikeFromBothBodies) {
         one.turn(frame);
         // The spin about -n is -twist; a rotation by it about -n is the same rotation.
         other.turn({-frame.normal, -frame.normalShift, -frame.twist});
-        // cross(-n, s) (-twist) is cross(n, s) twist: every product has the same bits but for its sign.
+        // cross(-n, s) (-twist) is cross(n, s) twist: every product has the same bits except for its sign.
         EXPECT_EQ(other.displacement, -one.displacement);
     }
 }
