@@ -11,8 +11,8 @@
 
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/InputError.h"
-#include "Kernel/Output/CsvFile.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Adhesion/Shared/ToroidalBridge.h"
 #include "Kernel/Species/Adhesion/Shared/UnequalToroid.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/ChungOoi/ChungOoiCases.h"
 

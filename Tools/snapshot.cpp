@@ -10,7 +10,7 @@
 #include <cstdlib>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Output/WrittenBeside.h"
+#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Field.h"
 #include "Tools/Snapshot/Compose.h"

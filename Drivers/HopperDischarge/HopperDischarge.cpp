@@ -2,7 +2,7 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/HopperScene.h"
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 
 using namespace pendular;
 

@@ -7,7 +7,7 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/SphereImpact.h"
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 
 using namespace pendular;
 

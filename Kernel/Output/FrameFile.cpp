@@ -8,8 +8,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/InputError.h"
-#include "Kernel/Output/WrittenBeside.h"
 
 namespace pendular {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 
 namespace pendular {
 

@@ -5,10 +5,10 @@
 #include <sstream>
 #include <utility>
 
-#include "Kernel/Input/TextFile.h"
+#include "Kernel/Files/TextFile.h"
+#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Output/FrameIndex.h"
-#include "Kernel/Output/WrittenBeside.h"
 
 namespace pendular {
 

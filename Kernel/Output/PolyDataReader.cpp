@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Kernel/Input/TextFile.h"
+#include "Kernel/Files/TextFile.h"
 #include "Kernel/Output/Compression.h"
 #include "Kernel/Output/PolyData.h"
 

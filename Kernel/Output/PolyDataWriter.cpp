@@ -3,9 +3,9 @@
 #include <bit>
 #include <span>
 
+#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/Output/Compression.h"
 #include "Kernel/Output/PolyData.h"
-#include "Kernel/Output/WrittenBeside.h"
 
 namespace pendular {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {

@@ -1,7 +1,7 @@
 #include "Kernel/Particles/GrainFile.h"
 
-#include "Kernel/Input/TextFile.h"
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Files/TextFile.h"
 
 namespace pendular {
 

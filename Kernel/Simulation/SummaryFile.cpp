@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "Kernel/Input/TextFile.h"
+#include "Kernel/Files/TextFile.h"
 
 namespace pendular {
 

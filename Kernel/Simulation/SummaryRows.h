@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 
 namespace pendular {
 

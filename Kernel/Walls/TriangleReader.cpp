@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "Kernel/Input/TextFile.h"
+#include "Kernel/Files/TextFile.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

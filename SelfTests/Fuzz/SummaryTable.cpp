@@ -1,4 +1,4 @@
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Simulation/SummaryFile.h"
 #include "Kernel/Simulation/SummaryRows.h"
 #include "SelfTests/Fuzz/Target.h"

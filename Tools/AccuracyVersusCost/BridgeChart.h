@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Species/Adhesion/Shared/BridgeError.h"
 #include "Tools/AccuracyVersusCost/BridgePopulations.h"
 #include "Tools/AccuracyVersusCost/BridgeTiming.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Species/LawNames.h"
 #include "Tools/AccuracyVersusCost/RibbedDrum.h"
 #include "Tools/AccuracyVersusCost/Statistics.h"

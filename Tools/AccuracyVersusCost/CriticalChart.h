@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Tools/AccuracyVersusCost/CriticalStep.h"
 
 // Critical time steps against the stability limit that is given, for each law.

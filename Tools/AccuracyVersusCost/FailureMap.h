@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Species/Adhesion/Shared/BridgeError.h"
 #include "Kernel/Species/BridgeLaws.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "Drivers/Shared/SettledGrains.h"
-#include "Kernel/Output/CsvFile.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Species/BridgeLaws.h"
 #include "Tools/AccuracyVersusCost/ShearCell.h"
 #include "Tools/AccuracyVersusCost/Statistics.h"

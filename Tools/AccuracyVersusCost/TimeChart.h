@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Output/CsvFile.h"
 #include "Kernel/Species/Laws.h"
 #include "Tools/AccuracyVersusCost/IntegratorCost.h"
 #include "Tools/AccuracyVersusCost/StudiedCollision.h"

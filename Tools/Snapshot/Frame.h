@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "Kernel/Input/TextFile.h"
+#include "Kernel/Files/TextFile.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Particles/ParticleStore.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "Kernel/Output/WrittenBeside.h"
+#include "Kernel/Files/WrittenBeside.h"
 
 namespace pendular {
 

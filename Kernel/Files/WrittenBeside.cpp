@@ -1,4 +1,4 @@
-#include "Kernel/Output/WrittenBeside.h"
+#include "Kernel/Files/WrittenBeside.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "Kernel/Input/TextFile.h"
+#include "Kernel/Files/TextFile.h"
 
 #include <charconv>
 #include <cmath>
