@@ -198,10 +198,9 @@ private:
                               .timeAfter = Pack(timeStep * (1 - before)),
                               .response = response};
         auto history = memory.history.load<History>(block);
-        if constexpr (requires { history.turn(FrameRotation<Pack>{}); })
-            history.turn({.normal = g.normal,
-                          .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
-                          .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
+        history.turn({.normal = g.normal,
+                      .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
+                      .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
         const SliderForce<Pack> force = sliderForce<Friction>(laws.friction, normal.contact,
                                                               max(normal.repulsion, Pack(0)), slip, history);
         if (ledger) [[unlikely]]

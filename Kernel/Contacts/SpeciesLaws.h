@@ -90,7 +90,7 @@ public:
     }
     void turn(int /*a*/, int /*b*/, [[maybe_unused]] double* numbers,
               [[maybe_unused]] const FrameRotation<double>& rotation) const override {
-        if constexpr (requires(History<double> h) { h.turn(rotation); }) {
+        if constexpr (S::Friction::acts) {
             auto history = memoryFrom<History<double>>(numbers);
             history.turn(rotation);
             putMemory(history, numbers);
@@ -98,8 +98,7 @@ public:
     }
     [[nodiscard]] double springLength(int /*a*/, int /*b*/,
                                       [[maybe_unused]] const double* numbers) const override {
-        if constexpr (requires(History<double> h) { h.displacement.x; })
-            return norm(memoryFrom<History<double>>(numbers).displacement);
+        if constexpr (S::Friction::acts) return norm(memoryFrom<History<double>>(numbers).slidingSpring());
         else return 0;
     }
 

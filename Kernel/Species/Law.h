@@ -73,8 +73,7 @@ struct SliderForce {
 template <class T>
 struct NoHistory {};
 
-/// The small rotation of a contact in a step. A history with a direction has a function turn(FrameRotation)
-/// that follows it.
+/// The small rotation of a contact in a step, which the history of a friction law follows in its turn().
 template <class T>
 struct FrameRotation {
     Vector<T> normal;       // n, now; from body 1 to body 2
@@ -151,7 +150,14 @@ concept NormalLaw = HasFieldTable<Law> && HasRange<Law> && HasNormalForce<Law, d
         } -> std::convertible_to<double>;  // powers of the overlap with which the two parts
     {
         Law::dampingExponent
-        } -> std::convertible_to<double>;  // grow from the begin of a touch: see SampleTiming
+        } -> std::convertible_to<double>;  // grow from the start of a touch: see SampleTiming
+};
+
+/// What a friction law remembers of a contact: its History<T>.
+template <class History, class T>
+concept FrictionHistory = requires(History history, const History& kept, const FrameRotation<T>& rotation) {
+    { kept.slidingSpring() } -> std::convertible_to<Vector<T>>;  // m, of body 1 against body 2, tangential
+    history.turn(rotation);
 };
 
 template <class Law, class T>
@@ -186,6 +192,8 @@ concept FrictionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<declty
     requires(const Law law) {
     { law.prepare(AnyNormalLaw{}) } -> std::same_as<typename Law::Prepared>;
 } &&(!Law::acts || (HasFrictionForce<Law, double> && HasFrictionForce<Law, Pack> &&
+                    FrictionHistory<typename Law::template History<double>, double> &&
+                    FrictionHistory<typename Law::template History<Pack>, Pack> &&
                     requires(const typename Law::Prepared p, const Contact<double>& contact) {
                         {
                             Law::stiffness(p, contact)

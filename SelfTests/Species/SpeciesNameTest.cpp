@@ -90,7 +90,7 @@ TEST(SpeciesName, everyLawSatisfiesItsConceptOnly) {
     AdhesionLaws::forEach([]<class L>() { static_assert(AdhesionLaw<L> && !NormalLaw<L>); });
 }
 
-// Each of these has all that a law needs but for the one thing that its name says.
+// Each of these has all that a law needs except for the one thing that its name says.
 namespace broken {
 
 template <class Law>
@@ -156,6 +156,25 @@ struct FrictionWithoutPrepare : Mindlin {
     Prepared prepare(const Normal&) const = delete;
 };
 
+template <class T>
+struct SpringWithMisspeltName {
+    Vector<T> displacment;
+    void turn(const FrameRotation<T>&) {}
+};
+struct FrictionWithoutSpring : Mindlin {
+    template <class T>
+    using History = SpringWithMisspeltName<T>;
+};
+template <class T>
+struct SpringThatDoesNotTurn {
+    [[nodiscard]] Vector<T> slidingSpring() const;
+    void trun(const FrameRotation<T>&) {}
+};
+struct FrictionThatDoesNotTurn : Mindlin {
+    template <class T>
+    using History = SpringThatDoesNotTurn<T>;
+};
+
 struct AdhesionWithoutPrepare : LiquidBridgeBagheri {
     Interaction<double> prepare(const Bodies&) const = delete;
 };
@@ -195,6 +214,13 @@ TEST(SpeciesName, aBrokenFrictionLawIsNone) {
                   !FrictionLaw<broken::FrictionWithoutForce>);
     static_assert(!FrictionLaw<broken::FrictionWithoutStiffness>);
     EXPECT_FALSE(FrictionLaw<broken::FrictionWithoutPrepare>);
+    // All else is Mindlin's: what these lack would leave a force without a spring, or a spring that stays
+    // behind when its contact turns.
+    EXPECT_TRUE((FrictionHistory<TangentialSpring<double>, double>));
+    EXPECT_FALSE((FrictionHistory<broken::SpringWithMisspeltName<double>, double>));
+    EXPECT_FALSE((FrictionHistory<broken::SpringThatDoesNotTurn<double>, double>));
+    EXPECT_FALSE(FrictionLaw<broken::FrictionWithoutSpring>);
+    EXPECT_FALSE(FrictionLaw<broken::FrictionThatDoesNotTurn>);
 }
 
 TEST(SpeciesName, aBrokenAdhesionLawIsNone) {

@@ -147,6 +147,7 @@ struct FrictionSprings {
     StickSlipSpring<T> sliding;
     RollingTorsionSpring<T> rotation;
 
+    [[nodiscard]] const Vector<T>& slidingSpring() const { return sliding.slidingSpring(); }
     void turn(const FrameRotation<T>& r) {
         sliding.turn(r);
         rotation.turn(r);
