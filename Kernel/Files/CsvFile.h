@@ -22,7 +22,7 @@ public:
         if (file.flush() == 0) line(header);
     }
 
-    /// One line; numbers with all their digits. (Not by fmt::format_to, which is compiled anew in every file
+    /// One line; numbers with all their digits. (Not by fmt::format_to, which is compiled again in every file
     /// that uses it: a fifth of the time to compile a driver.)
     template <class... Values>
     void row(const Values&... values) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <utility>
 
 namespace pendular {
 
@@ -48,6 +49,27 @@ std::string parseLength(std::string_view word, double scale, double& value) {
     return {};
 }
 
+namespace {
+
+/// Whether a line has the names of columns: a first word that begins with a letter, and no number.
+bool isHeader(std::string_view line) {
+    Words words(line);
+    std::string_view word = words.next();
+    const char first = word.empty() ? ' ' : word.front();
+    if (!((first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z'))) return false;
+    for (double number; !word.empty(); word = words.next())
+        if (parseNumber(word, number)) return false;
+    return true;
+}
+
+std::string hintFor(std::string_view word) {
+    if (word.starts_with("\xEF\xBB\xBF")) return " (it begins with a byte order mark: save the file without)";
+    if (word.find(',') != word.npos) return " (decimals have a point, and blanks part numbers)";
+    return {};
+}
+
+}  // namespace
+
 void forEachRow(const InputFile& file, double scale,
                 const std::function<void(std::size_t line, const std::vector<double>& row)>& use) {
     std::string_view rest = file.text;
@@ -55,18 +77,17 @@ void forEachRow(const InputFile& file, double scale,
     bool mayBeHeader = true;
     for (std::size_t line = 1; !rest.empty(); ++line) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
-        Words words(rest.substr(0, end));
+        const std::string_view text = rest.substr(0, end);
+        Words words(text);
         rest.remove_prefix(std::min(end + 1, rest.size()));
         std::string_view word = words.next();
         if (word.empty() || word.front() == '#') continue;
-        double number;
-        const bool isHeader = mayBeHeader && !parseNumber(word, number);
-        mayBeHeader = false;
-        if (isHeader) continue;
+        if (std::exchange(mayBeHeader, false) && isHeader(text)) continue;
         row.clear();
-        for (; !word.empty(); word = words.next()) {
+        for (double number; !word.empty(); word = words.next()) {
             if (const std::string reason = parseLength(word, scale, number); !reason.empty())
-                file.refuse("line", line, reason);
+                file.refuseWord(line, static_cast<std::size_t>(word.data() - text.data()) + 1,
+                                reason + hintFor(word));
             row.push_back(number);
         }
         use(line, row);

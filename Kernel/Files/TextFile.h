@@ -23,6 +23,10 @@ struct InputFile {
     [[noreturn]] void refuse(std::string_view place, Place where, std::string_view reason) const {
         throw InputError(fmt::format("The {} {}, {} {}: {}.", kind, name, place, where, reason));
     }
+    /// @param column of the first character, from 1
+    [[noreturn]] void refuseWord(std::size_t line, std::size_t column, std::string_view reason) const {
+        refuse(fmt::format("line {}, column", line), column, reason);
+    }
     [[noreturn]] void refuse(std::string_view reason) const {
         throw InputError(fmt::format("The {} {} {}.", kind, name, reason));
     }
@@ -74,8 +78,8 @@ inline constexpr double largestLength = 1e9;  // m; of a coordinate or a radius 
 /// A length in m, read and multiplied by the scale; empty, or why it is refused.
 std::string parseLength(std::string_view word, double scale, double& value);
 
-/// Reads rows of lengths. Empty lines, lines that begin with # and a first line that begins with no number
-/// (the names of the columns) are skipped.
+/// Reads rows of lengths. Empty lines, lines that begin with # and a first line of words (the names of the
+/// columns: the first one begins with a letter, and none is a number) are skipped.
 /// @param scale m for one unit of the file
 /// @param use is given the number of the line, from 1, and the row's numbers (m)
 void forEachRow(const InputFile& file, double scale,

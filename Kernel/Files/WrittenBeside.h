@@ -24,8 +24,8 @@ public:
     /// Throws InputError if the file cannot be written.
     explicit WrittenBeside(std::filesystem::path path);
     /// Goes on with a file after its first bytes, and cuts off what follows them: the one that is not
-    /// complete, or the complete one, which then gets the other name. Where there is neither, it begins anew;
-    /// throws InputError where there is less.
+    /// complete, or the complete one, which then gets the other name. Where there is neither, it starts
+    /// again; throws InputError where there is less.
     WrittenBeside(std::filesystem::path path, std::uintmax_t bytes);
     WrittenBeside(const WrittenBeside&) = delete;
     WrittenBeside& operator=(const WrittenBeside&) = delete;

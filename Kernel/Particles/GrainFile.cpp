@@ -16,8 +16,9 @@ std::vector<GrainRow> readGrainFile(const std::filesystem::path& path) {
             file.refuse("line", line,
                         fmt::format("the radius {} m and the contact radius {} m differ", row[1], row[2]));
         const double radius = row.size() == 6 ? row[1] : row[0];
-        if (!(radius > 0))
-            file.refuse("line", line, fmt::format("the radius {} m is not greater than 0", radius));
+        if (!radiusRange.contains(radius))
+            file.refuse("line", line,
+                        fmt::format("the radius {} m must be {}", radius, radiusRange.text("m")));
         grains.push_back({radius, Vec3D(row[row.size() - 3], row[row.size() - 2], row[row.size() - 1])});
     });
     if (grains.empty()) file.refuse("holds no grains");

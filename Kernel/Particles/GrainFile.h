@@ -13,10 +13,11 @@ struct GrainRow {
     Vec3D position;  // m
 };
 
-/// Reads grains from rows `radius x y z` (m), after an optional line of column names; empty lines and lines
-/// that begin with # are skipped. Rows of six numbers are taken as `type radius contact_radius x y z`, as the
-/// single sphere is written in the published initial state of Dosta et al. (2024), Comput. Phys. Commun. 296,
-/// 109066; the two radii must be equal. Throws InputError with the file, the line and the reason.
+/// Reads grains from rows `radius x y z` (m), after an optional line of column names (words); empty lines and
+/// lines that begin with # are skipped. Rows of six numbers are taken as `type radius contact_radius x y z`,
+/// as the single sphere is written in the published initial state of Dosta et al. (2024), Comput. Phys.
+/// Commun. 296, 109066; the two radii must be equal. Throws InputError with the file, the line and the
+/// reason.
 std::vector<GrainRow> readGrainFile(const std::filesystem::path& path);
 
 /// Writes what readGrainFile() reads, with all digits. Throws InputError if the file cannot be written.

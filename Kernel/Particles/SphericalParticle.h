@@ -11,6 +11,10 @@ namespace pendular {
 
 using Vec3D = Eigen::Vector3d;
 
+/// m, of a grain: far beyond any real one on both sides, and far from where the fifth power of the radius, in
+/// the moment of inertia, is more or less than a double can hold.
+inline constexpr Range radiusRange{1e-12, 1e9};
+
 /// kg, of a solid sphere; @param radius m; @param density kg/m^3
 inline double sphereMass(double radius, double density) {
     return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
@@ -21,7 +25,7 @@ class SphericalParticle {
 public:
     /// @param radius m
     void setRadius(double radius) {
-        checkValue("SphericalParticle", "radius", radius, "m", positive);
+        checkValue("SphericalParticle", "radius", radius, "m", radiusRange);
         radiusValue = radius;
     }
     void setPosition(const Vec3D& position) { positionValue = finite("position", position, "m"); }
