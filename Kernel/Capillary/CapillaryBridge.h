@@ -77,9 +77,9 @@ struct Rupture {
 
 /// The axisymmetrically stable bridge at a gap (m, not negative); nothing if there is none, at or beyond
 /// rupture. Between equal bodies the bridge that is its own mirror image. `nearby` (as for another gap of the
-/// same bridge) saves a fifth of the time; the answer is the same but for rounding. Throws InputError for a
-/// radius or volume that is not positive (an infinite radius is a plane), a contact angle outside 0 to pi, a
-/// negative gap, and for two planes that touch.
+/// same bridge) saves a fifth of the time; the answer is the same except for rounding. Throws InputError for
+/// a radius or volume that is not positive (an infinite radius is a plane), a contact angle outside 0 to pi,
+/// a negative gap, and for two planes that touch.
 std::optional<CapillaryBridge> solveBridge(const BridgeConditions& conditions, double gap,
                                            const CapillaryBridge* nearby = nullptr);
 

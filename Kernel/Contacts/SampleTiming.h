@@ -5,7 +5,7 @@
 namespace pendular {
 
 /// How long, in steps, the force sampled in this step stands for: half a step before and after the sample,
-/// but for the first and the last sample of a touch, which reach from the touch's begin and to its end.
+/// except for the first and the last sample of a touch, which reach from the touch's start and to its end.
 ///
 /// A dashpot works from the first moment of a touch, so that giving each sample a whole step misses or adds
 /// up to half a step of it at either end. At 50 steps a contact, that is an error of the restitution of up to
@@ -17,8 +17,8 @@ struct SampleTiming {
     T after;
 
     /// The factor on a force that grows with the power a (0, 1/4, 1/2, 1 or 3/2) of the overlap. Near its
-    /// begin the overlap grows linearly in time, so the force's mean over the sample's time, against its
-    /// value t after the begin, is
+    /// start the overlap grows linearly in time, so the force's mean over the sample's time, against its
+    /// value t after the start, is
     /// ((t + 1/2)/t)^a / (1 + a); the end is the same backwards. However small t is, and however much of the
     /// overlap is round-off: t was found from the same overlap, so that their product is the mean.
     [[nodiscard]] T factor(double exponent, MaskOf<T> first, MaskOf<T> last) const {

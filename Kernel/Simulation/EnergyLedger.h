@@ -36,8 +36,8 @@ struct EnergyLedger {
     double walls = 0;   // by walls that move, and by grains that are held and move
     double driver = 0;  // where a driver changes velocities, places or the gravity
 
-    /// Work of conservative forces that is not found as stored energy: it falls with the time step, but for
-    /// springs that the integrator feeds (the README of Kernel/Motion), and for an attraction without
+    /// Work of conservative forces that is not found as stored energy: it falls with the time step, except
+    /// for springs that the integrator feeds (the README of Kernel/Motion), and for an attraction without
     /// hysteresis (ReversibleAdhesive, DMT) that acts already at the start: its energy is counted from there,
     /// and what it had is in this entry from when the pair first leaves its range.
     double stepError = 0;
@@ -54,9 +54,9 @@ struct EnergyLedger {
         return normalDashpots + plastic + tangentialDashpots + sliding + rolling + torsion + brokenAdhesion +
                viscousBridges + stiffening;
     }
-    /// Constant but for the error of the time steps.
+    /// Constant except for the error of the time steps.
     [[nodiscard]] double total() const { return kinetic + potential + stored() + lost() - walls - driver; }
-    /// Constant but for round-off.
+    /// Constant except for round-off.
     [[nodiscard]] double closed() const { return total() + stepError; }
     /// Net work done against adhesions and bridges: negative while they have given more than they took.
     [[nodiscard]] double adhesionWork() const { return adhesive + brokenAdhesion; }

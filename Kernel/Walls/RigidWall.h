@@ -10,7 +10,8 @@ namespace pendular {
 
 /// A wall that is a rigid body with a prescribed motion. The shape is given in the body's own frame, which is
 /// that of the scene at time 0 unless setMotion() says otherwise; it never changes, so that a mesh is
-/// searched by one tree for ever. The motion may be set anew during a run: the wall goes on from where it is.
+/// searched by one tree for ever. The motion may be set again during a run: the wall goes on from where it
+/// is.
 class RigidWall : public Wall {
 public:
     template <class S>

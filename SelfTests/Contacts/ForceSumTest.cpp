@@ -107,7 +107,8 @@ TEST(InitialForce, ofAnOverlapIsThatOfTheLaw) {
     scene.initialise();
     const double force = 4.0 / 3.0 * modulus * std::sqrt(0.5 * r) * std::pow(overlap, 1.5);
     EXPECT_NEAR(scene.particleHandler.getObject(1).getForce().x() / force, 1, 1e-12);
-    scene.step();  // a thousandth of the contact time later it is the same but for a few parts in a thousand
+    scene.step();  // a thousandth of the contact time later it is the same except for a few parts in a
+                   // thousand
     EXPECT_NEAR(scene.particleHandler.getObject(1).getForce().x() / force, 1, 0.01);
 }
 

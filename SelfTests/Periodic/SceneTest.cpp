@@ -114,8 +114,8 @@ TYPED_TEST_SUITE(PeriodicScene, SpeciesOfAllKinds);
 /// A scene and its copy shifted by half a period along each axis that repeats itself give the same forces.
 /// Tolerance: a coordinate is rounded to epsilon x length in the shift and in each step; with both grains of
 /// a contact, two numbers for each, the overlap is known to 4 (n + 1) epsilon x length after n steps. Its
-/// share of the overlap is the relative error of the contact's force, but for the power of the law (3/2) and
-/// the sum over elastic, damping and tangential parts (3).
+/// share of the overlap is the relative error of the contact's force, except for the power of the law (3/2)
+/// and the sum over elastic, damping and tangential parts (3).
 TYPED_TEST(PeriodicScene, shiftedByHalfAPeriodHasTheSameForces) {
     for (int axes = 1; axes < 8; ++axes) {
         SCOPED_TRACE(fmt::format("axes {:03b}", axes));
@@ -172,9 +172,9 @@ TYPED_TEST(PeriodicScene, keepsItsMomentum) {
     EXPECT_GT(scene.contacts().rebuildCount(), 3u);
 }
 
-/// Elastic grains in a scene that repeats itself along three axes. A collision keeps its energy but for the
-/// errors of its first and last step, (w dt)^3 / 12 of the speed each (see DryCollisionTest), w = pi / t_c;
-/// and while grains touch, velocity Verlet counts the stored energy as 1 - (w dt)^2/4 of what it is. The
+/// Elastic grains in a scene that repeats itself along three axes. A collision keeps its energy except for
+/// the errors of its first and last step, (w dt)^3 / 12 of the speed each (see DryCollisionTest), w = pi /
+/// t_c; and while grains touch, velocity Verlet counts the stored energy as 1 - (w dt)^2/4 of what it is. The
 /// energy in a collision is k T = 2/3 of the kinetic energy of a grain on average in a gas in equilibrium;
 /// twice that for one that comes from another distribution.
 void expectEnergyIsKept(const Vec3D& gravity) {

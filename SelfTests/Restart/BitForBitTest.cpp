@@ -129,7 +129,7 @@ TEST(Restart, withOtherThreadsIsBitForBit) {
         expectSameAfterRestart(box<Wet>(2), 100, 250, before, after);
 }
 
-/// The step before the contacts are listed anew, that step, and the one after it.
+/// The step before the contacts are listed again, that step, and the one after it.
 TEST(Restart, aroundARelistingIsBitForBit) {
     auto probe = box<Wet>(3)(1);
     probe->initialise();
@@ -142,8 +142,8 @@ TEST(Restart, aroundARelistingIsBitForBit) {
 }
 
 /// All else that a run changes: an energy ledger, walls that move and keep forces, whose motion the driver
-/// sets anew during the run, gravity that it turns, a periodic direction, random numbers and a counter of its
-/// own.
+/// sets again during the run, gravity that it turns, a periodic direction, random numbers and a counter of
+/// its own.
 class Everything : public SettlingBox<Wet> {
 public:
     Everything() : SettlingBox<Wet>(2) {
@@ -251,7 +251,7 @@ TEST(Restart, withAWallThatWasAddedIsBitForBit) {
         expectSameAfterRestart(make, middle, 300);
 }
 
-/// Equal states make equal files, but for nothing.
+/// Equal states make equal files, without exception.
 TEST(Restart, writesTheSameBytesForTheSameState) {
     const TestFolder folder;
     std::vector<std::string> bytes;

@@ -14,8 +14,8 @@ namespace {
 using namespace support;
 
 /// The run is killed and started again until it has been killed 250 times, in several rounds: whenever it
-/// comes to its end it is compared and begins anew. Restart files are written after every step, so that about
-/// half of the kills meet a file that is not complete.
+/// comes to its end it is compared and starts again. Restart files are written after every step, so that
+/// about half of the kills meet a file that is not complete.
 TEST(HeavyKilledRun, leavesAWholeStateThatGoesOnToTheSameOne) {
     constexpr std::size_t steps = 60;
     const TestFolder folder;

@@ -107,7 +107,7 @@ TEST(HeavyManySizes, aLargeGrainComesToRestOnSmallOnes) {
     EXPECT_LT(scene.kineticEnergy(), 0.01 * kinetic);
     EXPECT_LT(scene.kineticEnergy(), 1e-3 * small * scene.weight());  // it could not rise by a thousandth
 
-    // The floor carries all the weight, but for what still moves; and no grain's share is more than all of
+    // The floor carries all the weight, except for what still moves; and no grain's share is more than all of
     // it.
     const double weight = scene.weight();
     double moving = 0, onFloor = 0, deepest = 0;
@@ -136,8 +136,8 @@ TEST(HeavyManySizes, aLargeGrainComesToRestOnSmallOnes) {
     });
     EXPECT_NEAR(onFloor, weight, moving);
     // All small grains lie below the large one's centre and push it up: none with more than its weight over
-    // the vertical part of the flattest normal, but for friction, which helps with up to half of the normal
-    // force.
+    // the vertical part of the flattest normal, except for friction, which helps with up to half of the
+    // normal force.
     EXPECT_GT(carried, 3);
     ASSERT_GT(lowestShare, 0.5);
     const double sideways = 0.5 * std::sqrt(1 - lowestShare * lowestShare);

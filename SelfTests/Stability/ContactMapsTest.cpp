@@ -40,11 +40,11 @@ protected:
     static inline std::unique_ptr<support::TestFolder> folder;
 };
 
-// The dashpots go with the overlap to a power of at least 1/4, but for the linear one: the sum over samples
-// errs with n^(-5/4) at both ends of the touch, in units of the dashpot's share of a contact of n steps. Of
-// the linear one the begin errs with 2 (L h)^2, L h = z pi/n, at most e^(-pi z / sqrt(1 - z^2)) of the speed:
-// below n^(-5/4) too. What has no rebound has none at any step. The README of Kernel/Species/Normal promises
-// less, as it is seen.
+// The dashpots go with the overlap to a power of at least 1/4, except for the linear one: the sum over
+// samples errs with n^(-5/4) at both ends of the touch, in units of the dashpot's share of a contact of n
+// steps. Of the linear one the start errs with 2 (L h)^2, L h = z pi/n, at most e^(-pi z / sqrt(1 - z^2)) of
+// the speed: below n^(-5/4) too. What has no rebound has none at any step. The README of
+// Kernel/Species/Normal promises less, as it is seen.
 TEST_F(HeavyContactMaps, restitutionConvergesToTheSetOne) {
     const std::map<std::string, double> readme{{"10", 0.012}, {"20", 0.003}, {"50", 0.0005}};
     int compared = 0, withoutRebound = 0;
@@ -113,7 +113,7 @@ TEST_F(HeavyContactMaps, elasticContactsDoNotPull) {
     EXPECT_GT(compared, 0);
 }
 
-// The push grows to 3/2 of that of the onset in 100 periods. Its begin leaves an oscillation of the friction
+// The push grows to 3/2 of that of the onset in 100 periods. Its start leaves an oscillation of the friction
 // of 1.5 / (2 pi 100) of the limit, by which a contact may slide too soon; a step later than it should, the
 // push is 1.5 / (100 x steps) larger, and so is it by a quarter of a period of the oscillation and the lag of
 // the dashpot, z / pi of a period. The lever arm of the contact is half of the overlap shorter than the

@@ -17,7 +17,7 @@ namespace pendular {
 
 struct TimeChartOptions {
     std::filesystem::path file = "time.csv";
-    int offsets = 16;             // begins of the touch within a step
+    int offsets = 16;             // starts of the touch within a step
     int referenceSteps = 200000;  // a contact
 };
 
