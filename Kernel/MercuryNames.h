@@ -5,11 +5,18 @@
 
 #include <numbers>
 
+#include "Kernel/Logger.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Species/TimeStepAdvice.h"
 
 using Mdouble = double;
+
+/// The levels of logger(INFO, "{} grains", number). What MercuryDPM logs as ERROR or FATAL ends its program:
+/// throw an InputError or a RunError.
+inline constexpr pendular::LogLevel WARN = pendular::LogLevel::Warn, INFO = pendular::LogLevel::Info,
+                                    DEFAULT = pendular::LogLevel::Info, VERBOSE = pendular::LogLevel::Verbose,
+                                    DEBUG = pendular::LogLevel::Debug;
 
 namespace constants {
 inline constexpr double pi = std::numbers::pi;

@@ -85,7 +85,7 @@ struct Tables {
 
     void write(const Scene& scene) const {
         const auto& grains = scene.particleHandler.store();
-        writeGrains(scene.getName() + "-grains.csv", grains, "grains");
+        writeGrains(scene.getName() + "-grains.csv", grains, scene.laws(), "grains");
         if (withContacts)
             writeContacts(scene.getName() + "-contacts.csv", scene.contacts(), grains, "contacts");
     }

@@ -27,7 +27,7 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--number", o.hopper.number, "grains in the hopper");
     app.add_option("--elastic-modulus-Pa", o.hopper.youngModulus, "Young's modulus, Pa");
     app.add_option("--friction", o.hopper.friction, "coefficient of sliding friction of grains and walls");
-    app.add_option("--begin-s", o.begin, "begin of the steady part, s after the orifice is opened");
+    app.add_option("--begin-s", o.begin, "start of the steady part, s after the orifice is opened");
     app.add_option("--end-time-s", o.endTime, "end of each run, s after the orifice is opened");
     app.add_option("--interval-s", o.interval, "time between two rows of discharge.csv, s");
     addRunOptions(app, o.run, "discharge.csv and flow.csv", "orifice-DIAMETER");
@@ -47,8 +47,9 @@ void writeFlows(const Options& options, const std::vector<Discharge>& runs, cons
 }
 
 void run(const Options& options) {
-    for (const double orifice : options.orifices) options.run.forget(dischargeName(orifice));
-    const std::vector<GrainRow> grains = settledHopperGrains(options.hopper, options.run);
+    std::vector<std::string> names;
+    for (const double orifice : options.orifices) names.push_back(dischargeName(orifice));
+    const std::vector<GrainRow> grains = settledHopperGrains(options.hopper, options.run, names);
     std::vector<Discharge> runs;
     std::vector<CurvePoint> flows;
     for (const double orifice : options.orifices) {
@@ -85,7 +86,7 @@ int main(int argc, char** argv) {
         .addOptions = [&](CLI::App& app) { describe(app, options); }};
     return runDriver(driver, argc, argv, [&] {
         checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval);
-        checkValue("HopperDischarge", "begin of the steady part", options.begin, "s",
+        checkValue("HopperDischarge", "start of the steady part", options.begin, "s",
                    {0, options.endTime, true, false});
         for (const double orifice : options.orifices)
             checkValue("HopperDischarge", "orifice diameter", orifice, "m",

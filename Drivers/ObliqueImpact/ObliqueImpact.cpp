@@ -50,7 +50,7 @@ scenes::SphereImpact sceneOf(const Options& options, std::size_t impact) {
 }
 
 /// The tables of a run: impacts.csv, and energy.csv where it is asked for. One that goes on keeps the rows
-/// that both have, which must be those of its options; one that begins anew leaves no table of another run.
+/// that both have, which must be those of its options; one that starts again leaves no table of another run.
 class Tables {
 public:
     explicit Tables(const Options& options) {

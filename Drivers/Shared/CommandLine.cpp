@@ -18,20 +18,27 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
         ->capture_default_str();
     auto* resume =
         app.add_flag("--resume", o.resume,
-                     "go on from the restart file in the output folder; if there is none, begin anew, "
+                     "go on from the restart file in the output folder; if there is none, start again, "
                      "which removes the frames of a former run; give the "
                      "other options as before (end, intervals and threads may change, but "
                      "--energy-interval-s not from 0 or to 0)");
-    app.add_option("--restart", o.restart, "go on from this restart file")->excludes(resume);
+    // An empty text would be taken for an option that is left out.
+    const auto refuseEmpty = [](const std::string& text) {
+        return std::string(text.empty() ? "the value is empty" : "");
+    };
+    app.add_option("--restart", o.restart, "go on from this restart file")
+        ->excludes(resume)
+        ->check(refuseEmpty);
     app.add_option("--restart-interval-s", o.restartInterval,
-                   "time on the clock from one restart file to the next, s; 0: at the begin and the end "
+                   "time on the clock from one restart file to the next, s; 0: at the start and the end "
                    "only. One is also "
                    "written on SIGINT, SIGTERM (the run ends), and SIGUSR1 (it goes on)")
         ->capture_default_str();
     app.add_option(
-        "--wall-time", o.wallTime,
-        "time on the clock, hours:minutes:seconds, after which the run ends as on SIGTERM; no limit if "
-        "not given");
+           "--wall-time", o.wallTime,
+           "time on the clock, hours:minutes:seconds, after which the run ends as on SIGTERM; no limit if "
+           "not given")
+        ->check(refuseEmpty);
     const auto addInterval = [&](const char* name, double& interval, const std::string& between,
                                  const std::string& file, const std::string& none = "none") {
         app.add_option(name, interval,

@@ -135,7 +135,9 @@ private:
 
 /// Grains that have fallen into the closed hopper from a loose lattice, for three times the time in which a
 /// stone falls through it.
-inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const RunOptions& options = {}) {
+/// @param next names of the runs that follow, whose earlier restart files are removed when this one begins
+inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const RunOptions& options = {},
+                                                 const std::vector<std::string>& next = {}) {
     checkValue("HopperScene", "grain diameter", hopper.grainDiameter, "m", positive);
     checkValue("HopperScene", "hopper diameter", hopper.diameter, "m",
                {3 * hopper.grainDiameter, infinity, true, false});
@@ -157,6 +159,7 @@ inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const Run
     }
     HopperScene scene(hopper, loose, 0);
     options.apply(scene, "settling");
+    options.forgetAtStart(scene, next);
     scene.setTimeMax(3 * std::sqrt(2 * height / Hopper::gravity));
     scene.solve();
     return grainRows(scene.particleHandler);

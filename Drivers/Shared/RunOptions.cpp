@@ -10,6 +10,8 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/Hdf5Output.h"
@@ -17,23 +19,44 @@
 #include "Kernel/Output/WallForceFile.h"
 #include "Kernel/Simulation/RunSummary.h"
 #include "Kernel/Simulation/Scene.h"
+#include "Kernel/State/RestartFile.h"
 
 namespace pendular {
 
+namespace {
+
+/// Removes files when a run begins, and so after all of it has been checked.
+struct RemovesAtStart : RemembersNothing {
+    std::vector<std::filesystem::path> files;
+
+    void write(const Scene&) {
+        for (const std::filesystem::path& file : files) std::filesystem::remove(file);
+        files.clear();
+    }
+};
+
+}  // namespace
+
+std::string RunOptions::nameOf(const std::string& run) const {
+    return (std::filesystem::path(output) / run).string();
+}
+
 std::filesystem::path RunOptions::restartSource(const std::string& run) const {
     if (!restart.empty()) return restart;
-    const std::filesystem::path own = std::filesystem::path(output) / (run + "-restart.h5");
+    const std::filesystem::path own = restartFileOf(nameOf(run));
     return resume && std::filesystem::exists(own) ? own : std::filesystem::path();
 }
 
-void RunOptions::forget(const std::string& run) const {
-    if (!resume && !output.empty())
-        std::filesystem::remove(std::filesystem::path(output) / (run + "-restart.h5"));
+void RunOptions::forgetAtStart(Scene& scene, const std::vector<std::string>& runs) const {
+    if (resume || output.empty()) return;
+    RemovesAtStart removes;
+    for (const std::string& run : runs) removes.files.push_back(restartFileOf(nameOf(run)));
+    scene.addOutput(std::move(removes));
 }
 
 void RunOptions::applyToPreparation(Scene& scene) const {
     applyToAny(scene, "preparation");
-    if (!output.empty()) std::filesystem::remove(std::filesystem::path(output) / "run-restart.h5");
+    forgetAtStart(scene, {"run"});
 }
 
 void RunOptions::apply(Scene& scene, const std::string& run) const {
@@ -50,7 +73,7 @@ void RunOptions::applyToAny(Scene& scene, const std::string& run) const {
     scene.setNumberOfThreads(threads);
     scene.setQuiet(quiet);
     if (output.empty()) return;
-    scene.setName((std::filesystem::path(output) / run).string());
+    scene.setName(nameOf(run));
     if (Hdf5File::isAvailable()) scene.keepRestartFile();
     scene.setRestartInterval(restartInterval);
     scene.restartFrom(restartSource(run));

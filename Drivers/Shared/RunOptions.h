@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace pendular {
 
@@ -23,8 +25,9 @@ struct RunOptions {
 
     /// The restart file from which a run of this name goes on; empty if it begins.
     [[nodiscard]] std::filesystem::path restartSource(const std::string& run = "run") const;
-    /// Removes the restart file of an earlier run of this name, unless the run is to go on from it.
-    void forget(const std::string& run) const;
+    /// When the run of this scene begins, and so not before all of it has been checked, it removes the
+    /// restart files that earlier runs of these names have left, unless they are to be gone on with.
+    void forgetAtStart(Scene& scene, const std::vector<std::string>& runs) const;
     /// What they say of a run that makes the initial state. It keeps only a restart file of its own, from
     /// which --resume goes on, and not from one that an earlier run has left.
     void applyToPreparation(Scene& scene) const;
@@ -32,6 +35,8 @@ struct RunOptions {
     void apply(Scene& scene, const std::string& run = "run") const;
 
 private:
+    /// That of a scene: with the folder.
+    [[nodiscard]] std::string nameOf(const std::string& run) const;
     void applyToAny(Scene& scene, const std::string& run) const;
 };
 

@@ -31,7 +31,11 @@ struct ObservedContact {
     /// Unit, from particle 1 to particle 2 or into the wall.
     [[nodiscard]] Vector<double> normal() const { return (1 / norm(shift)) * shift; }
     /// N, on particle 1
-    [[nodiscard]] Vector<double> tangentialForce() const { return force - dot(force, normal()) * normal(); }
+    [[nodiscard]] Vector<double> tangentialForce() const {
+        const Vector<double> across = force - dot(force, normal()) * normal();
+        // Less than this is round-off, without a direction.
+        return norm(across) > 1e-14 * norm(force) ? across : Vector<double>{0, 0, 0};
+    }
 };
 
 /// @param wall of the bucket; null between grains

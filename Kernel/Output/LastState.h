@@ -2,6 +2,7 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Files/CsvFile.h"
+#include "Kernel/Output/SceneFields.h"
 
 namespace pendular {
 
@@ -9,10 +10,10 @@ namespace pendular {
 /// contacts and the weight.
 /// @param remark a line before the rows
 inline void writeGrains(const std::filesystem::path& path, const ParticleStore& grains,
-                        std::string_view remark) {
+                        const ContactLaws& laws, std::string_view remark) {
     CsvFile file(path,
                  "identity,species,radius_m,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,spin_x_rad_per_s,"
-                 "spin_y_rad_per_s,spin_z_rad_per_s,force_x_N,force_y_N,force_z_N");
+                 "spin_y_rad_per_s,spin_z_rad_per_s,force_x_N,force_y_N,force_z_N,mass_kg,fixed");
     file.comment(remark);
     for (const std::uint32_t place : grains.place) {
         const auto& [x, radius, v, inverseMass] = grains.translation[place];
@@ -20,22 +21,26 @@ inline void writeGrains(const std::filesystem::path& path, const ParticleStore& 
         if (grains.hasSpin) spin = grains.rotation[place].spin;
         if (inverseMass > 0) force = (1 / inverseMass) * grains.acceleration[place];
         file.row(grains.identity[place], grains.species[place], radius, x.x, x.y, x.z, v.x, v.y, v.z, spin.x,
-                 spin.y, spin.z, force.x, force.y, force.z);
+                 spin.y, spin.z, force.x, force.y, force.z, massOf(grains, laws, place),
+                 inverseMass > 0 ? 0 : 1);
     }
     file.close();
 }
 
 /// The contacts that have a force, as a table; particle2 is -1 at a wall, and wall is -1 between grains.
-/// Forces are those computed last.
+/// Forces are those computed last; x, y, z is the contact point.
 inline void writeContacts(const std::filesystem::path& path, const ContactSystem& contacts,
                           const ParticleStore& grains, std::string_view remark) {
-    CsvFile file(path, "particle1,particle2,wall,separation_m,normal_force_N,adhesive_force_N,bridged");
+    CsvFile file(path,
+                 "particle1,particle2,wall,separation_m,normal_force_N,adhesive_force_N,bridged,"
+                 "tangential_force_N,x_m,y_m,z_m");
     file.comment(remark);
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         const std::int64_t other = bucket.wall < 0 ? std::int64_t{seen.particle2} : -1;
         file.row(seen.particle1, other, seen.wall, seen.separation, seen.normalForce, seen.adhesiveForce,
-                 seen.bridged ? 1 : 0);
+                 seen.bridged ? 1 : 0, norm(seen.tangentialForce()), seen.point.x, seen.point.y,
+                 seen.point.z);
     });
     file.close();
 }

@@ -21,7 +21,7 @@ public:
     MercuryOutput& withEnergies(bool yes = true) { return energiesToo = yes, *this; }
     /// NAME.fstat, on by default.
     MercuryOutput& withContacts(bool yes = true) { return contactsToo = yes, *this; }
-    /// The box in the headers, m; that of the grains if not given.
+    /// The box in the headers, m; if not given that of the scene (setDomain()), or else that of the grains.
     MercuryOutput& withDomain(const Vec3D& lowest, const Vec3D& highest) {
         return domain = {toVector(lowest), toVector(highest)}, *this;
     }
@@ -31,7 +31,7 @@ public:
         const std::string beginning = nameIn(scene);
         const bool goesOn = scene.isRestarted();
         const auto& grains = scene.particleHandler.store();
-        const Domain box = domain ? *domain : domainOf(grains);
+        const Domain box = domainIn(scene);
         const auto frame = [&](FrameFile& file, auto&& writeInto) {
             file.begin(beginning, goesOn);
             writeInto();
@@ -66,6 +66,12 @@ private:
         return name.empty() ? scene.getName() : name;
     }
 
+    template <class Scene>
+    [[nodiscard]] Domain domainIn(const Scene& scene) const {
+        if (domain) return *domain;
+        if (scene.hasDomain()) return {toVector(scene.getMin()), toVector(scene.getMax())};
+        return domainOf(scene.particleHandler.store());
+    }
     static Domain domainOf(const ParticleStore& grains) {
         Domain box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
         for (const std::uint32_t place : grains.place) {
@@ -109,19 +115,12 @@ private:
             const ObservedContact seen = system.observe(grains, bucket, contact);
             const std::uint32_t place = grains.place[seen.particle1];
             const TranslationRecord& first = grains.translation[place];
-            const Vector<double> normal = (-1 / norm(seen.shift)) * seen.shift;  // to body 1
-            const double fn = dot(seen.force, normal);
-            const Vector<double> across = seen.force - fn * normal;
-            // Less than this is round-off, without a direction.
-            const double ft = norm(across) > 1e-14 * norm(seen.force) ? norm(across) : 0;
-            const Vector<double> tangent = ft > 0 ? (1 / ft) * across : Vector<double>{0, 0, 0};
-            double spring = 0;
-            spring = system.springLength(contact);
-            // In the middle of the overlap or of the gap; at a wall on its surface.
-            const Vector<double> point =
-                bucket.wall >= 0 ? first.position + seen.shift
-                                 : first.position - (first.radius + 0.5 * seen.separation) * normal;
-            const std::string_view shared = common.of(point, 0.0 - seen.separation, spring, fn, ft);
+            const Vector<double> normal = -seen.normal();  // to body 1
+            const Vector<double> across = seen.tangentialForce();
+            const double fn = dot(seen.force, normal), ft = norm(across);
+            const Vector<double> tangent = ft > 0 ? (1 / ft) * across : across;
+            const std::string_view shared =
+                common.of(seen.point, 0.0 - seen.separation, system.springLength(contact), fn, ft);
             const auto line = [&](std::uint32_t i, std::int64_t j, double sign) {
                 contacts.line(timeWord, bodies.of(i, j), shared,
                               directions.of(sign * normal, sign * tangent));

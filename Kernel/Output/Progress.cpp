@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "Kernel/Logger.h"
+
 namespace pendular {
 
 namespace {
@@ -33,7 +35,7 @@ Progress::Progress(std::string ofWhat, double endTime, double time, std::size_t 
 Progress::~Progress() { endLine(); }
 
 void Progress::endLine() {
-    if (terminal && shown) fmt::print(stderr, "\n");
+    if (terminal && shown) writeToLog("\n");
     shown = false;
 }
 
@@ -65,7 +67,7 @@ void Progress::print(double time, std::size_t step, const RunNumbers& numbers) {
         line += "  " + part;
     }
     if (terminal) line.resize(width, ' ');
-    fmt::print(stderr, "{}{}{}", terminal ? "\r" : "", line, terminal ? "" : "\n");
+    writeToLog(terminal ? "\r" + line : line + "\n");
     shown = true;
 }
 

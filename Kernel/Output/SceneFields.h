@@ -8,22 +8,32 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/PolyData.h"
+#include "Kernel/Particles/SphericalParticle.h"
 
 namespace pendular {
 
-/// The grains as points: radius, velocity, spin, force (of contacts and weight), species, identity.
+/// The mass of the grain at a place, kg; also of one that is held, which its record does not have.
+inline double massOf(const ParticleStore& grains, const ContactLaws& laws, std::uint32_t place) {
+    const TranslationRecord& grain = grains.translation[place];
+    return grain.inverseMass > 0 ? 1 / grain.inverseMass
+                                 : sphereMass(grain.radius, laws.density(grains.species[place]));
+}
+
+/// The grains as points: radius, mass, velocity, spin, force (of contacts and weight), species, whether they
+/// are held in place (fixed), identity.
 /// @tparam Real of the fields; positions are doubles
 template <std::floating_point Real = float>
-PolyData grainPoints(const ParticleStore& grains) {
+PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
     PolyData data;
-    std::vector<Real> radius, velocity, spin, force;
-    std::vector<std::int32_t> species, identity;
+    std::vector<Real> radius, mass, velocity, spin, force;
+    std::vector<std::int32_t> species, fixed, identity;
     const auto append = [](std::vector<Real>& column, const Vector<double>& v) {
         for (const double part : {v.x, v.y, v.z}) column.push_back(static_cast<Real>(part));
     };
     const std::size_t count = grains.count();
     data.points.reserve(count), data.corners.reserve(count);
-    radius.reserve(count), species.reserve(count), identity.reserve(count);
+    radius.reserve(count), mass.reserve(count);
+    species.reserve(count), fixed.reserve(count), identity.reserve(count);
     velocity.reserve(3 * count), force.reserve(3 * count);
     if (grains.hasSpin) spin.reserve(3 * count);
     for (const std::uint32_t place : grains.place) {
@@ -31,19 +41,24 @@ PolyData grainPoints(const ParticleStore& grains) {
         data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
         data.points.push_back(grain.position);
         radius.push_back(static_cast<Real>(grain.radius));
+        mass.push_back(static_cast<Real>(massOf(grains, laws, place)));
         append(velocity, grain.velocity);
         if (grains.hasSpin) append(spin, grains.rotation[place].spin);
         // Not kept for a grain held in place.
         append(force, grain.inverseMass > 0 ? (1 / grain.inverseMass) * grains.acceleration[place]
                                             : Vector<double>{0, 0, 0});
         species.push_back(grains.species[place]);
+        fixed.push_back(grain.inverseMass > 0 ? 0 : 1);
         identity.push_back(static_cast<std::int32_t>(grains.identity[place]));
     }
     if (!data.corners.empty()) data.ends = {static_cast<std::int32_t>(data.corners.size())};
-    data.pointFields = {{"radius_m", 1, std::move(radius)}, {"velocity_m_per_s", 3, std::move(velocity)}};
+    data.pointFields = {{"radius_m", 1, std::move(radius)},
+                        {"mass_kg", 1, std::move(mass)},
+                        {"velocity_m_per_s", 3, std::move(velocity)}};
     if (grains.hasSpin) data.pointFields.push_back({"spin_rad_per_s", 3, std::move(spin)});
     data.pointFields.push_back({"force_N", 3, std::move(force)});
     data.pointFields.push_back({"species", 1, std::move(species)});
+    data.pointFields.push_back({"fixed", 1, std::move(fixed)});
     data.pointFields.push_back({"identity", 1, std::move(identity)});
     for (const GrainColumn& column : grains.columns) {
         std::vector<Real> numbers;
@@ -93,7 +108,8 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
 /// surface. The first points are the centres of all grains, in the order of identities. The forces are those
 /// on particle1; particle2 is -1 at a wall, and wall is -1 between grains.
 template <std::floating_point Real = float>
-PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains, const ContactLaws& laws) {
+PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains, const ContactLaws& laws,
+                      bool withPoints = false) {
     PolyData data;
     data.kind = PolyData::Cells::Lines;
     std::vector<std::int32_t> pointOf(grains.size());  // of the grain at each place
@@ -103,7 +119,7 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
     }
     std::size_t count = 0;
     contacts.forEachActing(grains, [&](const Bucket&, std::uint32_t) { ++count; });
-    std::vector<Real> force, normal, adhesive, overlap, volume;
+    std::vector<Real> force, normal, tangential, adhesive, overlap, volume, touched;
     std::vector<std::int32_t> bridged, first, second, wall;
     std::vector<std::vector<Real>> named(contacts.columns().size());
     force.reserve(3 * count), data.corners.reserve(2 * count);
@@ -128,6 +144,10 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
         for (const double part : {seen.force.x, seen.force.y, seen.force.z})
             force.push_back(static_cast<Real>(part));
         normal.push_back(static_cast<Real>(seen.normalForce));
+        if (laws.layout.hasTorque) tangential.push_back(static_cast<Real>(norm(seen.tangentialForce())));
+        if (withPoints)
+            for (const double part : {seen.point.x, seen.point.y, seen.point.z})
+                touched.push_back(static_cast<Real>(part));
         adhesive.push_back(static_cast<Real>(seen.adhesiveForce));
         overlap.push_back(static_cast<Real>(-seen.separation));
         if (const auto liquid = laws.bridgeVolume(bucket.species1, bucket.species2))
@@ -147,6 +167,8 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
                        {"particle1", 1, std::move(first)},
                        {"particle2", 1, std::move(second)},
                        {"wall", 1, std::move(wall)}};
+    if (laws.layout.hasTorque) data.cellFields.push_back({"tangential_force_N", 1, std::move(tangential)});
+    if (withPoints) data.cellFields.push_back({"contact_point_m", 3, std::move(touched)});
     if (laws.bridgeVolume(0, 0)) data.cellFields.push_back({"bridge_volume_m3", 1, std::move(volume)});
     for (std::size_t c = 0; c < named.size(); ++c)
         data.cellFields.push_back({contacts.columns()[c].fieldName(), 1, std::move(named[c])});
@@ -167,7 +189,7 @@ struct SceneFrame {
 /// Which fields a frame has.
 class FrameContent {
 public:
-    bool stress = false, contacts = true;
+    bool stress = false, contacts = true, contactPoints = false;
     bool doubles = false;  // fields of 64 bits, not of 32
 
     /// A number or a Vec3D of each grain, by its identity; the name ends with the unit.
@@ -205,10 +227,12 @@ private:
     template <class Real, class Scene>
     [[nodiscard]] SceneFrame frameOf(const Scene& scene) const {
         const auto& store = scene.particleHandler.store();
-        SceneFrame frame{scene.getNumberOfTimeSteps(), scene.getTime(), grainPoints<Real>(store), {}, {}};
+        SceneFrame frame{
+            scene.getNumberOfTimeSteps(), scene.getTime(), grainPoints<Real>(store, scene.laws()), {}, {}};
         for (const auto& field : added) frame.grains.pointFields.push_back(field(store, doubles));
         if (stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
-        if (contacts) frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws());
+        if (contacts)
+            frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws(), contactPoints);
         if (scene.wallHandler.getSize() > 0) {
             const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox());
             frame.walls = wallPolygons(scene.wallHandler, lowest, highest);

@@ -1,38 +1,80 @@
 #include "Kernel/Simulation/Program.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <system_error>
 
+#include "Kernel/Logger.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Simulation/RunControl.h"
 
 namespace pendular {
 
 namespace {
 
+/// Where a program was started with standard input, output or error closed, the next file that it opens would
+/// get that number, and what is printed would be written into it.
+void openClosedStreams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) == -1 && errno == EBADF)
+            // The lowest number that is free: this one.
+            static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY));
+}
+
+/// Before main(), and so before the command line is read.
+const bool isPrepared = [] {
+    openClosedStreams();
+    hearRestartSignal();
+    return true;
+}();
+
+constexpr int brokenPipe = 128 + SIGPIPE;  // as a shell gives it of a program that SIGPIPE has ended
+
 /// Returns the exit code that goes with it.
 int printCurrentException() {
     try {
         throw;
     } catch (const RunStopped& stop) {
-        fmt::print(stderr, "{}\n", stop.what());
+        writeToLog(std::string(stop.what()) + "\n");
         return stop.exitCode;
+    } catch (const std::system_error& problem) {
+        // Who reads the results has gone (PROGRAM | head): nobody is there to be told.
+        if (problem.code() == std::error_code(EPIPE, std::generic_category())) return brokenPipe;
+        writeToLog(std::string("Error: ") + problem.what() + "\n");
     } catch (const std::exception& problem) {
-        fmt::print(stderr, "Error: {}\n", problem.what());
+        writeToLog(std::string("Error: ") + problem.what() + "\n");
     } catch (...) {
-        fmt::print(stderr, "Error: of an unknown kind.\n");
+        writeToLog("Error: of an unknown kind.\n");
     }
     return EXIT_FAILURE;
+}
+
+/// Results that were printed, and are not where they were to go, are an error.
+void requirePrinted() {
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    const int reason = errno != 0 ? errno : EIO;
+    if (reason == EPIPE) throw std::system_error(reason, std::generic_category());
+    throw RunError(fmt::format("Standard output cannot be written: {}.", std::strerror(reason)));
 }
 
 }  // namespace
 
 int runProgram(const std::function<int()>& body) {
     hearRestartSignal();
+    ignoreClosedPipes();
     try {
-        return body();
+        const int code = body();
+        requirePrinted();
+        return code;
     } catch (...) {
         return printCurrentException();
     }

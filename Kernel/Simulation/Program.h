@@ -5,7 +5,11 @@
 namespace pendular {
 
 /// Runs a program's body; an exception becomes one sentence on standard error and the exit code 1, or, of a
-/// run that was asked to stop (RunStopped), its own.
+/// run that was asked to stop (RunStopped), its own. Results on standard output that cannot be written are an
+/// error as well; where the reader of a pipe has gone, the exit code is 141, without a sentence.
+///
+/// From the start of any program with this file in it, standard streams that are closed lead to /dev/null,
+/// and SIGUSR1 does not end it (hearRestartSignal()).
 int runProgram(const std::function<int()>& body);
 
 /// From now on an exception that nobody catches ends the program with its sentence and the exit code 1,

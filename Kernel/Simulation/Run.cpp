@@ -135,7 +135,8 @@ std::size_t Run::lastStep() const {
 
 void Run::stepToTheEnd(RunControl& control) {
     std::optional<Progress> progress;
-    if (!quiet) progress.emplace(std::filesystem::path(name).filename().string(), timeMax, getTime(), steps);
+    if (!isQuiet())
+        progress.emplace(std::filesystem::path(name).filename().string(), timeMax, getTime(), steps);
     const auto isAskedToStop = [&] {
         const RunControl::Request request = control.request(steps);
         if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "Kernel/Logger.h"
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/Progress.h"
 #include "Kernel/Simulation/RunControl.h"
 #include "Kernel/Simulation/StepTimes.h"
-#include "Kernel/State/StateArchive.h"
+#include "Kernel/State/RestartFile.h"
 
 namespace pendular {
 
@@ -22,6 +23,9 @@ public:
     virtual ~Run() = default;
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
+
+    /// What a driver tells its user, on standard error: logger(INFO, "{} grains", number).
+    Logger logger;
 
     virtual void actionsBeforeTimeStep() {}
     virtual void actionsAfterTimeStep() {}
@@ -43,7 +47,7 @@ public:
     void setTimeMax(double end);
     /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
     void setSaveCount(std::size_t steps) { saveCount = steps; }
-    /// Keeps a restart file, NAME-restart.h5: written at the begin of the run, in the place of one that an
+    /// Keeps a restart file, NAME-restart.h5: written at the start of the run, in the place of one that an
     /// earlier run left, at its end, and when it is asked to stop.
     /// Throws InputError where this build of Pendular cannot write one.
     void keepRestartFile(bool keep = true);
@@ -52,15 +56,15 @@ public:
     /// Writes it also whenever this time (s of the clock on the wall) has passed; 0: does not.
     void setRestartInterval(double seconds);
     /// Goes on from a restart file instead of beginning: initialise() then takes the grains, and all else
-    /// that changes in a run, from it. The scene is set up as it was, but for its grains, which are ignored;
-    /// the end time, outputs and threads may be others.
+    /// that changes in a run, from it. The scene is set up as it was, except for its grains, which are
+    /// ignored; the end time, outputs and threads may be others.
     void restartFrom(std::filesystem::path file) { restartSource = std::move(file); }
     [[nodiscard]] bool isRestarted() const { return !restartSource.empty(); }
-    [[nodiscard]] std::filesystem::path restartFile() const { return name + "-restart.h5"; }
+    [[nodiscard]] std::filesystem::path restartFile() const { return restartFileOf(name); }
     /// Writes the state after the last step. Throws InputError if that fails.
     void writeRestart(const std::filesystem::path& file);
-    /// Shows no progress, no warning and no summary.
-    void setQuiet(bool beQuiet = true) { quiet = beQuiet; }
+    /// Shows no progress, no warning and no summary, and nothing of the logger.
+    void setQuiet(bool beQuiet = true) { logger.setQuiet(beQuiet); }
     /// Measures the time by part of the step.
     void measureStepTimes(bool measure = true) { times.measure(measure); }
 
@@ -72,7 +76,7 @@ public:
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
     [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
-    [[nodiscard]] bool isQuiet() const { return quiet; }
+    [[nodiscard]] bool isQuiet() const { return logger.isQuiet(); }
     /// The sentence with which the run ended before its time; empty if it did not.
     [[nodiscard]] const std::string& stopSentence() const { return stopped; }
     /// Whether it was asked to end, and may go on: not an error.
@@ -154,7 +158,6 @@ private:
     std::filesystem::path restartSource;          // empty: a run from its beginning
     std::string stopped;                          // why; empty: it is not
     bool askedToStop = false;
-    bool quiet = false;
 };
 
 }  // namespace pendular

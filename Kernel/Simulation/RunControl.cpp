@@ -6,9 +6,12 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <limits>
 #include <utility>
 
+#include "Kernel/Logger.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {
@@ -20,8 +23,10 @@ double wallTimeLimit = 0;  // s; 0: none
 
 // What signals have asked for; a handler may touch nothing but lock-free atomics.
 std::atomic<int> stopSignal{0};
+std::atomic<std::int64_t> stopTime{0};  // ns of the monotonic clock, of the first one
 std::atomic<bool> restartAsked{false};
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free &&
+              std::atomic<bool>::is_always_lock_free);
 
 struct Listening {
     std::size_t runs = 0;  // that listen, one within the other
@@ -30,16 +35,29 @@ struct Listening {
 
 constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGUSR1};
 
+/// A second signal that comes sooner is part of the first request: timeout(1), for one, sends SIGTERM to its
+/// child and, at once, to the group of processes in which the child is.
+constexpr std::int64_t oneRequest = 1'000'000'000;  // ns
+
+/// Of the monotonic clock, which a handler may read.
+std::int64_t nanoseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
+}
+
 extern "C" void takeNote(int signal) {
     if (signal == SIGUSR1) {
         restartAsked.store(true, std::memory_order_relaxed);
         return;
     }
-    stopSignal.store(signal, std::memory_order_relaxed);
-    for (const int next : {SIGINT, SIGTERM}) {  // a second one ends the program, unless it is ignored
-        struct sigaction now {};
-        sigaction(next, nullptr, &now);
-        if (now.sa_handler == takeNote) std::signal(next, SIG_DFL);
+    const std::int64_t now = nanoseconds();
+    if (stopSignal.load(std::memory_order_relaxed) == 0) {
+        stopTime.store(now, std::memory_order_relaxed);
+        stopSignal.store(signal, std::memory_order_relaxed);
+    } else if (now - stopTime.load(std::memory_order_relaxed) >= oneRequest) {
+        std::signal(signal, SIG_DFL);
+        raise(signal);  // when this function has ended
     }
 }
 
@@ -70,6 +88,12 @@ void hearRestartSignal() {
     sigaction(SIGUSR1, &action, nullptr);
 }
 
+void ignoreClosedPipes() {
+    struct sigaction before {};
+    sigaction(SIGPIPE, nullptr, &before);
+    if (before.sa_handler == SIG_DFL) std::signal(SIGPIPE, SIG_IGN);
+}
+
 void RunControl::follow(const RestartSchedule& given) {
     restarts = given;
     const bool needsClock = wallTimeLimit > 0 || restarts.interval > 0;
@@ -79,6 +103,7 @@ void RunControl::follow(const RestartSchedule& given) {
 RunControl::RunControl(const RestartSchedule& given) {
     follow(given);
     if (listening.runs++ > 0) return;
+    ignoreClosedPipes();
     const struct sigaction action = noteTaking();
     for (std::size_t k = 0; k < signals.size(); ++k) {
         sigaction(signals[k], nullptr, &listening.before[k]);
@@ -114,7 +139,7 @@ RunControl::Request RunControl::request(std::size_t steps) {
     if (restartAsked.load(std::memory_order_relaxed)) {
         restartAsked = false;
         write = true;
-        if (!restarts.kept) fmt::print(stderr, "SIGUSR1: this run keeps no restart file.\n");
+        if (!restarts.kept) writeToLog("SIGUSR1: this run keeps no restart file.\n");
     }
     if (restarts.count > 0 && steps % restarts.count == 0) write = true;
     return write && restarts.kept ? Request::WriteRestart : Request::None;

@@ -26,12 +26,16 @@ struct RestartSchedule {
 void setWallTimeLimit(double seconds);
 
 /// From now on SIGUSR1 is heard also outside of a run, which it would end by default: the next run writes the
-/// restart file at its begin. A program that ignores it goes on to do so.
+/// restart file at its start. A program that ignores it goes on to do so.
 void hearRestartSignal();
 
+/// From now on a log that goes into a pipe whose reader has gone does not end the program (SIGPIPE): what is
+/// written there fails. A program that handles the signal goes on to do so.
+void ignoreClosedPipes();
+
 /// Listens, for as long as it lives, to what is asked of a run from outside. SIGINT, SIGTERM and the limit of
-/// wall time end the run after the step, the first two at once when they come a second time; SIGUSR1 writes a
-/// restart file and goes on.
+/// wall time end the run after the step, the first two at once when one of them comes again a second later or
+/// more; SIGUSR1 writes a restart file and goes on.
 class RunControl {
 public:
     enum class Request { None, WriteRestart, Stop };

@@ -2,22 +2,25 @@
 
 #include <optional>
 
+#include "Kernel/Logger.h"
+#include "Kernel/Output/OutputForm.h"
 #include "Kernel/Simulation/EnergyLedger.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/StepTimes.h"
+#include "Kernel/Simulation/SummaryFile.h"
 #include "Kernel/Simulation/SummaryRows.h"
 
 namespace pendular {
 
-/// NAME-summary.csv, written anew at outputs, once a second at most, and at the end: what runs, with which
+/// NAME-summary.csv, rewritten at outputs, once a second at most, and at the end: what runs, with which
 /// species and values, how far it is, where its time went, and what tells whether it is healthy.
 /// Tools/summary shows it. At the end of a run, whatever ended it, it is printed on standard error as well,
-/// but for the species, and with it what the laws were not made for; a quiet scene prints nothing. Given to
-/// Simulation::addOutput(); the time by part of the step is measured from then on.
+/// except for the species, and with it what the laws were not made for; a quiet scene prints nothing. Given
+/// to Simulation::addOutput(); the time by part of the step is measured from then on.
 ///
 /// Times are those of this program; all else is of the scene since it began, also before a restart.
-class RunSummary {
+class RunSummary : public RemembersNothing {
 public:
     template <class Scene>
     void prepare(Scene& scene) {
@@ -42,9 +45,9 @@ public:
         const SummaryRows rows = rowsOf(scene);
         writeFile(scene, rows);
         if (scene.isQuiet()) return;
-        fmt::print(stderr, "Summary of the run\n");
-        rows.print(stderr);
-        for (const std::string& warning : warnings(scene)) fmt::print(stderr, "Warning: {}.\n", warning);
+        std::string text = "Summary of the run\n" + rows.shown();
+        for (const std::string& warning : warnings(scene)) text += "Warning: " + warning + ".\n";
+        writeToLog(text);
     }
 
 private:
@@ -62,7 +65,7 @@ private:
     static void writeFile(const Scene& scene, SummaryRows rows) {
         addSpecies(rows, scene.laws());
         for (const std::string& warning : warnings(scene)) rows.add("warning", warning);
-        CsvFile file(scene.getName() + "-summary.csv", "quantity,value,unit");
+        CsvFile file(SummaryFile::pathOf(scene.getName()), "quantity,value,unit");
         rows.write(file);
         file.close();
     }

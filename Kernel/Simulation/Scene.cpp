@@ -232,7 +232,7 @@ void Scene::prepare() {
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept);
     if (isQuiet()) return;
     for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, wallHandler))
-        fmt::print(stderr, "Warning: {}.\n", broken.text());
+        logger(LogLevel::Warn, "{}.", broken.text());
     warnOfFedSprings();
 }
 
@@ -240,11 +240,12 @@ void Scene::warnOfFedSprings() const {
     const double fewest = fewestStepsToDouble(laws(), checkedSizes, wallHandler, integrator, getTimeStep());
     if (fewest > 1e7) return;
     const std::string time = fewest < 1 ? "less than one step" : fmt::format("some {:.0f} steps", fewest);
-    fmt::print(stderr,
-               "Warning: {}: its springs have too weak dashpots for a time step of {:.3g} s, at which "
-               "motions of grains at rest may double in {}; give it a larger dissipation, "
-               "or take a smaller step or integrators::velocityVerlet.\n",
-               laws().friction, getTimeStep(), time);
+    logger(
+        LogLevel::Warn,
+        "{}: its springs have too weak dashpots for a time step of {:.3g} s, at which motions of grains at "
+        "rest may double in {}; give it a larger dissipation, or take a smaller step or "
+        "integrators::velocityVerlet.",
+        laws().friction, getTimeStep(), time);
 }
 
 void Scene::visitAll(StateArchive& archive) {
@@ -263,7 +264,7 @@ void Scene::visitScene(StateArchive& archive) {
     visitSteps(archive);
     archive.same("integrator", integrator.name);
     archive.same("ledgerKept", ledgerKept, {},
-                 "the energy ledger is kept from the begin of a run to its end or not at all, so give "
+                 "the energy ledger is kept from the start of a run to its end or not at all, so give "
                  "--energy-interval-s (or keepEnergyLedger()) as it was: above 0 where the file has 1, 0 "
                  "where it has 0");
     visitSurroundings(archive);
@@ -292,7 +293,7 @@ void Scene::visitSurroundings(StateArchive& archive) {
 
 void Scene::writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                            const std::string& remark) {
-    writeGrains(grains, particleHandler.store(), remark);
+    writeGrains(grains, particleHandler.store(), laws(), remark);
     writeContacts(contacts, contactSystem, particleHandler.store(), remark);
 }
 

@@ -6,7 +6,9 @@
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/Output/OutputForm.h"
 #include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Simulation/DomainBox.h"
 #include "Kernel/Simulation/EnergyAccount.h"
 #include "Kernel/Simulation/Run.h"
 #include "Kernel/Simulation/SceneCheck.h"
@@ -15,14 +17,14 @@
 namespace pendular {
 
 /// A scene of grains, and its run, whatever its species: Simulation has these.
-class Scene : public Run {
+class Scene : public Run, public DomainBox {
 public:
     [[nodiscard]] ContactLaws& laws() { return *contactLaws; }
     [[nodiscard]] const ContactLaws& laws() const { return *contactLaws; }
 
     virtual void setupInitialConditions() {}
 
-    /// Called after a step, before actionsAfterTimeStep(), for each begin and end of a touch or a bridge in
+    /// Called after a step, before actionsAfterTimeStep(), for each start and end of a touch or a bridge in
     /// it, in the order of identities; only after listenToContacts().
     virtual void actionsOnContactEvent(const ContactEvent& /*event*/) {}
 
@@ -32,22 +34,23 @@ public:
     WallHandler wallHandler;
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
-    /// it has a function prepare(), that is called at once, and again when the scene is set up;
-    /// visitState(archive, *this) is what it remembers. One whose interval() is given is written at the steps
-    /// nearest to its multiples instead, at the start and at the end, where it writes no state twice.
+    /// it has a function prepare(*this), that is called at once, and again when the scene is set up;
+    /// complete(*this) at the end; visitState(archive, *this) is what it remembers. One whose interval() is
+    /// given is written at the steps nearest to its multiples instead, at the start and at the end, where it
+    /// writes no state twice. OutputForm.h has the forms.
     template <class Output>
     void addOutput(Output output) {
+        requireOutputForm<Output, Scene>();
         const auto kept = std::make_shared<Output>(std::move(output));
         KeptOutput calls{.write = [this, kept] { kept->write(*this); }};
-        if constexpr (requires { kept->prepare(*this); }) {
+        if constexpr (Prepares<Output, Scene>) {
             kept->prepare(*this);
             calls.prepare = [this, kept] { kept->prepare(*this); };
         }
-        if constexpr (requires { kept->complete(*this); })
-            calls.complete = [this, kept] { kept->complete(*this); };
-        if constexpr (requires(StateArchive archive) { kept->visitState(archive, *this); })
+        if constexpr (Completes<Output, Scene>) calls.complete = [this, kept] { kept->complete(*this); };
+        if constexpr (VisitsState<Output, Scene>)
             calls.visitState = [this, kept](StateArchive& archive) { kept->visitState(archive, *this); };
-        if constexpr (requires { kept->interval(); }) calls.interval = kept->interval();
+        if constexpr (HasOwnInterval<Output>) calls.interval = kept->interval();
         keepOutput(std::move(calls));
     }
     /// During a run, it holds from the next step on.
@@ -73,7 +76,7 @@ public:
         ledgerKept = keep;
     }
 
-    /// From now on the begins and ends of touches and bridges are found in each step; off by default.
+    /// From now on the starts and ends of touches and bridges are found in each step; off by default.
     void listenToContacts(bool listen = true) { contactSystem.listen(listen); }
     /// Those of the last step, and how many there have been.
     [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const {

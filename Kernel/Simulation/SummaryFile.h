@@ -12,6 +12,9 @@ class SummaryFile {
 public:
     static constexpr std::string_view ending = "-summary.csv";
 
+    /// Of a run of this name (its setName()).
+    static std::filesystem::path pathOf(const std::string& name) { return name + std::string(ending); }
+
     struct Row {
         std::string quantity, value, unit;
     };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +31,11 @@ public:
             file.row(row.quantity, row.value.find(',') == row.value.npos ? row.value : '"' + row.value + '"',
                      row.unit);
     }
-    void print(std::FILE* to) const {
-        for (const Row& row : rows) fmt::print(to, "  {:<36} {}\n", row.quantity, row.shown);
+    /// Lines for eyes.
+    [[nodiscard]] std::string shown() const {
+        std::string text;
+        for (const Row& row : rows) text += fmt::format("  {:<36} {}\n", row.quantity, row.shown);
+        return text;
     }
 
 private:

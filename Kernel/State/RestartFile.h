@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "Kernel/State/StateArchive.h"
 
@@ -9,6 +10,9 @@ namespace pendular {
 
 /// The format of restart files that this version writes, and the only one that it reads.
 inline constexpr int restartFormat = 5;
+
+/// The restart file of a run of this name (its setName()).
+inline std::filesystem::path restartFileOf(const std::string& name) { return name + "-restart.h5"; }
 
 /// Throws InputError in a build without the HDF5 library, in which there are no restart files.
 void requireRestartFiles();

@@ -221,7 +221,7 @@ TEST(WetTower, writesTheForcesOnAWallThatIsAddedAfterTheOutput) {
     EXPECT_NEAR(-end.back()[4] / weight, 1, 1e-4);
 }
 
-/// Every file of two folders is the same, but for summaries, which tell the time that a run took.
+/// Every file of two folders is the same, except for summaries, which tell the time that a run took.
 void expectSameFiles(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(a)) {
@@ -299,7 +299,7 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
     const TemporaryFile equal(".txt", "1e-3 0 0 0\n1e-3 0 0 0.01\n");
     const TemporaryFile walls(".txt", "0 0 0 1 0 0 0 1 0\n");
     const std::string wallOption = " --walls " + walls.path.string();
-    expectOneSentence(run(drum + "--grains " + grains.path.string() + wallOption), "line 3: 'up'");
+    expectOneSentence(run(drum + "--grains " + grains.path.string() + wallOption), "line 3, column 8: 'up'");
     expectOneSentence(run(drum + "--grains /no/such" + wallOption), "/no/such does not exist");
     expectOneSentence(run(bed + "--grains " + equal.path.string() + wallOption), "no intruder");
     expectOneSentence(run(drum + "--number 3"), "number of grains is 3");
@@ -319,7 +319,7 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
     expectOneSentence(run(hopper + "--orifice-m 0.01 --orifice-m 0.045"), "orifice diameter = 0.045 m");
     expectOneSentence(run(hopper + "--grain-diameter-m -1"), "grain diameter = -1 m");
     expectOneSentence(run(hopper + "--elastic-modulus-Pa 0"), "elastic modulus = 0 Pa");
-    expectOneSentence(run(hopper + "--begin-s 1"), "begin of the steady part = 1 s");
+    expectOneSentence(run(hopper + "--begin-s 1"), "start of the steady part = 1 s");
     const TestFolder clogged;
     expectOneSentence(
         run(hopper +

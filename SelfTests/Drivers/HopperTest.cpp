@@ -128,18 +128,26 @@ TEST(LongHopper, followsBeverloosLaw) {
     for (const CurvePoint& flow : flows) EXPECT_NEAR(flow.y / law.flow(flow.x), 1, 0.05);
 }
 
-/// Restart files of an earlier run are not those of this one's orifices, which come later.
-TEST(HopperDischarge, forgetsTheRunsOfBefore) {
+/// Restart files of an earlier run are not those of this one's orifices, which come later; but they are there
+/// until this run has been checked.
+TEST(HopperDischarge, forgetsTheRunsOfBeforeWhenItBegins) {
     const TestFolder folder;
-    const RunOptions anew{.output = folder.path().string(), .quiet = true};
-    RunOptions on = anew;
-    on.resume = true;
-    const std::filesystem::path state = folder.path() / (dischargeName(0.012) + "-restart.h5");
+    RunOptions options{.output = folder.path().string(), .quiet = true};
+    const std::string name = dischargeName(0.012);
+    const std::filesystem::path state = folder.path() / (name + "-restart.h5");
     std::filesystem::create_directories(folder.path());
     std::ofstream(state) << "of an earlier run";
-    on.forget(dischargeName(0.012));
+    Hopper few = smallHopper;
+    few.number = 20;
+    const double sound = std::exchange(few.friction, std::nan(""));
+    EXPECT_TRUE(contains(refusal([&] { settledHopperGrains(few, options, {name}); }), "riction"));
     EXPECT_TRUE(std::filesystem::exists(state));
-    anew.forget(dischargeName(0.012));
+    few.friction = sound;
+    options.resume = true;
+    settledHopperGrains(few, options, {name});
+    EXPECT_TRUE(std::filesystem::exists(state));
+    options.resume = false;
+    settledHopperGrains(few, options, {name});
     EXPECT_FALSE(std::filesystem::exists(state));
 }
 

@@ -7,12 +7,13 @@ struct BoxScene : FirstDriver {
         FirstDriver::setupInitialConditions();
         auto material = speciesHandler.getLastObject();
         // [snippet]
+        setDomain({0, 0, 0}, {0.021, 0.021, 0.021});  // m
         InfiniteWall side;
         side.setSpecies(material);
         for (const Vec3D& outward : {Vec3D(-1, 0, 0), Vec3D(0, -1, 0), Vec3D(0, 0, -1)}) {
-            side.set(outward, {0, 0, 0});  // through the origin
+            side.set(outward, getMin());
             wallHandler.copyAndAddObject(side);
-            side.set(-outward, {0.021, 0.021, 0.021});  // m, on the other side
+            side.set(-outward, getMax());
             wallHandler.copyAndAddObject(side);
         }
         // [end]

@@ -12,6 +12,8 @@ struct LargestSpeed {
             largest = std::max(largest, norm(grain.velocity));
     }
     void complete(const Scene& scene) { fmt::print("{}: at most {} m/s\n", scene.getName(), largest); }
+    /// For restart files.
+    void visitState(StateArchive& archive, const Scene&) { archive.value("largestSpeed", largest); }
 };
 // [end]
 

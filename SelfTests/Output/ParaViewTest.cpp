@@ -61,7 +61,7 @@ TEST(ParaView, seesTheGrainsAndContactsOfAScene) {
     scenes::SettlingBox<Wet> scene(3);
     scene.setName(folder.name());
     scene.setTimeMax(1500 * 0x1p-17);
-    scene.addOutput(ParaViewOutput());
+    scene.addOutput(ParaViewOutput().withContactPoints());
     scene.solve();
     const PolyData grains = readPolyData(folder.name() + "-particles-000001500.vtp");
     const PolyData contacts = readPolyData(folder.name() + "-contacts-000001500.vtp");
@@ -75,6 +75,8 @@ TEST(ParaView, seesTheGrainsAndContactsOfAScene) {
         EXPECT_EQ(toEigen(grains.points[k]), grain.getPosition());
         EXPECT_EQ(number(grains, "identity", k), static_cast<double>(k));
         EXPECT_EQ(number(grains, "radius_m", k), static_cast<float>(grain.getRadius()));
+        EXPECT_EQ(number(grains, "mass_kg", k), static_cast<float>(grain.getMass()));
+        EXPECT_EQ(number(grains, "fixed", k), 0);
         EXPECT_EQ(vector(grains, "velocity_m_per_s", k), grain.getVelocity().cast<float>().cast<double>());
         EXPECT_EQ(vector(grains, "spin_rad_per_s", k),
                   grain.getAngularVelocity().cast<float>().cast<double>());
@@ -109,6 +111,17 @@ TEST(ParaView, seesTheGrainsAndContactsOfAScene) {
         EXPECT_NEAR(-force.dot((end - begin).normalized()),
                     number(contacts, "normal_force_N", k) - number(contacts, "adhesive_force_N", k),
                     3 * floatError * (force.norm() + std::abs(number(contacts, "adhesive_force_N", k))));
+        // The rest of the force is friction; each of the two sums loses bits where it is small beside them.
+        const Vec3D normal = (end - begin).normalized();
+        EXPECT_NEAR((force - force.dot(normal) * normal).norm(), number(contacts, "tangential_force_N", k),
+                    3 * floatError * force.norm());
+        // In the middle of the overlap or of the gap, at a wall on its surface: half the overlap from the end
+        // of a grain's radius, and in 24 bits of a box of 13 mm.
+        const double radius = scene.particleHandler.getObject(first).getRadius();
+        EXPECT_LT((vector(contacts, "contact_point_m", k) -
+                   (begin + (radius - (second < 0 ? 1 : 0.5) * overlap) * normal))
+                      .norm(),
+                  2 * floatError * 0.0125);
         const bool isBridged = number(contacts, "bridged", k) == 1;
         bridged += isBridged ? 1 : 0;
         EXPECT_EQ(number(contacts, "adhesive_force_N", k) > 0, isBridged);
@@ -119,6 +132,27 @@ TEST(ParaView, seesTheGrainsAndContactsOfAScene) {
     // Contacts and weight make the whole force on each grain.
     for (std::size_t k = 0; k < 48; ++k)
         EXPECT_LT((sums[k] - vector(grains, "force_N", k)).norm(), 12 * floatError * 5e-3) << k;
+}
+
+TEST(ParaView, seesTheMassOfAHeldGrainAndNoFrictionOfSmoothOnes) {
+    const TestFolder folder;
+    Smooth species;
+    species.setDensity(2000), species.setStiffness(1e3), species.setDissipation(0);
+    FewGrains<Smooth> scene(species, {{.position = {0, 0, 0}, .fixed = true}, {.position = {1.99e-3, 0, 0}}},
+                            1e-6);
+    scene.setName(folder.name());
+    scene.addOutput(ParaViewOutput());
+    scene.solve();
+    const PolyData grains = readPolyData(folder.name() + "-particles-000000000.vtp"),
+                   contacts = readPolyData(folder.name() + "-contacts-000000000.vtp");
+    const double mass = 4.0 / 3.0 * std::numbers::pi * 1e-9 * 2000;  // kg
+    for (const std::size_t k : {0, 1}) {
+        EXPECT_NEAR(number(grains, "mass_kg", k) / mass, 1, 2 * floatError);
+        EXPECT_EQ(number(grains, "fixed", k), k == 0 ? 1 : 0);
+    }
+    ASSERT_EQ(contacts.ends.size(), 1u);
+    for (const char* absent : {"tangential_force_N", "contact_point_m"})
+        EXPECT_EQ(contacts.cellField(absent), nullptr) << absent;
 }
 
 TEST(ParaView, doesNotChangeTheTrajectory) {

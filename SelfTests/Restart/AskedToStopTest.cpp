@@ -85,13 +85,25 @@ TEST_F(AskedToStop, completesItsFilesAtOneTime) {
     }
 }
 
+/// timeout(1) sends SIGTERM to its child, and at once to the group of processes that the child is in.
+TEST_F(AskedToStop, twiceWithinASecondIsAskedOnce) {
+    const Child child(part, [&] { WaitingRun(part, 20).solve(); });
+    waitForChild();
+    child.send(SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // two signals at once may be one
+    child.send(SIGTERM);
+    letGoOn();
+    EXPECT_EQ(child.wait(), 143) << printed();
+    expectGoesOnAsIfNothingHadBeen();
+}
+
 TEST_F(AskedToStop, aSecondTimeEndsAtOnce) {
     for (const auto& [first, second] : {std::pair{SIGINT, SIGINT}, std::pair{SIGTERM, SIGINT}}) {
         std::filesystem::remove_all(part);
         const Child child(part, [&] { WaitingRun(part, 20).solve(); });
         waitForChild();
         child.send(first);
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // two signals at once may be one
+        std::this_thread::sleep_for(std::chrono::milliseconds(1050));  // within a second they are one
         child.send(second);
         EXPECT_EQ(child.wait(), -second);
     }
@@ -163,7 +175,7 @@ TEST_F(AskedToStop, writesARestartFileOnSigusr1AtOnce) {
     expectGoesOnAsIfNothingHadBeen();
 }
 
-/// Between the begin of the program and that of the run the signal ends neither: the run writes the file at
+/// Between the start of the program and that of the run the signal ends neither: the run writes the file at
 /// once.
 TEST_F(AskedToStop, forARestartFileBeforeTheRunBeginsGetsIt) {
     const Child child(part, [&] {

@@ -72,7 +72,7 @@ TEST(EndOfARun, thatCannotGoOnNamesTheRestartFileOfBefore) {
     EXPECT_EQ(alone.end(), text.substr(0, text.find("; the state after")) + ".");
 }
 
-/// Killed at any time, a run that begins anew where another one was leaves no file of that one.
+/// Killed at any time, a run that starts again where another one was leaves no file of that one.
 TEST(BeginOfARun, replacesTheRestartFileOfAnEarlierOne) {
     const TestFolder folder;
     TooFast earlier(folder), anew(folder), look(folder);
@@ -136,6 +136,9 @@ TEST(Preparation, leavesNoRestartFileOfAnEarlierRun) {
     std::ofstream(folder.path() / "run-restart.h5") << "of an earlier run";
     TooFast scene(folder);
     options.applyToPreparation(scene);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "run-restart.h5")) << "before all is checked";
+    scene.setTimeMax(0);
+    scene.solve();
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "run-restart.h5"));
     EXPECT_EQ(scene.restartFile(), folder.path() / "preparation-restart.h5");
 }

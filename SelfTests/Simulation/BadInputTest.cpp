@@ -42,7 +42,7 @@ Dry material() {
 }
 constexpr double soundStep = 1e-6;  // s
 
-/// A scene that is sound but for what a test does to it.
+/// A scene that is sound except for what a test does to it.
 struct Scene : Simulation<Dry> {
     Scene() { setTimeStep(soundStep); }
     Dry* species = speciesHandler.copyAndAddObject(material());
@@ -61,17 +61,44 @@ TEST(BadInput, soundSceneIsAccepted) {
 }
 
 TEST(BadInput, radius) {
-    for (double radius : {0.0, -1e-3, nan, infinity, -infinity})
+    for (double radius : {0.0, -1e-3, nan, infinity, -infinity, 1e-310, 0.9e-12, 1.1e9, 1e300})
         expectRefused(
             [&] { SphericalParticle().setRadius(radius); },
             {"SphericalParticle", "radius", std::isnan(radius) ? "not a number" : fmt::format("{} m", radius),
-             "greater than 0 m and finite"});
+             "at least 1e-12 m and at most 1000000000 m"});
     Scene scene;
     SphericalParticle unsetRadius;
     unsetRadius.setSpecies(scene.species);
     scene.particleHandler.copyAndAddObject(scene.grain());
     expectRefused([&] { scene.particleHandler.copyAndAddObject(unsetRadius); },
                   {"particle 1", "radius", "not set", "greater than 0 m and finite"});
+}
+
+TEST(BadInput, domain) {
+    Scene scene;
+    EXPECT_FALSE(scene.hasDomain());
+    expectRefused([&] { static_cast<void>(scene.getXMax()); },
+                  {"Domain", "highest point is not set", "setDomain"});
+    for (const double bad : {nan, infinity, -infinity}) {
+        expectRefused([&] { scene.setMin({0, bad, 0}); }, {"Domain", "y of the lowest point"});
+        expectRefused([&] { scene.setMax({0, 0, bad}); }, {"Domain", "z of the highest point"});
+        expectRefused([&] { scene.setDomain({0, 0, 0}, {bad, 1, 1}); }, {"Domain", "x of the highest point"});
+    }
+    for (const double top : {0.0, -1.0})
+        expectRefused(
+            [&] {
+                scene.setDomain({0, 0, 0}, {1, 1, top});
+            },
+            {"Domain", "along z", "lowest point is 0 m", fmt::format("the highest {} m", top)});
+    EXPECT_FALSE(scene.hasDomain());
+    scene.setMin({-1, -2, -3});
+    EXPECT_FALSE(scene.hasDomain());
+    expectRefused([&] { scene.setMax({1, -2, 3}); }, {"Domain", "along y"});
+    scene.setMax({1, 2, 3});
+    EXPECT_EQ(scene.getMin(), Vec3D(-1, -2, -3));
+    EXPECT_EQ(scene.getMax(), Vec3D(1, 2, 3));
+    EXPECT_EQ(scene.getXMin() + 10 * scene.getYMin() + 100 * scene.getZMin(), -321);
+    EXPECT_EQ(scene.getXMax() + 10 * scene.getYMax() + 100 * scene.getZMax(), 321);
 }
 
 TEST(BadInput, placeAndMotionOfAGrain) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <functional>
 
 #include "Kernel/InputError.h"
@@ -19,8 +20,8 @@ TEST(UncaughtException, endsAProgramWithItsSentence) {
         SphericalParticle().setRadius(-1);
     };
     EXPECT_EXIT(mainLike(), testing::ExitedWithCode(1),
-                "^Error: SphericalParticle: radius = -1 m is out of range; it must be greater than 0 m and "
-                "finite\\.\n$");
+                "^Error: SphericalParticle: radius = -1 m is out of range; it must be at least 1e-12 m and "
+                "at most 1000000000 m\\.\n$");
     const auto oddity = []() noexcept {
         reportUncaughtExceptions();
         const std::function<void()> body = [] { throw 7; };
@@ -32,6 +33,35 @@ TEST(UncaughtException, endsAProgramWithItsSentence) {
         scene.setTimeStep(-1);
     };
     EXPECT_EXIT(withScene(), testing::ExitedWithCode(1), "^Error: Simulation: time step = -1 s [^\n]*\\.\n$");
+}
+
+/// A batch system may send it at any time after the program's start.
+TEST(Program, isNotEndedBySigusr1BeforeItHasARun) {
+    struct sigaction now {};
+    sigaction(SIGUSR1, nullptr, &now);
+    EXPECT_NE(now.sa_handler, SIG_DFL);
+    std::raise(SIGUSR1);
+}
+
+TEST(Logger, showsLinesUpToItsLevel) {
+    Simulation<Species<LinearViscoelastic>> scene;
+    const auto logged = [&] {
+        testing::internal::CaptureStderr();
+        scene.logger(LogLevel::Warn, "{} of {}", 1, 3);
+        scene.logger(LogLevel::Info, "two");
+        scene.logger(LogLevel::Debug, "{:.2f}", 3.0);
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(logged(), "Warning: 1 of 3\ntwo\n");
+    scene.logger.setLevel(LogLevel::Warn);
+    EXPECT_EQ(logged(), "Warning: 1 of 3\n");
+    scene.logger.setLevel(LogLevel::Debug);
+    EXPECT_EQ(logged(), "Warning: 1 of 3\ntwo\n3.00\n");
+    scene.setQuiet();
+    EXPECT_EQ(logged(), "");
+    scene.setQuiet(false);
+    scene.logger.setLevel(LogLevel::None);
+    EXPECT_EQ(logged(), "");
 }
 
 TEST(UncaughtException, becomesAnExitCodeInRunProgram) {

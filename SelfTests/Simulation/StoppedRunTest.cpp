@@ -156,7 +156,7 @@ TEST(LastState, isThatOfTheLastWholeStep) {
     ASSERT_EQ(grains.rows.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {
         const std::vector<double>& row = grains.rows[k];
-        ASSERT_EQ(row.size(), 15u);
+        ASSERT_EQ(row.size(), 17u);
         const GrainMotion expected = twin.motion(k), kept = scene.motion(k);
         EXPECT_EQ(row[0], static_cast<double>(k));
         EXPECT_EQ(row[2], r);
@@ -165,6 +165,8 @@ TEST(LastState, isThatOfTheLastWholeStep) {
         // The step is taken back up to the rounding of a few sums.
         EXPECT_LT((kept.position - expected.position).norm(), 1e-18);
         EXPECT_LT((kept.velocity - expected.velocity).norm(), 1e-15 * expected.velocity.norm());
+        EXPECT_EQ(row[15], twin.particleHandler.getObject(k).getMass());
+        EXPECT_EQ(row[16], 0);  // not held
         EXPECT_EQ(row[12], twin.particleHandler.getObject(k).getForce().x());
     }
 }
@@ -187,13 +189,21 @@ TEST(LastState, hasSpinsAndWalls) {
     EXPECT_EQ(grains.rows[7][7], 200);
     EXPECT_EQ(grains.rows[7][9], kicked.particleHandler.getObject(7).getAngularVelocity().x());
     EXPECT_NE(grains.rows[7][9], 0);
-    int walls = 0;
+    int walls = 0, tangential = 0;
     for (const auto& row : contacts.rows) {
         walls += row[2] >= 0 ? 1 : 0;
         EXPECT_EQ(row[2] >= 0, row[1] == -1);  // a wall or a second grain
+        ASSERT_EQ(row.size(), 11u);
+        tangential += row[7] > 0 ? 1 : 0;
+        // The contact point is as far from the centre as the radius, less half the overlap, or all of it.
+        const auto& grain = grains.rows.at(static_cast<std::size_t>(row[0]));
+        const Vec3D branch = Vec3D(row[8], row[9], row[10]) - Vec3D(grain[3], grain[4], grain[5]);
+        EXPECT_NEAR(branch.norm(), grain[2] + (row[2] >= 0 ? 1 : 0.5) * row[3],
+                    1e-16);  // 1e-16 of a box of cm
     }
     EXPECT_GT(walls, 4);
     EXPECT_GT(static_cast<int>(contacts.rows.size()), walls);
+    EXPECT_GT(tangential, walls);
 }
 
 TEST(LastState, thatCannotBeWrittenIsSaidAfterTheReason) {

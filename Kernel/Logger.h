@@ -1,0 +1,60 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace pendular {
+
+/// Writes a text to standard error. What cannot be written there (a full disk, a closed pipe) is lost: a log
+/// never ends a run.
+void writeToLog(std::string_view text) noexcept;
+
+/// How much a user has to read it; a level shows itself and those before it.
+enum class LogLevel { None, Warn, Info, Verbose, Debug };
+
+/// The text of a line, in the form of fmt, which the compiler checks against the values: a {} for each of
+/// them. MercuryDPM's % does not compile.
+template <class... Values>
+struct LogText {
+    template <class Text>
+    requires std::is_convertible_v<const Text&, std::string_view>
+    consteval LogText(const Text& given) : text(given) {  // NOLINT(google-explicit-constructor)
+        if (sizeof...(Values) > 0 && std::string_view(given).find('{') == std::string_view::npos)
+            throw "a log text has a {} for each value, where MercuryDPM has a %";
+    }
+    fmt::format_string<Values...> text;
+};
+
+/// Lines for the user of a run, on standard error: logger(INFO, "{} grains", number).
+class Logger {
+public:
+    template <class... Values>
+    void operator()(LogLevel level, LogText<std::type_identity_t<const Values&>...> text,
+                    const Values&... values) const {
+        if (quiet || level > shown || level == LogLevel::None) return;
+        try {
+            write(level, fmt::format(text.text, values...));
+        } catch (const std::exception&) {}  // no memory: the line is lost, not the run
+    }
+    /// Shows lines up to this level. Info at first; None: none.
+    void setLevel(LogLevel most) { shown = most; }
+    [[nodiscard]] LogLevel getLevel() const { return shown; }
+    /// Shows nothing, whatever the level.
+    void setQuiet(bool beQuiet) { quiet = beQuiet; }
+    [[nodiscard]] bool isQuiet() const { return quiet; }
+
+private:
+    static void write(LogLevel level, std::string line) {
+        if (level == LogLevel::Warn) line.insert(0, "Warning: ");
+        writeToLog(line += '\n');
+    }
+
+    LogLevel shown = LogLevel::Info;
+    bool quiet = false;
+};
+
+}  // namespace pendular
