@@ -4,11 +4,12 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Contacts/SeveralSpeciesHandler.h"
 #include "Kernel/Simulation/Program.h"
+#include "Kernel/Species/DerivedSetters.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/Laws.h"
 
@@ -42,24 +43,42 @@ void list() {
     });
 }
 
+/// setDissipation of the field dissipation.
+std::string setterOf(std::string_view field) {
+    std::string name = "set" + std::string(field);
+    name[3] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[3])));
+    return name;
+}
+
+void describe(const DerivedSetter& setter) {
+    std::string values, ranges;
+    for (const SetterValue& value : setter.values) {
+        values += fmt::format("{}{}", values.empty() ? "" : ", ", value.name);
+        ranges +=
+            fmt::format("{}{} {}", ranges.empty() ? "" : ", ", value.name, value.range.text(value.unit));
+    }
+    fmt::print("Also `{}({})`, {}: sets {}.\n\n", setter.name, values, ranges, setter.gives);
+}
+
 template <class Law>
 void describeLaw() {
     fmt::print("## {}\n\n{}. Domain: {}.\n\n", shownName<Law>(), Law::summary, Law::domain);
     if (Law::fields().empty()) return;
     fmt::print(
-        "| field | unit | range | default | mixing of a and b | meaning | source "
-        "|\n|---|---|---|---|---|---|---|\n");
+        "| field | setter | unit | range | default | mixing of a and b | meaning | source "
+        "|\n|---|---|---|---|---|---|---|---|\n");
     const Law law;
     for (const auto& field : Law::fields()) {
         const double value = law.*field.member;
         const std::string standard = isSet(value)            ? fmt::format("{:.6g}", value)
                                      : field.ifUnset.empty() ? std::string("must be set")
                                                              : std::string(field.ifUnset);
-        fmt::print("| {} | {} | {} | {} | {} | {} | {} |\n", field.name,
+        fmt::print("| {} | `{}` | {} | {} | {} | {} | {} | {} |\n", field.name, setterOf(field.name),
                    field.unit.empty() ? "-" : field.unit, field.range.text(field.unit), standard,
                    formula(field.mixing), field.meaning, field.source);
     }
     fmt::print("\n");
+    for (const DerivedSetter& setter : derivedSetters<Law>()) describe(setter);
 }
 
 /// Describes the law or the species of this name; all laws for "all".
@@ -80,7 +99,8 @@ void describe(std::string_view name) {
         known.push_back(S::name);
         if (wanted != S::name) return;
         found = true;
-        fmt::print("# {}\n\nAlso: density, kg/m^3, greater than 0; it must be set.\n\n", S::name);
+        fmt::print("# {}\n\nAlso: density, kg/m^3, greater than 0, `setDensity`; it must be set.\n\n",
+                   S::name);
         describeLaw<typename S::Normal>();
         if (S::Friction::acts) describeLaw<typename S::Friction>();
         if (S::Adhesion::acts) describeLaw<typename S::Adhesion>();
@@ -95,8 +115,10 @@ int main(int argc, char** argv) {
     bool listed = false;
     std::string described;
     app.add_flag("--list", listed, "name all laws and species, a line each");
-    app.add_option("--describe", described,
-                   "table of the parameters of a law or a species (all: of every law)");
+    app.add_option(
+        "--describe", described,
+        "table of the parameters of a law or a species, with their setters, units and allowed values "
+        "(all: of every law)");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         if (!described.empty()) describe(described);

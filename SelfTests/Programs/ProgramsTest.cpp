@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -28,6 +30,26 @@ const std::filesystem::path source = folders::source;
 TEST(Documentation, referencePageIsWhatTheToolPrints) {
     EXPECT_EQ(contentOf(source / "Kernel/Species/REFERENCE.md"),
               run(tools + "/species --describe all").output);
+}
+
+/// Every setter in the headers of the laws is described, and every one that is described is in a header.
+TEST(Documentation, referencePageHasEverySetter) {
+    std::string headers;
+    for (const char* kind : {"Normal", "Friction", "Adhesion"})
+        for (const auto& entry :
+             std::filesystem::recursive_directory_iterator(source / "Kernel/Species" / kind))
+            if (entry.path().extension() == ".h") headers += contentOf(entry.path());
+    const std::string page = contentOf(source / "Kernel/Species/REFERENCE.md");
+    const auto namesIn = [](const std::string& text, const std::string& before) {
+        std::set<std::string> names;
+        const std::regex pattern(before + "(set[A-Z]\\w*)");
+        for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
+            names.insert((*at)[1]);
+        return names;
+    };
+    const std::set<std::string> written = namesIn(headers, "void "), described = namesIn(page, "`");
+    EXPECT_GT(written.size(), 30u);
+    EXPECT_EQ(written, described);
 }
 
 TEST(Documentation, driverOfTheReadmeIsThatOfTheFolder) {
@@ -194,6 +216,8 @@ TEST(Programs, refuseWhatIsNoNumber) {
           {drum + "--number 18446744073709551615", "of at most 18 digits"},
           {drum + "--threads ''", "--threads: the value is empty"},
           {drum + "--end-time-s ''", "--end-time-s: the value is empty"},
+          {drum + "--wall-time ''", "--wall-time: the value is empty"},
+          {drum + "--restart ''", "--restart: the value is empty"},
           {tools + "/benchmark-scenes --threads \'\'", "--threads: the value is empty"},
           {tools + "/benchmark-scenes --steps \'\'", "--steps: "},
           {bridge + "--radius1-m ''", "--radius1-m: the value is empty"},
