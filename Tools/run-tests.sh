@@ -23,6 +23,7 @@ if [[ ${CI:-} == true ]]; then
         export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
     fi
     Tools/install-dependencies.sh --clang --readers
+    export PENDULAR_REQUIRE_DEPENDENCIES=1  # no test may leave out what needs them
     build_and_test ci
     build_and_test ci-asan-ubsan
     build_and_test fuzz

@@ -13,6 +13,7 @@
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
@@ -28,8 +29,8 @@ using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
 class Hdf5Fields : public testing::Test {
 protected:
     void SetUp() override {
-        if (!Hdf5File::isAvailable())
-            GTEST_SKIP() << "This build has no HDF5 library: its files are not tested (install libhdf5-dev).";
+        if (support::isMissing(Hdf5File::isAvailable(), "libhdf5-dev"))
+            GTEST_SKIP() << support::without("libhdf5-dev", "the output of fields");
     }
     const TestFolder folder;
 };
@@ -113,6 +114,8 @@ TEST_F(Hdf5Fields, areThoseOfTheScene) {
                                   velocity = numbersOf(file, "particles/velocity_m_per_s", 3),
                                   spin = numbersOf(file, "particles/spin_rad_per_s", 3),
                                   radius = numbersOf(file, "particles/radius_m", 1),
+                                  mass = numbersOf(file, "particles/mass_kg", 1),
+                                  fixed = numbersOf(file, "particles/fixed", 1),
                                   height = numbersOf(file, "particles/height_m", 1),
                                   species = numbersOf(file, "particles/species", 1),
                                   total = numbersOf(file, "particles/force_N", 3);
@@ -127,6 +130,8 @@ TEST_F(Hdf5Fields, areThoseOfTheScene) {
                 EXPECT_EQ(spin[n], rounded(grain.getAngularVelocity()[axis]));
             }
             EXPECT_EQ(radius[k], rounded(grain.getRadius()));
+            EXPECT_EQ(mass[k], rounded(grain.getMass()));
+            EXPECT_EQ(fixed[k], 0);
             EXPECT_EQ(height[k], rounded(grain.getPosition().z()));
             EXPECT_EQ(species[k], grain.getRadius() > 1.2e-3 ? 1 : 0);
             sums.push_back(grain.getMass() * scene.getGravity());
@@ -184,9 +189,8 @@ TEST_F(Hdf5Fields, doNotChangeTheTrajectory) {
 /// h5py follows the links of the series, and finds the numbers that ParaView's files have.
 TEST_F(Hdf5Fields, areReadByH5py) {
     const std::string python = "/usr/bin/python3";
-    if (support::run(python + " -c 'import h5py'").exitCode != 0)
-        GTEST_SKIP()
-            << "h5py is not installed (Debian package python3-h5py): the HDF5 files are not read by it.";
+    if (support::isMissing(support::run(python + " -c 'import h5py'").exitCode == 0, "python3-h5py"))
+        GTEST_SKIP() << support::without("python3-h5py", "that h5py reads the HDF5 files");
     Box scene(folder.name());
     scene.setSaveCount(1000);
     scene.addOutput(Hdf5Output());
@@ -219,6 +223,9 @@ TEST_F(Hdf5Fields, areReadByH5py) {
         if (name == "velocity_m_per_s") {
             EXPECT_EQ(unit, "m/s");
         }
+        if (name == "mass_kg") {
+            EXPECT_EQ(unit, "kg");
+        }
         if (name == "position_m") {
             EXPECT_EQ(type, "float64");
             EXPECT_EQ(unit, "m");
@@ -231,7 +238,7 @@ TEST_F(Hdf5Fields, areReadByH5py) {
         ++columns;
     }
     EXPECT_EQ(frames, 3);        // steps 0, 1000, 1500
-    EXPECT_EQ(columns, 3 * 17);  // all but position, branch, corner and end
+    EXPECT_EQ(columns, 3 * 20);  // all but position, branch, corner and end
 }
 
 TEST_F(Hdf5Fields, thatCannotBeWrittenEndTheRunInOneSentence) {

@@ -9,6 +9,7 @@
 #include "BuildFolders.h"
 #include "Kernel/Output/Compression.h"
 #include "Kernel/Output/PolyData.h"
+#include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
@@ -140,8 +141,8 @@ TEST(PolyDataFile, thatIsDamagedIsRefused) {
 
 TEST(PolyDataFile, isReadByVtk) {
     const std::string python = "/usr/bin/python3";
-    if (support::run(python + " -c 'import vtk'").exitCode != 0)
-        GTEST_SKIP() << "VTK's Python module is not installed (Debian package python3-vtk9).";
+    if (support::isMissing(support::run(python + " -c 'import vtk'").exitCode == 0, "python3-vtk9"))
+        GTEST_SKIP() << support::without("python3-vtk9", "that VTK reads the files for ParaView");
     const TestFolder folder;
     const std::string script = (folders::source / "SelfTests/Output/read_vtp.py").string();
     for (const std::size_t triangles : {0, 1, 3000}) {

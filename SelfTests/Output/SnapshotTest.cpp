@@ -8,6 +8,7 @@
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
@@ -196,8 +197,8 @@ TEST_F(Snapshot, drawsAllFramesOfASeries) {
 }
 
 TEST_F(Snapshot, isAPicture) {
-    if (support::run("povray --version").exitCode == 127)
-        GTEST_SKIP() << "POV-Ray is not installed (Debian package povray).";
+    if (support::isMissing(support::run("povray --version").exitCode != 127, "povray"))
+        GTEST_SKIP() << support::without("povray", "that a picture is drawn");
     const auto result = draw(".pvd --field velocity_m_per_s --width 120 --height 90");
     ASSERT_EQ(result.exitCode, 0) << result.output;
     const std::string bytes = support::contentOf(picture);
@@ -245,7 +246,7 @@ TEST_F(Snapshot, drawsTheGrainsOfARestartFile) {
 }
 
 TEST_F(Snapshot, refusesInOneSentence) {
-    expectOneSentence(draw(".pvd --field idenity"), "there are radius_m, velocity_m_per_s");
+    expectOneSentence(draw(".pvd --field idenity"), "there are radius_m, mass_kg, velocity_m_per_s");
     expectOneSentence(draw(".pvd --colours jet"), "it may be viridis, coolwarm or grey");
     expectOneSentence(draw(".pvd --width 0"), "width = 0 pixels");
     expectOneSentence(draw(".pvd --view 0 0 0"), "length of the view's direction = 0");

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/State/Hdf5File.h"
+#include "SelfTests/Support/Dependency.h"
 
 namespace pendular {
 namespace {
@@ -9,8 +10,8 @@ namespace {
 class NeedsHdf5 : public testing::Environment {
 public:
     void SetUp() override {
-        if (!Hdf5File::isAvailable())
-            GTEST_SKIP() << "This build has no HDF5 library: restart is not tested (install libhdf5-dev).";
+        if (support::isMissing(Hdf5File::isAvailable(), "libhdf5-dev"))
+            GTEST_SKIP() << support::without("libhdf5-dev", "restart");
     }
 };
 
