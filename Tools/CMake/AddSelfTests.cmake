@@ -89,6 +89,25 @@ foreach(source IN LISTS failures)
     set_tests_properties(CompileFail/${name} PROPERTIES LABELS "fast;build")
 endforeach()
 
+# A header compiles alone. Those of the kernel that have a .cpp are the first one included there; of the others, some that
+# drivers include are compiled here, each by itself (not all: it takes a second or two for each).
+file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/Kernel/*.h"
+     "${PROJECT_SOURCE_DIR}/Kernel/Files/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Walls/*.h")
+foreach(header IN LISTS headers)
+    cmake_path(REPLACE_EXTENSION header .cpp OUTPUT_VARIABLE source)
+    if(EXISTS "${PROJECT_SOURCE_DIR}/${source}")
+        file(STRINGS "${PROJECT_SOURCE_DIR}/${source}" firstInclude REGEX "^#include" LIMIT_COUNT 1)
+        if(NOT firstInclude STREQUAL "#include \"${header}\"")
+            message(FATAL_ERROR "${source} does not include its own header first: ${header} may not compile alone.")
+        endif()
+        continue()
+    endif()
+    add_test(NAME Header/${header}
+             COMMAND "${CMAKE_CXX_COMPILER}" "@${compilerFlags}" -O0 -fsyntax-only -x c++ -include "${header}" /dev/null
+             WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+    set_tests_properties(Header/${header} PROPERTIES LABELS "fast;build")
+endforeach()
+
 add_test(NAME OutOfTree
          COMMAND "${CMAKE_COMMAND}" -D "source=${selfTests}/OutOfTree" -D "pendular=${PROJECT_BINARY_DIR}"
                  -D "generator=${CMAKE_GENERATOR}" -D "compiler=${CMAKE_CXX_COMPILER}" -D "flags=${CMAKE_CXX_FLAGS}"
