@@ -59,11 +59,13 @@ void expectCloses(int steps) {
     }
     EXPECT_LT(largest, 5);
     testing::Test::RecordProperty("drift over that of round-off", std::to_string(largest));
-    // Most of what the floor has given has been lost, and little in the steps. The shares are no theory: they
-    // say only that each of these is at work, and that the error of the steps is not what is lost.
+    // Most of what the floor has given has been lost, and little in the steps. These two shares are no
+    // theory: they say only that the error of the steps is not what is lost. A mechanism is at work where it
+    // has lost more than round-off can make of all that was turned over.
     EXPECT_GT(ledger.lost(), 0.9 * (ledger.walls + start - ledger.kinetic - ledger.potential));
     EXPECT_LT(std::abs(ledger.stepError), 0.01 * ledger.lost());
-    for (const double lost : {ledger.normalDashpots, ledger.sliding}) EXPECT_GT(lost, 0.05 * ledger.lost());
+    for (const double lost : {ledger.normalDashpots, ledger.sliding})
+        EXPECT_GT(lost, 5 * std::sqrt(steps) * 0x1p-53 * turnedOver(ledger));
     if constexpr (S::Adhesion::acts) {
         EXPECT_GT(ledger.brokenAdhesion, 0);
     }
