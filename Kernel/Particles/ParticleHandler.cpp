@@ -67,7 +67,7 @@ void GrainReference::setPosition(const Vec3D& position) {
 }
 void GrainReference::setRadius(double radius) {
     requireOwnBody("radius");
-    checkValue(fmt::format("particle {}", number), "radius", radius, "m", positive);
+    checkValue(fmt::format("particle {}", number), "radius", radius, "m", radiusRange);
     const bool grows = radius > getRadius();
     record().radius = radius;
     setMass(handler->grains, place(), isFixed() ? 0 : 1 / handler->massOf(radius, getSpeciesIndex()));

@@ -68,16 +68,18 @@ inline Frame readTable(const std::filesystem::path& path) {
 
 /// The grains of a restart file, in the order of their places; their walls and bridges are not drawn.
 inline Frame readRestartState(const std::filesystem::path& path) {
-    double timeStep = 0;
-    std::uint64_t steps = 0;
+    double timeStep = 0, timeBefore = 0;  // s; the step may have changed in the run
+    std::uint64_t steps = 0, stepsBefore = 0;
     std::vector<TranslationRecord> grains;
     readRestartFile(path, [&](StateArchive& archive) {
         archive.value("timeStep", timeStep);
         archive.value("steps", steps);
+        archive.value("stepsBefore", stepsBefore);
+        archive.value("timeBefore", timeBefore);
         archive.group("particles", [&] { archive.column<double>("translation", grains); });
     });
     Frame frame;
-    frame.grains.time = timeStep * static_cast<double>(steps);
+    frame.grains.time = timeBefore + timeStep * static_cast<double>(steps - stepsBefore);
     std::vector<double> radii, velocities;
     for (const TranslationRecord& grain : grains) {
         const Vector<double>& v = grain.velocity;
