@@ -1,18 +1,21 @@
 #pragma once
 
+#include <bit>
+
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Math/Four.h"
 
 namespace pendular {
 
-/// What all contacts of a grain give it.
+/// What all contacts of a grain give it; lane 3 is of no meaning.
 template <bool hasTorque>
 struct ForceAndTorque {
-    Vector<double> force{0, 0, 0};   // N
-    Vector<double> torque{0, 0, 0};  // N m
+    Four force{};   // N
+    Four torque{};  // N m
 };
 template <>
 struct ForceAndTorque<false> {
-    Vector<double> force{0, 0, 0};  // N
+    Four force{};  // N
 };
 
 /// The sum over the contacts of the grain at a place, always in the order of the list: no scatter, no
@@ -21,7 +24,8 @@ struct ForceAndTorque<false> {
 /// the force and by the grain's lever arm for the torque.
 /// @param radius of the grain, m
 template <bool hasTorque, bool hasContactTorque>
-ForceAndTorque<hasTorque> sumContacts(const ContactStore& store, std::size_t grain, double radius) {
+[[gnu::always_inline]] inline ForceAndTorque<hasTorque> sumContacts(const ContactStore& store,
+                                                                    std::size_t grain, double radius) {
     static constexpr std::array<double, 2> signs{1, -1};  // on body 1, on body 2
     if constexpr (hasTorque) {
         const Mask torquePart = maskFromBits(0b01110000);
@@ -31,16 +35,15 @@ ForceAndTorque<hasTorque> sumContacts(const ContactStore& store, std::size_t gra
             sum += Pack::load(&record.force.x) *
                    select(torquePart, Pack(radius - record.halfOverlap), Pack(signs[side & 1]));
         }
-        const auto lanes = sum.toLanes();
-        ForceAndTorque<true> result{{lanes[0], lanes[1], lanes[2]}, {lanes[4], lanes[5], lanes[6]}};
+        auto result = std::bit_cast<ForceAndTorque<true>>(sum.toLanes());
         if constexpr (hasContactTorque)
             for (const std::uint32_t side : store.sides.of(grain))
-                result.torque += signs[side & 1] * store.memory.torques[side / 2].torque;
+                result.torque += signs[side & 1] * loadFour(store.memory.torques[side / 2].torque);
         return result;
     } else {
         ForceAndTorque<false> sum;
         for (const std::uint32_t side : store.sides.of(grain))
-            sum.force += signs[side & 1] * store.memory.forces[side / 2].force;
+            sum.force += signs[side & 1] * loadFour(store.memory.forces[side / 2].force);
         return sum;
     }
 }

@@ -31,7 +31,8 @@ public:
     static void finish(Grains& grains, const ContactStore& store, const Vector<double>& gravity, double step,
                        int threads, const Integrator& scheme) {
         inParts(grains.size(), threads, [&](int, std::size_t first, std::size_t end) {
-            const auto all = [&, weight = gravity, h = step, coefficients = scheme]<bool remembers>() {
+            const auto all = [&, weight = fourOf(gravity), h = step,
+                              coefficients = scheme]<bool remembers>() {
                 for (std::size_t k = first; k < end; ++k)
                     accelerate<remembers>(grains, store, weight, h, coefficients, k);
             };
@@ -78,49 +79,57 @@ private:
         double largest = 0;
         for (std::size_t k = first; k < end; ++k) {
             TranslationRecord& grain = grains.translation[k];
-            Vector<double> mean = grain.velocity + position * grains.acceleration[k];
-            if constexpr (remembers) mean += (scheme.position1 * step) * grains.earlier[k].acceleration;
-            const Vector<double> shift = step * mean;
-            grain.position += shift;
-            grain.velocity += velocity * grains.acceleration[k];
-            const double shift2 = squaredNorm(shift);
+            const Four before = loadFour(grain.velocity), place = loadFour(grain.position);
+            const Four acceleration = fourOf(grains.acceleration[k]);
+            Four mean = before + position * acceleration;
+            if constexpr (remembers)
+                mean += (scheme.position1 * step) * fourOf(grains.earlier[k].acceleration);
+            const Four shift = step * mean;
+            storeVector(grain.position, place + shift, place);
+            Four after = before + velocity * acceleration;
+            if constexpr (remembers)
+                after += (scheme.velocity1 * step) * fourOf(grains.earlier[k].acceleration);
+            storeVector(grain.velocity, after, before);
+            const double shift2 = squaredNorm(vectorOf(shift));
             largest = std::max(largest, std::isnan(shift2) ? infinity : shift2);
-            if constexpr (hasSpin)
-                grains.rotation[k].spin += velocity * grains.rotation[k].angularAcceleration;
-            if constexpr (remembers) {
-                grain.velocity += (scheme.velocity1 * step) * grains.earlier[k].acceleration;
-                if constexpr (hasSpin)
-                    grains.rotation[k].spin +=
-                        (scheme.velocity1 * step) * grains.earlier[k].angularAcceleration;
+            if constexpr (hasSpin) {
+                RotationRecord& turning = grains.rotation[k];
+                const Four spin = loadFour(turning.spin);
+                Four next = spin + velocity * loadFour(turning.angularAcceleration);
+                if constexpr (remembers)
+                    next += (scheme.velocity1 * step) * fourOf(grains.earlier[k].angularAcceleration);
+                storeVector(turning.spin, next, spin);
             }
         }
         return largest;
     }
 
     template <bool remembers>
-    [[gnu::always_inline]] static void accelerate(Grains& grains, const ContactStore& store,
-                                                  const Vector<double>& gravity, double step,
-                                                  const Integrator& scheme, std::size_t k) {
+    [[gnu::always_inline]] static void accelerate(Grains& grains, const ContactStore& store, Four gravity,
+                                                  double step, const Integrator& scheme, std::size_t k) {
         TranslationRecord& grain = grains.translation[k];
         const auto sum = sumContacts<hasSpin, hasContactTorque>(store, k, grain.radius);
-        const Vector<double> weight = grain.inverseMass == 0 ? Vector<double>{0, 0, 0} : gravity;
-        const Vector<double> acceleration = grain.inverseMass * sum.force + weight;
+        const Four weight = grain.inverseMass == 0 ? Four{} : gravity;
+        const Four acceleration = grain.inverseMass * sum.force + weight;
         const Earlier last = remembers ? lastOf(grains, k) : Earlier{};
         const double corrector = scheme.corrector * step;
-        grain.velocity += corrector * (acceleration - scheme.now * grains.acceleration[k]);
-        grains.acceleration[k] = acceleration;
+        const Four velocity = loadFour(grain.velocity);
+        Four after = velocity + corrector * (acceleration - scheme.now * fourOf(grains.acceleration[k]));
+        if constexpr (remembers)
+            after += (corrector * scheme.earlier) * fourOf(grains.earlier[k].acceleration);
+        storeVector(grain.velocity, after, velocity);
+        grains.acceleration[k] = vectorOf(acceleration);
         if constexpr (hasSpin) {
             RotationRecord& turning = grains.rotation[k];
-            const Vector<double> angular = turning.inverseInertia * sum.torque;
-            turning.spin += corrector * (angular - scheme.now * turning.angularAcceleration);
-            turning.angularAcceleration = angular;
+            const Four spin = loadFour(turning.spin), before = loadFour(turning.angularAcceleration);
+            const Four angular = turning.inverseInertia * sum.torque;
+            Four next = spin + corrector * (angular - scheme.now * before);
             if constexpr (remembers)
-                turning.spin += (corrector * scheme.earlier) * grains.earlier[k].angularAcceleration;
+                next += (corrector * scheme.earlier) * fourOf(grains.earlier[k].angularAcceleration);
+            storeVector(turning.spin, next, spin);
+            storeVector(turning.angularAcceleration, angular, before);
         }
-        if constexpr (remembers) {
-            grain.velocity += (corrector * scheme.earlier) * grains.earlier[k].acceleration;
-            grains.earlier[k] = last;
-        }
+        if constexpr (remembers) grains.earlier[k] = last;
     }
 };
 

@@ -1,4 +1,5 @@
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Math/Four.h"
 #include "Kernel/Math/Vector.h"
 
 #include <gtest/gtest.h>
@@ -22,6 +23,20 @@ TEST(Vector, hasTheOperationsOfALinearSpace) {
     EXPECT_EQ(c -= b, a);
     EXPECT_EQ(c *= 3, 3 * a);
     EXPECT_FALSE(a == b);
+}
+
+TEST(Vector, isHalfARecordOfFourAndLeavesTheNumberBehindItAsItIs) {
+    struct alignas(32) Half {
+        Vector<double> vector;
+        double behind;
+    } half{a, 7};
+    const Four before = loadFour(half.vector);
+    EXPECT_EQ(vectorOf(before), a);
+    EXPECT_EQ(before[3], 7);
+    EXPECT_EQ(vectorOf(fourOf(b)), b);
+    storeVector(half.vector, 2 * before + fourOf(b), before);
+    EXPECT_EQ(half.vector, 2 * a + b);
+    EXPECT_EQ(half.behind, 7);
 }
 
 TEST(Vector, productsAgreeWithClosedForms) {

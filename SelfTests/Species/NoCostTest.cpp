@@ -57,8 +57,8 @@ static_assert(sizeof(ForceRecord) == 32 && sizeof(ForceTorqueRecord) == 64);
 
 // What a grain sums.
 static_assert(!HasTorque<ForceAndTorque<false>> && HasTorque<ForceAndTorque<true>>);
-static_assert(sizeof(ForceAndTorque<false>) == 3 * sizeof(double) &&
-              sizeof(ForceAndTorque<true>) == 6 * sizeof(double));
+static_assert(sizeof(ForceAndTorque<false>) == sizeof(Four) &&
+              sizeof(ForceAndTorque<true>) == 2 * sizeof(Four));
 
 // A law that does nothing has no size; a species is no larger than the numbers of its laws.
 static_assert(std::is_empty_v<NoFriction> && std::is_empty_v<NoAdhesion>);
