@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
     app.add_option(
         "--species", o.choice.species,
         "species by name, one that 'species --list' marks as instantiated; the scene's own if not given");
-    app.add_option("--threads", o.threads, "OpenMP threads")->capture_default_str();
+    app.add_option("--threads", o.threads, "threads")->capture_default_str();
     app.add_option("--steps", o.steps, "steps that are timed")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();

@@ -3,7 +3,7 @@
 #   Tools/install-dependencies.sh           installs
 #   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
 #   With --readers also those with which self-tests read the files of a run; tests that need them are skipped else.
-#   With --clang also clang, with libFuzzer and OpenMP (presets asan-ubsan, tsan and fuzz).
+#   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz).
 set -euo pipefail
 
 check=no readers=no clang=no
@@ -40,8 +40,7 @@ fi
 if [[ $clang == yes ]]; then
     packages+='
 clang|clang++|sanitizers and fuzz targets
-libclang-rt-dev||libFuzzer and the sanitizers
-libomp-dev||threads'
+libclang-rt-dev||libFuzzer and the sanitizers'
 fi
 
 is_installed() {  # package, program

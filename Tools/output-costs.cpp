@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
     app.add_option("--states", o.bed.states, "folder in which beds are kept that the program made");
     app.add_option("--steps", o.steps, "steps that are timed, in tens: the fastest ten count")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--threads", o.threads, "OpenMP threads");
+    app.add_option("--threads", o.threads, "threads");
     app.add_option("--output", o.folder, "new folder for the frames");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(o); });

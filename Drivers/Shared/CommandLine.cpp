@@ -14,7 +14,7 @@ namespace pendular {
 
 void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const std::string& run) {
     app.add_option("--output", o.output, "folder for " + files)->capture_default_str();
-    app.add_option("--threads", o.threads, "OpenMP threads; the results do not depend on their number")
+    app.add_option("--threads", o.threads, "threads; the results do not depend on their number")
         ->capture_default_str();
     auto* resume =
         app.add_flag("--resume", o.resume,

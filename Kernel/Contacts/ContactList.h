@@ -102,9 +102,12 @@ private:
     template <class Function>
     void listInParts(std::size_t grainCount, Function&& function) {
         std::vector<Groups> parts(static_cast<std::size_t>(threads));
-        inParts(grainCount, threads, [&](int part, std::size_t begin, std::size_t end) {
-            function(parts[static_cast<std::size_t>(part)], begin, end);
-        });
+        inParts(
+            grainCount, threads,
+            [&](int part, std::size_t begin, std::size_t end) {
+                function(parts[static_cast<std::size_t>(part)], begin, end);
+            },
+            worthAThread);
         for (Groups& part : parts)
             for (Group& found : part) {
                 Group& group =
@@ -242,9 +245,12 @@ private:
         store.gaps.assign(blocks, -infinity);  // of walls none is known: they are always looked at
         store.wallPoints.assign(wallBlocks, {});
         for (const Group& g : groups)
-            inParts(g.bucket.end - g.bucket.begin, threads, [&](int, std::size_t begin, std::size_t end) {
-                for (std::size_t b = begin; b < end; ++b) fillBlock(g, b, grains, store);
-            });
+            inParts(
+                g.bucket.end - g.bucket.begin, threads,
+                [&](int, std::size_t begin, std::size_t end) {
+                    for (std::size_t b = begin; b < end; ++b) fillBlock(g, b, grains, store);
+                },
+                worthAThread);
         const auto touching =
             std::count_if(store.gaps.begin(), store.gaps.end(), [](double g) { return g <= 0; });
         store.memory.clear(ledger, static_cast<std::size_t>(touching));
@@ -270,11 +276,14 @@ private:
         using Entry = RememberedContacts::Entry;
         std::vector<const Entry*> entries(store.blocks.size() * Pack::lanes);
         const auto forEachListed = [&](const Bucket& bucket, auto&& function) {
-            inParts(bucket.end - bucket.begin, threads, [&](int, std::size_t begin, std::size_t end) {
-                for (std::size_t c = (bucket.begin + begin) * Pack::lanes;
-                     c < (bucket.begin + end) * Pack::lanes; ++c)
-                    if (store.bitOf(store.states[c / Pack::lanes].listed, c)) function(c);
-            });
+            inParts(
+                bucket.end - bucket.begin, threads,
+                [&](int, std::size_t begin, std::size_t end) {
+                    for (std::size_t c = (bucket.begin + begin) * Pack::lanes;
+                         c < (bucket.begin + end) * Pack::lanes; ++c)
+                        if (store.bitOf(store.states[c / Pack::lanes].listed, c)) function(c);
+                },
+                worthAThread);
         };
         std::size_t recalled = 0;
         for (const Bucket& bucket : store.buckets) {
@@ -310,6 +319,7 @@ private:
                         bucket.wall >= 0 ? second : grains.identity[second]);
     }
 
+    static constexpr std::size_t worthAThread = 512;  // grains or blocks
     const ContactLaws& laws;
     const WallHandler& walls;
     const PeriodicBox& periodic;

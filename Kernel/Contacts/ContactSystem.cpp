@@ -272,13 +272,16 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
     std::atomic<bool> allHaveMemory = true;
     watches.assign(static_cast<std::size_t>(threads), overlapWatch.part());
     OverlapWatch last = overlapWatch.part();
-    inParts(bucket.end - bucket.begin, threads, [&](int part, std::size_t begin, std::size_t end) {
-        ContactTask own = task;
-        own.begin = bucket.begin + begin;
-        own.end = bucket.begin + end;
-        own.overlaps = &watches[static_cast<std::size_t>(part)];
-        if (!species->compute(own)) allHaveMemory = false;
-    });
+    inParts(
+        bucket.end - bucket.begin, threads,
+        [&](int part, std::size_t begin, std::size_t end) {
+            ContactTask own = task;
+            own.begin = bucket.begin + begin;
+            own.end = bucket.begin + end;
+            own.overlaps = &watches[static_cast<std::size_t>(part)];
+            if (!species->compute(own)) allHaveMemory = false;
+        },
+        blocksWorthAThread);
     for (const OverlapWatch& watch : watches) overlapWatch.add(watch);
     if (allHaveMemory) return;
     for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {

@@ -138,6 +138,7 @@ private:
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
+    static constexpr std::size_t blocksWorthAThread = 256;
     [[nodiscard]] std::size_t slotOf(const ObservedContact& seen) const;
     /// None of a grain that came after the list.
     [[nodiscard]] std::span<const std::uint32_t> sidesOf(std::uint32_t place) const {
@@ -177,9 +178,9 @@ private:
     ContactStore contacts;
     std::vector<NamedColumn> namedColumns;
     SkinChoice skin;
-    std::size_t stepsListed = 0;   // since the contacts were listed
-    double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
-    double listBefore = infinity;  // m, at which they must be listed, because of grains that came later
+    std::size_t stepsListed = 0;      // since the contacts were listed
+    double unlisted = infinity;       // m, that two bodies can have approached since contacts were listed
+    double listBefore = infinity;     // m, at which they must be listed, because of grains that came later
     std::vector<std::uint32_t> late;  // identities of grains that came after the list
     bool takesInGrains = false;       // and keeps the cells for it
     std::optional<NeighbourSearch> cells;

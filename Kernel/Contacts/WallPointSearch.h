@@ -29,12 +29,14 @@ public:
             return c;
         };
         handOvers.resize(static_cast<std::size_t>(threads));
-        inParts(end - first, threads, [&](int part, std::size_t from, std::size_t to) {
-            std::vector<HandOver>& own = handOvers[static_cast<std::size_t>(part)];
-            own.clear();
-            findPart(contacts, grains, bucket, wall, laws, step, atNextGrain(first + from),
-                     atNextGrain(first + to), own);
-        });
+        for (std::vector<HandOver>& own : handOvers) own.clear();
+        inParts(
+            end - first, threads,
+            [&](int part, std::size_t from, std::size_t to) {
+                findPart(contacts, grains, bucket, wall, laws, step, atNextGrain(first + from),
+                         atNextGrain(first + to), handOvers[static_cast<std::size_t>(part)]);
+            },
+            worthAThread);
         for (const auto& part : handOvers)
             for (const HandOver& h : part) {
                 if (!contacts.acts(h.from)) continue;
@@ -89,7 +91,8 @@ private:
         }
     }
 
-    std::vector<std::vector<HandOver>> handOvers;  // of each thread
+    static constexpr std::size_t worthAThread = 2048;  // contacts
+    std::vector<std::vector<HandOver>> handOvers;      // of each thread
 };
 
 }  // namespace pendular

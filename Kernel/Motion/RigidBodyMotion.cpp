@@ -10,12 +10,21 @@ namespace pendular {
 
 namespace {
 
+struct ContactSum {
+    Vector<double> force, torque;  // N, N m
+};
+
 /// Of the contacts of the grain at a place.
-ForceAndTorque<true> contactSum(const ContactStore& store, const ParticleStore& grains, std::uint32_t place) {
+ContactSum contactSum(const ContactStore& store, const ParticleStore& grains, std::uint32_t place) {
     const double radius = grains.translation[place].radius;
-    if (!store.memory.getLayout().hasTorque) return {sumContacts<false, false>(store, place, radius).force};
-    return store.memory.getLayout().hasContactTorque ? sumContacts<true, true>(store, place, radius)
-                                                     : sumContacts<true, false>(store, place, radius);
+    const auto vectors = [](const ForceAndTorque<true>& sum) {
+        return ContactSum{vectorOf(sum.force), vectorOf(sum.torque)};
+    };
+    const ContactLayout& layout = store.memory.getLayout();
+    if (!layout.hasTorque)
+        return {vectorOf(sumContacts<false, false>(store, place, radius).force), {0, 0, 0}};
+    return vectors(layout.hasContactTorque ? sumContacts<true, true>(store, place, radius)
+                                           : sumContacts<true, false>(store, place, radius));
 }
 
 }  // namespace

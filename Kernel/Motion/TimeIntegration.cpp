@@ -14,30 +14,38 @@ template <bool hasSpin, bool hasContactTorque>
 class Loops {
 public:
     using Grains = ParticleStore;
+    static constexpr std::size_t grainsWorthAThread = 2048;
 
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
     /// if one is not a number.
     static double begin(Grains& grains, double step, int threads, const Integrator& scheme) {
         if (scheme.remembersEarlier()) grains.earlier.resize(grains.size());  // of the first grains in a run
         std::vector<double> largest(static_cast<std::size_t>(threads), 0);
-        inParts(grains.size(), threads, [&](int part, std::size_t first, std::size_t end) {
-            auto& farthest = largest[static_cast<std::size_t>(part)];
-            farthest = scheme.remembersEarlier() ? move<true>(grains, step, scheme, first, end)
-                                                 : move<false>(grains, step, scheme, first, end);
-        });
+        inParts(
+            grains.size(), threads,
+            [&](int part, std::size_t first, std::size_t end) {
+                auto& farthest = largest[static_cast<std::size_t>(part)];
+                farthest = scheme.remembersEarlier() ? move<true>(grains, step, scheme, first, end)
+                                                     : move<false>(grains, step, scheme, first, end);
+            },
+            grainsWorthAThread);
         return *std::max_element(largest.begin(), largest.end());
     }
     /// The new accelerations, and with them the velocities at the end of the step.
     static void finish(Grains& grains, const ContactStore& store, const Vector<double>& gravity, double step,
                        int threads, const Integrator& scheme) {
-        inParts(grains.size(), threads, [&](int, std::size_t first, std::size_t end) {
-            const auto all = [&, weight = fourOf(gravity), h = step,
-                              coefficients = scheme]<bool remembers>() {
-                for (std::size_t k = first; k < end; ++k)
-                    accelerate<remembers>(grains, store, weight, h, coefficients, k);
-            };
-            scheme.remembersEarlier() ? all.template operator()<true>() : all.template operator()<false>();
-        });
+        inParts(
+            grains.size(), threads,
+            [&](int, std::size_t first, std::size_t end) {
+                const auto all = [&, weight = fourOf(gravity), h = step,
+                                  coefficients = scheme]<bool remembers>() {
+                    for (std::size_t k = first; k < end; ++k)
+                        accelerate<remembers>(grains, store, weight, h, coefficients, k);
+                };
+                scheme.remembersEarlier() ? all.template operator()<true>()
+                                          : all.template operator()<false>();
+            },
+            grainsWorthAThread);
     }
 
     /// Undoes begin, up to round-off.

@@ -99,6 +99,10 @@ bool Run::isOwnRestartFile(const std::filesystem::path& file) const {
 }
 
 void Run::solve() {
+    if (hasBegun())
+        throw InputError(
+            "Simulation: the run has begun already; solve() runs a scene once, from its start or from a "
+            "restart file.");
     RunControl control;  // hears signals from here on
     initialise();
     control.follow(restarts);

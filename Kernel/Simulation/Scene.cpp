@@ -4,6 +4,7 @@
 
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Output/LastState.h"
+#include "Kernel/Parallel.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 
@@ -231,6 +232,9 @@ void Scene::prepare() {
     setHasBegun();
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept);
     if (isQuiet()) return;
+    if (threads > processorCount())
+        logger(LogLevel::Warn, "{} threads share {} processors; the run is slower than with {}.", threads,
+               processorCount(), processorCount());
     for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, wallHandler))
         logger(LogLevel::Warn, "{}.", broken.text());
     warnOfFedSprings();

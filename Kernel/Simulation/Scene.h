@@ -5,8 +5,8 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
-#include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Output/OutputForm.h"
+#include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/DomainBox.h"
 #include "Kernel/Simulation/EnergyAccount.h"
@@ -59,7 +59,7 @@ public:
     /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m). The length must
     /// be at least twice the largest distance of two centres at which grains act on each other.
     void setPeriodic(int axis, double lowest, double highest);
-    /// OpenMP threads, at least 1; the results do not depend on their number.
+    /// Threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
     /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
     void setIntegrator(const Integrator& scheme) {

@@ -193,10 +193,6 @@ TEST_F(AskedToStop, forARestartFileBeforeTheRunBeginsGetsIt) {
 /// A limit of the size of files stands for a full disk: both make a write fail, for the one with EFBIG, for
 /// the other with ENOSPC.
 void limitFiles(std::uintmax_t bytes) {
-#ifdef _OPENMP
-    #pragma omp parallel  // clang's OpenMP library makes a file of shared memory when it begins
-    {}
-#endif
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{bytes, bytes};
     setrlimit(RLIMIT_FSIZE, &limit);

@@ -317,5 +317,13 @@ TEST(BadInput, aVelocityThatIsNotANumberIsNotTaken) {
     EXPECT_EQ(scene.particleHandler.getObject(1).getVelocity(), Vec3D(0, 0, 0));
 }
 
+TEST(BadInput, aSceneThatHasBegunIsNotSolvedAgain) {
+    Scene scene;
+    scene.particleHandler.copyAndAddObject(scene.grain());
+    scene.setQuiet();
+    scene.initialise();
+    expectRefused([&] { scene.solve(); }, {"the run has begun already", "restart file"});
+}
+
 }  // namespace
 }  // namespace pendular

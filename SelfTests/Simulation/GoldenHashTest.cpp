@@ -1,9 +1,5 @@
 #include <gtest/gtest.h>
 
-#ifdef _OPENMP
-    #include <omp.h>
-#endif
-
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"

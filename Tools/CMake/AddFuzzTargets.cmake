@@ -19,7 +19,7 @@ set(kernel "$<TARGET_PROPERTY:PendularKernel,INTERFACE")
 target_compile_features(FuzzedKernel PUBLIC cxx_std_20)
 target_compile_options(FuzzedKernel PUBLIC "${kernel}_COMPILE_OPTIONS>")
 target_include_directories(FuzzedKernel PUBLIC "${kernel}_INCLUDE_DIRECTORIES>")
-target_link_libraries(FuzzedKernel PUBLIC Eigen3::Eigen fmt::fmt ZLIB::ZLIB $<TARGET_NAME_IF_EXISTS:OpenMP::OpenMP_CXX>
+target_link_libraries(FuzzedKernel PUBLIC Eigen3::Eigen fmt::fmt ZLIB::ZLIB Threads::Threads
     $<$<BOOL:${hdf5Found}>:${HDF5_LIBRARY}>)
 add_executable(FuzzReaders ${sources})
 target_link_libraries(FuzzReaders PRIVATE FuzzedKernel)

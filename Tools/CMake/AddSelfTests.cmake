@@ -5,7 +5,7 @@
 #   fast   all that are not named otherwise
 #   heavy  Heavy...: seconds of computing; not run under the sanitizers, which make them ten times as long
 #   long   Long...: minutes; run only by ctest --preset long
-# Threads that wait for each other sleep (OMP_WAIT_POLICY): tests use more of them than there are cores.
+# PENDULAR_SHARE_SMALL_WORK: threads share also what is not worth a thread, so that tests of them can be small.
 #   build  (with fast) those that only run a compiler; not run under the sanitizers
 
 enable_testing()
@@ -47,11 +47,11 @@ function(pendular_add_self_test folder)
     set(heavy "Heavy*:*/Heavy*.*")
     set(options TEST_PREFIX "${folder}/" DISCOVERY_TIMEOUT 60)
     gtest_discover_tests(${name} ${options} TEST_FILTER "-${long}:${heavy}" TEST_LIST ${name}Fast
-        PROPERTIES LABELS fast ENVIRONMENT OMP_WAIT_POLICY=passive)
+        PROPERTIES LABELS fast ENVIRONMENT PENDULAR_SHARE_SMALL_WORK=1)
     gtest_discover_tests(${name} ${options} TEST_FILTER "${heavy}" TEST_LIST ${name}Heavy
-        PROPERTIES LABELS heavy ENVIRONMENT OMP_WAIT_POLICY=passive)
+        PROPERTIES LABELS heavy ENVIRONMENT PENDULAR_SHARE_SMALL_WORK=1)
     gtest_discover_tests(${name} ${options} TEST_FILTER "${long}" TEST_LIST ${name}Long
-        PROPERTIES LABELS long ENVIRONMENT OMP_WAIT_POLICY=passive)
+        PROPERTIES LABELS long ENVIRONMENT PENDULAR_SHARE_SMALL_WORK=1)
 endfunction()
 
 file(GLOB_RECURSE testFolders CONFIGURE_DEPENDS RELATIVE "${selfTests}" "${selfTests}/*/*Test.cpp")

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "Kernel/Parallel.h"
+
+// How work is shared by threads.
+
+namespace pendular {
+namespace {
+
+void expectEachOnce(std::size_t count, int threads, std::size_t least) {
+    std::vector<std::atomic<int>> done(count);
+    inParts(
+        count, threads,
+        [&](int part, std::size_t begin, std::size_t end) {
+            EXPECT_GE(part, 0);
+            EXPECT_LT(part, threads);
+            for (std::size_t k = begin; k < end; ++k) ++done[k];
+        },
+        least);
+    for (const auto& times : done) ASSERT_EQ(times, 1);
+}
+
+TEST(Threads, shareAllOfTheWorkOnce) {
+    for (const std::size_t count : {0, 1, 2, 7, 1000, 100003})
+        for (const int threads : {1, 2, 3, 8, 17})
+            for (const std::size_t least : {1, 10, 5000}) expectEachOnce(count, threads, least);
+}
+
+TEST(Threads, areReallySeveral) {
+    std::atomic<int> met = 0;
+    inParts(3, 3, [&](int, std::size_t, std::size_t) {
+        ++met;
+        while (met < 3) std::this_thread::yield();  // each waits for the others
+    });
+    EXPECT_EQ(met, 3);
+}
+
+TEST(Threads, throwTheFirstFailureWhenAllHaveEnded) {
+    for (int repeat = 0; repeat < 100; ++repeat) {
+        std::atomic<int> ended = 0;
+        try {
+            inParts(5, 5, [&](int part, std::size_t, std::size_t) {
+                ++ended;
+                if (part == 2 || part == 4) throw std::runtime_error(std::to_string(part));
+            });
+            FAIL() << "nothing was thrown";
+        } catch (const std::runtime_error& error) {
+            EXPECT_STREQ(error.what(), "2");
+        }
+        EXPECT_EQ(ended, 5);
+    }
+}
+
+TEST(Threads, workWithinWorkAndBesideOtherWorkIsDone) {
+    std::atomic<std::size_t> sum = 0;
+    const auto add = [&](int, std::size_t begin, std::size_t end) { sum += end - begin; };
+    inParts(4, 4, [&](int, std::size_t, std::size_t) { inParts(100, 3, add); });
+    EXPECT_EQ(sum, 400u);
+    sum = 0;
+    std::vector<std::thread> others;
+    for (int k = 0; k < 4; ++k)
+        others.emplace_back([&] {
+            for (int repeat = 0; repeat < 200; ++repeat) inParts(10, 2, add);
+        });
+    for (std::thread& other : others) other.join();
+    EXPECT_EQ(sum, 8000u);
+}
+
+TEST(Threads, aCopyOfTheProcessHasItsOwn) {
+    expectEachOnce(100, 3, 1);
+    const pid_t child = fork();
+    if (child == 0) {
+        std::atomic<std::size_t> sum = 0;
+        inParts(100, 3, [&](int, std::size_t begin, std::size_t end) { sum += end - begin; });
+        _exit(sum == 100 ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+    expectEachOnce(100, 3, 1);
+}
+
+// Many more threads than processors, and many short calls: each has to end, however threads are scheduled.
+TEST(Threads, thatOutnumberTheProcessorsDoNotCollapse) {
+    std::atomic<std::size_t> sum = 0;
+    for (int repeat = 0; repeat < 2000; ++repeat)
+        inParts(20, 20, [&](int, std::size_t begin, std::size_t end) { sum += end - begin; });
+    EXPECT_EQ(sum, 40000u);
+}
+
+}  // namespace
+}  // namespace pendular
