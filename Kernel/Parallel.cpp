@@ -24,8 +24,8 @@ inline void pause() {
 template <class Number>
 void waitWhile(const std::atomic<Number>& number, Number value, bool awake) {
     if (awake) {
-        // The parts of a step follow each other within some microseconds; a thread wakes in tens of them.
-        constexpr auto longest = std::chrono::microseconds(30);
+        // The parts of a step follow each other within some microseconds; a thread wakes in some fifty.
+        constexpr auto longest = std::chrono::microseconds(200);
         const auto start = std::chrono::steady_clock::now();
         do {
             for (int k = 0; k < 32; ++k) {

@@ -319,7 +319,7 @@ private:
                         bucket.wall >= 0 ? second : grains.identity[second]);
     }
 
-    static constexpr std::size_t worthAThread = 512;  // grains or blocks
+    static constexpr std::size_t worthAThread = 128;  // grains or blocks
     const ContactLaws& laws;
     const WallHandler& walls;
     const PeriodicBox& periodic;

@@ -138,7 +138,7 @@ private:
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
-    static constexpr std::size_t blocksWorthAThread = 256;
+    static constexpr std::size_t blocksWorthAThread = 32;
     [[nodiscard]] std::size_t slotOf(const ObservedContact& seen) const;
     /// None of a grain that came after the list.
     [[nodiscard]] std::span<const std::uint32_t> sidesOf(std::uint32_t place) const {

@@ -91,7 +91,7 @@ private:
         }
     }
 
-    static constexpr std::size_t worthAThread = 2048;  // contacts
+    static constexpr std::size_t worthAThread = 256;  // contacts
     std::vector<std::vector<HandOver>> handOvers;      // of each thread
 };
 

@@ -14,7 +14,7 @@ template <bool hasSpin, bool hasContactTorque>
 class Loops {
 public:
     using Grains = ParticleStore;
-    static constexpr std::size_t grainsWorthAThread = 2048;
+    static constexpr std::size_t grainsWorthAThread = 512;
 
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
     /// if one is not a number.
