@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <deque>
-#include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace pendular {
@@ -44,22 +44,11 @@ public:
 
     /// False, and nothing is done, where the threads are at work already.
     bool run(int count, void (*call)(void*, int), void* context) {
-        const std::unique_lock lock(busy, std::try_to_lock);
-        if (!lock.owns_lock()) return false;
-        const auto helpers = static_cast<std::size_t>(count - 1);
-        while (workers.size() < helpers) addWorker();
-        staysAwake.store(count <= processorCount(), std::memory_order_relaxed);
-        work = {call, context};
-        open.store(count - 1, std::memory_order_relaxed);
-        for (std::size_t k = 0; k < helpers; ++k) {
-            workers[k].turn.fetch_add(1, std::memory_order_release);
-            workers[k].turn.notify_one();
-        }
-        call(context, 0);
-        for (int left = open.load(std::memory_order_acquire); left > 0;
-             left = open.load(std::memory_order_acquire))
-            waitWhile(open, left, staysAwake.load(std::memory_order_relaxed));
-        return true;
+        if (busy.test_and_set(std::memory_order_acquire)) return false;
+        const bool areThere = hasWorkers(static_cast<std::size_t>(count - 1));
+        if (areThere) share(count, call, context);
+        busy.clear(std::memory_order_release);
+        return areThere;
     }
 
 private:
@@ -71,10 +60,33 @@ private:
         std::atomic<std::uint32_t> turn{0};
     };
 
-    void addWorker() {
-        Worker& worker = workers.emplace_back();
-        const auto part = static_cast<int>(workers.size());
-        std::thread([this, &worker, part] { serve(worker, part); }).detach();
+    void share(int count, void (*call)(void*, int), void* context) {
+        const auto helpers = static_cast<std::size_t>(count - 1);
+        staysAwake.store(count <= processorCount(), std::memory_order_relaxed);
+        work = {call, context};
+        open.store(count - 1, std::memory_order_relaxed);
+        for (std::size_t k = 0; k < helpers; ++k) {
+            workers[k].turn.fetch_add(1, std::memory_order_release);
+            workers[k].turn.notify_one();
+        }
+        call(context, 0);
+        for (int left = open.load(std::memory_order_acquire); left > 0;
+             left = open.load(std::memory_order_acquire))
+            waitWhile(open, left, staysAwake.load(std::memory_order_relaxed));
+    }
+    /// Makes what is missing; false where the system gives no more threads.
+    bool hasWorkers(std::size_t wanted) {
+        while (workers.size() < wanted) {
+            Worker& worker = workers.emplace_back();
+            const auto part = static_cast<int>(workers.size());
+            try {
+                std::thread([this, &worker, part] { serve(worker, part); }).detach();
+            } catch (const std::system_error&) {
+                workers.pop_back();
+                return false;
+            }
+        }
+        return true;
     }
     void serve(Worker& worker, int part) {
         for (std::uint32_t seen = 0;; ++seen) {
@@ -85,7 +97,7 @@ private:
     }
 
     const pid_t process = getpid();
-    std::mutex busy;
+    std::atomic_flag busy;
     std::deque<Worker> workers;  // a reference to one stays valid
     Work work;
     alignas(64) std::atomic<int> open{0};

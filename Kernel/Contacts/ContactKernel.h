@@ -95,7 +95,8 @@ public:
         const NormalPart normal =
             computeNormal(block, state, g, last, touching, begins, adhesive, resistance.normal);
         Pack normalForce = normal.repulsion - adhesive;
-        if constexpr (resists != BridgeResists::Nothing) normalForce = normalForce + normal.viscous;
+        if constexpr (resists != BridgeResists::Nothing)
+            normalForce = normalForce + select(bridged, normal.viscous, Pack(0));
         if (ledger) [[unlikely]]
             writeSamples(block, g, normal, adhesive, touching, bridged);
         Vector<Pack> tangential = zero, lastTorque = zero;
@@ -150,17 +151,21 @@ private:
 
         const Pack halfStep = Pack(0.5 * implicitStep) * g.inverseMass;
         const Pack predicted = dot(g.velocity, g.normal);
+        const auto withBridge = [&](Pack damping) {
+            if constexpr (resists != BridgeResists::Nothing) return damping + resistance;
+            else return damping;
+        };
         const auto approachWith = [&](Pack damping) {
-            if constexpr (resists != BridgeResists::Nothing) damping = damping + resistance;
             return (predicted - halfStep * (force.elastic - adhesive - last.normalForce)) /
-                   (Pack(1) + halfStep * damping);
+                   (Pack(1) + halfStep * withBridge(damping));
         };
 
         part.damping = force.damping;
         part.approach = approachWith(part.damping);
         part.timing = {Pack(0.5), Pack(0.5)};
-        const Pack acceleration = Pack(-timeStep * timeStep) * g.inverseMass *
-                                  (force.elastic + part.damping * part.approach - adhesive);  // m/step^2
+        const Pack acceleration =
+            Pack(-timeStep * timeStep) * g.inverseMass *
+            (force.elastic + withBridge(part.damping) * part.approach - adhesive);  // m/step^2
         const Pack approachInStep = part.approach * timeStep;
         const Pack nextOverlap = g.overlap + approachInStep + Pack(0.5) * acceleration;
         part.closing = touching & (part.approach < Pack(0)) & (nextOverlap <= Pack(0)) &
@@ -247,7 +252,8 @@ private:
             motion.roll = cross(g.normal, g.effectiveRadius * g.spinDifference +
                                               (motion.rollResponse / g.effectiveRadius) * (own - lastTorque));
         }
-        const BridgeDrag<Pack> drag = bridgeDrag(resistance, motion, g.normal);
+        BridgeDrag<Pack> drag = bridgeDrag(resistance, motion, g.normal);
+        drag = {select(bridged, drag.force, zero), select(bridged, drag.torque, zero)};
         if constexpr (resists >= BridgeResists::Rolling)
             storeTorques(block, own + g.effectiveRadius * drag.torque);
         if (ledger) [[unlikely]]

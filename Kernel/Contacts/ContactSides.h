@@ -70,14 +70,18 @@ public:
 
     /// The contact of a grain has got memory.
     /// @param contactOf the contact at a place in the memory
-    template <class ContactOf, class KeyOf>
+    /// @param isListed of a contact: not of one that ended because a grain was removed, whose places mean
+    /// nothing any more
+    template <class ContactOf, class KeyOf, class IsListed>
     void wake(std::uint32_t grain, std::uint32_t contact, std::uint32_t which, std::uint32_t slot,
-              ContactOf&& contactOf, KeyOf&& keyOf) {
+              ContactOf&& contactOf, KeyOf&& keyOf, IsListed&& isListed) {
         const auto begin = sides.begin() + begins[grain], end = sides.begin() + ends[grain];
         const auto self = std::find(end, sides.begin() + begins[grain + 1], 2 * contact + which);
         const std::uint64_t key = keyOf(contact, which);
-        const auto place = std::find_if(
-            begin, end, [&](std::uint32_t side) { return keyOf(contactOf(side / 2), side & 1) > key; });
+        const auto place = std::find_if(begin, end, [&](std::uint32_t side) {
+            const std::uint32_t other = contactOf(side / 2);
+            return isListed(other) && keyOf(other, side & 1) > key;
+        });
         std::rotate(place, self, self + 1);
         *place = 2 * slot + which;
         ++ends[grain];

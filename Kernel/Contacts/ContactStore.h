@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,6 +21,17 @@ namespace pendular {
 struct alignas(64) ContactBlock {
     std::array<std::uint32_t, Pack::lanes> first{};
     std::array<std::uint32_t, Pack::lanes> second{};  // at walls: the part of the wall
+
+    /// Gives lanes that hold no contact the places of the first that does, so that they are computed from
+    /// bodies that there are, and come to nothing.
+    void pointToListed(std::uint8_t listed) {
+        const auto good = static_cast<std::size_t>(std::countr_zero(listed));
+        for (std::size_t lane = 0; listed != 0 && lane < Pack::lanes; ++lane) {
+            if ((listed >> lane & 1) != 0) continue;
+            first[lane] = first[good];
+            second[lane] = second[good];
+        }
+    }
 };
 
 /// Where the eight grains of a block are nearest to their wall, in this step.

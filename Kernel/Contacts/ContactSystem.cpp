@@ -165,6 +165,7 @@ double ContactSystem::endContact(const Grains& grains, std::uint32_t contact) {
     BlockState& state = contacts.states[block];
     for (std::uint8_t* bits : {&state.listed, &state.touching, &state.bridged, &state.closing})
         *bits &= others;
+    if (block < contacts.firstWallBlock()) contacts.blocks[block].pointToListed(state.listed);
     if (contacts.slots[block] == ContactStore::asleep) return 0;
     return contacts.memory.clear(contacts.slotOf(contact));
 }
@@ -302,12 +303,15 @@ void ContactSystem::wake(std::size_t block, const Bucket& bucket, const Grains& 
     const auto keyOf = [&](std::uint32_t contact, std::uint32_t which) {
         return contacts.keyOf(contact, which, grains.identity);
     };
+    const auto isListed = [&](std::uint32_t contact) {
+        return ContactStore::bitOf(contacts.states[contact / Pack::lanes].listed, contact);
+    };
     for (std::uint32_t lane = 0; lane < Pack::lanes; ++lane) {
-        if (!contacts.bitOf(contacts.states[block].listed, lane)) continue;
+        if (!isListed(static_cast<std::uint32_t>(block * Pack::lanes + lane))) continue;
         const auto contact = static_cast<std::uint32_t>(block * Pack::lanes + lane);
         const auto slot = static_cast<std::uint32_t>(contacts.slotOf(contact));
         const auto wakeSide = [&](std::uint32_t place, std::uint32_t which) {
-            contacts.sides.wake(place, contact, which, slot, contactOf, keyOf);
+            contacts.sides.wake(place, contact, which, slot, contactOf, keyOf, isListed);
         };
         wakeSide(contacts.blocks[block].first[lane], 0);
         if (bucket.wall < 0) wakeSide(contacts.blocks[block].second[lane], 1);

@@ -18,7 +18,7 @@ struct ForceAndTorque<false> {
     Four force{};  // N
 };
 
-/// The sum over the contacts of the grain at a place, always in the order of the list: no scatter, no
+/// The sum over the contacts of the grain at a place, always in the order of its partners: no scatter, no
 /// atomics, and the same bits for any number of threads. Contacts with memory that do not act at the moment
 /// add zeros, which is cheaper than to ask. A record with torque is one Pack, weighted by the side's sign for
 /// the force and by the grain's lever arm for the torque.

@@ -92,7 +92,7 @@ private:
     }
 
     static constexpr std::size_t worthAThread = 256;  // contacts
-    std::vector<std::vector<HandOver>> handOvers;      // of each thread
+    std::vector<std::vector<HandOver>> handOvers;     // of each thread
 };
 
 }  // namespace pendular

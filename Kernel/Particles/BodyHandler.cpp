@@ -12,35 +12,63 @@ namespace pendular {
 
 namespace {
 
+/// A grain that is to be joined.
+struct Sphere {
+    double mass, radius;                      // kg, m
+    Vec3D position, velocity, spin;           // m, m/s, rad/s; the image nearest to the first grain
+    Vec3D acceleration, angularAcceleration;  // m/s^2, rad/s^2, of the last step
+
+    /// kg m^2, about its own centre
+    [[nodiscard]] double inertia() const { return 0.4 * mass * radius * radius; }
+};
+
+std::vector<Sphere> spheresOf(ParticleHandler& particles, const PeriodicBox& periodic,
+                              std::span<const std::uint32_t> identities) {
+    const ParticleStore& grains = particles.store();
+    const Vector<double> origin = grains.translation[grains.place[identities[0]]].position;
+    std::vector<Sphere> spheres;
+    for (const std::uint32_t identity : identities) {
+        const std::uint32_t place = grains.place[identity];
+        const TranslationRecord& grain = grains.translation[place];
+        const Vector<double> image = origin + periodic.nearest(grain.position - origin);
+        const RotationRecord turning = grains.hasSpin ? grains.rotation[place] : RotationRecord{};
+        spheres.push_back({1 / grain.inverseMass, grain.radius, toEigen(image), toEigen(grain.velocity),
+                           toEigen(turning.spin), toEigen(grains.acceleration[place]),
+                           toEigen(turning.angularAcceleration)});
+    }
+    return spheres;
+}
+
 /// Of solid spheres that do not overlap, about their common centre of mass.
 struct SphereSums {
     double mass = 0;                                    // kg
     Vec3D centre = Vec3D::Zero();                       // m
     Vec3D velocity = Vec3D::Zero();                     // m/s
+    Vec3D acceleration = Vec3D::Zero();                 // m/s^2
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // kg m^2
     Vec3D angularMomentum = Vec3D::Zero();              // kg m^2/s
+    Vec3D torque = Vec3D::Zero();                       // N m
     double largest = 0;                                 // kg, of one sphere
 };
 
-SphereSums sumSpheres(ParticleHandler& particles, std::span<const std::uint32_t> identities) {
+SphereSums sumSpheres(const std::vector<Sphere>& spheres) {
     SphereSums sums;
-    for (const std::uint32_t identity : identities) {
-        const GrainReference grain = particles.getObject(identity);
-        const double mass = grain.getMass();
-        sums.mass += mass;
-        sums.centre += mass * grain.getPosition();
-        sums.velocity += mass * grain.getVelocity();
-        sums.largest = std::max(sums.largest, mass);
+    for (const Sphere& sphere : spheres) {
+        sums.mass += sphere.mass;
+        sums.centre += sphere.mass * sphere.position;
+        sums.velocity += sphere.mass * sphere.velocity;
+        sums.acceleration += sphere.mass * sphere.acceleration;
+        sums.largest = std::max(sums.largest, sphere.mass);
     }
-    sums.centre /= sums.mass;
-    sums.velocity /= sums.mass;
-    for (const std::uint32_t identity : identities) {
-        const GrainReference grain = particles.getObject(identity);
-        const double mass = grain.getMass(), own = 0.4 * mass * grain.getRadius() * grain.getRadius();
-        const Vec3D arm = grain.getPosition() - sums.centre;
+    for (Vec3D* sum : {&sums.centre, &sums.velocity, &sums.acceleration}) *sum /= sums.mass;
+    for (const Sphere& sphere : spheres) {
+        const Vec3D arm = sphere.position - sums.centre;
         const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
-        sums.inertia += own * one + mass * (arm.squaredNorm() * one - arm * arm.transpose());
-        sums.angularMomentum += own * grain.getAngularVelocity() + mass * arm.cross(grain.getVelocity());
+        sums.inertia +=
+            sphere.inertia() * one + sphere.mass * (arm.squaredNorm() * one - arm * arm.transpose());
+        sums.angularMomentum += sphere.inertia() * sphere.spin + sphere.mass * arm.cross(sphere.velocity);
+        sums.torque +=
+            sphere.inertia() * sphere.angularAcceleration + sphere.mass * arm.cross(sphere.acceleration);
     }
     return sums;
 }
@@ -60,13 +88,11 @@ void requireJoinable(ParticleHandler& particles, std::span<const std::uint32_t> 
     }
 }
 
-void refuseOverlaps(ParticleHandler& particles, std::span<const std::uint32_t> identities) {
-    for (std::size_t a = 0; a < identities.size(); ++a)
-        for (std::size_t b = a + 1; b < identities.size(); ++b) {
-            const GrainReference first = particles.getObject(identities[a]),
-                                 second = particles.getObject(identities[b]);
-            const double sum = first.getRadius() + second.getRadius();
-            const double overlap = sum - (first.getPosition() - second.getPosition()).norm();
+void refuseOverlaps(const std::vector<Sphere>& spheres, std::span<const std::uint32_t> identities) {
+    for (std::size_t a = 0; a < spheres.size(); ++a)
+        for (std::size_t b = a + 1; b < spheres.size(); ++b) {
+            const double sum = spheres[a].radius + spheres[b].radius;
+            const double overlap = sum - (spheres[a].position - spheres[b].position).norm();
             if (overlap > 1e-9 * sum)
                 throw InputError(fmt::format(
                     "particles {} and {} of a rigid body overlap by {:.3g} m, so that their masses "
@@ -129,25 +155,28 @@ void BodyReference::setAngularVelocity(const Vec3D& spin) {
 BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
                                 const std::optional<BodyMass>& mass) {
     requireJoinable(particles, identities);
-    const SphereSums spheres = sumSpheres(particles, identities);
-    if (!mass) refuseOverlaps(particles, identities);
-    const BodyMass own = mass.value_or(BodyMass{spheres.mass, spheres.centre, spheres.inertia});
+    const std::vector<Sphere> spheres = spheresOf(particles, periodic, identities);
+    const SphereSums sums = sumSpheres(spheres);
+    if (!mass) refuseOverlaps(spheres, identities);
+    const BodyMass own = mass.value_or(BodyMass{sums.mass, sums.centre, sums.inertia});
     checkValue("rigid body", "mass", own.mass, "kg", positive);
     for (const double part : own.centre) checkValue("rigid body", "centre", part, "m", anyFinite);
     const auto [moments, axes] = principalAxes(own.inertia);
+    const Vec3D spin = sums.inertia.ldlt().solve(sums.angularMomentum);
     RigidBody body{.mass = own.mass,
                    .inertia = toVector(moments),
                    .position = toVector(own.centre),
-                   .velocity = toVector(spheres.velocity),
+                   .velocity = toVector(sums.velocity + spin.cross(own.centre - sums.centre)),
+                   .acceleration = toVector(sums.acceleration),
+                   .torque = toVector(sums.torque),
                    .orientation = {axes.w(), toVector(axes.vec())},
-                   .largestFreeMass = spheres.largest};
-    body.setSpin(toVector(spheres.inertia.ldlt().solve(spheres.angularMomentum)));
-    ParticleStore& grains = particles.store();
+                   .largestFreeMass = sums.largest};
+    body.setSpin(toVector(spin));
     std::vector<BodyMember> members;
-    for (const std::uint32_t identity : identities)
+    for (std::size_t k = 0; k < spheres.size(); ++k)
         members.push_back(
-            {identity,
-             body.orientation.turnBack(grains.translation[grains.place[identity]].position - body.position)});
+            {identities[k], body.orientation.turnBack(toVector(spheres[k].position) - body.position)});
+    ParticleStore& grains = particles.store();
     const std::uint32_t number = grains.bodies.add(body, members);
     grains.bodies.place(grains, grains.bodies.size() - 1);
     particles.noteJoined(identities);

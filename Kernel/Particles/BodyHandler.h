@@ -5,6 +5,7 @@
 #include <span>
 
 #include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
 
@@ -56,11 +57,13 @@ private:
 /// looked for. Everything else about them is as before: laws, walls, outputs.
 class BodyHandler {
 public:
-    explicit BodyHandler(ParticleHandler& particleHandler) : particles(particleHandler) {}
+    BodyHandler(ParticleHandler& particleHandler, const PeriodicBox& periodicBox)
+        : particles(particleHandler), periodic(periodicBox) {}
 
-    /// Joins grains to a body, which takes over their momentum and angular momentum. The mass is that of the
-    /// spheres, if it is not given. Throws InputError for grains that are held, or in a body already; that
-    /// overlap without a given mass; or for a mass or an inertia that no body can have.
+    /// Joins grains to a body, which takes over the motion of their spheres: momentum and angular momentum,
+    /// if it has their mass. That is so if none is given. In a periodic scene the nearest images are joined.
+    /// Throws InputError for grains that are held, or in a body already; that overlap without a given mass;
+    /// or for a mass or an inertia that no body can have.
     BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass = {});
     BodyReference join(std::initializer_list<std::uint32_t> identities,
                        const std::optional<BodyMass>& mass = {}) {
@@ -77,6 +80,7 @@ public:
 
 private:
     ParticleHandler& particles;
+    const PeriodicBox& periodic;
 };
 
 }  // namespace pendular

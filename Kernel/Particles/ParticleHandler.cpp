@@ -19,6 +19,12 @@ Vector<double> finite(std::uint32_t grain, std::string_view field, const Vec3D& 
     return toVector(value);
 }
 
+/// Of a grain that begins to move.
+void setAcceleration(ParticleStore& grains, std::uint32_t at, const Vector<double>& acceleration) {
+    grains.acceleration[at] = acceleration;
+    if (!grains.earlier.empty()) grains.earlier[at].acceleration = acceleration;
+}
+
 /// Of a solid sphere, as the store has it: 5/2 of 1 / (m r^2).
 void setMass(ParticleStore& grains, std::uint32_t at, double inverseMass) {
     TranslationRecord& grain = grains.translation[at];
@@ -91,6 +97,7 @@ void GrainReference::fixParticle(bool fix) {
         if (grains.hasSpin) grains.rotation[at].spin = grains.rotation[at].angularAcceleration = {0, 0, 0};
         if (!grains.earlier.empty()) grains.earlier[at] = {};
     }
+    if (isLetGo) setAcceleration(grains, at, handler->gravity);
     (isLetGo ? handler->changes.placed : handler->changes.altered).push_back(number);
 }
 
@@ -132,6 +139,7 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
     const std::uint32_t identity =
         grains.add(record, grain.isFixed() ? nothing : toVector(grain.getAngularVelocity()),
                    static_cast<std::uint16_t>(grain.getSpeciesIndex()));
+    if (!grain.isFixed()) setAcceleration(grains, grains.place[identity], gravity);
     changes.added.push_back(identity);
     return {*this, identity};
 }

@@ -87,6 +87,8 @@ public:
     ParticleHandler() = default;
     ParticleHandler(const ParticleHandler&) = delete;
     void setLaws(const ContactLaws& of);
+    /// m/s^2: the acceleration of a grain that is added or let go, of which no step has found another yet.
+    void setGravity(const Vector<double>& acceleration) { gravity = acceleration; }
     /// When the laws are known: grains of a scene without friction have no spin.
     void settleSpin();
 
@@ -164,6 +166,7 @@ private:
     const ContactLaws* laws = nullptr;
     Grains grains;
     GrainChanges changes;
+    Vector<double> gravity{0, 0, 0};  // m/s^2
     std::function<void(std::uint32_t)> beforeRemoval;
 };
 

@@ -99,6 +99,7 @@ void ParticleStore::visitColumns(StateArchive& archive) {
     requireWhole(archive);
     if (!archive.isReading()) return;
     place.clear();
+    gaps.clear();
     for (std::size_t k = 0; k < size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
 }
 

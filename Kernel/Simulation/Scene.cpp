@@ -58,6 +58,7 @@ void Scene::requireSetUp(std::string_view what) const {
 void Scene::setGravity(const Vec3D& acceleration) {
     for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
     gravity = toVector(acceleration);
+    particleHandler.setGravity(gravity);
     gravityChanged |= hasBegun();
 }
 
@@ -185,8 +186,6 @@ void Scene::takeOverChanges() {
         const bool newBodies = changedWalls || !changes.placed.empty() || !changes.altered.empty();
         if (newLaws || newBodies || getTimeStep() != checkedStep || isNewToChecks(changes.added)) check();
         ParticleStore& grains = particleHandler.store();
-        for (const std::uint32_t identity : changes.added)  // there was no step that could have found it
-            if (grains.isFree(grains.place[identity])) grains.acceleration[grains.place[identity]] = gravity;
         const bool isRenewed = newLaws || newBodies;
         if (!isRenewed && contactSystem.takeIn(grains, changes.added)) return;
         bookEnded(contactSystem.renew(grains));
@@ -287,6 +286,7 @@ void Scene::visitSurroundings(StateArchive& archive) {
     constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
     archive.value("gravityChanged", gravityChanged);
     if (gravityChanged) archive.finite("gravity", gravity);
+    particleHandler.setGravity(gravity);
     for (std::size_t k = 0; k < 3; ++k) {
         if (!gravityChanged)
             archive.group("gravity", [&] { archive.same(axes[k], gravity.*along[k], "m/s^2"); });

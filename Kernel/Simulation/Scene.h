@@ -30,7 +30,7 @@ public:
 
     ParticleHandler particleHandler;
     /// Grains that are joined to rigid bodies.
-    BodyHandler bodyHandler{particleHandler};
+    BodyHandler bodyHandler{particleHandler, periodic};
     WallHandler wallHandler;
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If

@@ -257,6 +257,25 @@ TYPED_TEST(MovingBridgeCloud, givesTheSameBitsForAnyThreadsListsAndRestarts) {
     support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
 }
 
+// The partners of a grain that is removed go on, with the bits of a scene that lists its contacts in each
+// step.
+TYPED_TEST(MovingBridgeCloud, outlivesAGrainThatIsRemoved) {
+    Cloud<TypeParam> one, relisted;
+    one.initialise();
+    relisted.initialise();
+    for (int k = 0; k < 600; ++k) {
+        if (k == 200)
+            for (Cloud<TypeParam>* cloud : {&one, &relisted})
+                for (const std::size_t gone : {13, 14, 4}) cloud->particleHandler.removeObject(gone);
+        auto grain = relisted.particleHandler.getObject(5);
+        grain.setRadius(grain.getRadius());
+        one.step();
+        relisted.step();
+        ASSERT_TRUE(one.motion(12).velocity.allFinite()) << k;
+        ASSERT_EQ(one.hash(), relisted.hash()) << k;
+    }
+}
+
 TEST(MovingBridge, remembersItsAgeThroughListsAndChangesOfItsLaw) {
     const double step = 1e-6;
     FewGrains<Approach> scene(species<Approach>({.normal = 0.02}),

@@ -29,6 +29,10 @@ using Smooth = Species<LinearViscoelastic>;
 using Rough = Species<LinearViscoelastic, SlidingFriction>;
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
+double mass(double radius, double density) {
+    return 4.0 / 3 * std::numbers::pi * radius * radius * radius * density;
+}
+
 /// A body of moments 1, 2, 3 kg m^2 that spins about all axes.
 RigidBody top(const Vector<double>& spin) {
     RigidBody body{.mass = 1, .inertia = {1, 2, 3}};
@@ -317,6 +321,25 @@ TEST(RigidBody, goesThroughAPeriodicSceneWhole) {
     }
     EXPECT_TRUE(hits);  // the grain beyond the face
     EXPECT_GT(scene.motion(2).velocity.x(), 0.1);
+}
+
+// Two grains that touch across the face of the scene are joined as the near images that they are; and a body
+// of given mass and centre takes over the motion of its grains.
+TEST(RigidBody, joinsNearestImagesAndKeepsTheirMotion) {
+    constexpr double r = 1e-3;
+    FewGrains<Smooth> scene(smooth(1000, 2500),
+                            {{.radius = r, .position = {0.5 * r, 0, 0}, .velocity = {0, 0.1, 0}},
+                             {.radius = r, .position = {8.5 * r, 0, 0}, .velocity = {0, -0.1, 0}}},
+                            2e-6);
+    scene.setPeriodic(0, 0, 10 * r);
+    const double m = mass(r, 2500);
+    BodyMass own{3 * m, {0.5 * r, 0, 0}, Vec3D(0.8, 4, 4).asDiagonal() * (m * r * r)};
+    BodyReference body = scene.bodyHandler.join({0, 1}, own);
+    // The first is at 2 r from the second, at the far side of the face: they turn about their middle.
+    EXPECT_NEAR(body.getAngularVelocity().z() / (0.2 / (2 * r) * (2 / 2.8)), 1, 1e-12);
+    EXPECT_NEAR((scene.motion(0).position - Vec3D(0.5 * r, 0, 0)).norm(), 0, 1e-15);
+    EXPECT_NEAR((scene.motion(1).position - Vec3D(-1.5 * r, 0, 0)).norm(), 0, 1e-15);
+    EXPECT_NEAR(scene.motion(0).velocity.y() + scene.motion(1).velocity.y(), 0, 1e-15);
 }
 
 TEST(RigidBody, comesAndGoesInARun) {

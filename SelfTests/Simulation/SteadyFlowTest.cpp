@@ -3,6 +3,7 @@
 #include <deque>
 
 #include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
@@ -102,6 +103,91 @@ TEST(SteadyFlow, theContactsOfAGrainGoWithIt) {
     EXPECT_EQ(scene.contacts().rebuildCount(), lists);  // so that the old sides were there
     EXPECT_NEAR(scene.particleHandler.getObject(added).getVelocity().z() / (-9.81 * 5 * scene.getTimeStep()),
                 1, 1e-12);
+}
+
+/// Settling grains of which neighbours that touch are taken away, two at a time, and others come into their
+/// places from above, while blocks of contacts wake.
+template <class S>
+struct Thinned : scenes::SettlingBox<S> {
+    explicit Thinned(bool listsAlways) : scenes::SettlingBox<S>(5), always(listsAlways) {}
+
+    void actionsBeforeTimeStep() override {
+        const std::size_t step = this->getNumberOfTimeSteps();
+        if (always) {
+            GrainReference any = *this->particleHandler.begin();
+            any.setRadius(any.getRadius());
+        }
+        if (step < 500 || step % 40 != 0) return;
+        for (const ObservedContact& contact : this->interactions()) {
+            if (!contact.touching || contact.wall >= 0) continue;
+            this->particleHandler.removeObject(contact.particle1);
+            this->particleHandler.removeObject(contact.particle2);
+            ++removed;
+            break;
+        }
+        for (const double x : {0.3, 0.7}) {
+            SphericalParticle grain;
+            grain.setRadius(this->smallRadius);
+            grain.setSpecies(this->speciesHandler.getObject(0));
+            grain.setPosition({x * this->width, 0.5 * this->width, 0.013});
+            bool isRoom = true;
+            for (GrainReference other : this->particleHandler)
+                isRoom &= (other.getPosition() - grain.getPosition()).norm() >
+                          1.01 * (other.getRadius() + this->smallRadius);
+            if (isRoom) this->particleHandler.copyAndAddObject(grain);
+        }
+    }
+    bool always;
+    int removed = 0;
+};
+
+template <class S>
+class Thinning : public testing::Test {};
+using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
+using Kinds = testing::Types<Rough, Species<HertzianViscoelastic>, Wet>;
+TYPED_TEST_SUITE(Thinning, Kinds);
+
+TYPED_TEST(Thinning, givesTheSameBitsHoweverOftenContactsAreListed) {
+    Thinned<TypeParam> rarely(false), always(true);
+    rarely.initialise();
+    always.initialise();
+    for (int k = 0; k < 1400; ++k) {
+        rarely.step();
+        always.step();
+        ASSERT_EQ(stateHash(rarely.particleHandler.store()), stateHash(always.particleHandler.store())) << k;
+    }
+    EXPECT_GT(rarely.removed, 10);
+    EXPECT_LT(rarely.contacts().rebuildCount(), 700u);
+}
+
+// A grain that is added, one that is let go, and two that are joined in a run fall from their first step on,
+// with each integrator.
+TEST(SteadyFlow, whatBeginsToMoveInARunHasItsWeightAtOnce) {
+    for (const Integrator& scheme : integrators::all) {
+        scenes::FewGrains<Rough> scene(scenes::boxMaterial<Rough>(0),
+                                       {{.radius = r, .position = {0, 0, 0}, .fixed = true}}, 2e-6);
+        scene.setGravity({0, 0, -9.81});
+        scene.setIntegrator(scheme);
+        scene.run(10);
+        const auto add = [&](const Vec3D& position) {
+            SphericalParticle grain;
+            grain.setRadius(r);
+            grain.setSpecies(scene.speciesHandler.getObject(0));
+            grain.setPosition(position);
+            return scene.particleHandler.copyAndAddObject(grain).getId();
+        };
+        scene.particleHandler.getObject(0).fixParticle(false);
+        std::vector<std::uint32_t> falling{0, add({9 * r, 0, 0})};
+        if (!scheme.remembersEarlier()) {
+            const std::uint32_t a = add({0, 9 * r, 0}), b = add({0, 11.5 * r, 0});
+            scene.bodyHandler.join({a, b});
+            falling.push_back(a);
+        }
+        for (int k = 0; k < 50; ++k) scene.step();
+        for (const std::uint32_t grain : falling)
+            EXPECT_NEAR(scene.motion(grain).velocity.z() / (-9.81 * 50 * scene.getTimeStep()), 1, 1e-12)
+                << scheme.name << ", grain " << grain;
+    }
 }
 
 }  // namespace
