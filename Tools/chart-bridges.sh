@@ -10,7 +10,6 @@ read_options build scenes -- "$@"
 [[ $scenes == yes || $scenes == no ]] || refuse "--scenes is '$scenes'; it must be yes or no"
 require_program "$build/Tools/accuracy-versus-cost"
 [[ $scenes == no ]] || require_program "$build/Tools/bridge-scenes"
-export OMP_NUM_THREADS=1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -19,7 +18,7 @@ result() {  # name of the result, program, options...
     shift 2
     "$build/Tools/$program" "$@" --output "$work/$name.csv"
     {
-        "$tools/describe-machine.sh" "OMP_NUM_THREADS=1 Tools/$program $*; one thread"
+        "$tools/describe-machine.sh" "Tools/$program $*; one thread"
         cat "$work/$name.csv"
     } > "$tools/Results/$name.csv"
 }

@@ -7,7 +7,6 @@ build="$tools/../build/release"
 source "$tools/read-options.sh"
 read_options build -- "$@"
 require_program "$build/Tools/accuracy-versus-cost"
-export OMP_NUM_THREADS=1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 results="$tools/Results/contact-maps"
@@ -16,7 +15,7 @@ mkdir -p "$results"
 "$build/Tools/accuracy-versus-cost" --contact-maps --map-offsets 16 --output "$work"
 for table in "$work"/*.csv; do
     {
-        "$tools/describe-machine.sh" "OMP_NUM_THREADS=1 Tools/accuracy-versus-cost --contact-maps --map-offsets 16; one thread"
+        "$tools/describe-machine.sh" "Tools/accuracy-versus-cost --contact-maps --map-offsets 16; one thread"
         cat "$table"
     } > "$results/$(basename "$table")"
 done

@@ -14,7 +14,6 @@ require_number particles "$particles"
 require_number steps "$steps"
 require_program "$build/Tools/output-costs"
 [[ -z $bed ]] || command_line=${command_line/"$bed"/"${bed##*/}"}
-export OMP_NUM_THREADS=1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$tools/describe-machine.sh" "$command_line; threads: 1"

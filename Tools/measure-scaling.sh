@@ -13,7 +13,6 @@ require_number runs "$runs"
 require_number largest "$largest"
 require_file bed "$bed"
 require_program "$build/Tools/benchmark-scenes"
-export OMP_NUM_THREADS=1
 ours=$build/Tools/benchmark-scenes
 positions=(${bed:+--positions "$bed"})
 

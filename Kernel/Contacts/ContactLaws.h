@@ -8,10 +8,11 @@
 
 #include "Kernel/Contacts/ContactTiming.h"
 #include "Kernel/Contacts/OverlapWatch.h"
-#include "Kernel/Motion/Stiffness.h"
+#include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Species/Bodies.h"
 #include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
+#include "Kernel/Species/Stiffness.h"
 
 namespace pendular {
 
@@ -55,7 +56,7 @@ struct FieldValue {
 
 /// What a scene asks of the laws of its species, whatever they are: SpeciesLaws gives it for a species type,
 /// SeveralSpeciesLaws for species of several types. All functions of a pair take the indices of two species.
-class ContactLaws {
+class ContactLaws : public GrainSpecies {
 public:
     ContactLayout layout;
     std::string_view name, friction;
@@ -64,12 +65,12 @@ public:
     bool isPlastic = false;
     OverlapLimit overlapLimit;
 
-    virtual ~ContactLaws() = default;
-
     /// Those of a pair alone: their own names, layout and flags, where a scene has species of several types.
     [[nodiscard]] virtual const ContactLaws& ofPair(int /*a*/, int /*b*/) const { return *this; }
-    [[nodiscard]] virtual std::size_t speciesCount() const = 0;
-    [[nodiscard]] virtual double density(std::size_t species) const = 0;
+    [[nodiscard]] std::string_view typeName(std::size_t species) const final {
+        return ofPair(static_cast<int>(species), static_cast<int>(species)).name;
+    }
+    [[nodiscard]] bool turnGrains() const final { return layout.hasTorque; }
     virtual void mixAll() = 0;
     /// Whether a value of a species has been set since mixAll().
     [[nodiscard]] virtual bool hasChanged() const = 0;

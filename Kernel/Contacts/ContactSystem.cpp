@@ -83,58 +83,56 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts* r
 }
 
 bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> identities) {
+    if (identities.empty()) return true;
     // What acts at a distance may reach farther than all that the cells were made for.
-    if (species->actsApart && !identities.empty()) return false;
-    if (!takesInGrains) {  // from now on lists keep their cells; for this time, look at all grains
-        takesInGrains = true;
-        cells.reset();
-    }
-    if (late.size() + identities.size() > late.capacity())  // some have gone again: it does not grow for ever
-        std::erase_if(late, [&](std::uint32_t identity) { return !grains.place.contains(identity); });
+    if (species->actsApart) return false;
+    takesInGrains = true;
+    if (!cells) return false;  // the next list keeps them
+    std::erase_if(late, [&](std::uint32_t identity) { return !grains.place.contains(identity); });
     late.insert(late.end(), identities.begin(), identities.end());
-    for (const std::uint32_t identity : identities) {
-        const double gap = gapAround(grains, grains.place[identity]);
+    lateSpheres.clear();
+    for (const std::uint32_t identity : late) {
+        const TranslationRecord& grain = grains.translation[grains.place[identity]];
+        lateSpheres.push_back({grain.position, grain.radius});
+    }
+    for (std::size_t k = late.size() - identities.size(); k < late.size(); ++k) {
+        const double gap = gapAround(grains, k);
         if (!(gap > 0)) return false;
         listBefore = std::min(listBefore, unlisted + gap);
     }
     return true;
 }
 
-/// A lower bound (m) of how far bodies must approach before the grain at a place acts on another one, as far
-/// as the list's skin.
-double ContactSystem::gapAround(const Grains& grains, std::uint32_t place) const {
-    const TranslationRecord& grain = grains.translation[place];
+/// A lower bound (m) of how far bodies must approach before a grain that came late acts on another one, as
+/// far as the list's skin.
+double ContactSystem::gapAround(const Grains& grains, std::size_t number) const {
+    const std::uint32_t place = grains.place[late[number]];
+    const auto [centre, radius] = lateSpheres[number];
     double smallest = skin.width();
-    const auto look = [&](std::uint32_t other) {
-        if (other == place || grains.isGap(other)) return;
-        const TranslationRecord& body = grains.translation[other];
-        double reach = grain.radius + body.radius;
-        if (species->actsApart)
-            reach +=
-                species->range(grains.species[place], grains.species[other], {grain.radius, body.radius});
-        smallest = std::min(smallest, norm(periodic.nearest(body.position - grain.position)) - reach);
+    const auto look = [&](const Vector<double>& other, double otherRadius) {
+        const double touch = radius + otherRadius, reach = touch + smallest;
+        const Vector<double> apart = periodic.nearest(other - centre);
+        const double squared = dot(apart, apart);
+        if (squared < reach * reach) smallest = std::sqrt(squared) - touch;
     };
     // Bodies have moved by at most `unlisted` since the cells were filled; some came later.
-    if (cells && unlisted < infinity) cells->forEachNear(grain.position, grain.radius, unlisted, look);
-    if (cells) {
-        for (const std::uint32_t identity : late)
-            if (grains.place.contains(identity)) look(grains.place[identity]);
-    } else {
-        for (const std::uint32_t other : grains.place) look(other);
-    }
+    if (unlisted < infinity)
+        cells->forEachNear(centre, radius, unlisted, [&](std::uint32_t other) {
+            if (other != place && !grains.isGap(other))
+                look(grains.translation[other].position, grains.translation[other].radius);
+        });
+    for (std::size_t k = 0; k < late.size(); ++k)
+        if (k != number) look(lateSpheres[k].position, lateSpheres[k].radius);
     std::vector<std::uint32_t> parts;
     for (std::size_t w = 0; w < walls->getSize(); ++w) {
         if (walls->isRemoved(w)) continue;
         const Wall& wall = walls->getObject(w);
-        const double apart =
-            species->actsApart ? species->range(grains.species[place], wall.species, {grain.radius}) : 0;
         parts.clear();
-        wall.listParts(grain.position, grain.radius + apart + smallest, parts);
+        wall.listParts(centre, radius + smallest, parts);
         std::vector<WallPoint> points(parts.size());
         if (parts.empty()) continue;
-        wall.findPoints(grain.position, grain.radius + apart + smallest, parts, points);
-        for (const WallPoint& point : points)
-            smallest = std::min(smallest, point.distance - grain.radius - apart);
+        wall.findPoints(centre, radius + smallest, parts, points);
+        for (const WallPoint& point : points) smallest = std::min(smallest, point.distance - radius);
     }
     return std::max(smallest, 0.0);
 }

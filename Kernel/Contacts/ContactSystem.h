@@ -44,7 +44,7 @@ public:
                  const SkinChoice& skinChoice, bool withLedger);
     /// Grains have been added at the end of the store. They are listed when bodies can have approached by the
     /// distance of the nearest of them to all others, so that most need no list of their own. False if one is
-    /// so near that contacts must be listed at once.
+    /// so near that contacts must be listed at once, and the first time: lists keep their cells from then on.
     bool takeIn(const Grains& grains, std::span<const std::uint32_t> identities);
     /// Bodies or laws have changed: contacts are listed again at once, and their bridges prepared again.
     /// Those that the change takes apart end, also where both bodies are held now, and those whose pair has
@@ -164,7 +164,7 @@ private:
     double endContact(const Grains& grains, std::uint32_t contact);
     [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
-    [[nodiscard]] double gapAround(const Grains& grains, std::uint32_t place) const;
+    [[nodiscard]] double gapAround(const Grains& grains, std::size_t number) const;
     [[nodiscard]] std::size_t firstWallBucket() const;
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
     void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number);
@@ -178,10 +178,15 @@ private:
     ContactStore contacts;
     std::vector<NamedColumn> namedColumns;
     SkinChoice skin;
-    std::size_t stepsListed = 0;      // since the contacts were listed
-    double unlisted = infinity;       // m, that two bodies can have approached since contacts were listed
-    double listBefore = infinity;     // m, at which they must be listed, because of grains that came later
+    std::size_t stepsListed = 0;   // since the contacts were listed
+    double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
+    double listBefore = infinity;  // m, at which they must be listed, because of grains that came later
+    struct Sphere {
+        Vector<double> position;
+        double radius;
+    };
     std::vector<std::uint32_t> late;  // identities of grains that came after the list
+    std::vector<Sphere> lateSpheres;  // these grains, when takeIn() looks at them
     bool takesInGrains = false;       // and keeps the cells for it
     std::optional<NeighbourSearch> cells;
     bool ledger = false;

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Motion/Stiffness.h"
+#include "Kernel/Species/Stiffness.h"
 #include "Kernel/Species/TimeStepAdvice.h"
 
 namespace pendular {

@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "Kernel/Species/Field.h"
 
 namespace pendular {
 
 /// The steps at which an output is due that has an interval of its own: those nearest to its multiples. They
-/// follow from the number of the step alone, so a run that goes on has those of one that was not stopped.
+/// follow from the number of the step, so a run that goes on has those of one that was not stopped.
 class OutputInterval {
 public:
     /// None: the output is due whenever writeOutput() is called.
@@ -19,19 +20,24 @@ public:
     }
 
     [[nodiscard]] bool isGiven() const { return seconds > 0; }
-    /// Whether a multiple of the interval lies within half a step around this step. Two steps compute the
-    /// border between them from the same numbers, so that no multiple is left out or counted twice.
+    /// Whether the nearest multiple of the interval was not told of yet. Asked after each step, in order.
     /// @param timeStep s; @param timeBefore s, of the steps that are not counted: those with another time
     /// step
-    [[nodiscard]] bool isDueAfter(std::size_t step, double timeStep, double timeBefore = 0) const {
-        const double perStep = timeStep / seconds, place = static_cast<double>(step),
-                     before = timeBefore / seconds;
-        return perStep >= 1 ||
-               std::floor(before + (place + 0.5) * perStep) > std::floor(before + (place - 0.5) * perStep);
+    [[nodiscard]] bool isDueAfter(std::size_t step, double timeStep, double timeBefore = 0) {
+        const double perStep = timeStep / seconds;
+        const auto multipleBefore = [&](double place) {
+            return std::floor(timeBefore / seconds + place * perStep);
+        };
+        const double multiple = multipleBefore(static_cast<double>(step) + 0.5);
+        if (std::isnan(told)) told = multipleBefore(static_cast<double>(step) - 0.5);
+        if (multiple <= told && perStep < 1) return false;
+        told = multiple;
+        return true;
     }
 
 private:
     double seconds = 0;
+    double told = std::numeric_limits<double>::quiet_NaN();  // the last multiple; none yet
 };
 
 }  // namespace pendular

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Particles/GrainSpecies.h"
 
 namespace pendular {
 
@@ -105,19 +105,20 @@ double& GrainColumnReference::operator[](std::uint32_t identity) const {
     return handler->grains.columns[number].values[handler->placeOf(identity)];
 }
 
-void ParticleHandler::setLaws(const ContactLaws& of) {
-    laws = &of;
-    grains.hasSpin = of.layout.hasTorque;
+void ParticleHandler::setSpecies(const GrainSpecies& of) {
+    species = &of;
+    grains.hasSpin = of.turnGrains();
 }
 
 void ParticleHandler::settleSpin() {
-    if (grains.hasSpin && !laws->layout.hasTorque) std::vector<RotationRecord>().swap(grains.rotation);
-    grains.hasSpin = laws->layout.hasTorque;
+    if (grains.hasSpin && !species->turnGrains()) std::vector<RotationRecord>().swap(grains.rotation);
+    grains.hasSpin = species->turnGrains();
 }
 
-double ParticleHandler::massOf(double radius, int species) const {
-    const double density = laws->density(static_cast<std::size_t>(species));
-    checkValue(laws->ofPair(species, species).name, "density", density, "kg/m^3", positive);
+double ParticleHandler::massOf(double radius, int of) const {
+    const auto index = static_cast<std::size_t>(of);
+    const double density = species->density(index);
+    checkValue(species->typeName(index), "density", density, "kg/m^3", positive);
     return sphereMass(radius, density);
 }
 
@@ -191,7 +192,7 @@ void ParticleHandler::renewMasses() {
 void ParticleHandler::visitState(StateArchive& archive) {
     grains.visitState(archive);
     for (const std::uint16_t index : grains.species)
-        archive.require(index < laws->speciesCount(), "species", "has one that the scene has not");
+        archive.require(index < species->speciesCount(), "species", "has one that the scene has not");
     if (archive.isReading()) changes = {};
 }
 

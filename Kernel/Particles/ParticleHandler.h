@@ -7,7 +7,7 @@
 
 namespace pendular {
 
-class ContactLaws;
+class GrainSpecies;
 class ParticleHandler;
 
 /// A grain of a scene, found by its identity: valid until the grain is removed; then every call throws
@@ -86,7 +86,7 @@ public:
 
     ParticleHandler() = default;
     ParticleHandler(const ParticleHandler&) = delete;
-    void setLaws(const ContactLaws& of);
+    void setSpecies(const GrainSpecies& of);
     /// m/s^2: the acceleration of a grain that is added or let go, of which no step has found another yet.
     void setGravity(const Vector<double>& acceleration) { gravity = acceleration; }
     /// When the laws are known: grains of a scene without friction have no spin.
@@ -163,7 +163,7 @@ private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
-    const ContactLaws* laws = nullptr;
+    const GrainSpecies* species = nullptr;
     Grains grains;
     GrainChanges changes;
     Vector<double> gravity{0, 0, 0};  // m/s^2

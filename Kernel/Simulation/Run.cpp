@@ -193,16 +193,18 @@ void Run::writeAll() {
 /// itself whether it has this state.
 void Run::writeOutputs(bool atEnd) {
     const bool own = (saveCount > 0 && steps % saveCount == 0) != atEnd;
-    const auto isDue = [&](const KeptOutput& output) {
+    const auto isDue = [&](KeptOutput& output) {
         if (!output.interval.isGiven()) return own;
         return atEnd || output.interval.isDueAfter(steps - stepsBefore, timeStep, timeBefore);
     };
-    if (!own && std::none_of(outputs.begin(), outputs.end(), isDue)) return;
-    const StepTimes::Part before = times.enter(StepTimes::Part::Output);
-    for (const KeptOutput& output : outputs)
-        if (isDue(output)) output.write();
-    if (own) writeOutput();
-    times.enter(before);
+    const auto timed = [&](const auto& write) {
+        const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+        write();
+        times.enter(before);
+    };
+    for (KeptOutput& output : outputs)
+        if (isDue(output)) timed(output.write);
+    if (own) timed([&] { writeOutput(); });
 }
 
 void Run::prepareOutputs() {

@@ -4,7 +4,7 @@
 
 #include "Kernel/Logger.h"
 #include "Kernel/Output/OutputForm.h"
-#include "Kernel/Simulation/EnergyLedger.h"
+#include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/StepTimes.h"

@@ -9,7 +9,7 @@
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/DomainBox.h"
-#include "Kernel/Simulation/EnergyAccount.h"
+#include "Kernel/Energy/EnergyAccount.h"
 #include "Kernel/Simulation/Run.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Walls/WallHandler.h"
@@ -143,7 +143,7 @@ protected:
     Scene();
     void setLaws(ContactLaws& of) {
         contactLaws = &of;
-        particleHandler.setLaws(of);
+        particleHandler.setSpecies(of);
     }
 
 private:

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Motion/Stiffness.h"
+#include "Kernel/Species/Stiffness.h"
 #include "Kernel/Species/Normal/Shared/ContactTime.h"
 #include "Kernel/Species/Species.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "Tools/AccuracyVersusCost/TimeChart.h"
+#include "Tools/AccuracyVersusCost/CollisionCases.h"
 
 namespace pendular {
 namespace {

@@ -11,7 +11,7 @@ namespace pendular {
 namespace {
 
 std::vector<std::size_t> dueSteps(double interval, double timeStep, std::size_t end) {
-    const OutputInterval output("Test", interval);
+    OutputInterval output("Test", interval);
     std::vector<std::size_t> steps;
     for (std::size_t step = 0; step <= end; ++step)
         if (output.isDueAfter(step, timeStep)) steps.push_back(step);
@@ -29,10 +29,32 @@ TEST(OutputInterval, isDueAtTheStepNearestToEachMultiple) {
 
 // With another time step from 2.3 s on: at 3.05, 4.05, 5.05 s.
 TEST(OutputInterval, goesOnWithAnotherTimeStep) {
+    OutputInterval output("Test", 1);
     std::vector<std::size_t> steps;
     for (std::size_t step = 1; step <= 12; ++step)
-        if (OutputInterval("Test", 1).isDueAfter(step, 0.25, 2.3)) steps.push_back(step);
+        if (output.isDueAfter(step, 0.25, 2.3)) steps.push_back(step);
     EXPECT_EQ(steps, (std::vector<std::size_t>{3, 7, 11}));
+}
+
+// The time step grows or shrinks, by up to six times, every few steps: a multiple is told once, at a time
+// within half of the longest step.
+TEST(OutputInterval, tellsEachMultipleOnceWhereTheTimeStepChanges) {
+    UniformRandom random(7);
+    OutputInterval output("Test", 1);
+    std::size_t told = 0;
+    double before = 0;
+    for (int stretch = 0; stretch < 1000; ++stretch) {
+        const double timeStep = random.uniform(0.05, 0.3);
+        const auto steps = static_cast<std::size_t>(random.uniform(1, 6));
+        for (std::size_t step = stretch == 0 ? 0 : 1; step <= steps; ++step) {
+            if (!output.isDueAfter(step, timeStep, before)) continue;
+            ASSERT_NEAR(before + static_cast<double>(step) * timeStep, static_cast<double>(told),
+                        0.3);
+            ++told;
+        }
+        before += static_cast<double>(steps) * timeStep;
+    }
+    EXPECT_NEAR(static_cast<double>(told), before, 1);
 }
 
 /// Whatever the numbers, each multiple has its step, and no other step is due. A quotient of the order of 1e3

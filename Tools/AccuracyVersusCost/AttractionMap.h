@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Kernel/Files/CsvFile.h"
 #include "Tools/AccuracyVersusCost/DampedCollisions.h"
 
 // When the normal force of a damped contact pulls, how strongly, and what it means for the restitution.

@@ -2,11 +2,6 @@
 
 #include <filesystem>
 
-#include "Tools/AccuracyVersusCost/AttractionMap.h"
-#include "Tools/AccuracyVersusCost/ImpactSpeedMap.h"
-#include "Tools/AccuracyVersusCost/RestitutionMap.h"
-#include "Tools/AccuracyVersusCost/SlidingOnsetMap.h"
-
 namespace pendular {
 
 struct ContactMapOptions {
@@ -15,17 +10,6 @@ struct ContactMapOptions {
 };
 
 /// Where contact laws fail: a table for each question. contact-maps.gp draws them.
-inline void mapContacts(const ContactMapOptions& options) {
-    checkValue("accuracy-versus-cost", "map-offsets", options.offsets, "", {1, 1e6});
-    std::error_code problem;
-    std::filesystem::create_directories(options.folder, problem);
-    if (problem)
-        throw InputError(fmt::format("accuracy-versus-cost: cannot make the folder {}: {}.",
-                                     options.folder.string(), problem.message()));
-    mapRestitution(options.folder / "restitution.csv", options.offsets);
-    mapAttraction(options.folder / "normal-force.csv", options.folder / "attraction.csv");
-    mapSlidingOnset(options.folder / "sliding-onset.csv");
-    mapImpactSpeed(options.folder / "impact-speed.csv");
-}
+void mapContacts(const ContactMapOptions& options);
 
 }  // namespace pendular

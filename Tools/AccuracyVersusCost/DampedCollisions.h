@@ -2,9 +2,9 @@
 
 #include <array>
 
+#include "Tools/AccuracyVersusCost/CollisionCases.h"
 #include "Tools/AccuracyVersusCost/CollisionTheory.h"
 #include "Tools/AccuracyVersusCost/SeenCollision.h"
-#include "Tools/AccuracyVersusCost/TimeChart.h"
 
 // Collisions of each normal law with a given loss.
 

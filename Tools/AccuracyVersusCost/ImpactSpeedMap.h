@@ -3,10 +3,11 @@
 #include <limits>
 #include <numbers>
 
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/RunError.h"
+#include "Tools/AccuracyVersusCost/CollisionCases.h"
 #include "Tools/AccuracyVersusCost/CollisionTheory.h"
 #include "Tools/AccuracyVersusCost/SeenCollision.h"
-#include "Tools/AccuracyVersusCost/TimeChart.h"
 
 // Overlap and contact time of collisions over their speed, and where each law leaves its domain.
 

@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/ContactAccount.h"
+#include "Kernel/Energy/ContactAccount.h"
 
 namespace pendular {
 namespace {

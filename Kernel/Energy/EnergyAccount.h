@@ -1,9 +1,9 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Energy/ContactAccount.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Simulation/ContactAccount.h"
 
 namespace pendular {
 

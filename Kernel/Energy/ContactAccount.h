@@ -1,7 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactSample.h"
-#include "Kernel/Simulation/EnergyLedger.h"
+#include "Kernel/Energy/EnergyLedger.h"
 
 namespace pendular {
 
