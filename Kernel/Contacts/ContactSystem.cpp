@@ -29,7 +29,10 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     contacts.sides.addGrains(grains.size());
     unlisted += grainShift + std::max(grainShift, wallShift);
     ++stepsListed;
-    if (unlisted < std::min(skin.width(), listBefore)) return false;
+    const bool isNear = unlisted >= std::min(skin.width(), listBefore);
+    const bool isTime =
+        stepsListed % IdleLanes::interval == 0 && idleLanes.areWorthAList(contacts, skin.listCost());
+    if (!isNear && !isTime) return false;
     // What came late says nothing of how long a list lasts.
     if (rebuilds > 0 && unlisted >= skin.width()) skin.choose(unlisted, stepsListed);
     listAgain(grains);
@@ -73,6 +76,7 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts* r
     else list.rebuild(grains, contacts);
     if (takesInGrains) cells = list.takeSearch();
     skin.listed(contacts, grains.size());
+    idleLanes.listed();
     species->prepare(contacts.buckets);
     stepsListed = 0;
     unlisted = 0;

@@ -7,6 +7,7 @@
 #include "Kernel/Contacts/ContactEvents.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/IdleLanes.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Contacts/SkinChoice.h"
@@ -178,6 +179,7 @@ private:
     ContactStore contacts;
     std::vector<NamedColumn> namedColumns;
     SkinChoice skin;
+    IdleLanes idleLanes;
     std::size_t stepsListed = 0;   // since the contacts were listed
     double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
     double listBefore = infinity;  // m, at which they must be listed, because of grains that came later
