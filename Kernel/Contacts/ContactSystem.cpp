@@ -42,7 +42,9 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
 double ContactSystem::renew(Grains& grains) {
     double stored = 0;
     forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
-        if (!lastsThroughChange(grains, bucket, contact)) stored += endContact(grains, contact);
+        if (lastsThroughChange(grains, bucket, contact)) return;
+        takeForceAway(grains, bucket, contact);
+        stored += endContact(grains, contact);
     });
     listAgain(grains, nullptr, false);
     return stored;
@@ -141,8 +143,28 @@ double ContactSystem::gapAround(const Grains& grains, std::size_t number) const 
     return std::max(smallest, 0.0);
 }
 
-double ContactSystem::endContactsOf(const Grains& grains, std::uint32_t place) {
+void ContactSystem::takeForceAway(Grains& grains, const Bucket& bucket, std::uint32_t contact) const {
+    const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
+    const std::size_t lane = contact % Pack::lanes, slot = contacts.slotOf(contact);
+    const ContactMemory& memory = contacts.memory;
+    const auto take = [&](std::uint32_t place, double sign) {
+        if (!grains.isFree(place)) return;
+        const TranslationRecord& grain = grains.translation[place];
+        grains.acceleration[place] -= (sign * grain.inverseMass) * contacts.forceOf(contact);
+        if (!memory.getLayout().hasTorque) return;
+        const ForceTorqueRecord& record = memory.records[slot];
+        Vector<double> torque = (grain.radius - record.halfOverlap) * record.leverless;
+        if (memory.getLayout().hasContactTorque) torque += sign * memory.torques[slot].torque;
+        grains.rotation[place].angularAcceleration -= grains.rotation[place].inverseInertia * torque;
+    };
+    take(block.first[lane], 1);
+    if (bucket.wall < 0) take(block.second[lane], -1);
+}
+
+double ContactSystem::endContactsOf(Grains& grains, std::uint32_t place) {
     if (place >= contacts.sides.grainCount()) return 0;
+    forEachActingOf(
+        place, [&](const Bucket& bucket, std::uint32_t contact) { takeForceAway(grains, bucket, contact); });
     double stored = 0;
     for (const std::uint32_t side : contacts.sides.of(place))
         stored += endContact(grains, contacts.contactAt(side / 2));
@@ -150,7 +172,10 @@ double ContactSystem::endContactsOf(const Grains& grains, std::uint32_t place) {
     return stored;
 }
 
-double ContactSystem::endContactsAtWall(const Grains& grains, int wall) {
+double ContactSystem::endContactsAtWall(Grains& grains, int wall) {
+    forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
+        if (bucket.wall == wall) takeForceAway(grains, bucket, contact);
+    });
     ExactSum stored;  // in the order of the list
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall == wall)

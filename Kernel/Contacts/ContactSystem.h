@@ -54,8 +54,8 @@ public:
     double renew(Grains& grains);
     /// Ends the contacts of the grain at a place, or at a wall, which is about to be removed; returns the
     /// energy (J) that was stored in them, where a ledger is kept.
-    double endContactsOf(const Grains& grains, std::uint32_t place);
-    double endContactsAtWall(const Grains& grains, int wall);
+    double endContactsOf(Grains& grains, std::uint32_t place);
+    double endContactsAtWall(Grains& grains, int wall);
     /// Finds the starts and ends of touches and bridges in each step from now on.
     void listen(bool on) { contactEvents.listen(on); }
     [[nodiscard]] const ContactEvents& events() const { return contactEvents; }
@@ -163,6 +163,9 @@ private:
     std::size_t listAgain(Grains& grains, const RememberedContacts* remembered = nullptr,
                           bool keepsBridges = true);
     double endContact(const Grains& grains, std::uint32_t contact);
+    /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
+    /// act in the first half of the next one. (Not those of rigid bodies.)
+    void takeForceAway(Grains& grains, const Bucket& bucket, std::uint32_t contact) const;
     [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
     [[nodiscard]] double gapAround(const Grains& grains, std::size_t number) const;

@@ -17,9 +17,8 @@ inline void writeGrains(const std::filesystem::path& path, const ParticleStore& 
     file.comment(remark);
     for (const std::uint32_t place : grains.place) {
         const auto& [x, radius, v, inverseMass] = grains.translation[place];
-        Vector<double> spin{0, 0, 0}, force{0, 0, 0};  // of smooth grains, and of a grain held in place
-        if (grains.hasSpin) spin = grains.rotation[place].spin;
-        if (inverseMass > 0) force = (1 / inverseMass) * grains.acceleration[place];
+        const Vector<double> spin = grains.hasSpin ? grains.rotation[place].spin : Vector<double>{0, 0, 0},
+                             force = forceOn(grains, laws, place);
         file.row(grains.identity[place], grains.species[place], radius, x.x, x.y, x.z, v.x, v.y, v.z, spin.x,
                  spin.y, spin.z, force.x, force.y, force.z, massOf(grains, laws, place),
                  inverseMass > 0 ? 0 : 1);

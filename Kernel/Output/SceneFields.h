@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <concepts>
 #include <functional>
@@ -7,16 +9,35 @@
 #include <utility>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/InputError.h"
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Particles/SphericalParticle.h"
 
 namespace pendular {
 
-/// The mass of the grain at a place, kg; also of one that is held, which its record does not have.
+/// The mass of the grain at a place, kg; also of one that is held or part of a rigid body, which its record
+/// does not have.
 inline double massOf(const ParticleStore& grains, const ContactLaws& laws, std::uint32_t place) {
     const TranslationRecord& grain = grains.translation[place];
-    return grain.inverseMass > 0 ? 1 / grain.inverseMass
-                                 : sphereMass(grain.radius, laws.density(grains.species[place]));
+    return grains.isFree(place) ? 1 / grain.inverseMass
+                                : sphereMass(grain.radius, laws.density(grains.species[place]));
+}
+
+/// All forces on the grain at a place, N, with its weight and with what holds it in its rigid body; not kept,
+/// and zero, for a grain that is held.
+inline Vector<double> forceOn(const ParticleStore& grains, const ContactLaws& laws, std::uint32_t place) {
+    if (grains.translation[place].inverseMass == 0) return {0, 0, 0};
+    return massOf(grains, laws, place) * grains.acceleration[place];
+}
+
+/// Throws InputError where two fields of a frame have one name: a file cannot hold them.
+inline void requireDistinctNames(const std::vector<PolyDataField>& fields, std::string_view owners) {
+    for (std::size_t k = 0; k < fields.size(); ++k)
+        for (std::size_t other = 0; other < k; ++other)
+            if (fields[k].name == fields[other].name)
+                throw InputError(fmt::format(
+                    "The outputs have two fields '{}' of the {}; give the column or the field another name.",
+                    fields[k].name, owners));
 }
 
 /// The grains as points: radius, mass, velocity, spin, force (of contacts and weight), species, whether they
@@ -44,9 +65,7 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
         mass.push_back(static_cast<Real>(massOf(grains, laws, place)));
         append(velocity, grain.velocity);
         if (grains.hasSpin) append(spin, grains.rotation[place].spin);
-        // Not kept for a grain held in place.
-        append(force, grain.inverseMass > 0 ? (1 / grain.inverseMass) * grains.acceleration[place]
-                                            : Vector<double>{0, 0, 0});
+        append(force, forceOn(grains, laws, place));
         species.push_back(grains.species[place]);
         fixed.push_back(grain.inverseMass > 0 ? 0 : 1);
         identity.push_back(static_cast<std::int32_t>(grains.identity[place]));
@@ -233,6 +252,8 @@ private:
         if (stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
         if (contacts)
             frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws(), contactPoints);
+        requireDistinctNames(frame.grains.pointFields, "grains");
+        if (frame.contacts) requireDistinctNames(frame.contacts->cellFields, "contacts");
         if (scene.wallHandler.getSize() > 0) {
             const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox());
             frame.walls = wallPolygons(scene.wallHandler, lowest, highest);

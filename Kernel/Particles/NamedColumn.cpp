@@ -18,8 +18,9 @@ void requireNewColumn(const NamedColumn& added, std::string_view owners, bool is
     if (isTaken)
         throw InputError(fmt::format("There is a column '{}' of the {} already.", added.name, owners));
     if (!std::isfinite(added.initial))
-        throw InputError(fmt::format("The column '{}' of the {} starts at {} {}; it must be finite.",
-                                     added.name, owners, added.initial, added.unit));
+        throw InputError(fmt::format("The column '{}' of the {} starts at {}{}{}; it must be finite.",
+                                     added.name, owners, added.initial, added.unit.empty() ? "" : " ",
+                                     added.unit));
 }
 
 }  // namespace pendular

@@ -33,6 +33,22 @@ void setMass(ParticleStore& grains, std::uint32_t at, double inverseMass) {
         grains.rotation[at].inverseInertia = 2.5 * inverseMass / (grain.radius * grain.radius);
 }
 
+/// Of a free grain of which forces and torques stay, while its mass, and with it their accelerations, change.
+void changeMass(ParticleStore& grains, std::uint32_t at, double inverseMass, const Vector<double>& gravity) {
+    const double before = grains.translation[at].inverseMass, ratio = inverseMass / before;
+    const double turningBefore = grains.hasSpin ? grains.rotation[at].inverseInertia : 1;
+    setMass(grains, at, inverseMass);
+    const auto scale = [&](Vector<double>& acceleration) {
+        acceleration = gravity + ratio * (acceleration - gravity);
+    };
+    scale(grains.acceleration[at]);
+    if (!grains.earlier.empty()) scale(grains.earlier[at].acceleration);
+    if (!grains.hasSpin) return;
+    const double turning = grains.rotation[at].inverseInertia / turningBefore;
+    grains.rotation[at].angularAcceleration *= turning;
+    if (!grains.earlier.empty()) grains.earlier[at].angularAcceleration *= turning;
+}
+
 }  // namespace
 
 std::uint32_t GrainReference::place() const { return handler->placeOf(number); }
@@ -43,6 +59,12 @@ int GrainReference::getSpeciesIndex() const { return handler->grains.species[pla
 Vec3D GrainReference::getAngularVelocity() const {
     const ParticleStore& grains = handler->grains;
     return grains.hasSpin ? toEigen(grains.rotation[place()].spin) : Vec3D::Zero();
+}
+
+double GrainReference::getMass() const {
+    if (isFixed()) return infinity;
+    return handler->grains.bodies.contains(number) ? handler->massOf(getRadius(), getSpeciesIndex())
+                                                   : 1 / record().inverseMass;
 }
 
 Vec3D GrainReference::getForce() const {
@@ -76,14 +98,14 @@ void GrainReference::setRadius(double radius) {
     checkValue(fmt::format("particle {}", number), "radius", radius, "m", radiusRange);
     const bool grows = radius > getRadius();
     record().radius = radius;
-    setMass(handler->grains, place(), isFixed() ? 0 : 1 / handler->massOf(radius, getSpeciesIndex()));
+    handler->renewMass(place());
     (grows ? handler->changes.placed : handler->changes.altered).push_back(number);
 }
 void GrainReference::setSpeciesIndex(int index) {
     requireOwnBody("species");
-    const double mass = handler->massOf(getRadius(), index);  // throws if there is no such species
+    static_cast<void>(handler->massOf(getRadius(), index));  // throws if there is no such species
     handler->grains.species[place()] = static_cast<std::uint16_t>(index);
-    setMass(handler->grains, place(), isFixed() ? 0 : 1 / mass);
+    handler->renewMass(place());
     handler->changes.altered.push_back(number);
 }
 void GrainReference::fixParticle(bool fix) {
@@ -133,13 +155,10 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
         throw InputError(
             fmt::format("{}: species is not set; call setSpecies() with a species of this scene.", owner));
     const double mass = massOf(grain.getRadius(), grain.getSpeciesIndex());
-    const Vector<double> nothing{0, 0, 0};  // the motion of a grain that is held in place
     const TranslationRecord record{toVector(grain.getPosition()), grain.getRadius(),
-                                   grain.isFixed() ? nothing : toVector(grain.getVelocity()),
-                                   grain.isFixed() ? 0 : 1 / mass};
-    const std::uint32_t identity =
-        grains.add(record, grain.isFixed() ? nothing : toVector(grain.getAngularVelocity()),
-                   static_cast<std::uint16_t>(grain.getSpeciesIndex()));
+                                   toVector(grain.getVelocity()), grain.isFixed() ? 0 : 1 / mass};
+    const std::uint32_t identity = grains.add(record, toVector(grain.getAngularVelocity()),
+                                              static_cast<std::uint16_t>(grain.getSpeciesIndex()));
     if (!grain.isFixed()) setAcceleration(grains, grains.place[identity], gravity);
     changes.added.push_back(identity);
     return {*this, identity};
@@ -176,24 +195,52 @@ GrainReference ParticleHandler::getObject(std::size_t identity) {
 
 GrainColumnReference ParticleHandler::addColumn(const std::string& name, const std::string& unit,
                                                 double initial) {
+    if (columnsAreClosed)
+        throw InputError("Simulation: columns of grains can only be added before the run starts.");
     const NamedColumn added{name, unit, initial};
     requireNewColumn(added, "grains", hasColumn(grains.columns, name));
     grains.columns.push_back({added, std::vector<double>(grains.size(), initial)});
     return {*this, grains.columns.size() - 1};
 }
 
+void ParticleHandler::renewMass(std::uint32_t at) {
+    const TranslationRecord& grain = grains.translation[at];
+    if (grain.inverseMass == 0) return;
+    const double inverseMass = 1 / massOf(grain.radius, grains.species[at]);
+    if (inverseMass != grain.inverseMass) changeMass(grains, at, inverseMass, gravity);
+}
+
 void ParticleHandler::renewMasses() {
-    for (const std::uint32_t at : grains.place) {
-        const TranslationRecord& grain = grains.translation[at];
-        if (grains.isFree(at)) setMass(grains, at, 1 / massOf(grain.radius, grains.species[at]));
-    }
+    if (grains.bodies.empty()) densitiesOfJoined.clear();
+    for (const auto& [index, density] : densitiesOfJoined)
+        if (species->density(index) != density)
+            throw InputError(
+                fmt::format("{} {}: density = {:.6g} kg/m^3 cannot be changed to {:.6g} kg/m^3, as grains of "
+                            "it are part of "
+                            "rigid bodies, which keep their mass.",
+                            species->typeName(index), index, density, species->density(index)));
+    for (const std::uint32_t at : grains.place)
+        if (grains.isFree(at)) renewMass(at);
+}
+
+void ParticleHandler::noteDensityOfJoined(std::uint32_t identity) {
+    const std::uint16_t index = grains.species[grains.place[identity]];
+    densitiesOfJoined.try_emplace(index, species->density(index));
+}
+
+void ParticleHandler::noteJoined(std::span<const std::uint32_t> identities) {
+    changes.altered.insert(changes.altered.end(), identities.begin(), identities.end());
+    for (const std::uint32_t identity : identities) noteDensityOfJoined(identity);
 }
 
 void ParticleHandler::visitState(StateArchive& archive) {
     grains.visitState(archive);
     for (const std::uint16_t index : grains.species)
         archive.require(index < species->speciesCount(), "species", "has one that the scene has not");
-    if (archive.isReading()) changes = {};
+    if (!archive.isReading()) return;
+    changes = {};
+    for (const std::uint32_t identity : grains.identity)
+        if (grains.bodies.contains(identity)) noteDensityOfJoined(identity);
 }
 
 }  // namespace pendular

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <span>
 
 #include "Kernel/Particles/SphericalParticle.h"
@@ -22,13 +23,14 @@ public:
     [[nodiscard]] Vec3D getPosition() const { return toEigen(record().position); }
     [[nodiscard]] Vec3D getVelocity() const { return toEigen(record().velocity); }
     [[nodiscard]] double getRadius() const { return record().radius; }
-    /// kg; infinite for a grain that is held.
-    [[nodiscard]] double getMass() const { return 1 / record().inverseMass; }
+    /// kg; infinite for a grain that is held. Of a grain of a rigid body, that of a solid sphere.
+    [[nodiscard]] double getMass() const;
     [[nodiscard]] bool isFixed() const { return record().inverseMass == 0; }
     [[nodiscard]] int getSpeciesIndex() const;
     /// Zero in scenes without friction.
     [[nodiscard]] Vec3D getAngularVelocity() const;
     /// The sum of all forces (N) of the last step, weight included; not kept for a grain held in place: zero.
+    /// Of a grain of a rigid body: its mass times its acceleration, so with what holds it in the body.
     [[nodiscard]] Vec3D getForce() const;
 
     void setVelocity(const Vec3D& velocity);
@@ -41,7 +43,8 @@ public:
     void setSpecies(const S* species) {
         setSpeciesIndex(species->getIndex());
     }
-    /// Holds the grain where it is, or lets it go.
+    /// Holds the grain, or lets it go. A grain that is held feels no force, and moves with the velocity and
+    /// the spin that are set from then on; at first it has none.
     void fixParticle(bool fix = true);
 
 private:
@@ -142,15 +145,15 @@ public:
     [[nodiscard]] double massOf(double radius, int species) const;
     /// Gives all grains the mass of their species' density.
     void renewMasses();
+    /// The scene begins: no column is added from now on.
+    void closeColumns() { columnsAreClosed = true; }
 
     void visitState(StateArchive& archive);
     [[nodiscard]] Grains& store() { return grains; }
     [[nodiscard]] const Grains& store() const { return grains; }
 
     /// Grains have been joined to a rigid body.
-    void noteJoined(std::span<const std::uint32_t> identities) {
-        changes.altered.insert(changes.altered.end(), identities.begin(), identities.end());
-    }
+    void noteJoined(std::span<const std::uint32_t> identities);
     /// Called with the place of a grain before it is removed.
     void callBeforeRemoval(std::function<void(std::uint32_t)> function) {
         beforeRemoval = std::move(function);
@@ -163,7 +166,13 @@ private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
+    /// At the density that its species has now; its forces stay.
+    void renewMass(std::uint32_t place);
+    void noteDensityOfJoined(std::uint32_t identity);
+
     const GrainSpecies* species = nullptr;
+    std::map<std::uint16_t, double> densitiesOfJoined;  // kg/m^3, of species in rigid bodies
+    bool columnsAreClosed = false;
     Grains grains;
     GrainChanges changes;
     Vector<double> gravity{0, 0, 0};  // m/s^2

@@ -93,6 +93,9 @@ void ParticleStore::visitColumns(StateArchive& archive) {
     archive.column<std::uint16_t>("species", s);
     archive.column<std::uint32_t>("identity", i);
     archive.value("nextIdentity", n);
+    std::string names;
+    for (const GrainColumn& column : named) names += column.fieldName() + " ";
+    archive.same("columnNames", names);
     archive.group("columns", [&, &all = named] {
         for (GrainColumn& column : all) archive.column<double>(column.name, column.values);
     });

@@ -35,8 +35,11 @@ public:
     void setSpecies(const S* species) {
         speciesIndex = species->getIndex();
     }
-    /// Holds the grain where it is: an infinite mass.
-    void fixParticle() { fixed = true; }
+    /// Holds the grain where it is: an infinite mass, and no motion but what is set from then on.
+    void fixParticle() {
+        fixed = true;
+        velocityValue = spinValue = Vec3D::Zero();
+    }
 
     [[nodiscard]] double getRadius() const { return radiusValue; }
     [[nodiscard]] const Vec3D& getPosition() const { return positionValue; }

@@ -30,6 +30,7 @@ Run::Run() : timeStep(unset) {
 void Run::setName(std::string beginning) {
     if (beginning.empty())
         throw InputError("Simulation: name is empty; it must have at least one character.");
+    if (begun) throw InputError("Simulation: the name can only be set before the run starts.");
     name = std::move(beginning);
 }
 
@@ -59,10 +60,30 @@ void Run::setRestartInterval(double seconds) {
 }
 
 void Run::writeRestart(const std::filesystem::path& file) {
+    requireBegun("writeRestart()");
     const StepTimes::Part before = times.enter(StepTimes::Part::Output);
     writeRestartFile(file, [&](StateArchive& archive) { visitAll(archive); });
     if (isOwnRestartFile(file)) restartFileSteps = steps;
     times.enter(before);
+}
+
+void Run::requireBegun(std::string_view call) const {
+    if (!begun)
+        throw InputError(
+            fmt::format("Simulation: {} needs a scene that has begun; call initialise() before it.", call));
+}
+
+double Run::restartTime() const {
+    if (!isRestarted()) return 0;
+    std::size_t done = 0, before = 0;
+    double beforeTime = 0, length = 0;
+    readRestartFile(restartSource, [&](StateArchive& archive) {
+        archive.value("steps", done);
+        archive.value("stepsBefore", before);
+        archive.finite("timeBefore", beforeTime);
+        archive.finite("timeStep", length);
+    });
+    return timeAfter(done, before, beforeTime, length);
 }
 
 void Run::readRestart() {
@@ -173,6 +194,7 @@ RunStopped Run::stop() {
 }
 
 void Run::step() {
+    if (!begun) requireBegun("step()");
     times.beginStep();
     actionsBeforeTimeStep();
     advanceByStep();

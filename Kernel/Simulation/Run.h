@@ -60,6 +60,9 @@ public:
     /// ignored; the end time, outputs and threads may be others.
     void restartFrom(std::filesystem::path file) { restartSource = std::move(file); }
     [[nodiscard]] bool isRestarted() const { return !restartSource.empty(); }
+    /// s, of the state in the restart file from which the run goes on; 0 where it starts from the start. For
+    /// set-up: a scene that goes on is set up with the walls that the run had added by then.
+    [[nodiscard]] double restartTime() const;
     [[nodiscard]] std::filesystem::path restartFile() const { return restartFileOf(name); }
     /// Writes the state after the last step. Throws InputError if that fails.
     void writeRestart(const std::filesystem::path& file);
@@ -69,10 +72,7 @@ public:
     void measureStepTimes(bool measure = true) { times.measure(measure); }
 
     [[nodiscard]] const std::string& getName() const { return name; }
-    [[nodiscard]] double getTime() const {
-        return steps == stepsBefore ? timeBefore
-                                    : timeBefore + static_cast<double>(steps - stepsBefore) * timeStep;
-    }
+    [[nodiscard]] double getTime() const { return timeAfter(steps, stepsBefore, timeBefore, timeStep); }
     [[nodiscard]] double getTimeStep() const { return timeStep; }
     [[nodiscard]] double getTimeMax() const { return timeMax; }
     [[nodiscard]] std::size_t getNumberOfTimeSteps() const { return steps; }
@@ -112,6 +112,7 @@ protected:
 
     /// Throws InputError.
     void requireTimeStep() const;
+    void requireBegun(std::string_view call) const;
     void readRestart();
     /// The scene has been set up or read: what is changed from now on, is changed in the run.
     void setHasBegun() { begun = true; }
@@ -133,6 +134,10 @@ private:
                                 const std::string& remark) = 0;
     [[nodiscard]] virtual RunNumbers numbers() const = 0;
 
+    /// s, after so many steps, of which the last have this length (s)
+    static double timeAfter(std::size_t done, std::size_t before, double beforeTime, double length) {
+        return done == before ? beforeTime : beforeTime + static_cast<double>(done - before) * length;
+    }
     [[nodiscard]] std::size_t lastStep() const;
     void begin();
     void stepToTheEnd(RunControl& control);

@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Logger.h"
 #include "Kernel/Output/OutputForm.h"
-#include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/StepTimes.h"

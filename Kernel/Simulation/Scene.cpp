@@ -105,6 +105,7 @@ void Scene::initialise() {
     requireTimeStep();
     laws().mixAll();
     particleHandler.settleSpin();
+    if (!isRestarted()) particleHandler.renewMasses();
     if (isRestarted()) return readRestart();
     prepare();
     ParticleStore& grains = particleHandler.store();
@@ -227,6 +228,7 @@ RunNumbers Scene::numbers() const {
 void Scene::prepare() {
     check();
     static_cast<void>(particleHandler.takeChanges());
+    particleHandler.closeColumns();
     lawsAreNew = false;
     setHasBegun();
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept);

@@ -3,13 +3,13 @@
 #include <memory>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Energy/EnergyAccount.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Output/OutputForm.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/DomainBox.h"
-#include "Kernel/Energy/EnergyAccount.h"
 #include "Kernel/Simulation/Run.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Walls/WallHandler.h"

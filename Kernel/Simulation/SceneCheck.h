@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -180,7 +181,7 @@ inline void checkPeriodicLengths(const ContactLaws& species, const GrainSizes& g
 /// Throws InputError if two bodies overlap by more than a sound share of the smaller radius (m).
 inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) {
     const double share = -contact.separation / smallerRadius;
-    if (!(share > largestSoundOverlap)) return;
+    if (!(share > largestSoundOverlap * (1 + 1e-9))) return;  // positions are rounded
     const std::string other = contact.wall < 0 ? fmt::format("particle {}", contact.particle2)
                                                : fmt::format("wall {}", contact.wall);
     throw InputError(fmt::format(
@@ -240,6 +241,12 @@ inline RunError runawayError(const ParticleStore& grains, double smallestRadius,
     for (std::size_t k = 0; k < grains.size(); ++k) {
         const double speed = norm(grains.translation[k].velocity);
         if (speed * step <= smallestRadius) continue;
+        if (!std::isfinite(speed))
+            return RunError(
+                fmt::format("At time {:.6g} s the speed of particle {} is {} m/s, which is not a number: "
+                            "take a smaller time "
+                            "step, or look at what the driver has set, spins too.",
+                            time, grains.identity[k], std::abs(speed)));
         return RunError(
             fmt::format("At time {:.6g} s particle {} moves at {:.4g} m/s, farther in a step of {:.4g} s "
                         "than the smallest radius, {:.4g} m: "

@@ -67,6 +67,15 @@ Mixed nothingSet() {
 
 inline constexpr std::string_view speciesSuffix = "Species";
 
+/// Which species of its scene one is. A copy is none of the scene, and what is assigned to stays what it is.
+struct SpeciesIndex {
+    int value = -1;
+
+    SpeciesIndex() = default;
+    SpeciesIndex(const SpeciesIndex&) {}
+    SpeciesIndex& operator=(const SpeciesIndex&) { return *this; }
+};
+
 /// A material: its density and the laws of the contacts between grains of it. The name is the concatenation
 /// of the names of its laws, as MercuryDPM's users know it:
 /// HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies.
@@ -102,7 +111,8 @@ struct Species : MixedSpecies<N, F, A> {
         Mixed::check();
     }
 
-    [[nodiscard]] int getIndex() const { return index; }
+    /// In its scene; -1 for a species that no scene has, as a copy of one that it has.
+    [[nodiscard]] int getIndex() const { return index.value; }
 
 private:
     template <class>
@@ -111,7 +121,7 @@ private:
     friend class SpeciesInScene;
 
     double density = unset;  // kg/m^3
-    int index = -1;
+    SpeciesIndex index;
 };
 
 }  // namespace pendular

@@ -30,11 +30,11 @@ public:
     SpeciesHandler(const SpeciesHandler&) = delete;
     SpeciesHandler& operator=(const SpeciesHandler&) = delete;
 
-    /// Adds a copy; the pointer stays valid, and values may be set through it at any time: during a run, a new
-    /// value holds from the next step on, for all contacts and bridges.
+    /// Adds a copy; the pointer stays valid, and values may be set through it at any time: during a run, a
+    /// new value holds from the next step on, for all contacts and bridges.
     S* copyAndAddObject(const S& species) {
         S& added = all.emplace_back(species);
-        added.index = static_cast<int>(all.size()) - 1;
+        added.index.value = static_cast<int>(all.size()) - 1;
         return &added;
     }
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
@@ -55,9 +55,10 @@ public:
         if (all.empty())
             throw InputError("The scene has no species; add one with speciesHandler.copyAndAddObject().");
         std::vector<S> complete(all.begin(), all.end());
-        for (S& species : complete) {
-            species.deriveUnset();
-            species.check();
+        for (std::size_t k = 0; k < complete.size(); ++k) {
+            complete[k].index.value = static_cast<int>(k);
+            complete[k].deriveUnset();
+            complete[k].check();
         }
         std::vector<std::optional<Mixed>> mixed;
         for (const S& a : complete)

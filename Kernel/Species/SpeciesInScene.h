@@ -29,7 +29,7 @@ const void* lawOfType(const Mixed& laws, const std::type_info& type) {
 template <class S>
 class SpeciesInScene final : public AnySpecies {
 public:
-    SpeciesInScene(const S& from, int index) : species(from) { species.index = index; }
+    SpeciesInScene(const S& from, int index) : species(from) { species.index.value = index; }
 
     S species;  // as the driver sets it
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "Kernel/InputError.h"
 #include "Kernel/Walls/Pose.h"
 #include "Kernel/Walls/Wall.h"
 
@@ -16,6 +17,10 @@ class RigidWall : public Wall {
 public:
     template <class S>
     void setSpecies(const S* wallSpecies) {
+        if (wallSpecies->getIndex() < 0)
+            throw InputError(
+                "A wall's species was not added to the scene; call setSpecies() with what "
+                "speciesHandler.copyAndAddObject() returned.");
         species = wallSpecies->getIndex();
     }
     [[nodiscard]] bool isSet() const { return given; }

@@ -86,6 +86,9 @@ public:
         kept.about = about;  // as this scene has it; the contacts give the sums again
     }
 
+    /// It stands in the place of a wall that was removed.
+    [[nodiscard]] virtual bool isRemoved() const { return false; }
+
     int species = -1;
 
 private:

@@ -13,9 +13,10 @@
 
 namespace pendular {
 
-/// The walls of a scene, by their numbers in the order of adding. Walls may be added and removed during a run;
-/// numbers stay. A restart file does not hold shapes: the scene that goes on is set up with all walls that the
-/// run had when it was written.
+/// The walls of a scene, by their numbers in the order of adding. Walls may be added and removed during a
+/// run; numbers stay. A restart file does not hold shapes: the scene that goes on is set up with all walls
+/// that the run had when it was written (restartTime() of the scene tells when that was), and removes those
+/// that the run had removed by itself.
 class WallHandler {
 public:
     /// Adds a copy; the pointer stays valid until the wall is removed. In a run, a wall with a motion begins
@@ -39,8 +40,8 @@ public:
     /// Removes a wall; the numbers of all others stay. Throws InputError if there is none.
     void removeObject(std::size_t number) {
         if (number >= walls.size() || isRemoved(number))
-            throw InputError(fmt::format("There is no wall {}; the scene has {} (counted from 0).", number,
-                                         walls.size()));
+            throw InputError(
+                fmt::format("There is no wall {}; the scene has {} (counted from 0).", number, walls.size()));
         if (beforeRemoval) beforeRemoval(static_cast<int>(number));
         walls[number] = std::make_unique<RemovedWall>();
         ++changes;
@@ -56,11 +57,11 @@ public:
     [[nodiscard]] std::size_t getSize() const { return walls.size(); }
     [[nodiscard]] Wall& getObject(std::size_t number) const {
         if (number >= walls.size())
-            throw InputError(fmt::format("There is no wall {}; the scene has {} (counted from 0).", number,
-                                         walls.size()));
+            throw InputError(
+                fmt::format("There is no wall {}; the scene has {} (counted from 0).", number, walls.size()));
         return *walls[number];
     }
-    [[nodiscard]] bool isRemoved(std::size_t number) const { return walls[number]->species < 0; }
+    [[nodiscard]] bool isRemoved(std::size_t number) const { return getObject(number).isRemoved(); }
     /// Called with the number of a wall before it is removed.
     void callBeforeRemoval(std::function<void(int)> function) { beforeRemoval = std::move(function); }
     /// Whether walls were added or removed since changesAreKnown().
@@ -85,8 +86,13 @@ public:
         return farthest;
     }
 
+    /// Walls that the run of a file had removed are removed, whether the scene was set up with them or not.
     void visitState(StateArchive& archive) {
-        archive.same("count", walls.size());
+        std::size_t count = walls.size();
+        archive.value("count", count);
+        for (std::size_t w = 0; archive.isReading() && w < count; ++w) takeRemoval(archive, w);
+        archive.requireSame(count == walls.size(), "count", std::to_string(count),
+                            std::to_string(walls.size()), {}, asTheRunHadThem);
         archive.value("time", now);
         archive.require(!std::isinf(now), "time", "is not finite");
         for (std::size_t w = 0; w < walls.size(); ++w)
@@ -94,6 +100,19 @@ public:
     }
 
 private:
+    static constexpr std::string_view asTheRunHadThem =
+        "a scene that goes on is set up with the walls that the run had added by then; restartTime() tells "
+        "the time of the file";
+
+    /// Removes a wall, or counts one, that the run of a file had removed.
+    void takeRemoval(StateArchive& archive, std::size_t number) {
+        int species = -1;
+        archive.group(std::to_string(number), [&] { archive.value("species", species); });
+        if (species >= 0) return;
+        if (number == walls.size()) walls.push_back(nullptr);
+        if (number < walls.size()) walls[number] = std::make_unique<RemovedWall>();
+    }
+
     /// In the place of a wall that was removed: nothing touches it.
     class RemovedWall final : public Wall {
     public:
@@ -102,6 +121,7 @@ private:
                         std::span<WallPoint> points) const override {
             for (WallPoint& point : points) point = {{0, 0, 1}, infinity, {0, 0, 0}};
         }
+        [[nodiscard]] bool isRemoved() const override { return true; }
     };
 
     std::vector<std::unique_ptr<Wall>> walls;

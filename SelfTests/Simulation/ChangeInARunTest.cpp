@@ -545,6 +545,8 @@ TEST(NumberOfAGrain, isAtMost2147483647) {
             archive.column<std::uint16_t>("species", species);
             archive.column<std::uint32_t>("identity", identity);
             archive.value("nextIdentity", next);
+            std::string columns;
+            archive.text("columnNames", columns);
             archive.group("bodies", [&] { RigidBodies().visitState(archive, ParticleStore()); });
         });
     };
