@@ -28,8 +28,7 @@ struct Hopper {
 };
 
 /// Grains that leave a hopper through a circular orifice in its middle. A grain that has fallen two of the
-/// mean diameters below the orifice is counted, taken out of the flow and put to rest in a lattice farther
-/// below, so that the fall of a few does not cost new contact lists in every step.
+/// mean diameters below the orifice is counted and removed.
 class HopperScene : public Simulation<HertzianViscoelasticMindlinSpecies> {
 public:
     /// @param orifice diameter, m; 0: a closed bottom
@@ -52,13 +51,17 @@ public:
     }
 
     void actionsAfterTimeStep() override {
-        auto& grains = particleHandler.store();
-        for (std::size_t k = 0; k < grains.size(); ++k) {
-            const double z = grains.translation[k].position.z;
-            if (z >= -2 * hopper.grainDiameter) continue;
-            if (z > latticeTop()) takeOut(k);
-            holdStill(k);
+        // The store is read itself, because this looks at all grains in every step.
+        const ParticleStore& grains = particleHandler.store();
+        std::vector<std::uint32_t> gone;
+        for (const std::uint32_t at : grains.place)
+            if (grains.translation[at].position.z < -2 * hopper.grainDiameter)
+                gone.push_back(grains.identity[at]);
+        for (const std::uint32_t identity : gone) {
+            mass += particleHandler.getObject(identity).getMass();
+            particleHandler.removeObject(identity);
         }
+        number += gone.size();
     }
 
     void writeOutput() override {
@@ -68,7 +71,7 @@ public:
     void visitState(StateArchive& archive) override {
         archive.same("orifice", orificeDiameter, "m");
         archive.value("mass", mass);
-        archive.value("taken", taken);
+        archive.value("number", number);
         if (curve) archive.column<double>("curve", *curve);
     }
 
@@ -76,14 +79,14 @@ public:
     void keepCurve(std::vector<CurvePoint>* points) { curve = points; }
     /// kg, of the grains that have left.
     [[nodiscard]] double dischargedMass() const { return mass; }
-    [[nodiscard]] std::size_t dischargedNumber() const { return taken; }
+    [[nodiscard]] std::size_t dischargedNumber() const { return number; }
     /// kg/m^3, between a quarter and three quarters of the height of the highest grain.
-    [[nodiscard]] double bulkDensity() const {
-        const auto& grains = particleHandler.store().translation;
+    [[nodiscard]] double bulkDensity() {
         double height = 0, sum = 0;
-        for (const TranslationRecord& grain : grains) height = std::max(height, grain.position.z);
-        for (const TranslationRecord& grain : grains)
-            if (std::abs(grain.position.z - 0.5 * height) < 0.25 * height) sum += 1 / grain.inverseMass;
+        for (const GrainReference grain : particleHandler)
+            height = std::max(height, grain.getPosition().z());
+        for (const GrainReference grain : particleHandler)
+            if (std::abs(grain.getPosition().z() - 0.5 * height) < 0.25 * height) sum += grain.getMass();
         return sum / (0.25 * std::numbers::pi * hopper.diameter * hopper.diameter * 0.5 * height);
     }
 
@@ -101,36 +104,11 @@ private:
         return material;
     }
 
-    [[nodiscard]] double latticeEdge() const { return 1.5 * hopper.grainDiameter; }
-    /// m, between the grains that fall and those that have been taken out.
-    [[nodiscard]] double latticeTop() const { return -3 * latticeEdge(); }
-
-    /// Moves the grain at a place k of the store to the next place of the lattice below.
-    void takeOut(std::size_t k) {
-        TranslationRecord& grain = particleHandler.store().translation[k];
-        mass += 1 / grain.inverseMass;
-        const auto side = static_cast<std::size_t>(std::ceil(hopper.diameter / latticeEdge()));
-        const auto along = [&](std::size_t n) {
-            return latticeEdge() * (static_cast<double>(n) + 0.5) - 0.5 * hopper.diameter;
-        };
-        grain.position = {along(taken % side), along(taken / side % side),
-                          -latticeEdge() * static_cast<double>(4 + taken / (side * side))};
-        ++taken;
-    }
-    /// The grain stays free, with its mass: the list may still hold a contact of two that were taken out,
-    /// and no contact is made for two that are fixed.
-    void holdStill(std::size_t k) {
-        auto& grains = particleHandler.store();
-        grains.translation[k].velocity = {0, 0, 0};
-        grains.acceleration[k] = {0, 0, 0};
-        grains.rotation[k].spin = grains.rotation[k].angularAcceleration = {0, 0, 0};
-    }
-
     Hopper hopper;
     double orificeDiameter;  // m
     std::vector<CurvePoint>* curve = nullptr;
-    double mass = 0;
-    std::size_t taken = 0;
+    double mass = 0;  // kg, of the grains that have left
+    std::size_t number = 0;
 };
 
 /// Grains that have fallen into the closed hopper from a loose lattice, for three times the time in which a
