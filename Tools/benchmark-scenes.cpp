@@ -163,18 +163,14 @@ int main(int argc, char** argv) {
     Options o;
     app.add_option("--scene", o.choice.scene, "bed, wet-bed, drum, penetration, gas or polydisperse")
         ->capture_default_str();
-    app.add_option("--particles", o.choice.particles, "number of grains, about; the scene's own if not given")
-        ->check(CLI::NonNegativeNumber);
+    app.add_option("--particles", o.choice.particles,
+                   "number of grains, about; the scene's own if not given");
     app.add_option(
         "--species", o.choice.species,
         "species by name, one that 'species --list' marks as instantiated; the scene's own if not given");
     app.add_option("--threads", o.threads, "threads")->capture_default_str();
-    app.add_option("--steps", o.steps, "steps that are timed")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    app.add_option("--warm", o.warm, "steps before those")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
+    app.add_option("--steps", o.steps, "steps that are timed")->capture_default_str();
+    app.add_option("--warm", o.warm, "steps before those")->capture_default_str();
     app.add_option("--positions", o.choice.positions,
                    "file of rows radius x y z (m): the bed of Dosta et al. (2024), repeated along x to the "
                    "number of --particles, or their drum or penetration");
@@ -182,10 +178,9 @@ int main(int argc, char** argv) {
     app.add_option("--states", o.choice.states, "folder of initial states")->capture_default_str();
     app.add_option("--exchange", o.exchange,
                    "grains that come above the scene in each step, and leave it 50 steps later")
-        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app.add_option("--paraview", o.paraView,
-                   "writes a frame for ParaView of this name behind the timed steps, and says what it costs");
+                   "writes a frame for ParaView of this name after the timed steps, and says what it costs");
     app.add_flag("--header", o.header, "print the names of the columns first");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(o); });

@@ -49,7 +49,7 @@ int run(const std::filesystem::path& folder) {
 int main(int argc, char** argv) {
     CLI::App app(
         "Shows the summaries of runs in a folder. The exit code is 0 if all are healthy, 2 if one is not, 1 "
-        "for wrong input.");
+        "for wrong input or options.");
     std::filesystem::path folder;
     app.add_option("folder", folder, "where runs have written NAME-summary.csv")->required();
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;

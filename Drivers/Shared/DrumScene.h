@@ -84,8 +84,8 @@ private:
 };
 
 /// Grains in a loose lattice in the lower part of a drum, M2 below M1 as in the published state and in its
-/// proportion of 8 to 30. Throws InputError if the drum is too small for them.
-inline std::vector<GrainRow> looseDrumGrains(std::size_t number, const DrumShape& drum) {
+/// proportion of 8 to 30: the number that is asked for, or fewer if the drum has no room for more.
+inline std::vector<GrainRow> looseDrumGrainsThatFit(std::size_t number, const DrumShape& drum) {
     const double edge = 2 * latticeLooseness * DrumScene::largeRadius;  // for one grain of M2 or eight of M1
     const Vec3D corner(drum.radius, 0.5 * drum.length, drum.radius);
     const auto fits = [&](const Vec3D& c) {
@@ -104,12 +104,21 @@ inline std::vector<GrainRow> looseDrumGrains(std::size_t number, const DrumShape
                 jittered(DrumScene::smallRadius,
                          cell + 0.25 * edge * Vec3D(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1), random));
     }
-    if (number == 0 || grains.size() < number)
-        throw InputError(
-            fmt::format("The drum of radius {:.3g} m and length {:.3g} m has room for {} loose grains; the "
-                        "number of grains is {}; take more, for which the drum is larger in proportion.",
-                        drum.radius, drum.length, grains.size(), number));
     return grains;
+}
+
+/// The same, all of them. Throws InputError if the drum is too small.
+inline std::vector<GrainRow> looseDrumGrains(std::size_t number, const DrumShape& drum) {
+    std::vector<GrainRow> grains = looseDrumGrainsThatFit(number, drum);
+    if (number > 0 && grains.size() == number) return grains;
+    // Only few grains are refused: a cell of their lattice is large beside their drum.
+    std::size_t next = number + 1;
+    while (looseDrumGrainsThatFit(next, drumFor(next)).size() < next) ++next;
+    throw InputError(fmt::format(
+        "The drum of radius {:.3g} m and length {:.3g} m has room for {} loose grains; the number "
+        "of grains is {}; the next number that fits in its drum, which is larger in proportion, "
+        "is {}.",
+        drum.radius, drum.length, grains.size(), number, next));
 }
 
 /// The grains of looseDrumGrains() after they have fallen in the drum at rest: for three times the time in

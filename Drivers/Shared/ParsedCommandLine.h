@@ -31,8 +31,9 @@ CLI::Option* addFormerName(CLI::App& app, const char* former, Value& value) {
     return app.add_option(former, value)->group("");
 }
 
-/// Parses the command line of any program of ours. Returns the exit code where the program ends with that: it
-/// has printed its help, or, on standard error, a sentence that says what is wrong.
+/// Parses the command line of any program of ours. Returns the exit code where the program ends with that: 0
+/// if it has printed its help; 1, as for all other wrong input, if it has said on standard error what is
+/// wrong.
 inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv) {
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
         return fmt::format("{}; see --help\n", error.what());
@@ -46,7 +47,7 @@ inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
-        return app.exit(end);
+        return app.exit(end) == 0 ? 0 : 1;
     }
     return {};
 }

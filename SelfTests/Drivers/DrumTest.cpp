@@ -67,6 +67,18 @@ TEST(Drum, isFilledInThePublishedProportionWithoutOverlaps) {
     EXPECT_TRUE(contains(text, "number of grains is 2"));
 }
 
+/// A drum grows with its grains, but its lattice by whole cells: 60 do not fit, nor do 80.
+TEST(Drum, namesTheNextNumberThatFits) {
+    const auto next = [](std::size_t number) {
+        const std::string text = refusal([&] { looseDrumGrains(number, drumFor(number)); });
+        return std::stoul(text.substr(text.find(", is ") + 5));
+    };
+    const std::size_t fits = next(60);
+    EXPECT_EQ(next(80), fits);
+    EXPECT_EQ(next(fits - 1), fits);
+    EXPECT_EQ(looseDrumGrains(fits, drumFor(fits)).size(), fits);
+}
+
 TEST(Drum, settledGrainsLieAtRestBelowTheAxis) {
     const DrumShape drum = drumFor(200);
     const auto grains = settledDrumGrains(200, drum, softening);
