@@ -23,10 +23,11 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--states", o.states, "folder of settled beds")->capture_default_str();
     app.add_option("--seeds", o.seeds, "runs of the sheared cell")->capture_default_str();
-    app.add_option("--strain", o.cell.strainMeasured, "of the cell, over which is averaged")
+    app.add_option("--strain", o.cell.strainMeasured,
+                   "strain of the cell over which the figures are averaged")
         ->capture_default_str();
     app.add_option("--strain-before", o.cell.strainBefore,
-                   "of the cell, in the first half of which it is compressed")
+                   "strain of the cell before that; in its first half the cell is compressed")
         ->capture_default_str();
     app.add_option("--dimensionless-volume", o.cell.dimensionlessVolume, "V* of the bridges in the cell")
         ->capture_default_str();

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures accuracy against cost of the liquid bridge laws, and draws the charts: Tools/Results/bridges*.csv and .png,
-# Kernel/Species/Adhesion/failure-maps.png. Some ten minutes with the scenes; times want a machine that is idle.
+# Kernel/Species/Adhesion/failure-maps.png. Some ten minutes with the scenes. It measures times: use an idle machine.
 #   Tools/chart-bridges.sh [--build build/release] [--scenes no]
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

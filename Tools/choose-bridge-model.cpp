@@ -147,12 +147,12 @@ void describe(CLI::App& app, Options& o) {
     app.add_flag("--walls", o.walls, "there are bridges between grains and walls");
     app.add_option(
         "--tolerance-percent", o.tolerance,
-        "error, %, that 95 % of the forces up to 0.95 of the rupture distance must keep to, and 95 % of "
-        "the works up to the rupture");
+        "error, %, that 95 % of the forces (up to 0.95 of the rupture distance) and 95 % of the works up "
+        "to the rupture may have at most");
     app.add_option("--cost-at-most", o.mostCost,
-                   fmt::format("of a bridge and step, in those of {}", reference));
+                   fmt::format("largest cost of a bridge in a step; 1 is the cost of {}", reference));
     app.add_option("--steps-per-list", o.stepsPerList,
-                   "steps from one list of contacts to the next, at which bridges are prepared again");
+                   "steps between two lists of contacts; each list prepares the bridges again");
     app.add_flag("--all", o.all, "a table of all laws, as CSV, before the advice");
     app.add_option("--count", o.count, "random bridges");
     app.add_option("--seed", o.seed, "of the random bridges");

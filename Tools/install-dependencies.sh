@@ -2,7 +2,7 @@
 # Installs the Debian packages that Pendular is built with, where they are missing.
 #   Tools/install-dependencies.sh           installs
 #   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
-#   With --readers also those with which self-tests read the files of a run; tests that need them are skipped else.
+#   With --readers also those with which self-tests read the files of a run; without them, these tests are skipped.
 #   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz).
 set -euo pipefail
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Measures what it takes to build Pendular: in a fresh folder, without a compiler cache, the targets one after the
-# other (each row is what a target takes beyond those before it), and at last one driver again whose .cpp was
-# touched: from an edit to the program. Of several runs, each in a folder of its own, each column has its median.
+# other (each row is what a target takes beyond those before it), and last, one driver again after its .cpp was
+# touched: the time from an edit to the program. Of several runs, each in a folder of its own, each column has its median.
 #   Tools/measure-build.sh [--runs 3] [--threads 1] [--targets "NAME..."] [--edit WetTower] [--build FOLDER] [--all] > build.csv
 # --targets NAMES   the default is PendularKernel PendularDrivers WetTower TwoParticleCollision accuracy-versus-cost
 #                   bridge-scenes
 # --edit DRIVER     the driver that is touched
 # --threads N       files that are compiled at the same time
 # --build FOLDER    where the build folders are made, and removed again; a temporary one if not given
-# --all             as well everything, with the self-tests, before the edit
+# --all             also builds everything, with the tests, before the edit
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 runs=3 threads=1 edit=WetTower build="${TMPDIR:-/tmp}" all=""

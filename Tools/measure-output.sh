@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures a frame in each format: its size, and the processor time that it takes, beside that of 1000 steps of the same
-# run; and VTK's own writer where it is installed (Debian package python3-vtk9). Prints CSV. Both times are the least of many.
+# run; and VTK's own writer where it is installed (Debian package python3-vtk9). Prints CSV. Both times are the
+# shortest of many measurements.
 #   Tools/measure-output.sh [--bed FILE] [--particles 250000] [--steps 300] [--build build/release] > output.csv
 # --bed FILE  rows radius x y z: the bed of Dosta et al. (2024) instead of the one that Pendular makes by itself
 set -euo pipefail

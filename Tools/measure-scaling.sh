@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the scenes of the benchmark against each other, in turn, and prints the rows of Tools/benchmark-scenes with what
-# each is for in front: threads, wet against dry, frictionless against rough, sizes 1:20 against one size, growth.
+# Runs the scenes of the benchmark against each other, in turn, and prints the rows of Tools/benchmark-scenes. Each row
+# starts with what it is for: threads, wet against dry, frictionless against rough, sizes 1:20 against one size, growth.
 #   Tools/measure-scaling.sh [--runs 3] [--build build/release] [--bed FILE] [--largest 4000000] > scaling.csv
 # --bed FILE  rows radius x y z: the bed of Dosta et al. (2024) instead of the one that Pendular makes by itself
 set -euo pipefail

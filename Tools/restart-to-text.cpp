@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
     std::string path, begin;
     bool namesOnly = false;
     app.add_option("file", path, "the restart file")->required();
-    app.add_option("--begin", begin, "only what has a name that begins so, such as particles/");
+    app.add_option("--begin", begin, "only tables whose name starts with this, for example particles/");
     app.add_flag("--names", namesOnly, "names, rows and columns only");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {

@@ -5,7 +5,7 @@
 # Harting, "Capillary-bridge forces between solid particles", with the exact ones; then the eight tests of Chung and
 # Ooi, "Benchmark tests for verifying discrete element modelling codes at particle impact level", beside theory.
 #   Tools/run-paper-figures.sh [OUTPUT_FOLDER]     (default: output/paper-figures)
-# What the programs say is in OUTPUT_FOLDER/log.txt; of one that fails it is shown.
+# What the programs print is in OUTPUT_FOLDER/log.txt; if one fails, its part is shown.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
 case ${1:-} in

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Pendular and runs its tests, except those labelled `long` (for these: ctest
 # --preset long). With CI=true, warnings are errors, the tests run a second time under the address and
-# undefined-behaviour sanitizers, and the readers of files are given random ones, for 20 s each (libFuzzer).
+# undefined-behaviour sanitizers, and the readers of files read random files, 20 s each (libFuzzer).
 #   Tools/run-tests.sh
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"

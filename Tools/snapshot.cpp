@@ -32,9 +32,8 @@ struct Options {
 void describe(CLI::App& app, Options& o) {
     app.option_defaults()->always_capture_default();
     app.add_option("input", o.input,
-                   "NAME.pvd, NAME-particles-STEP.vtp, or, of grains only, NAME-restart.h5 or the table that "
-                   "a run left "
-                   "that could not go on")
+                   "NAME.pvd, NAME-particles-STEP.vtp, or, of grains only, NAME-restart.h5 or "
+                   "NAME-last-state.csv, which a run writes when it ends with an error")
         ->required();
     app.add_option("--output", o.output, "the picture, PNG; with --all, frames get numbers: NAME-0000.png");
     app.add_option(
@@ -42,7 +41,7 @@ void describe(CLI::App& app, Options& o) {
         "field that colours the grains; of a vector its length, or a part: velocity_m_per_s.z; none: "
         "one colour");
     app.add_option("--range", o.view.range,
-                   "values at the ends of the colours; those that occur if not given")
+                   "values at the ends of the colours; if not given, the smallest and the largest that occur")
         ->expected(2);
     app.add_option("--colours", o.view.map, "viridis, coolwarm or grey");
     app.add_option("--contacts", o.view.contacts,

@@ -18,10 +18,10 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
         ->capture_default_str();
     auto* resume =
         app.add_flag("--resume", o.resume,
-                     "go on from the restart file in the output folder; if there is none, start again, "
-                     "which removes the frames of a former run; give the "
-                     "other options as before (end, intervals and threads may change, but "
-                     "--energy-interval-s not from 0 or to 0)");
+                     "go on from the restart file in the output folder. If there is none, the run starts "
+                     "again and removes the frames of an earlier run. Give the other options as before; "
+                     "only end, intervals and threads may change. Do not switch --energy-interval-s on or "
+                     "off");
     // An empty text would be taken for an option that is left out.
     const auto refuseEmpty = [](const std::string& text) {
         return std::string(text.empty() ? "the value is empty" : "");
@@ -30,9 +30,8 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
         ->excludes(resume)
         ->check(refuseEmpty);
     app.add_option("--restart-interval-s", o.restartInterval,
-                   "time on the clock from one restart file to the next, s; 0: at the start and the end "
-                   "only. One is also "
-                   "written on SIGINT, SIGTERM (the run ends), and SIGUSR1 (it goes on)")
+                   "time on the clock between two restart files, s; 0: at the start and the end only. One is "
+                   "also written on SIGINT, SIGTERM (the run ends), and SIGUSR1 (it goes on)")
         ->capture_default_str();
     app.add_option(
            "--wall-time", o.wallTime,
@@ -42,7 +41,7 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
     const auto addInterval = [&](const char* name, double& interval, const std::string& between,
                                  const std::string& file, const std::string& none = "none") {
         app.add_option(name, interval,
-                       fmt::format("time from one to the next of the {} ({}{} in the folder), s: they are "
+                       fmt::format("time between two {} ({}{} in the folder), s: they are "
                                    "written at the steps nearest to its multiples, and at the end; 0: {}",
                                    between, run, file, none))
             ->capture_default_str();

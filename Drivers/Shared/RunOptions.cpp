@@ -113,7 +113,7 @@ double secondsOf(const std::string& clock) {
     const int largest = std::max(hasHours ? minutes : 0, hasMinutes ? seconds : 0);  // after a colon
     if (largest > 59)
         throw InputError(
-            fmt::format("The wall time '{}' has {} behind a colon; minutes and seconds there must "
+            fmt::format("The wall time '{}' has {} after a colon; minutes and seconds there must "
                         "be at most 59.",
                         clock, largest));
     return sum;

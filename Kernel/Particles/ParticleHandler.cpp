@@ -184,8 +184,10 @@ bool ParticleHandler::contains(std::size_t identity) const {
 
 std::uint32_t ParticleHandler::placeOf(std::size_t identity) const {
     if (contains(identity)) return grains.place[static_cast<std::uint32_t>(identity)];
-    throw InputError(fmt::format("There is no particle {}; the scene has {}{} (counted from 0).", identity,
-                                 getSize(), identity < grains.nextIdentity() ? ", and it was removed" : ""));
+    throw InputError(identity < grains.nextIdentity()
+                         ? fmt::format("Particle {} was removed.", identity)
+                         : fmt::format("There is no particle {}; the scene has {} (counted from 0).",
+                                       identity, getSize()));
 }
 
 GrainReference ParticleHandler::getObject(std::size_t identity) {

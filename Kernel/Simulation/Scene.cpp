@@ -52,7 +52,7 @@ Vec3D Scene::contactForceOn(std::size_t identity) const {
 
 void Scene::requireSetUp(std::string_view what) const {
     if (hasBegun())
-        throw InputError(fmt::format("Simulation: the {} can be set until the run begins, not in it.", what));
+        throw InputError(fmt::format("Simulation: the {} can only be set before the run starts.", what));
 }
 
 void Scene::setGravity(const Vec3D& acceleration) {

@@ -119,7 +119,7 @@ TEST(ContactColumns, refuseWhatCannotBe) {
     EXPECT_TRUE(contains(refusal("c16", 0), "is one too many; there can be 16"));
     scene.initialise();
     scene.steps(600);
-    EXPECT_TRUE(contains(refusal("late", 0), "until the run begins"));
+    EXPECT_TRUE(contains(refusal("late", 0), "before the run starts"));
     const std::vector<ObservedContact> before = scene.interactions();
     ASSERT_FALSE(before.empty());
     scene.steps(1);

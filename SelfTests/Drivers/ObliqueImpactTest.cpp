@@ -64,8 +64,8 @@ TEST(ObliqueImpact, goesOnWithTheImpactsThatItsTableLacks) {
     EXPECT_EQ(impacts("--wall-time 11:30:00 ").exitCode, 0);
     EXPECT_EQ(impacts("--wall-time 90:00 ").exitCode, 0) << "minutes may be more than an hour";
     expectOneSentence(impacts("--wall-time soon "), "'soon' is not a time");
-    expectOneSentence(impacts("--wall-time 1:75:00 "), "'1:75:00' has 75 behind a colon");
-    expectOneSentence(impacts("--wall-time 100:60 "), "'100:60' has 60 behind a colon");
+    expectOneSentence(impacts("--wall-time 1:75:00 "), "'1:75:00' has 75 after a colon");
+    expectOneSentence(impacts("--wall-time 100:60 "), "'100:60' has 60 after a colon");
 }
 
 /// Rows are kept only of the impacts that the options have at their places, and what is refused stays as it

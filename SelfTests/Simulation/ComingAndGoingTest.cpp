@@ -158,7 +158,7 @@ TEST(ComingAndGoing, theContactsOfARemovedGrainEnd) {
         EXPECT_EQ(scene.particleHandler.getObject(k).getForce(), Vec3D(0, 0, 0));
     const std::string text = support::refusal([&] { (void)scene.particleHandler.getObject(1); });
     EXPECT_TRUE(isOneSentence(text));
-    EXPECT_TRUE(contains(text, "no particle 1") && contains(text, "was removed"));
+    EXPECT_TRUE(contains(text, "Particle 1 was removed"));
     EXPECT_TRUE(isOneSentence(support::refusal([&] { scene.particleHandler.removeObject(1); })));
     EXPECT_TRUE(isOneSentence(support::refusal([&] { scene.particleHandler.removeObject(7); })));
     // Its number is not given again.
