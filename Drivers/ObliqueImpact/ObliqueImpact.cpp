@@ -1,6 +1,7 @@
 /// A sphere meets a rigid plane at varied angles: the measurements of Kharaz, Gorham and Salman (2001), and
 /// test 4 of Chung and Ooi (2011).
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
 #include <optional>

@@ -2,6 +2,8 @@
 /// Roy and Poeschel, "Discrete Element Simulations of particles interacting via capillary forces using
 /// MercuryDPM".
 
+#include <CLI/CLI.hpp>
+
 #include "Drivers/Shared/CommandLine.h"
 #include "Kernel/Output/RunTable.h"
 #include "Kernel/Simulation/BridgeAdvice.h"
