@@ -9,7 +9,7 @@ TEST_F(HowDoI, Restart) {
         FirstDriver driver;
         driver.setName("run");
         driver.keepRestartFile();
-        driver.setRestartInterval(600);  // s of the clock, from one to the next
+        driver.setRestartInterval(600);  // s of the clock, between two files
         if (std::filesystem::exists(driver.restartFile())) driver.restartFrom(driver.restartFile());
         driver.solve();
         // [end]
