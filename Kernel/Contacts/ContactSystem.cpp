@@ -113,7 +113,8 @@ bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> 
 /// far as the list's skin.
 double ContactSystem::gapAround(const Grains& grains, std::size_t number) const {
     const std::uint32_t place = grains.place[late[number]];
-    const auto [centre, radius] = lateSpheres[number];
+    const Vector<double> centre = lateSpheres[number].position;
+    const double radius = lateSpheres[number].radius;
     double smallest = skin.width();
     const auto look = [&](const Vector<double>& other, double otherRadius) {
         const double touch = radius + otherRadius, reach = touch + smallest;
