@@ -25,13 +25,13 @@ struct RationalBridge {
     [[nodiscard]] T at(T gap) const { return atReduced(gap * inverseLength); }
     [[nodiscard]] T atReduced(T y) const {
         T sum = numerator[terms - 1];
-        for (int k = terms - 2; k >= 0; --k) sum = sum * y + numerator[static_cast<std::size_t>(k)];
+        for (int k = terms - 2; k >= 0; --k) sum = fma(sum, y, numerator[static_cast<std::size_t>(k)]);
         return sum / denominator(y, end);
     }
 
     static T denominator(T y, T end) {
         constexpr double c = 0.16;  // by search: the least largest error over 60 bridges
-        return (T(1) + y * (T(2 * c) + T(1 + c * c) * y)) * (T(1) + y) * (end - y);
+        return fma(y, fma(T(1 + c * c), y, T(2 * c)), T(1)) * (T(1) + y) * (end - y);
     }
 };
 

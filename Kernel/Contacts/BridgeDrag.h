@@ -25,14 +25,14 @@ struct BridgeSlip {
 /// zero between equal grains, is left to the next step.)
 template <class T>
 BridgeDrag<T> bridgeDrag(const BridgeResistance<T>& c, const BridgeSlip<T>& motion, const Vector<T>& normal) {
-    const T slipBySlip = T(1) + motion.slipResponse * c.sliding;
-    const T rollByRoll = T(1) + motion.rollResponse * c.rolling;
+    const T slipBySlip = fma(motion.slipResponse, c.sliding, T(1));
+    const T rollByRoll = fma(motion.rollResponse, c.rolling, T(1));
     const T slipByRoll = motion.slipResponse * c.coupling, rollBySlip = motion.rollResponse * c.coupling;
     const T inverse = T(1) / (slipBySlip * rollByRoll - slipByRoll * rollBySlip);
-    const Vector<T> slip = (rollByRoll * inverse) * motion.slip - (slipByRoll * inverse) * motion.roll;
-    const Vector<T> roll = (slipBySlip * inverse) * motion.roll - (rollBySlip * inverse) * motion.slip;
-    const Vector<T> along = c.coupling * slip + c.rolling * roll;
-    return {-(c.sliding * slip + c.coupling * roll), -cross(along, normal)};
+    const Vector<T> slip = fma(-slipByRoll * inverse, motion.roll, (rollByRoll * inverse) * motion.slip);
+    const Vector<T> roll = fma(-rollBySlip * inverse, motion.slip, (slipBySlip * inverse) * motion.roll);
+    const Vector<T> along = fma(c.coupling, slip, c.rolling * roll);
+    return {-fma(c.sliding, slip, c.coupling * roll), -cross(along, normal)};
 }
 
 }  // namespace pendular

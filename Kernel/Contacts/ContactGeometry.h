@@ -71,14 +71,14 @@ struct PairGeometry {
             const auto [wx2, wy2, wz2] = loadRecords<3>(numbers(rotation), 8, block.second.data());
             const Vector<Pack> spin1{wx1, wy1, wz1}, spin2{wx2, wy2, wz2};
             const Pack half = Pack(0.5) * g.overlap;
-            g.spinLever = (radius1 - half) * spin1 + (radius2 - half) * spin2;
+            g.spinLever = fma(radius1 - half, spin1, (radius2 - half) * spin2);
             g.spinSum = spin1 + spin2;
             if constexpr (S::hasContactTorque) {
                 g.spinDifference = spin1 - spin2;
                 if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
                     g.asymmetry = (radius2 - radius1) / sum;
                 g.rotationResponse =
-                    Pack(2.5) * (im1 * square(radius2) + im2 * square(radius1)) / square(sum);
+                    Pack(2.5) * fma(im1, square(radius2), im2 * square(radius1)) / square(sum);
             }
         }
         return g;
@@ -133,7 +133,7 @@ struct WallGeometry {
                 loadRecords<3>(reinterpret_cast<const double*>(rotation), 8, block.first.data());
             const Vector<Pack> own{wx, wy, wz}, wall{Pack(wallSpin.x), Pack(wallSpin.y), Pack(wallSpin.z)};
             g.spinSum = own + wall;
-            g.spinLever = (radius - Pack(0.5) * g.overlap) * own;  // the wall's is in its velocity
+            g.spinLever = fma(Pack(-0.5), g.overlap, radius) * own;  // the wall's is in its velocity
             if constexpr (S::hasContactTorque) {
                 g.spinDifference = own - wall;
                 if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)

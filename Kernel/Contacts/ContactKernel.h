@@ -156,8 +156,8 @@ private:
             else return damping;
         };
         const auto approachWith = [&](Pack damping) {
-            return (predicted - halfStep * (force.elastic - adhesive - last.normalForce)) /
-                   (Pack(1) + halfStep * withBridge(damping));
+            return fma(-halfStep, force.elastic - adhesive - last.normalForce, predicted) /
+                   fma(halfStep, withBridge(damping), Pack(1));
         };
 
         part.damping = force.damping;
@@ -165,9 +165,9 @@ private:
         part.timing = {Pack(0.5), Pack(0.5)};
         const Pack acceleration =
             Pack(-timeStep * timeStep) * g.inverseMass *
-            (force.elastic + withBridge(part.damping) * part.approach - adhesive);  // m/step^2
+            (fma(withBridge(part.damping), part.approach, force.elastic) - adhesive);  // m/step^2
         const Pack approachInStep = part.approach * timeStep;
-        const Pack nextOverlap = g.overlap + approachInStep + Pack(0.5) * acceleration;
+        const Pack nextOverlap = fma(Pack(0.5), acceleration, g.overlap + approachInStep);
         part.closing = touching & (part.approach < Pack(0)) & (nextOverlap <= Pack(0)) &
                        maskFromBits(timing.timesTouches ? 0xff : 0);
         if (any(begins | part.closing)) {
@@ -185,20 +185,20 @@ private:
         }
         part.elastic = force.elastic;
         if constexpr (resists != BridgeResists::Nothing) part.viscous = resistance * part.approach;
-        part.repulsion = select(touching, force.elastic + part.damping * part.approach, Pack(0));
+        part.repulsion = select(touching, fma(part.damping, part.approach, force.elastic), Pack(0));
         return part;
     }
 
     Vector<Pack> computeFriction(std::size_t block, const ContactGeometry<Pack>& g, const LastForces& last,
                                  Mask touching, Mask begins, const NormalPart& normal) {
         const Pack approach = dot(g.velocity, g.normal);
-        const Vector<Pack> sideways = g.velocity - approach * g.normal;
+        const Vector<Pack> sideways = fma(-approach, g.normal, g.velocity);
         // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
         // last step; 1/m + r^2/I of a solid sphere is 7/2 of 1/m.
         const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
-        const Vector<Pack> predicted = sideways + cross(g.spinLever, g.normal);
+        const Vector<Pack> lever = fma(-response, last.leverless, g.spinLever);
         const double before = timing.timesTouches ? 0.5 : 1;  // steps for which the spring has still to move
-        const Slip<Pack> slip{.velocity = predicted - response * cross(last.leverless, g.normal),
+        const Slip<Pack> slip{.velocity = sideways + cross(lever, g.normal),
                               .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
                               .timeAfter = Pack(timeStep * (1 - before)),
                               .response = response};
@@ -239,10 +239,10 @@ private:
                              const Vector<Pack>& lastTorque, Mask bridged,
                              const BridgeResistance<Pack>& resistance, const Vector<Pack>& friction) {
         const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
-        const Vector<Pack> sideways = g.velocity - dot(g.velocity, g.normal) * g.normal;
-        const Vector<Pack> predicted = sideways + cross(g.spinLever, g.normal);
+        const Vector<Pack> sideways = fma(-dot(g.velocity, g.normal), g.normal, g.velocity);
+        const Vector<Pack> lever = fma(-response, last.leverless, g.spinLever);
         Vector<Pack> own = zero;  // N m, of friction
-        BridgeSlip<Pack> motion{.slip = predicted + response * (friction - cross(last.leverless, g.normal)),
+        BridgeSlip<Pack> motion{.slip = fma(response, friction, sideways + cross(lever, g.normal)),
                                 .roll = zero,
                                 .slipResponse = response,
                                 .rollResponse = Pack(0)};
@@ -316,23 +316,26 @@ private:
     void writeRecords(std::size_t block, const Vector<Pack>& direction, Pack overlap, Pack normalForce,
                       const Vector<Pack>& tangential) {
         double* base = recordsAt(block);
-        const Vector<Pack> along = -normalForce * direction;
         if constexpr (S::hasTorque) {
-            const Vector<Pack> force = along + tangential;
+            const Vector<Pack> force = fma(-normalForce, direction, tangential);
             const Vector<Pack> torque = cross(direction, tangential);
             storeRecords(base, std::array<Pack, 8>{force.x, force.y, force.z, Pack(0.5) * overlap, torque.x,
                                                    torque.y, torque.z, normalForce});
         } else if (writesTorques()) {
+            const Vector<Pack> along = -normalForce * direction;
             storeRecords(base, std::array<Pack, 8>{along.x, along.y, along.z, Pack(0.5) * overlap, Pack(0),
                                                    Pack(0), Pack(0), normalForce});
         } else {
+            const Vector<Pack> along = -normalForce * direction;
             storeRecords(base, std::array<Pack, 4>{along.x, along.y, along.z, normalForce});
         }
     }
 
+    // By value: what the kernel hands out by reference it would have to keep in memory in every step.
+
     /// What the ledger reads of eight contacts, without their friction.
-    [[gnu::noinline, gnu::cold]] void writeSamples(std::size_t block, const ContactGeometry<Pack>& g,
-                                                   const NormalPart& normal, Pack adhesive, Mask touching,
+    [[gnu::noinline, gnu::cold]] void writeSamples(std::size_t block, ContactGeometry<Pack> g,
+                                                   NormalPart normal, Pack adhesive, Mask touching,
                                                    Mask bridged) {
         const Pack dashpot = normal.repulsion - select(touching, normal.elastic, Pack(0));
         for (int k = 0; k < Pack::lanes; ++k) {
@@ -359,7 +362,7 @@ private:
         }
     }
     [[gnu::noinline, gnu::cold]] void writeSample(std::size_t block, SliderSample ContactSample::*part,
-                                                  const SliderForce<Pack>& slider, Mask touching) {
+                                                  SliderForce<Pack> slider, Mask touching) {
         const Vector<Pack> spring = -slider.stiffness * slider.spring, rest = slider.force - spring;
         const Pack stretch2 = squaredNorm(slider.spring);
         for (int k = 0; k < Pack::lanes; ++k)
@@ -368,8 +371,7 @@ private:
                     part = {laneOf(spring, k), laneOf(rest, k), stretch2[k], slider.stiffness[k],
                             laneOf(slider.slides | slider.slips, k) ? 1.0 : 0.0};
     }
-    [[gnu::noinline, gnu::cold]] void writeDrag(std::size_t block, const BridgeDrag<Pack>& drag,
-                                                Mask bridged) {
+    [[gnu::noinline, gnu::cold]] void writeDrag(std::size_t block, BridgeDrag<Pack> drag, Mask bridged) {
         for (int k = 0; k < Pack::lanes; ++k) {
             if (!laneOf(bridged, k)) continue;
             BridgeSample& sample =

@@ -32,8 +32,8 @@ template <bool hasTorque, bool hasContactTorque>
         Pack sum = 0;
         for (const std::uint32_t side : store.sides.of(grain)) {
             const ForceTorqueRecord& record = store.memory.records[side / 2];
-            sum += Pack::load(&record.force.x) *
-                   select(torquePart, Pack(radius - record.halfOverlap), Pack(signs[side & 1]));
+            const Pack weight = select(torquePart, Pack(radius - record.halfOverlap), Pack(signs[side & 1]));
+            sum = fma(Pack::load(&record.force.x), weight, sum);
         }
         auto result = std::bit_cast<ForceAndTorque<true>>(sum.toLanes());
         if constexpr (hasContactTorque)

@@ -7,10 +7,11 @@
 /// them.
 ///
 /// One formula serves both number types: a law is a template on T = double or T = Pack and uses only
-///     + - * /  sqrt abs square min max nearestInteger
+///     + - * /  fma sqrt abs square min max nearestInteger
 ///     < <= > >= == !=  & | ^ !  select any all none bits
 /// which have the same names, and give the same bits, for double (Scalar.h) and Pack. Two conditions:
-/// the compiler must not contract a * b + c (-ffp-contract=off), and NaN payloads are not compared.
+/// the compiler must not contract a * b + c by itself (-ffp-contract=off): a law that wants it rounded once,
+/// which is faster, writes fma(a, b, c). And NaN payloads are not compared.
 ///
 ///     const MaskOf<T> touching = overlap > 0.0;
 ///     if (none(touching)) return;

@@ -89,7 +89,7 @@ struct Pack {
     }
     [[gnu::always_inline]] friend Pack operator+(Pack a) { return a; }
     [[gnu::always_inline]] friend Pack operator-(Pack a) {
-        return Pack(_mm512_xor_pd(a.value, _mm512_set1_pd(-0.0)));
+        return Pack(-a.value);  // g++ makes it part of an fma, which it does not of _mm512_xor_pd
     }
     [[gnu::always_inline]] Pack& operator+=(Pack other) { return *this = *this + other; }
     [[gnu::always_inline]] Pack& operator-=(Pack other) { return *this = *this - other; }
@@ -118,6 +118,10 @@ struct Pack {
     /// Lane by lane: yes where the mask is set, else no.
     [[gnu::always_inline]] friend Pack select(Mask mask, Pack yes, Pack no) {
         return Pack(_mm512_mask_blend_pd(mask.value, no.value, yes.value));
+    }
+    /// a b + c, rounded once.
+    [[gnu::always_inline]] friend Pack fma(Pack a, Pack b, Pack c) {
+        return Pack(_mm512_fmadd_pd(a.value, b.value, c.value));
     }
     // The forms with a mask of ones give the plain instruction, without g++ 12's false warning of
     // uninitialised values.

@@ -163,6 +163,12 @@ struct alignas(64) Pack {
             return part::select(mask.value[k], yes.value[k], no.value[k]);
         });
     }
+    /// a b + c, rounded once.
+    [[gnu::always_inline]] friend Pack fma(const Pack& a, const Pack& b, const Pack& c) {
+        return map([&](int k) __attribute__((always_inline)) {
+            return part::fma(a.value[k], b.value[k], c.value[k]);
+        });
+    }
     [[gnu::always_inline]] friend Pack sqrt(const Pack& a) {
         return map([&](int k) __attribute__((always_inline)) { return part::sqrt(a.value[k]); });
     }

@@ -73,6 +73,16 @@ typedef unsigned long long Naturals __attribute__((vector_size(8 * lanes)));
 #endif
 }
 
+/// Rounded once: number by number where there is no instruction for it.
+[[gnu::always_inline]] inline Doubles fma(Doubles a, Doubles b, Doubles c) {
+#if defined(__FMA__)
+    return _mm256_fmadd_pd(a, b, c);
+#else
+    for (int k = 0; k < lanes; ++k) c[k] = std::fma(a[k], b[k], c[k]);
+    return c;
+#endif
+}
+
 // The instructions do what `a < b ? a : b` says, also for NaN and signed zeros; g++ would compare and blend.
 [[gnu::always_inline]] inline Doubles min(Doubles a, Doubles b) {
 #if defined(__AVX__)

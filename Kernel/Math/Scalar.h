@@ -20,6 +20,14 @@ template <class T>
 requires std::is_arithmetic_v<T>
 [[gnu::always_inline]] inline double sqrt(T value) { return std::sqrt(static_cast<double>(value)); }
 
+/// a b + c, rounded once, on every machine: where there is no instruction for it, the C library computes it,
+/// exactly and slowly.
+template <class A, class B, class C>
+requires(std::is_arithmetic_v<A>&& std::is_arithmetic_v<B>&& std::is_arithmetic_v<C>)
+    [[gnu::always_inline]] inline double fma(A a, B b, C c) {
+    return std::fma(static_cast<double>(a), static_cast<double>(b), static_cast<double>(c));
+}
+
 template <std::floating_point T>
 [[gnu::always_inline]] inline double abs(T value) {
     return std::abs(static_cast<double>(value));

@@ -26,10 +26,14 @@ struct Vector {
     [[gnu::always_inline]] Vector& operator*=(const T& factor) { return *this = *this * factor; }
 
     [[gnu::always_inline]] friend T dot(const Vector& a, const Vector& b) {
-        return a.x * b.x + a.y * b.y + a.z * b.z;
+        return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
     }
     [[gnu::always_inline]] friend Vector cross(const Vector& a, const Vector& b) {
-        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+        return {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x))};
+    }
+    /// factor a + b, each component rounded once.
+    [[gnu::always_inline]] friend Vector fma(const T& factor, const Vector& a, const Vector& b) {
+        return {fma(factor, a.x, b.x), fma(factor, a.y, b.y), fma(factor, a.z, b.z)};
     }
     /// Of finite vectors well inside the range of a double: no protection from overflow.
     [[gnu::always_inline]] friend T squaredNorm(const Vector& a) { return dot(a, a); }

@@ -219,6 +219,25 @@ TEST(Pack, multiplicationAndAdditionAreNotContracted) {
         << "compile with -ffp-contract=off";
 }
 
+TEST(Pack, fmaRoundsOnce) {
+    volatile double above = 1.0 + 0x1p-30;
+    volatile double below = 1.0 - 0x1p-30;
+    EXPECT_EQ(fma(above, below, -1.0), -0x1p-60);
+    EXPECT_TRUE(all(fma(Pack(above), Pack(below), -Pack(1.0)) == -0x1p-60));
+    EXPECT_TRUE(all(fma(-Pack(above), Pack(below), Pack(1.0)) == 0x1p-60));
+}
+
+TEST(Pack, fmaIsThatOfTheStandardLibrary) {
+    const auto expectWith = [](const char* name, auto third) {
+        expectBinary(
+            name, [&](auto a, auto b) { return fma(a, b, third(a, b)); },
+            [&](double a, double b) { return std::fma(a, b, third(a, b)); });
+    };
+    expectWith("a b + b", [](auto, auto b) { return b; });
+    expectWith("a b - a b", [](auto a, auto b) { return -(a * b); });
+    expectWith("a b + 1", [](auto a, auto) { return a * 0.0 + 1.0; });
+}
+
 TEST(Mask, bitsAreTheLanes) {
     for (unsigned pattern = 0; pattern < 256; ++pattern) {
         const Mask mask = maskFromBits(static_cast<std::uint8_t>(pattern));

@@ -22,6 +22,7 @@ TEST(Vector, hasTheOperationsOfALinearSpace) {
     EXPECT_EQ(c += b, a + b);
     EXPECT_EQ(c -= b, a);
     EXPECT_EQ(c *= 3, 3 * a);
+    EXPECT_EQ(fma(2.0, a, b), 2 * a + b);
     EXPECT_FALSE(a == b);
 }
 

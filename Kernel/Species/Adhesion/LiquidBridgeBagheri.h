@@ -19,7 +19,7 @@ struct LiquidBridgeBagheriInteraction {
 
     [[nodiscard]] T force(T separation) const {
         const T x = separation * inverseRupture;
-        return contactForce * (T(1) + numerator * x) / (T(1) + x * (linear + quadratic * x));
+        return contactForce * fma(numerator, x, T(1)) / fma(x, fma(quadratic, x, linear), T(1));
     }
     [[nodiscard]] T range() const { return ruptureDistance; }
 };

@@ -16,7 +16,7 @@ struct LiquidBridgeWillettInteraction {
 
     [[nodiscard]] T force(T separation) const {
         const T s = separation * separationScale;
-        return contactForce / (T(1) + s * (T(2.1) + T(10) * s));
+        return contactForce / fma(s, fma(T(10), s, T(2.1)), T(1));
     }
     [[nodiscard]] T range() const { return ruptureDistance; }
 };

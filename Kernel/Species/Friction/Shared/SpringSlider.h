@@ -15,21 +15,24 @@ template <class T>
 [[gnu::always_inline]] inline SliderForce<T> slideSpring(T stiffness, T damping, T threshold, T limit,
                                                          const Slip<T>& slip, Vector<T>& spring) {
     constexpr double smallest = 1e-300;  // N^2: what is less is taken for it in divisions
-    const T resistance = stiffness * slip.timeBefore + damping;  // N per m/s
-    Vector<T> force =
-        (T(-1) / (T(1) + slip.response * resistance)) * (stiffness * spring + resistance * slip.velocity);
+    const T resistance = fma(stiffness, slip.timeBefore, damping);  // N per m/s
+    const Vector<T> pull = fma(resistance, slip.velocity, stiffness * spring);
+    const T sticking = T(1) / fma(slip.response, resistance, T(1));  // of the pull, what is left at the end
 
-    const T size2 = squaredNorm(force);
-    const auto slides = size2 > threshold * threshold;
-    force = select(slides, limit * (sqrt(size2) * (T(1) / max(size2, T(smallest)))), T(1)) * force;
-    const Vector<T> velocity = slip.velocity + slip.response * force;
+    const T pull2 = squaredNorm(pull);
+    const auto slides = square(sticking) * pull2 > square(threshold);
+    const T sliding = limit * (sqrt(pull2) * (T(1) / max(pull2, T(smallest))));
+    const Vector<T> force = -select(slides, sliding, sticking) * pull;
+    const Vector<T> velocity = fma(slip.response, force, slip.velocity);
 
-    Vector<T> stretched = spring + slip.timeBefore * velocity;
+    Vector<T> stretched = fma(slip.timeBefore, velocity, spring);
     const T most = select(slides, limit, threshold);
     const T spring2 = squaredNorm(stiffness * stretched);
-    const auto over = spring2 > most * most;
-    if (any(over)) stretched = select(over, most / sqrt(max(spring2, T(smallest))), T(1)) * stretched;
-    spring = stretched + slip.timeAfter * velocity;
+    const auto over = spring2 > square(most);
+    if (any(over))
+        stretched =
+            select(over, most * (sqrt(spring2) * (T(1) / max(spring2, T(smallest)))), T(1)) * stretched;
+    spring = fma(slip.timeAfter, velocity, stretched);
     return {force, stretched, stiffness, slides, over};
 }
 

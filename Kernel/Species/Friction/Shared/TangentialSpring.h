@@ -14,9 +14,9 @@ struct TangentialSpring {
     /// the turn of n by normalShift takes s to s - a (n - normalShift/2), which is tangential again; the
     /// twist follows. (Projection and rescaling, as is common, costs a square root and a division more.)
     void turn(const FrameRotation<T>& r) {
-        const Vector<T> tilted =
-            displacement - dot(displacement, r.normal) * (r.normal - T(0.5) * r.normalShift);
-        displacement = tilted + r.twist * cross(r.normal, tilted) - (T(0.5) * r.twist * r.twist) * tilted;
+        const Vector<T> between = fma(T(-0.5), r.normalShift, r.normal);
+        const Vector<T> tilted = fma(-dot(displacement, r.normal), between, displacement);
+        displacement = fma(r.twist, cross(r.normal, tilted), fma(T(-0.5), r.twist * r.twist, T(1)) * tilted);
     }
 };
 
