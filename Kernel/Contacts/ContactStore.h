@@ -49,6 +49,15 @@ struct WallPointColumns {
         velocity[2].lane[lane] = point.velocity.z;
         distance.lane[lane] = point.distance;
     }
+    /// The points of all eight contacts.
+    void set(const Vector<Pack>& normals, const Vector<Pack>& velocities, const Pack& distances) {
+        const auto store = [](std::array<LaneColumn, 3>& to, const Vector<Pack>& v) {
+            v.x.store(to[0].lane.data()), v.y.store(to[1].lane.data()), v.z.store(to[2].lane.data());
+        };
+        store(normal, normals);
+        store(velocity, velocities);
+        distances.store(distance.lane.data());
+    }
     /// m/s
     [[nodiscard]] Vector<double> velocityAt(std::size_t lane) const {
         return {velocity[0].lane[lane], velocity[1].lane[lane], velocity[2].lane[lane]};

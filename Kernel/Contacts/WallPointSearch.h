@@ -20,6 +20,16 @@ public:
     template <class Wake>
     void find(ContactStore& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,
               const ContactLaws& laws, double step, int threads, Wake&& wake) {
+        if (const auto plane = wall.planeAtRest()) {
+            inParts(
+                bucket.end - bucket.begin, threads,
+                [&](int, std::size_t from, std::size_t to) {
+                    for (std::size_t b = bucket.begin + from; b < bucket.begin + to; ++b)
+                        findAtPlane(contacts, grains, bucket, wall, *plane, step, b);
+                },
+                worthAThread / Pack::lanes);
+            return;
+        }
         const std::size_t first = bucket.begin * Pack::lanes;
         std::size_t end = bucket.end * Pack::lanes;
         while (end > first && !contacts.bitOf(contacts.states[(end - 1) / Pack::lanes].listed, end - 1))
@@ -54,6 +64,30 @@ private:
     static std::uint32_t grainOf(const ContactStore& contacts, std::size_t c) {
         return contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
     }
+
+    /// The points of the eight contacts of a block with a plane.
+    static void findAtPlane(ContactStore& contacts, const Grains& grains, const Bucket& bucket,
+                            const Wall& wall, const PlaneAtRest& plane, double step, std::size_t block) {
+        const std::uint32_t* const first = contacts.blocks[block].first.data();
+        const auto* const base = reinterpret_cast<const double*>(grains.translation.data());
+        const auto [x, y, z] = loadRecords<3>(base, 8, first);
+        const auto [vx, vy, vz] = loadRecords<3>(base + 4, 8, first);
+        const Vector<Pack> normal = toAllLanes(plane.grains.normal),
+                           surface = toAllLanes(plane.surfaceVelocity);
+        const Pack distance = Pack(plane.grains.offset) - dot(normal, Vector<Pack>{x, y, z});
+        contacts.wallPoints[block - contacts.firstWallBlock()].set(normal, surface, distance);
+
+        const Vector<Pack> way = Pack(step) * (Vector<Pack>{vx, vy, vz} - surface);
+        const Mask near =
+            maskFromBits(contacts.states[block].listed) & (distance * abs(distance) <= squaredNorm(way));
+        if (none(near)) return;
+        for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
+            if (near[lane])
+                refuseCrossing(wall, bucket.wall, grains.translation[first[lane]],
+                               grains.identity[first[lane]],
+                               {plane.grains.normal, distance[lane], plane.surfaceVelocity}, step);
+    }
+    static Vector<Pack> toAllLanes(const Vector<double>& v) { return {Pack(v.x), Pack(v.y), Pack(v.z)}; }
 
     /// The same for the contacts [c, end), which begin with a grain's first.
     static void findPart(ContactStore& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,

@@ -23,6 +23,7 @@ protected:
                     std::span<WallPoint> points) const override {
         points[0] = {normal, gap(centre), {0, 0, 0}};
     }
+    [[nodiscard]] std::optional<HalfSpace> planeInBody() const override { return {{normal, offset}}; }
     [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override {
         return gap(from) >= 0 && gap(to) < 0;
     }

@@ -50,6 +50,10 @@ public:
     void listParts(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const final;
+    [[nodiscard]] std::optional<PlaneAtRest> planeAtRest() const final {
+        const std::optional<HalfSpace> plane = atRest ? planeInBody() : std::nullopt;
+        return plane ? std::optional(PlaneAtRest{*plane, surfaceVelocity}) : std::nullopt;
+    }
     [[nodiscard]] Vector<double> angularVelocity() const final { return velocity.spin; }
     [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const final;
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const final;
@@ -60,6 +64,7 @@ protected:
                             std::vector<std::uint32_t>& parts) const = 0;
     virtual void findInBody(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                             std::span<WallPoint> points) const = 0;
+    [[nodiscard]] virtual std::optional<HalfSpace> planeInBody() const { return {}; }
     [[nodiscard]] virtual bool isCrossedInBody(const Vector<double>& from,
                                                const Vector<double>& to) const = 0;
     [[nodiscard]] virtual SurfaceExtent extent() const = 0;

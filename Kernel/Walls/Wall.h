@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct WallPoint {
     double distance;          // m, from the centre to the surface; infinite: this part is not to be touched
     Vector<double> velocity;  // m/s, of the wall's surface there
     int coveredBy = -1;       // of an infinite distance: the place of the point that stands for it
+};
+
+/// A plane that does not move, whose surface may run along it.
+struct PlaneAtRest {
+    HalfSpace grains;                // the side where they are
+    Vector<double> surfaceVelocity;  // m/s
 };
 
 /// The force of all grains on a wall, and its torque about a point.
@@ -47,6 +54,10 @@ public:
     /// @param points one for each part
     virtual void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                             std::span<WallPoint> points) const = 0;
+
+    /// A wall that is nothing but a plane at rest: its points are found for eight grains at once, which gives
+    /// the same bits as findPoints().
+    [[nodiscard]] virtual std::optional<PlaneAtRest> planeAtRest() const { return {}; }
 
     /// Whether a centre that moves straight from one point to the other goes through the surface.
     [[nodiscard]] virtual bool isCrossed(const Vector<double>& /*from*/, const Vector<double>& /*to*/) const {
