@@ -112,14 +112,16 @@ private:
 void measure(Scene& scene, const Options& options, double memoryBefore) {
     scene.setNumberOfThreads(options.threads);
     scene.initialise();
-    for (std::size_t k = 0; k < options.warm; ++k) scene.step();
+    scene.step(options.warm);
     const std::size_t rebuildsBefore = scene.contacts().rebuildCount();
     Exchange exchange(scene, options.exchange);
     const auto start = std::chrono::steady_clock::now();
-    for (std::size_t k = 0; k < options.steps; ++k) {
-        exchange();
-        scene.step();
-    }
+    if (options.exchange == 0) scene.step(options.steps);
+    else
+        for (std::size_t k = 0; k < options.steps; ++k) {
+            exchange();
+            scene.step();
+        }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     exchange.report(seconds);
 

@@ -94,9 +94,8 @@ struct Tables {
 void measure(Scene& scene, const Options& options) {
     scene.setNumberOfThreads(options.threads);
     scene.initialise();
-    const double stepsTime = leastTimeOf((options.steps + stepsTogether - 1) / stepsTogether, [&] {
-        for (std::size_t k = 0; k < stepsTogether; ++k) scene.step();
-    });
+    const double stepsTime =
+        leastTimeOf((options.steps + stepsTogether - 1) / stepsTogether, [&] { scene.step(stepsTogether); });
     FormatCosts costs(scene, options.folder, stepsTime / stepsTogether);
     fmt::print("writer,format,contacts,grains,bytes,processor_time_s,percent_of_1000_steps\n");
     for (const bool contacts : {false, true}) {

@@ -20,32 +20,25 @@ public:
     /// if one is not a number.
     static double begin(Grains& grains, double step, int threads, const Integrator& scheme) {
         if (scheme.remembersEarlier()) grains.earlier.resize(grains.size());  // of the first grains in a run
-        std::vector<double> largest(static_cast<std::size_t>(threads), 0);
-        inParts(
-            grains.size(), threads,
-            [&](int part, std::size_t first, std::size_t end) {
-                auto& farthest = largest[static_cast<std::size_t>(part)];
-                farthest = scheme.remembersEarlier() ? move<true>(grains, step, scheme, first, end)
-                                                     : move<false>(grains, step, scheme, first, end);
-            },
-            grainsWorthAThread);
-        return *std::max_element(largest.begin(), largest.end());
+        return largestOfAll(grains, threads, scheme, [&]<bool remembers>(std::size_t k) {
+            return move<remembers>(grains, step, scheme, k);
+        });
     }
     /// The new accelerations, and with them the velocities at the end of the step.
     static void finish(Grains& grains, const ContactStore& store, const Vector<double>& gravity, double step,
                        int threads, const Integrator& scheme) {
-        inParts(
-            grains.size(), threads,
-            [&](int, std::size_t first, std::size_t end) {
-                const auto all = [&, weight = fourOf(gravity), h = step,
-                                  coefficients = scheme]<bool remembers>() {
-                    for (std::size_t k = first; k < end; ++k)
-                        accelerate<remembers>(grains, store, weight, h, coefficients, k);
-                };
-                scheme.remembersEarlier() ? all.template operator()<true>()
-                                          : all.template operator()<false>();
-            },
-            grainsWorthAThread);
+        largestOfAll(grains, threads, scheme, [&, weight = fourOf(gravity)]<bool remembers>(std::size_t k) {
+            accelerate<remembers>(grains, store, weight, step, scheme, k);
+            return 0.0;
+        });
+    }
+    static double finishAndBegin(Grains& grains, const ContactStore& store, const Vector<double>& gravity,
+                                 double step, double nextStep, int threads, const Integrator& scheme) {
+        return largestOfAll(grains, threads, scheme,
+                            [&, weight = fourOf(gravity)]<bool remembers>(std::size_t k) {
+                                accelerate<remembers>(grains, store, weight, step, scheme, k);
+                                return move<remembers>(grains, nextStep, scheme, k);
+                            });
     }
 
     /// Undoes begin, up to round-off.
@@ -80,36 +73,52 @@ private:
         return last;
     }
 
+    /// The largest of function.operator()<remembers>(k) over all grains k.
+    template <class Function>
+    static double largestOfAll(const Grains& grains, int threads, const Integrator& scheme,
+                               const Function& function) {
+        std::vector<double> largest(static_cast<std::size_t>(threads), 0);
+        const auto ofAll = [&]<bool remembers>() {
+            inParts(
+                grains.size(), threads,
+                [&](int part, std::size_t first, std::size_t end) {
+                    const Function own = function;
+                    double most = 0;
+                    for (std::size_t k = first; k < end; ++k)
+                        most = std::max(most, own.template operator()<remembers>(k));
+                    largest[static_cast<std::size_t>(part)] = most;
+                },
+                grainsWorthAThread);
+        };
+        scheme.remembersEarlier() ? ofAll.template operator()<true>() : ofAll.template operator()<false>();
+        return *std::max_element(largest.begin(), largest.end());
+    }
+
+    /// Returns the squared displacement (m^2).
     template <bool remembers>
-    static double move(Grains& grains, double step, const Integrator& scheme, std::size_t first,
-                       std::size_t end) {
+    [[gnu::always_inline]] static double move(Grains& grains, double step, const Integrator& scheme,
+                                              std::size_t k) {
         const double position = scheme.position0 * step, velocity = scheme.velocity0 * step;
-        double largest = 0;
-        for (std::size_t k = first; k < end; ++k) {
-            TranslationRecord& grain = grains.translation[k];
-            const Four before = loadFour(grain.velocity), place = loadFour(grain.position);
-            const Four acceleration = fourOf(grains.acceleration[k]);
-            Four mean = before + position * acceleration;
+        TranslationRecord& grain = grains.translation[k];
+        const Four before = loadFour(grain.velocity), place = loadFour(grain.position);
+        const Four acceleration = fourOf(grains.acceleration[k]);
+        Four mean = before + position * acceleration;
+        if constexpr (remembers) mean += (scheme.position1 * step) * fourOf(grains.earlier[k].acceleration);
+        const Four shift = step * mean;
+        storeVector(grain.position, place + shift, place);
+        Four after = before + velocity * acceleration;
+        if constexpr (remembers) after += (scheme.velocity1 * step) * fourOf(grains.earlier[k].acceleration);
+        storeVector(grain.velocity, after, before);
+        if constexpr (hasSpin) {
+            RotationRecord& turning = grains.rotation[k];
+            const Four spin = loadFour(turning.spin);
+            Four next = spin + velocity * loadFour(turning.angularAcceleration);
             if constexpr (remembers)
-                mean += (scheme.position1 * step) * fourOf(grains.earlier[k].acceleration);
-            const Four shift = step * mean;
-            storeVector(grain.position, place + shift, place);
-            Four after = before + velocity * acceleration;
-            if constexpr (remembers)
-                after += (scheme.velocity1 * step) * fourOf(grains.earlier[k].acceleration);
-            storeVector(grain.velocity, after, before);
-            const double shift2 = squaredNorm(vectorOf(shift));
-            largest = std::max(largest, std::isnan(shift2) ? infinity : shift2);
-            if constexpr (hasSpin) {
-                RotationRecord& turning = grains.rotation[k];
-                const Four spin = loadFour(turning.spin);
-                Four next = spin + velocity * loadFour(turning.angularAcceleration);
-                if constexpr (remembers)
-                    next += (scheme.velocity1 * step) * fourOf(grains.earlier[k].angularAcceleration);
-                storeVector(turning.spin, next, spin);
-            }
+                next += (scheme.velocity1 * step) * fourOf(grains.earlier[k].angularAcceleration);
+            storeVector(turning.spin, next, spin);
         }
-        return largest;
+        const double shift2 = squaredNorm(vectorOf(shift));
+        return std::isnan(shift2) ? infinity : shift2;
     }
 
     template <bool remembers>
@@ -159,6 +168,13 @@ void TimeIntegration::finish(ParticleStore& grains, const ContactStore& store, c
                              double step, int threads, const Integrator& scheme) {
     withLoops(grains.hasSpin, store.memory.getLayout().hasContactTorque,
               [&]<class L>() { L::finish(grains, store, gravity, step, threads, scheme); });
+}
+double TimeIntegration::finishAndBegin(ParticleStore& grains, const ContactStore& store,
+                                       const Vector<double>& gravity, double step, double nextStep,
+                                       int threads, const Integrator& scheme) {
+    return withLoops(grains.hasSpin, store.memory.getLayout().hasContactTorque, [&]<class L>() {
+        return L::finishAndBegin(grains, store, gravity, step, nextStep, threads, scheme);
+    });
 }
 void TimeIntegration::takeBack(ParticleStore& grains, double step, const Integrator& scheme) {
     withLoops(grains.hasSpin, false, [&]<class L>() { L::takeBack(grains, step, scheme); });

@@ -16,6 +16,11 @@ struct TimeIntegration {
     static void finish(ParticleStore& grains, const ContactStore& store, const Vector<double>& gravity,
                        double step, int threads = 1,
                        const Integrator& scheme = integrators::predictedVelocityVerlet);
+    /// finish() of one step and begin() of the next, at once: each grain is read from memory and written only
+    /// once. The same bits.
+    static double finishAndBegin(ParticleStore& grains, const ContactStore& store,
+                                 const Vector<double>& gravity, double step, double nextStep, int threads,
+                                 const Integrator& scheme);
     /// Undoes begin, up to round-off.
     static void takeBack(ParticleStore& grains, double step,
                          const Integrator& scheme = integrators::predictedVelocityVerlet);

@@ -52,31 +52,31 @@ void changeMass(ParticleStore& grains, std::uint32_t at, double inverseMass, con
 }  // namespace
 
 std::uint32_t GrainReference::place() const { return handler->placeOf(number); }
-TranslationRecord& GrainReference::record() const { return handler->grains.translation[place()]; }
+TranslationRecord& GrainReference::record() const { return handler->store().translation[place()]; }
 
-int GrainReference::getSpeciesIndex() const { return handler->grains.species[place()]; }
+int GrainReference::getSpeciesIndex() const { return handler->store().species[place()]; }
 
 Vec3D GrainReference::getAngularVelocity() const {
-    const ParticleStore& grains = handler->grains;
+    const ParticleStore& grains = handler->store();
     return grains.hasSpin ? toEigen(grains.rotation[place()].spin) : Vec3D::Zero();
 }
 
 double GrainReference::getMass() const {
     if (isFixed()) return infinity;
-    return handler->grains.bodies.contains(number) ? handler->massOf(getRadius(), getSpeciesIndex())
-                                                   : 1 / record().inverseMass;
+    return handler->store().bodies.contains(number) ? handler->massOf(getRadius(), getSpeciesIndex())
+                                                    : 1 / record().inverseMass;
 }
 
 Vec3D GrainReference::getForce() const {
     if (isFixed()) return Vec3D::Zero();
-    return getMass() * toEigen(handler->grains.acceleration[place()]);
+    return getMass() * toEigen(handler->store().acceleration[place()]);
 }
 
 void GrainReference::requireOwnBody(std::string_view what) const {
-    if (handler->grains.bodies.contains(number))
+    if (handler->store().bodies.contains(number))
         throw InputError(
             fmt::format("particle {}: its {} cannot be changed, as it is part of the rigid body {}.", number,
-                        what, handler->grains.bodies.bodyOf(number)));
+                        what, handler->store().bodies.bodyOf(number)));
 }
 
 void GrainReference::setVelocity(const Vec3D& velocity) {
@@ -86,7 +86,7 @@ void GrainReference::setVelocity(const Vec3D& velocity) {
 void GrainReference::setAngularVelocity(const Vec3D& spin) {
     requireOwnBody("angular velocity");
     const Vector<double> value = finite(number, "angular velocity", spin, "rad/s");
-    if (handler->grains.hasSpin) handler->grains.rotation[place()].spin = value;
+    if (handler->store().hasSpin) handler->store().rotation[place()].spin = value;
 }
 void GrainReference::setPosition(const Vec3D& position) {
     requireOwnBody("position");
@@ -104,7 +104,7 @@ void GrainReference::setRadius(double radius) {
 void GrainReference::setSpeciesIndex(int index) {
     requireOwnBody("species");
     static_cast<void>(handler->massOf(getRadius(), index));  // throws if there is no such species
-    handler->grains.species[place()] = static_cast<std::uint16_t>(index);
+    handler->store().species[place()] = static_cast<std::uint16_t>(index);
     handler->renewMass(place());
     handler->changes.altered.push_back(number);
 }
@@ -112,7 +112,7 @@ void GrainReference::fixParticle(bool fix) {
     requireOwnBody("being held");
     const std::uint32_t at = place();
     const bool isLetGo = isFixed() && !fix;
-    ParticleStore& grains = handler->grains;
+    ParticleStore& grains = handler->store();
     setMass(grains, at, fix ? 0 : 1 / handler->massOf(getRadius(), getSpeciesIndex()));
     if (fix) {  // it keeps no motion, and no force of its own
         grains.translation[at].velocity = grains.acceleration[at] = {0, 0, 0};
@@ -124,7 +124,7 @@ void GrainReference::fixParticle(bool fix) {
 }
 
 double& GrainColumnReference::operator[](std::uint32_t identity) const {
-    return handler->grains.columns[number].values[handler->placeOf(identity)];
+    return handler->store().columns[number].values[handler->placeOf(identity)];
 }
 
 void ParticleHandler::setSpecies(const GrainSpecies& of) {
@@ -145,6 +145,7 @@ double ParticleHandler::massOf(double radius, int of) const {
 }
 
 GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain) {
+    finishStep();
     const std::string owner = fmt::format("particle {}", grains.nextIdentity());
     if (grains.nextIdentity() > ParticleStore::largestIdentity)
         throw InputError(
@@ -165,6 +166,7 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
 }
 
 void ParticleHandler::removeObject(std::size_t identity) {
+    finishStep();
     const std::uint32_t at = placeOf(identity);
     if (grains.bodies.contains(static_cast<std::uint32_t>(identity)))
         throw InputError(fmt::format(
@@ -213,6 +215,7 @@ void ParticleHandler::renewMass(std::uint32_t at) {
 }
 
 void ParticleHandler::renewMasses() {
+    finishStep();
     if (grains.bodies.empty()) densitiesOfJoined.clear();
     for (const auto& [index, density] : densitiesOfJoined)
         if (species->density(index) != density)
@@ -236,6 +239,7 @@ void ParticleHandler::noteJoined(std::span<const std::uint32_t> identities) {
 }
 
 void ParticleHandler::visitState(StateArchive& archive) {
+    finishStep();
     grains.visitState(archive);
     for (const std::uint16_t index : grains.species)
         archive.require(index < species->speciesCount(), "species", "has one that the scene has not");

@@ -149,8 +149,30 @@ public:
     void closeColumns() { columnsAreClosed = true; }
 
     void visitState(StateArchive& archive);
-    [[nodiscard]] Grains& store() { return grains; }
-    [[nodiscard]] const Grains& store() const { return grains; }
+    /// Ask for it again after each step: a step that ends where nobody looks is finished when it is asked
+    /// for.
+    [[nodiscard]] Grains& store() {
+        finishStep();
+        return grains;
+    }
+    [[nodiscard]] const Grains& store() const {
+        finishStep();
+        return grains;
+    }
+
+    // For the scene that moves the grains.
+
+    /// The grains as they are, in the middle of a step.
+    [[nodiscard]] Grains& storeInStep() { return grains; }
+    /// What finishes a step that was left unfinished.
+    void callToFinishStep(std::function<void()> function) { finishing = std::move(function); }
+    void leaveStepUnfinished() { unfinished = true; }
+    /// Whether the last step was, and nobody has asked for the grains since; who calls this finishes it.
+    [[nodiscard]] bool takeUnfinishedStep() { return std::exchange(unfinished, false); }
+    void finishStep() const {
+        if (std::exchange(unfinished, false)) [[unlikely]]
+            finishing();
+    }
 
     /// Grains have been joined to a rigid body.
     void noteJoined(std::span<const std::uint32_t> identities);
@@ -177,6 +199,8 @@ private:
     GrainChanges changes;
     Vector<double> gravity{0, 0, 0};  // m/s^2
     std::function<void(std::uint32_t)> beforeRemoval;
+    std::function<void()> finishing;
+    mutable bool unfinished = false;
 };
 
 }  // namespace pendular

@@ -169,7 +169,7 @@ void Run::stepToTheEnd(RunControl& control) {
     };
     bool stops = isAskedToStop();
     while (!stops && steps < lastStep() && continueSolve()) {
-        step();
+        stepOnce(steps + 1 < lastStep());
         writeOutputs(false);
         if (progress && progress->isDue(steps))
             progress->show(getTime(), steps, [this] { return numbers(); });
@@ -193,11 +193,15 @@ RunStopped Run::stop() {
     return reason;
 }
 
-void Run::step() {
+void Run::step(std::size_t count) {
     if (!begun) requireBegun("step()");
+    for (std::size_t k = 1; k <= count; ++k) stepOnce(k < count);
+}
+
+void Run::stepOnce(bool another) {
     times.beginStep();
     actionsBeforeTimeStep();
-    advanceByStep();
+    advanceByStep(another);
     ++steps;
     tellEvents();
     actionsAfterTimeStep();

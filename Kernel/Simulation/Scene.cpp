@@ -17,6 +17,7 @@ Scene::Scene() {
     particleHandler.callBeforeRemoval([this](std::uint32_t place) {
         bookEnded(contactSystem.endContactsOf(particleHandler.store(), place));
     });
+    particleHandler.callToFinishStep([this] { finishLeftStep(); });
     wallHandler.callBeforeRemoval(
         [this](int wall) { bookEnded(contactSystem.endContactsAtWall(particleHandler.store(), wall)); });
 }
@@ -57,6 +58,7 @@ void Scene::requireSetUp(std::string_view what) const {
 
 void Scene::setGravity(const Vec3D& acceleration) {
     for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
+    particleHandler.finishStep();  // with the gravity that it had
     gravity = toVector(acceleration);
     particleHandler.setGravity(gravity);
     gravityChanged |= hasBegun();
@@ -112,16 +114,16 @@ void Scene::initialise() {
     contactSystem.refresh(grains, 0, 0);
     refuseInitialOverlaps(contactSystem, grains, [](auto&&...) { return true; });
     Motion::start(grains, integrator);
-    advance(0);  // a step of no length: forces and accelerations at the start
+    advance(0, false);  // a step of no length: forces and accelerations at the start
     energyAtStart = ledger.total();
     Motion::start(grains, integrator);
     tellEvents();
 }
 
-void Scene::advanceByStep() {
+void Scene::advanceByStep(bool another) {
     takeOverChanges();
     try {
-        advance(getTimeStep());
+        advance(getTimeStep(), another);
     } catch (const RunError&) {
         Motion::takeBack(particleHandler.store(), getTimeStep(), integrator);
         if (!particleHandler.store().bodies.empty()) bodyMotion.takeBack(particleHandler.store());
@@ -168,8 +170,8 @@ void Scene::mixChangedLaws() {
 void Scene::takeOverChanges() {
     try {
         mixChangedLaws();
-        const bool newLaws = std::exchange(lawsAreNew, false), newWalls = wallHandler.hasOtherWalls(),
-                   changedWalls = wallHandler.hasChanges();
+        const bool newLaws = std::exchange(lawsAreNew, false), changedWalls = wallHandler.hasChanges();
+        const auto firstNewWall = static_cast<int>(wallHandler.firstNewWall());
         if (!newLaws && !changedWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges())
             return;
         const GrainChanges changes = particleHandler.takeChanges();
@@ -190,7 +192,7 @@ void Scene::takeOverChanges() {
         const bool isRenewed = newLaws || newBodies;
         if (!isRenewed && contactSystem.takeIn(grains, changes.added)) return;
         bookEnded(contactSystem.renew(grains));
-        refuseOverlapsOf(changes, newWalls);
+        refuseOverlapsOf(changes, firstNewWall);
     } catch (const InputError& refusal) {
         throw RunError(refusal.what());
     }
@@ -207,14 +209,14 @@ bool Scene::isNewToChecks(std::span<const std::uint32_t> added) const {
 }
 
 /// Of bodies that were put where they are.
-void Scene::refuseOverlapsOf(const GrainChanges& changes, bool atWalls) const {
+void Scene::refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const {
     const ParticleStore& grains = particleHandler.store();
     std::vector<bool> isNew(grains.size());
     for (const auto* identities : {&changes.added, &changes.placed})
         for (const std::uint32_t identity : *identities) isNew[grains.place[identity]] = true;
     refuseInitialOverlaps(contactSystem, grains,
                           [&](const Bucket& bucket, std::uint32_t first, std::uint32_t second) {
-                              return isNew[first] || isNew[second] || (atWalls && bucket.wall >= 0);
+                              return isNew[first] || isNew[second] || bucket.wall >= firstNewWall;
                           });
 }
 
@@ -303,11 +305,26 @@ void Scene::writeLastState(const std::filesystem::path& grains, const std::files
     writeContacts(contacts, contactSystem, particleHandler.store(), remark);
 }
 
-void Scene::advance(double length) {
-    auto& grains = particleHandler.store();
-    intoLedger([&] { account.begin(grains, gravity, length, ledger); });
+/// The first half of a step's motion, and what was left of the last step.
+double Scene::move(ParticleStore& grains, double length) {
+    if (particleHandler.takeUnfinishedStep()) {
+        enter(StepTimes::Part::Sum);
+        return Motion::finishAndBegin(grains, contactSystem.store(), gravity, leftLength, length, threads,
+                                      integrator);
+    }
     enter(StepTimes::Part::Motion);
-    double farthest = Motion::begin(grains, length, threads, integrator);
+    return Motion::begin(grains, length, threads, integrator);
+}
+
+void Scene::finishLeftStep() {
+    Motion::finish(particleHandler.storeInStep(), contactSystem.store(), gravity, leftLength, threads,
+                   integrator);
+}
+
+void Scene::advance(double length, bool another) {
+    ParticleStore& grains = particleHandler.storeInStep();
+    intoLedger([&] { account.begin(particleHandler.store(), gravity, length, ledger); });
+    double farthest = move(grains, length);
     if (!grains.bodies.empty()) farthest = std::max(farthest, bodyMotion.begin(grains, length, integrator));
     const double grainShift = std::sqrt(farthest);
     refuseRunaway(grainShift);
@@ -322,7 +339,9 @@ void Scene::advance(double length) {
     enter(StepTimes::Part::Walls);
     contactSystem.computeWallForces(grains, length, integrator.contacts);
     enter(StepTimes::Part::Sum);
-    Motion::finish(grains, contactSystem.store(), gravity, length, threads, integrator);
+    leftLength = length;
+    particleHandler.leaveStepUnfinished();
+    if (!another || ledgerKept || !grains.bodies.empty()) particleHandler.finishStep();
     if (!grains.bodies.empty())
         RigidBodyMotion::finish(grains, contactSystem.store(), gravity, length, integrator);
     enter(StepTimes::Part::Other);

@@ -147,7 +147,7 @@ protected:
     }
 
 private:
-    void advanceByStep() override;
+    void advanceByStep(bool another) override;
     void tellEvents() override;
 
     [[nodiscard]] RunNumbers numbers() const override;
@@ -163,7 +163,7 @@ private:
     void refuseForBodies(const RigidBodies& bodies) const;
     /// Whether the checks must be made again for grains that were added.
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
-    void refuseOverlapsOf(const GrainChanges& changes, bool atWalls) const;
+    void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
     /// What was stored (J) in contacts that the driver has ended.
     void bookEnded(double stored);
     void requireSetUp(std::string_view what) const;
@@ -176,7 +176,9 @@ private:
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;
 
-    void advance(double length);
+    void advance(double length, bool another);
+    double move(ParticleStore& grains, double length);
+    void finishLeftStep();
     template <class Entries>
     void intoLedger(Entries&& make) {
         if (!ledgerKept) return;
@@ -211,6 +213,7 @@ private:
     bool gravityChanged = false;  // since the run began
     bool lawsAreNew = false;      // prepared ones are to be made again
     double energyAtStart = 0;     // J, of the ledger
+    double leftLength = 0;        // s, of the last step, whose end may be left to the next one
     double approachUnseen = 0;    // m, of two grains since deep overlaps were looked for
     int threads = 1;
     bool unstableAccepted = false;

@@ -51,6 +51,7 @@ public:
         if (beforeRemoval)
             for (std::size_t w = 0; w < walls.size(); ++w) beforeRemoval(static_cast<int>(w));
         walls.clear();
+        knownWalls = 0;
         ++changes;
     }
     /// Walls that there are and have been: numbers are less than this.
@@ -64,15 +65,16 @@ public:
     [[nodiscard]] bool isRemoved(std::size_t number) const { return getObject(number).isRemoved(); }
     /// Called with the number of a wall before it is removed.
     void callBeforeRemoval(std::function<void(int)> function) { beforeRemoval = std::move(function); }
-    /// Whether walls were added or removed since changesAreKnown().
-    [[nodiscard]] bool hasOtherWalls() const { return changes != knownChanges; }
-    /// The same, or whether a wall has got another species.
+    /// Walls from this number on were added since changesAreKnown().
+    [[nodiscard]] std::size_t firstNewWall() const { return knownWalls; }
+    /// Whether walls were added or removed, or have got another species, since changesAreKnown().
     [[nodiscard]] bool hasChanges() const {
-        return hasOtherWalls() ||
+        return changes != knownChanges ||
                !std::ranges::equal(walls, knownSpecies, {}, [](const auto& wall) { return wall->species; });
     }
     void changesAreKnown() {
         knownChanges = changes;
+        knownWalls = walls.size();
         knownSpecies.clear();
         for (const auto& wall : walls) knownSpecies.push_back(wall->species);
     }
@@ -128,6 +130,7 @@ private:
     std::function<void(int)> beforeRemoval;
     std::uint64_t changes = 0;  // additions and removals
     std::uint64_t knownChanges = 0;
+    std::size_t knownWalls = 0;
     std::vector<int> knownSpecies;  // of each wall
     double now = unset;             // s; not a number before the run
 };

@@ -65,7 +65,7 @@ std::uint64_t hashOfBox(bool otherPlanes, const Vec3D& surfaceVelocity, int thre
         otherPlanes ? add(OtherPlane(plane.normal, plane.point)) : add(wall);
     }
     scene.initialise();
-    for (int k = 0; k < 1500; ++k) scene.step();
+    scene.step(1500);
     return stateHash(scene.particleHandler.store());
 }
 
