@@ -177,7 +177,9 @@ int main(int argc, char** argv) {
                    "file of rows radius x y z (m): the bed of Dosta et al. (2024), repeated along x to the "
                    "number of --particles, or their drum or penetration");
     app.add_option("--walls", o.choice.walls, "file of triangles, for the positions of drum and penetration");
-    app.add_option("--states", o.choice.states, "folder of initial states")->capture_default_str();
+    app.add_option("--states", o.choice.states, "folder of initial states")
+        ->type_name("TEXT or ''")
+        ->capture_default_str();
     app.add_option("--exchange", o.exchange,
                    "grains that come above the scene in each step, and leave it 50 steps later")
         ->capture_default_str();

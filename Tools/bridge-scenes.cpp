@@ -21,7 +21,9 @@ int main(int argc, char** argv) {
     app.add_option("--particles", o.bedGrains, "grains of the bed")->capture_default_str();
     app.add_option("--rounds", o.rounds, "measurements of time in the bed, of 100 steps each")
         ->capture_default_str();
-    app.add_option("--states", o.states, "folder of settled beds")->capture_default_str();
+    app.add_option("--states", o.states, "folder of settled beds")
+        ->type_name("TEXT or ''")
+        ->capture_default_str();
     app.add_option("--seeds", o.seeds, "runs of the sheared cell")->capture_default_str();
     app.add_option("--strain", o.cell.strainMeasured,
                    "strain of the cell over which the figures are averaged")

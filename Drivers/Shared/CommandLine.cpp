@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
+#include "Kernel/Files/FileLock.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/RunControl.h"
@@ -22,22 +23,15 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
                      "again and removes the frames of an earlier run. Give the other options as before; "
                      "only end, intervals and threads may change. Do not switch --energy-interval-s on or "
                      "off");
-    // An empty text would be taken for an option that is left out.
-    const auto refuseEmpty = [](const std::string& text) {
-        return std::string(text.empty() ? "the value is empty" : "");
-    };
-    app.add_option("--restart", o.restart, "go on from this restart file")
-        ->excludes(resume)
-        ->check(refuseEmpty);
+    app.add_option("--restart", o.restart, "go on from this restart file")->excludes(resume);
     app.add_option("--restart-interval-s", o.restartInterval,
                    "time on the clock between two restart files, s; 0: at the start and the end only. One is "
                    "also written on SIGINT, SIGTERM (the run ends), and SIGUSR1 (it goes on)")
         ->capture_default_str();
     app.add_option(
-           "--wall-time", o.wallTime,
-           "time on the clock, hours:minutes:seconds, after which the run ends as on SIGTERM; no limit if "
-           "not given")
-        ->check(refuseEmpty);
+        "--wall-time", o.wallTime,
+        "time on the clock, hours:minutes:seconds, after which the run ends as on SIGTERM; no limit if "
+        "not given");
     const auto addInterval = [&](const char* name, double& interval, const std::string& between,
                                  const std::string& file, const std::string& none = "none") {
         app.add_option(name, interval,
@@ -72,6 +66,8 @@ int runDriver(const DriverProgram& driver, int argc, char** argv, const std::fun
         if (!o.restart.empty()) checkRestartFile(o.restart);
         if (o.hdf5Interval > 0) Hdf5Frames::prepare();
         requireOutputFolder(driver.name, o.output);
+        const FileLock lock(std::filesystem::path(o.output) / ".lock",
+                            fmt::format("The folder {} is", o.output), "give another one (--output)");
         body();
         return 0;
     });

@@ -9,12 +9,14 @@
 
 namespace pendular {
 
-/// What CLI11 lets through: an empty number, which it reads as 0; a negative one for a count, which it reads
-/// as 1.8e19; one with a 0 in front, which it reads as octal; more than 18 digits. Returns what is wrong, or
-/// nothing.
-inline std::string objectionToNumber(const std::string& kind, const std::string& text) {
-    if (text.empty()) return "the value is empty; it must be a number";
-    if (kind == "FLOAT") return {};
+/// What CLI11 lets through: an empty number, which it reads as 0; an empty text, which many programs would
+/// take for an option that is left out; a negative number for a count, which it reads as 1.8e19; one with a 0
+/// in front, which it reads as octal; more than 18 digits. Returns what is wrong, or nothing.
+inline std::string objectionTo(const std::string& kind, const std::string& text) {
+    const bool isWhole = kind == "UINT" || kind == "INT";
+    if (text.empty())
+        return isWhole || kind == "FLOAT" ? "the value is empty; it must be a number" : "the value is empty";
+    if (!isWhole) return {};
     const bool isCount = kind == "UINT";
     const std::string digits = text.substr(text[0] == '+' || (text[0] == '-' && !isCount) ? 1 : 0);
     const bool areDigits =
@@ -41,8 +43,8 @@ inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv)
     for (CLI::Option* option : app.get_options()) {
         const std::string name = option->get_type_name(),
                           kind = name.substr(0, name.find(':'));  // UINT:POSITIVE
-        if (kind != "UINT" && kind != "INT" && kind != "FLOAT") continue;
-        option->check([kind](const std::string& text) { return objectionToNumber(kind, text); });
+        if (kind != "UINT" && kind != "INT" && kind != "FLOAT" && kind != "TEXT") continue;
+        option->check([kind](const std::string& text) { return objectionTo(kind, text); });
     }
     try {
         app.parse(argc, argv);

@@ -23,20 +23,6 @@
 
 namespace pendular {
 
-namespace {
-
-/// Removes files when a run begins, and so after all of it has been checked.
-struct RemovesAtStart : RemembersNothing {
-    std::vector<std::filesystem::path> files;
-
-    void write(const Scene&) {
-        for (const std::filesystem::path& file : files) std::filesystem::remove(file);
-        files.clear();
-    }
-};
-
-}  // namespace
-
 std::string RunOptions::nameOf(const std::string& run) const {
     return (std::filesystem::path(output) / run).string();
 }
@@ -49,9 +35,9 @@ std::filesystem::path RunOptions::restartSource(const std::string& run) const {
 
 void RunOptions::forgetAtStart(Scene& scene, const std::vector<std::string>& runs) const {
     if (resume || output.empty()) return;
-    RemovesAtStart removes;
-    for (const std::string& run : runs) removes.files.push_back(restartFileOf(nameOf(run)));
-    scene.addOutput(std::move(removes));
+    std::vector<std::filesystem::path> files;
+    for (const std::string& run : runs) files.push_back(restartFileOf(nameOf(run)));
+    scene.replaceAtStart(std::move(files));
 }
 
 void RunOptions::applyToPreparation(Scene& scene) const {
@@ -119,8 +105,22 @@ double secondsOf(const std::string& clock) {
     return sum;
 }
 
+void checkNumberOfGrains(std::string_view program, std::size_t number) {
+    checkValue(program, "number of grains", static_cast<double>(number), "", {1, 1e8});
+    constexpr double bytesOfGrain = 472;  // at the peak, of a bed of 1 000 000 (Kernel/Contacts/README.md)
+    const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                         static_cast<double>(sysconf(_SC_PAGESIZE)),
+                 needed = bytesOfGrain * static_cast<double>(number);
+    if (there > 0 && needed > there)
+        throw InputError(
+            fmt::format("{}: {} grains would take about {:.3g} GB of memory; this machine has {:.3g} GB, so "
+                        "that the number "
+                        "of grains must be at most {:.2g}.",
+                        program, number, 1e-9 * needed, 1e-9 * there, there / bytesOfGrain));
+}
+
 void checkRun(std::string_view driver, std::size_t number, double endTime, double interval) {
-    checkValue(driver, "number of grains", static_cast<double>(number), "", {1, 1e8});
+    checkNumberOfGrains(driver, number);
     checkValue(driver, "end time", endTime, "s", notNegative);
     checkValue(driver, "interval", interval, "s", positive);
 }

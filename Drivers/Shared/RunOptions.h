@@ -46,6 +46,9 @@ void requireOutputFolder(std::string_view driver, const std::filesystem::path& f
 /// "11:30:00", "90:00" or "45" in s. Throws InputError.
 double secondsOf(const std::string& clock);
 
+/// Throws InputError for no grain, more than 1e8, or more than fit into the memory of this machine.
+void checkNumberOfGrains(std::string_view program, std::size_t number);
+
 /// Throws InputError, before a scene is made, unless a run with these options can begin.
 /// @param endTime s; @param interval s
 void checkRun(std::string_view driver, std::size_t number, double endTime, double interval);

@@ -11,10 +11,21 @@
 
 namespace pendular {
 
-std::filesystem::path partOrWhole(const std::filesystem::path& file) {
-    const std::filesystem::path part = file.string() + ".part";
+void requireRegularIfThere(const std::filesystem::path& file) {
     std::error_code ignored;
-    return std::filesystem::exists(part, ignored) ? part : file;
+    const auto kind = std::filesystem::status(file, ignored).type();
+    if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::none &&
+        kind != std::filesystem::file_type::regular)
+        throw InputError(fmt::format(
+            "The file {} is not a regular file: remove it, or give another name or folder.", file.string()));
+}
+
+std::filesystem::path partOrWhole(const std::filesystem::path& file) {
+    std::filesystem::path found = file.string() + ".part";
+    std::error_code ignored;
+    if (!std::filesystem::exists(found, ignored)) found = file;
+    requireRegularIfThere(found);
+    return found;
 }
 
 void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes) {
@@ -29,6 +40,7 @@ void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes) {
 void cutBack(const std::filesystem::path& file, std::uintmax_t bytes) {
     std::error_code problem;
     if (!std::filesystem::exists(file, problem)) return;
+    requireRegularIfThere(file);
     requireBytes(file, bytes);
     std::filesystem::resize_file(file, bytes, problem);
     if (problem)
@@ -53,11 +65,13 @@ WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
 void WrittenBeside::open(const char* mode) {
     std::error_code ignored;
     if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), ignored);
+    requireRegularIfThere(beside);
     file = std::fopen(beside.c_str(), mode);
     if (!file) fail("cannot be written");
 }
 
 std::uintmax_t WrittenBeside::flush() {
+    if (!file) return std::filesystem::file_size(target);
     if (std::fflush(file) != 0 || (fsync(fileno(file)) != 0 && errno != EINVAL)) fail("cannot be written");
     return std::filesystem::file_size(beside);
 }
@@ -67,6 +81,9 @@ WrittenBeside::~WrittenBeside() {
 }
 
 void WrittenBeside::write(std::string_view bytes) {
+    if (!file)
+        throw InputError(
+            fmt::format("The file {} is complete; nothing can be added to it.", target.string()));
     if (std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) fail("cannot be written");
 }
 

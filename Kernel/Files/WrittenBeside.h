@@ -7,14 +7,19 @@
 
 namespace pendular {
 
-/// The file that is not complete, NAME.part, if there is one, else the complete one.
+/// Throws InputError where there is something else than a regular file: a folder, or a pipe, in which who
+/// opens it waits for the other end.
+void requireRegularIfThere(const std::filesystem::path& file);
+
+/// The file that is not complete, NAME.part, if there is one, else the complete one. Throws InputError where
+/// that is not a regular file.
 std::filesystem::path partOrWhole(const std::filesystem::path& file);
 
 /// Throws InputError where a file has less than the bytes that a restart file knows of it.
 void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes);
 
-/// Cuts off what follows the first bytes of a file. Throws InputError where there is less; does nothing where
-/// there is no file.
+/// Cuts off what follows the first bytes of a file. Throws InputError where there is less, or no regular
+/// file; does nothing where there is nothing.
 void cutBack(const std::filesystem::path& file, std::uintmax_t bytes);
 
 /// A file that is written beside its name, as NAME.part, and renamed when it is complete, so that no reader
@@ -32,6 +37,7 @@ public:
     /// A file that was not completed stays under the other name.
     ~WrittenBeside();
 
+    /// Throws InputError if that fails, or if the file has been completed.
     void write(std::string_view bytes);
     /// Waits until all that was written is on the disk; returns how many bytes there are.
     std::uintmax_t flush();

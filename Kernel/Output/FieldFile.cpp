@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <utility>
 
+#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/State/Hdf5Fault.h"
 
 #ifdef PENDULAR_HAS_HDF5
@@ -42,6 +43,7 @@ FieldFile::FieldFile(std::filesystem::path path)
     hdf5::makeQuiet();
     std::error_code ignored;
     if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), ignored);
+    requireRegularIfThere(beside);
     errno = 0;
     file = check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
 }

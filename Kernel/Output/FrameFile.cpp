@@ -25,6 +25,7 @@ void FrameFile::open(bool goesOn) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
     if (goesOn && kept) cutBack(path, *kept);
+    requireRegularIfThere(path);
     std::FILE* opened = std::fopen(path.c_str(), goesOn ? "ab" : "wb");
     if (!opened) fail();
     file.reset(opened, std::fclose);

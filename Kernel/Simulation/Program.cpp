@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <system_error>
 
 #include "Kernel/Logger.h"
@@ -49,6 +50,8 @@ int printCurrentException() {
         // Who reads the results has gone (PROGRAM | head): nobody is there to be told.
         if (problem.code() == std::error_code(EPIPE, std::generic_category())) return brokenPipe;
         writeToLog(std::string("Error: ") + problem.what() + "\n");
+    } catch (const std::bad_alloc&) {
+        writeToLog("Error: There is not enough memory for this; take fewer grains, or a larger machine.\n");
     } catch (const std::exception& problem) {
         writeToLog(std::string("Error: ") + problem.what() + "\n");
     } catch (...) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "Kernel/Files/SetAside.h"
 #include "Kernel/InputError.h"
 #include "Kernel/RunError.h"
 #include "Kernel/Simulation/Program.h"
@@ -22,6 +23,33 @@ std::string_view withoutFullStop(std::string_view sentence) {
 
 }  // namespace
 
+class Run::Within {
+public:
+    enum Call : unsigned {
+        Solving = 1,
+        SettingUp = 2,
+        Stepping = 4,
+        Writing = 8,
+        Completing = 16,
+        Saving = 32,
+        Any = 63
+    };
+
+    Within(Run& of, Call call, unsigned refusedIn, std::string_view name) : run(of), before(of.underWay) {
+        if ((before & refusedIn) != 0)
+            throw InputError(
+                fmt::format("Simulation: {} cannot be called from this hook of the same scene.", name));
+        run.underWay |= call;
+    }
+    Within(const Within&) = delete;
+    Within& operator=(const Within&) = delete;
+    ~Within() { run.underWay = before; }
+
+private:
+    Run& run;
+    unsigned before;
+};
+
 Run::Run() : timeStep(unset) {
     reportUncaughtExceptions();
     hearRestartSignal();
@@ -30,7 +58,7 @@ Run::Run() : timeStep(unset) {
 void Run::setName(std::string beginning) {
     if (beginning.empty())
         throw InputError("Simulation: name is empty; it must have at least one character.");
-    if (begun) throw InputError("Simulation: the name can only be set before the run starts.");
+    requireSetUp("name");
     name = std::move(beginning);
 }
 
@@ -51,7 +79,18 @@ void Run::requireTimeStep() const { checkValue("Simulation", "time step", timeSt
 
 void Run::keepRestartFile(bool keep) {
     if (keep) requireRestartFiles();
+    if (keep != restarts.kept) requireSetUp("restart file");
     restarts.kept = keep;
+}
+
+void Run::restartFrom(std::filesystem::path file) {
+    requireSetUp("restart file to go on from");
+    restartSource = std::move(file);
+}
+
+void Run::keepOutput(KeptOutput output) {
+    requireSetUp("outputs");
+    outputs.push_back(std::move(output));
 }
 
 void Run::setRestartInterval(double seconds) {
@@ -61,6 +100,7 @@ void Run::setRestartInterval(double seconds) {
 
 void Run::writeRestart(const std::filesystem::path& file) {
     requireBegun("writeRestart()");
+    const Within saving(*this, Within::Saving, Within::Saving, "writeRestart()");
     const StepTimes::Part before = times.enter(StepTimes::Part::Output);
     writeRestartFile(file, [&](StateArchive& archive) { visitAll(archive); });
     if (isOwnRestartFile(file)) restartFileSteps = steps;
@@ -71,6 +111,11 @@ void Run::requireBegun(std::string_view call) const {
     if (!begun)
         throw InputError(
             fmt::format("Simulation: {} needs a scene that has begun; call initialise() before it.", call));
+}
+
+void Run::requireSetUp(std::string_view what) const {
+    if (begun)
+        throw InputError(fmt::format("Simulation: the {} can only be set before the run starts.", what));
 }
 
 double Run::restartTime() const {
@@ -87,6 +132,7 @@ double Run::restartTime() const {
 }
 
 void Run::readRestart() {
+    const Within saving(*this, Within::Saving, 0, {});
     readRestartFile(restartSource, [&](StateArchive& archive) { visitAll(archive); });
     if (isOwnRestartFile(restartSource)) restartFileSteps = steps;
     firstStep = steps;
@@ -119,13 +165,36 @@ bool Run::isOwnRestartFile(const std::filesystem::path& file) const {
     return std::filesystem::equivalent(file, restartFile(), ignored);
 }
 
+void Run::initialise() {
+    const Within settingUp(*this, Within::SettingUp, Within::Any, "initialise()");
+    if (begun)
+        throw InputError(
+            "Simulation: the scene has begun already; initialise() begins it once, or goes on from a restart "
+            "file.");
+    setUp();
+}
+
 void Run::solve() {
-    if (hasBegun())
+    if (begun)
         throw InputError(
             "Simulation: the run has begun already; solve() runs a scene once, from its start or from a "
             "restart file.");
+    const Within solving(*this, Within::Solving, Within::Any, "solve()");
+    try {
+        runWhole();
+    } catch (...) {
+        lock.reset();
+        throw;
+    }
+    lock.reset();
+}
+
+void Run::runWhole() {
     RunControl control;  // hears signals from here on
-    initialise();
+    {
+        const Within settingUp(*this, Within::SettingUp, 0, {});
+        setUp();
+    }
     control.follow(restarts);
     try {
         begin();
@@ -143,12 +212,23 @@ void Run::solve() {
     }
 }
 
-/// From here on the restart file is one of this run: what goes on mixes no two runs.
+/// Two runs of one name would write into each other's files.
+void Run::lockName() {
+    if ((underWay & Within::Solving) == 0 || (!restarts.kept && outputs.empty())) return;
+    lock.emplace(name + ".lock", fmt::format("The files {}-* are", name),
+                 "give this run another name or folder");
+}
+
+/// From here on the restart file is one of this run: what goes on mixes no two runs. That of an earlier run
+/// is not lost before there is the new one.
 void Run::begin() {
     const bool keepsOther = restarts.kept && !(isRestarted() && isOwnRestartFile(restartSource));
-    if (keepsOther) std::filesystem::remove(restartFile());
+    std::vector<std::filesystem::path> former = std::move(replaced);
+    if (keepsOther) former.push_back(restartFile());
+    SetAside aside(std::move(former));
     if (!isRestarted()) writeAll();
     if (keepsOther) writeRestart(restartFile());
+    aside.remove();
 }
 
 /// Steps until the maximum time; both it and the time step may change on the way.
@@ -163,6 +243,7 @@ void Run::stepToTheEnd(RunControl& control) {
     if (!isQuiet())
         progress.emplace(std::filesystem::path(name).filename().string(), timeMax, getTime(), steps);
     const auto isAskedToStop = [&] {
+        if (control.schedule() != restarts) control.follow(restarts);  // a hook has changed it
         const RunControl::Request request = control.request(steps);
         if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());
         return request == RunControl::Request::Stop;
@@ -180,7 +261,7 @@ void Run::stepToTheEnd(RunControl& control) {
     if (restarts.kept) writeRestart(restartFile());
     if (steps > 0) writeOutputs(true);
     if (stops) throw stop();
-    completeAll();
+    complete();
 }
 
 /// Completes the files of a run that was asked to stop; returns what ends it.
@@ -189,12 +270,13 @@ RunStopped Run::stop() {
         RunControl::stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string());
     stopped = reason.what();
     askedToStop = true;
-    completeAll();
+    complete();
     return reason;
 }
 
 void Run::step(std::size_t count) {
     if (!begun) requireBegun("step()");
+    const Within stepping(*this, Within::Stepping, Within::Any, "step()");
     for (std::size_t k = 1; k <= count; ++k) stepOnce(k < count);
 }
 
@@ -209,6 +291,8 @@ void Run::stepOnce(bool another) {
 }
 
 void Run::writeAll() {
+    requireBegun("writeAll()");
+    const Within writing(*this, Within::Writing, Within::Writing | Within::Saving, "writeAll()");
     const StepTimes::Part before = times.enter(StepTimes::Part::Output);
     for (const KeptOutput& output : outputs) output.write();
     writeOutput();
@@ -218,6 +302,7 @@ void Run::writeAll() {
 /// What is due after this step; at the end of the run, what was not. An output with an interval knows by
 /// itself whether it has this state.
 void Run::writeOutputs(bool atEnd) {
+    const Within writing(*this, Within::Writing, 0, {});
     const bool own = (saveCount > 0 && steps % saveCount == 0) != atEnd;
     const auto isDue = [&](KeptOutput& output) {
         if (!output.interval.isGiven()) return own;
@@ -234,11 +319,17 @@ void Run::writeOutputs(bool atEnd) {
 }
 
 void Run::prepareOutputs() {
-    for (const KeptOutput& output : outputs)
-        if (output.prepare) output.prepare();
+    lockName();
+    for (std::size_t k = 0; k < outputs.size(); ++k)  // one may add another one
+        if (outputs[k].prepare) outputs[k].prepare();
 }
 
 void Run::completeAll() {
+    const Within completing(*this, Within::Completing, Within::Any, "completeAll()");
+    complete();
+}
+
+void Run::complete() {
     completeOutputs();
     completeOutput();
 }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "Kernel/Files/FileLock.h"
 #include "Kernel/Logger.h"
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/Progress.h"
@@ -48,23 +50,27 @@ public:
     /// Steps from one writeOutput() to the next; 0 writes only at the start and at the end.
     void setSaveCount(std::size_t steps) { saveCount = steps; }
     /// Keeps a restart file, NAME-restart.h5: written at the start of the run, in the place of one that an
-    /// earlier run left, at its end, and when it is asked to stop.
+    /// earlier run left, at its end, and when it is asked to stop. At set-up only.
     /// Throws InputError where this build of Pendular cannot write one.
     void keepRestartFile(bool keep = true);
+    /// Files that mean nothing any more when this run has begun, as the restart files of runs that go on from
+    /// its end. They are removed then, and not before all of it has been checked and written for the first
+    /// time.
+    void replaceAtStart(std::vector<std::filesystem::path> files) { replaced = std::move(files); }
     /// Writes it also after so many steps; 0: does not.
     void setRestartCount(std::size_t steps) { restarts.count = steps; }
     /// Writes it also whenever this time (s of the clock on the wall) has passed; 0: does not.
     void setRestartInterval(double seconds);
     /// Goes on from a restart file instead of beginning: initialise() then takes the grains, and all else
     /// that changes in a run, from it. The scene is set up as it was, except for its grains, which are
-    /// ignored; the end time, outputs and threads may be others.
-    void restartFrom(std::filesystem::path file) { restartSource = std::move(file); }
+    /// ignored; the end time, outputs and threads may be others. At set-up only.
+    void restartFrom(std::filesystem::path file);
     [[nodiscard]] bool isRestarted() const { return !restartSource.empty(); }
     /// s, of the state in the restart file from which the run goes on; 0 where it starts from the start. For
     /// set-up: a scene that goes on is set up with the walls that the run had added by then.
     [[nodiscard]] double restartTime() const;
     [[nodiscard]] std::filesystem::path restartFile() const { return restartFileOf(name); }
-    /// Writes the state after the last step. Throws InputError if that fails.
+    /// Writes the state after the last step. Throws InputError if that fails, and in visitState().
     void writeRestart(const std::filesystem::path& file);
     /// Shows no progress, no warning and no summary, and nothing of the logger.
     void setQuiet(bool beQuiet = true) { logger.setQuiet(beQuiet); }
@@ -89,15 +95,17 @@ public:
     /// and contacts at the end of the last whole step are then in NAME-last-state.csv and
     /// NAME-last-contacts.csv, and writeOutput() was called once more. A run that SIGINT, SIGTERM or the
     /// limit of wall time asks to stop ends with RunStopped, its files complete and at one time.
+    /// A run that keeps a restart file or has outputs has its name alone: while it lasts, another one of this
+    /// name is refused, also in another process.
     void solve();
-    /// Checks the scene and computes the forces at its start, or takes them from the restart file. solve()
-    /// calls it; a driver that steps by itself does.
-    virtual void initialise() = 0;
+    /// Checks the scene and computes the forces at its start, or takes them from the restart file. For a
+    /// driver that steps by itself. Like solve() and step(), it throws InputError in hooks of this scene.
+    void initialise();
     void step() { step(1); }
     /// So many steps: faster than one by one, as long as no hook looks at the grains.
     void step(std::size_t count);
-    /// What the outputs, whatever their intervals, and writeOutput() write; a driver that steps by itself
-    /// calls it.
+    /// What the outputs, whatever their intervals, and writeOutput() write; for a driver that steps by
+    /// itself, and for hooks, except writeOutput().
     void writeAll();
     /// What completes the outputs; a driver that steps by itself calls it at its end.
     void completeAll();
@@ -109,12 +117,15 @@ protected:
         std::function<void(StateArchive&)> visitState = {};
         OutputInterval interval = {};  // none: it is written where writeOutput() is called
     };
-    void keepOutput(KeptOutput output) { outputs.push_back(std::move(output)); }
+    /// Throws InputError in a run.
+    void keepOutput(KeptOutput output);
     void prepareOutputs();
 
     /// Throws InputError.
     void requireTimeStep() const;
     void requireBegun(std::string_view call) const;
+    /// Throws InputError in a run. @param what "outputs"
+    void requireSetUp(std::string_view what) const;
     void readRestart();
     /// The scene has been set up or read: what is changed from now on, is changed in the run.
     void setHasBegun() { begun = true; }
@@ -126,6 +137,12 @@ protected:
     StepTimes::Part enter(StepTimes::Part part) { return times.enter(part); }
 
 private:
+    /// Marks, for as long as it lives, that one of the calls below is under way; throws InputError where any
+    /// of the given ones is.
+    class Within;
+
+    /// Does what initialise() says.
+    virtual void setUp() = 0;
     /// A step of the scene. Where it throws, the scene is as it was before the step.
     /// @param another step follows: what is left of this one may be done together with it
     virtual void advanceByStep(bool another) = 0;
@@ -142,8 +159,11 @@ private:
         return done == before ? beforeTime : beforeTime + static_cast<double>(done - before) * length;
     }
     [[nodiscard]] std::size_t lastStep() const;
-    void stepOnce(bool another);
+    void runWhole();
     void begin();
+    void lockName();
+    void stepOnce(bool another);
+    void complete();
     void stepToTheEnd(RunControl& control);
     void writeOutputs(bool atEnd);
     [[nodiscard]] RunStopped stop();
@@ -153,7 +173,7 @@ private:
     [[nodiscard]] std::string withLastState(std::string sentence);
 
     std::string name = "pendular";
-    std::vector<KeptOutput> outputs;
+    std::deque<KeptOutput> outputs;  // one that is called may add another one
     StepTimes times;
     double timeStep, timeMax = 0;  // s
     std::size_t saveCount = 0;
@@ -163,10 +183,13 @@ private:
     bool begun = false;
     bool stepChanged = false;  // since the run began
     RestartSchedule restarts;
+    std::vector<std::filesystem::path> replaced;  // as replaceAtStart() says
     std::optional<std::size_t> restartFileSteps;  // in restartFile(), if it is of this run
     std::filesystem::path restartSource;          // empty: a run from its beginning
     std::string stopped;                          // why; empty: it is not
     bool askedToStop = false;
+    unsigned underWay = 0;         // calls, as bits of Within
+    std::optional<FileLock> lock;  // of the name, while solve() lasts
 };
 
 }  // namespace pendular

@@ -86,6 +86,10 @@ void hearRestartSignal() {
     if (before.sa_handler != SIG_DFL) return;
     const struct sigaction action = noteTaking();
     sigaction(SIGUSR1, &action, nullptr);
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    sigaddset(&blocked, SIGUSR1);
+    sigprocmask(SIG_UNBLOCK, &blocked, nullptr);
 }
 
 void ignoreClosedPipes() {
@@ -113,7 +117,8 @@ RunControl::RunControl(const RestartSchedule& given) {
 }
 
 RunControl::~RunControl() {
-    if (--listening.runs > 0) return;
+    // After a run that was asked to stop, the second of two signals that are one request may still come.
+    if (--listening.runs > 0 || stopSignal.load() != 0) return;
     for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &listening.before[k], nullptr);
 }
 

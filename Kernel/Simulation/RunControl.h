@@ -19,6 +19,8 @@ struct RestartSchedule {
     bool kept = false;
     std::size_t count = 0;  // steps from one restart file to the next; 0: none for the steps
     double interval = 0;    // s of the clock on the wall from one to the next; 0: none for the time
+
+    friend bool operator==(const RestartSchedule&, const RestartSchedule&) = default;
 };
 
 /// Ends whatever run this program is in, as SIGTERM does, when the program has run for this time (s of the
@@ -26,7 +28,9 @@ struct RestartSchedule {
 void setWallTimeLimit(double seconds);
 
 /// From now on SIGUSR1 is heard also outside of a run, which it would end by default: the next run writes the
-/// restart file at its start. A program that ignores it goes on to do so.
+/// restart file at its start. A program that ignores it goes on to do so. One that was started with it
+/// blocked (env --block-signal=USR1 PROGRAM) takes it from now on, and with it what has been sent before:
+/// while the system loads a program, nothing in that can hear a signal.
 void hearRestartSignal();
 
 /// From now on a log that goes into a pipe whose reader has gone does not end the program (SIGPIPE): what is
@@ -47,6 +51,7 @@ public:
 
     /// From now on by this schedule, and by the limit of wall time as it is now.
     void follow(const RestartSchedule& given);
+    [[nodiscard]] const RestartSchedule& schedule() const { return restarts; }
 
     /// What is asked for when so many steps have been done. Costs two loads; looks at the clock, where there
     /// is a limit, some twenty times a second.

@@ -51,11 +51,6 @@ Vec3D Scene::contactForceOn(std::size_t identity) const {
     return toEigen(sum);
 }
 
-void Scene::requireSetUp(std::string_view what) const {
-    if (hasBegun())
-        throw InputError(fmt::format("Simulation: the {} can only be set before the run starts.", what));
-}
-
 void Scene::setGravity(const Vec3D& acceleration) {
     for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
     particleHandler.finishStep();  // with the gravity that it had
@@ -101,7 +96,7 @@ double Scene::shortestContactTime() {
     return shortestHalfPeriod(laws(), {particleHandler.store(), laws().speciesCount()}, wallHandler);
 }
 
-void Scene::initialise() {
+void Scene::setUp() {
     setupInitialConditions();
     prepareOutputs();
     requireTimeStep();

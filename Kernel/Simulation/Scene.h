@@ -137,8 +137,6 @@ public:
     /// steps that are as accurate as is wanted (the README of Kernel/Motion says which).
     [[nodiscard]] double shortestContactTime();
 
-    void initialise() override;
-
 protected:
     Scene();
     void setLaws(ContactLaws& of) {
@@ -147,6 +145,7 @@ protected:
     }
 
 private:
+    void setUp() override;
     void advanceByStep(bool another) override;
     void tellEvents() override;
 
@@ -166,7 +165,6 @@ private:
     void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
     /// What was stored (J) in contacts that the driver has ended.
     void bookEnded(double stored);
-    void requireSetUp(std::string_view what) const;
 
     void warnOfFedSprings() const;
 

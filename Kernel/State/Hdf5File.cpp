@@ -4,6 +4,7 @@
 
 #include <cerrno>
 
+#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/State/Hdf5Fault.h"
 
 #ifdef PENDULAR_HAS_HDF5
@@ -26,6 +27,7 @@ bool Hdf5File::isAvailable() { return true; }
 
 Hdf5File::Hdf5File(std::filesystem::path path, Access access) : place(std::move(path)) {
     makeQuiet();
+    requireRegularIfThere(place);
     errno = 0;
     if (access == Access::Read) {
         file = check(H5Fopen(place.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "cannot be read");
@@ -89,15 +91,35 @@ std::vector<std::string> Hdf5File::names() const {
     return found;
 }
 
+bool Hdf5File::isOwn(const std::string& name) const {
+    for (std::size_t end = name.find('/');; end = name.find('/', end + 1)) {
+        const std::string part = name.substr(0, end);
+        if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+        H5L_info_t link{};
+        if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
+            errno = 0;
+            fail(fmt::format("has a link to another place at {}, which Pendular does not follow", part));
+        }
+        if (end == std::string::npos) return true;
+    }
+}
+
 bool Hdf5File::holds(const std::string& name) const {
-    for (std::size_t end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1))
-        if (H5Lexists(file, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    const std::size_t last = name.rfind('/');
+    if (last != std::string::npos && !isOwn(name.substr(0, last))) return false;
     return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
 }
 
 Hdf5File::Id Hdf5File::openDataset(const std::string& name) const {
+    const bool isThere = isOwn(name);
     errno = 0;
-    return check(H5Dopen2(file, name.c_str(), H5P_DEFAULT), fmt::format("has no {}", name));
+    const Id set =
+        check(isThere ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1, fmt::format("has no {}", name));
+    const Object creation(H5Dget_create_plist(set), H5Pclose);
+    if (H5Pget_layout(creation) != H5D_VIRTUAL && H5Pget_external_count(creation) == 0) return set;
+    H5Dclose(set);
+    errno = 0;
+    fail(fmt::format("keeps {} in another file, which Pendular does not read", name));
 }
 
 std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {

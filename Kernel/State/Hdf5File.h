@@ -31,6 +31,8 @@ public:
     /// Whether this build has the HDF5 library; without it the constructor throws.
     static bool isAvailable();
 
+    /// Only regular files. What is read is in the file itself: a link to another place, in this file or in
+    /// another one, and numbers that are kept in another file are refused.
     Hdf5File(std::filesystem::path path, Access access);
     Hdf5File(const Hdf5File&) = delete;
     Hdf5File& operator=(const Hdf5File&) = delete;
@@ -58,6 +60,8 @@ private:
     [[noreturn]] void fail(std::string_view what) const;
     Id check(Id result, std::string_view what) const;
     void writeDataset(const std::string& name, Id type, Id space, const void* data);
+    /// Whether all parts of a name are there, without opening any; throws where one is a link elsewhere.
+    [[nodiscard]] bool isOwn(const std::string& name) const;
     [[nodiscard]] Id openDataset(const std::string& name) const;
 
     std::filesystem::path place;

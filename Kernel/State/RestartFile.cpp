@@ -11,6 +11,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/InputError.h"
 
 namespace pendular {
@@ -122,6 +123,7 @@ void writeRestartFile(const fs::path& path, const std::function<void(StateArchiv
     const fs::path beside = path.string() + ".part";
     std::error_code ignored;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), ignored);
+    for (const fs::path& file : {path, beside}) requireRegularIfThere(file);
     try {
         Hdf5File file(beside, Hdf5File::Access::Create);
         StateArchive archive(file, StateArchive::Direction::Write);
@@ -134,9 +136,8 @@ void writeRestartFile(const fs::path& path, const std::function<void(StateArchiv
         fs::remove(beside, ignored);
         std::string_view reason = problem.what();
         if (reason.ends_with('.')) reason.remove_suffix(1);
-        throw InputError(fmt::format("{}; {}.", reason,
-                                     fs::exists(path, ignored) ? "the restart file of before is kept"
-                                                               : "there is no restart file of before"));
+        throw InputError(fmt::format(
+            "{}{}.", reason, fs::exists(path, ignored) ? "; the restart file of before is kept" : ""));
     }
 }
 

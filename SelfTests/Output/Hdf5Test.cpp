@@ -244,7 +244,8 @@ TEST_F(Hdf5Fields, areReadByH5py) {
 TEST_F(Hdf5Fields, thatCannotBeWrittenEndTheRunInOneSentence) {
     Box scene("/dev/null/run", 1);
     scene.addOutput(Hdf5Output());
-    const std::string reason = support::refusal([&] { scene.solve(); });
+    scene.initialise();
+    const std::string reason = support::refusal([&] { scene.writeAll(); });
     EXPECT_TRUE(support::contains(reason, "/dev/null/run-fields-000000000.h5 cannot be written")) << reason;
 }
 

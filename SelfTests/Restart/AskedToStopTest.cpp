@@ -97,6 +97,23 @@ TEST_F(AskedToStop, twiceWithinASecondIsAskedOnce) {
     expectGoesOnAsIfNothingHadBeen();
 }
 
+/// The second of them may come when the run has ended, while the program completes what it has to.
+TEST_F(AskedToStop, twiceWithinASecondIsAskedOnceAlsoAfterTheRun) {
+    const Child child(part, [&] {
+        try {
+            WaitingRun(part, 20).solve();
+        } catch (const RunStopped&) {
+            std::raise(SIGTERM);
+            throw;
+        }
+    });
+    waitForChild();
+    child.send(SIGTERM);
+    letGoOn();
+    EXPECT_EQ(child.wait(), 143) << printed();
+    EXPECT_NE(printed().find("SIGTERM has stopped the run"), std::string::npos) << printed();
+}
+
 TEST_F(AskedToStop, aSecondTimeEndsAtOnce) {
     for (const auto& [first, second] : {std::pair{SIGINT, SIGINT}, std::pair{SIGTERM, SIGINT}}) {
         std::filesystem::remove_all(part);
@@ -190,6 +207,25 @@ TEST_F(AskedToStop, forARestartFileBeforeTheRunBeginsGetsIt) {
     expectSameRun(whole, part);
 }
 
+/// Sent while the system loads the program: where it is blocked then, it waits until it can be heard.
+TEST_F(AskedToStop, forARestartFileBeforeTheProgramBeginsIsHeard) {
+    const Child child(part, [&] {
+        sigset_t blocked;
+        sigemptyset(&blocked);
+        sigaddset(&blocked, SIGUSR1);
+        std::signal(SIGUSR1, SIG_DFL);
+        sigprocmask(SIG_BLOCK, &blocked, nullptr);
+        std::raise(SIGUSR1);
+        hearRestartSignal();  // as every program of ours does at its start
+        KeptRun run(part, 3);
+        run.keepRestartFile(false);
+        run.setQuiet();
+        run.solve();
+    });
+    EXPECT_EQ(child.wait(), 0);
+    EXPECT_EQ(printed(), "SIGUSR1: this run keeps no restart file.\n");
+}
+
 /// A limit of the size of files stands for a full disk: both make a write fail, for the one with EFBIG, for
 /// the other with ENOSPC.
 void limitFiles(std::uintmax_t bytes) {
@@ -218,6 +254,29 @@ TEST_F(AskedToStop, byAFullDiskKeepsTheLastCompleteFile) {
         EXPECT_FALSE(std::filesystem::exists(part / "run-restart.h5.part"));
     }
     expectGoesOnAsIfNothingHadBeen();
+}
+
+/// A run that begins where another one was has not lost the other's restart file when it cannot write its
+/// own.
+TEST_F(AskedToStop, byAFullDiskAtItsBeginningKeepsTheFileOfTheRunBefore) {
+    runUndisturbed(part, 70);
+    runUndisturbed(whole, 0);
+    const std::string before = contentOf(part / "run-restart.h5");
+    const auto first = static_cast<double>(std::filesystem::file_size(whole / "run-restart.h5"));
+    for (const double share : {0.02, 0.5, 0.99}) {
+        const Child child(part, [&] {
+            limitFiles(static_cast<std::uintmax_t>(share * first));
+            KeptRun run(part, 120);
+            run.restartFrom({});  // begins
+            run.setQuiet();
+            run.solve();
+        });
+        EXPECT_EQ(child.wait(), 1) << share;
+        EXPECT_NE(printed().find("File too large.\n"), std::string::npos) << printed();
+        EXPECT_TRUE(contentOf(part / "run-restart.h5") == before) << share;
+        for (const char* left : {"run-restart.h5.part", "run-restart.h5.before", "run.lock"})
+            EXPECT_FALSE(std::filesystem::exists(part / left)) << left;
+    }
 }
 
 /// A full disk indeed: a file system in memory, with room for the files there are and a part of the next.

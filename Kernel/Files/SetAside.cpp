@@ -1,0 +1,51 @@
+#include "Kernel/Files/SetAside.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+#include <utility>
+
+#include "Kernel/Files/WrittenBeside.h"
+#include "Kernel/InputError.h"
+
+namespace pendular {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path asideOf(const fs::path& file) { return file.string() + ".before"; }
+
+}  // namespace
+
+SetAside::SetAside(std::vector<fs::path> paths) : files(std::move(paths)) {
+    for (const fs::path& file : files) requireRegularIfThere(file);
+    for (const fs::path& file : files) {
+        std::error_code problem;
+        if (!fs::exists(file, problem)) continue;
+        fs::rename(file, asideOf(file), problem);
+        if (!problem) continue;
+        putBack();
+        throw InputError(
+            fmt::format("The file {} cannot be set aside: {}.", file.string(), problem.message()));
+    }
+}
+
+void SetAside::putBack() noexcept {
+    for (const fs::path& file : files) {
+        std::error_code ignored;
+        if (!fs::exists(file, ignored)) fs::rename(asideOf(file), file, ignored);
+    }
+}
+
+void SetAside::remove() noexcept {
+    std::error_code ignored;
+    for (const fs::path& file : files) fs::remove(asideOf(file), ignored);
+    areSet = false;
+}
+
+SetAside::~SetAside() {
+    if (areSet) putBack();
+}
+
+}  // namespace pendular
