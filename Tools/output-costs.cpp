@@ -113,7 +113,7 @@ void measure(Scene& scene, const Options& options) {
 }
 
 int run(const Options& options) {
-    checkValue("output-costs", "particles", static_cast<double>(options.bed.particles), "", {1, 1e12});
+    checkNumberOfGrains("output-costs", options.bed.particles);
     checkValue("output-costs", "steps", static_cast<double>(options.steps), "", {1, 1e12});
     checkValue("output-costs", "number of threads", options.threads, "", {1, 4096});
     std::error_code problem;

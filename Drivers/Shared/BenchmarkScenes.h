@@ -122,6 +122,7 @@ inline void check(const BenchmarkChoice& choice) {
                                                      "penetration", "gas",     "polydisperse"};
     if (std::find(known.begin(), known.end(), choice.scene) == known.end())
         unknownName("scene", choice.scene, known);
+    if (choice.particles > 0) checkNumberOfGrains("benchmark-scenes", choice.particles);
     const bool isBed = choice.scene == "bed" || choice.scene == "wet-bed";
     const bool hasMesh = choice.scene == "drum" || choice.scene == "penetration";
     if (!choice.positions.empty() && !isBed && !hasMesh)

@@ -83,8 +83,7 @@ public:
     /// kg/m^3, between a quarter and three quarters of the height of the highest grain.
     [[nodiscard]] double bulkDensity() {
         double height = 0, sum = 0;
-        for (const GrainReference grain : particleHandler)
-            height = std::max(height, grain.getPosition().z());
+        for (const GrainReference grain : particleHandler) height = std::max(height, grain.getPosition().z());
         for (const GrainReference grain : particleHandler)
             if (std::abs(grain.getPosition().z() - 0.5 * height) < 0.25 * height) sum += grain.getMass();
         return sum / (0.25 * std::numbers::pi * hopper.diameter * hopper.diameter * 0.5 * height);
@@ -122,6 +121,15 @@ inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const Run
     const double radius = 0.5 * hopper.diameter;
     const double edge = (1 + Hopper::spread) * latticeLooseness * hopper.grainDiameter;
     const auto fits = [&](const Vec3D& c) { return std::hypot(c.x(), c.y()) + 0.5 * edge <= radius; };
+    // Before any of them is made.
+    const double across = std::max(hopper.diameter - edge, 0.0) / edge,
+                 inLayer = 0.25 * std::numbers::pi * across * across;
+    if (!(inLayer <= std::max(1000.0, static_cast<double>(hopper.number))))
+        throw InputError(
+            fmt::format("HopperScene: one layer of grains of {:g} m in a hopper of {:g} m would be about "
+                        "{:.2g} grains; it "
+                        "must be at most 1000, or the number of grains, {}.",
+                        hopper.grainDiameter, hopper.diameter, inLayer, hopper.number));
     const auto inBox = [&](double height) {
         return latticeCells({-radius, -radius, 0}, {radius, radius, height}, edge, fits);
     };

@@ -51,14 +51,15 @@ std::string parseLength(std::string_view word, double scale, double& value) {
 
 namespace {
 
-/// Whether a line has the names of columns: a first word that begins with a letter, and no number.
+/// Whether a line has the names of columns: a first word that begins with a letter, and none that is a number
+/// or has a point, as numbers have in which an O stands for a 0.
 bool isHeader(std::string_view line) {
     Words words(line);
     std::string_view word = words.next();
     const char first = word.empty() ? ' ' : word.front();
     if (!((first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z'))) return false;
     for (double number; !word.empty(); word = words.next())
-        if (parseNumber(word, number)) return false;
+        if (parseNumber(word, number) || word.find('.') != word.npos) return false;
     return true;
 }
 

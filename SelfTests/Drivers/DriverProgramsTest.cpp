@@ -1,6 +1,8 @@
 // The drivers as a user runs them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <map>
 #include <numbers>
 
+#include "Kernel/Files/FileLock.h"
 #include "Kernel/State/Hdf5File.h"
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TemporaryFile.h"
@@ -86,9 +89,74 @@ TEST(Drivers, printNothingWhereTheyAreQuiet) {
 /// Before anything is computed: the grains of this drum would take days to settle.
 TEST(RotatingDrum, needsAFolderThatItCanWrite) {
     const std::string large = drum + "--number 1000000 --output ";
-    expectOneSentence(run(large + "''"), "the output folder is empty");
+    expectOneSentence(run(large + "''"), "--output: the value is empty");
     expectOneSentence(run(large + "/dev/null/runs"), "no files can be written into the output folder");
-    expectOneSentence(run(drum + "--resume --output ''"), "the output folder is empty");
+    expectOneSentence(run(drum + "--resume --output ''"), "--output: the value is empty");
+}
+
+/// Nor from two programs at once.
+TEST(Drivers, areRefusedInAFolderThatAnotherProgramWritesInto) {
+    for (const std::string& name : everyDriver()) {
+        const TestFolder folder;
+        const FileLock lock(folder.path() / ".lock", "The folder is", "wait");
+        expectOneSentence(
+            run(drivers + "/" + name + "/" + name + " " + folder.option()),
+            fmt::format("The folder {} is in use by another run (process {}): wait for its end, "
+                        "or give another one (--output).",
+                        folder.path().string(), getpid()));
+    }
+}
+
+/// A pipe, whose reader nobody is.
+TEST(WetTower, isRefusedWhereAFileOfItsIsAPipe) {
+    for (const char* name : {"run-energy.csv.part", "run-summary.csv.part", "run-restart.h5.part",
+                             "run-restart.h5", "run.lock", ".lock", "run-fields.h5.part"}) {
+        const TestFolder folder;
+        ASSERT_EQ(mkfifo((folder.path() / name).c_str(), 0600), 0);
+        const auto result = run("timeout 60 " + drivers +
+                                "/WetTower/WetTower --quiet --energy-interval-s 0.1 --hdf5-interval-s 0.1 " +
+                                folder.option());
+        if (!Hdf5File::isAvailable()) continue;
+        expectOneSentence(result, std::string(name) + " is not a regular file");
+    }
+}
+
+/// Nothing is lost before the new run has written what replaces it.
+TEST(HopperDischarge, keepsTheRestartFilesOfTheRunBeforeWhereItCannotBegin) {
+    if (!Hdf5File::isAvailable()) GTEST_SKIP() << "This build has no HDF5 library: restart is not tested.";
+    const TestFolder folder;
+    const std::string command =
+        hopper + "--quiet --number 120 --hopper-diameter-m 0.016 --end-time-s 0.06 " + folder.option();
+    const std::string sound = command + " --orifice-m 0.01 --orifice-m 0.012 --begin-s 0.02 ";
+    ASSERT_EQ(run(sound).exitCode, 0);
+    const auto states = [&] {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+            if (entry.path().string().find("-restart.h5") != std::string::npos)
+                files[entry.path().filename().string()] = contentOf(entry.path());
+        return files;
+    };
+    const auto before = states();
+    ASSERT_EQ(before.size(), 3u);
+    for (const std::string& refused :
+         {sound + "--friction nan", sound + "--elastic-modulus-Pa -1", sound + "--interval-s nan",
+          command + " --begin-s nan", command + " --orifice-m 0.01 --orifice-m nan --begin-s 0.02",
+          sound + "--hdf5-interval-s -1", sound + "--restart-interval-s nan",
+          // A full disk: no file may be longer than 8 KiB.
+          "bash -c \"trap '' XFSZ; ulimit -f 8; exec " + sound + "\""}) {
+        expectOneSentence(run(refused), "");
+        EXPECT_TRUE(states() == before) << refused;
+    }
+}
+
+/// The most grains that a driver takes, 472 bytes for each.
+TEST(Drivers, refuseMoreGrainsThanTheMemoryHolds) {
+    const double memory =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    if (memory > 472e8) GTEST_SKIP() << "This machine has memory for all grains that a driver takes.";
+    for (const std::string& driver : {drum, bed, hopper})
+        expectOneSentence(run(driver + "--number 100000000"),
+                          "100000000 grains would take about 47.2 GB of memory");
 }
 
 TEST(RotatingDrum, writesZonesThatSumToTheGrains) {
@@ -320,6 +388,14 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
     expectOneSentence(run(hopper + "--grain-diameter-m -1"), "grain diameter = -1 m");
     expectOneSentence(run(hopper + "--elastic-modulus-Pa 0"), "elastic modulus = 0 Pa");
     expectOneSentence(run(hopper + "--begin-s 1"), "start of the steady part = 1 s");
+    // The lattice of one layer would take all of the memory.
+    for (const char* giant : {"--hopper-diameter-m 45", "--grain-diameter-m 2e-6",
+                              "--hopper-diameter-m 1e9 --grain-diameter-m 1e-12"})
+        expectOneSentence(run(hopper + giant), "would be about ");
+    expectOneSentence(
+        run(hopper + "--hopper-diameter-m 45"),
+        "in a hopper of 45 m would be about 3e+08 grains; it must be at most 1000, or the number "
+        "of grains, 9000");
     const TestFolder clogged;
     expectOneSentence(
         run(hopper +

@@ -218,10 +218,15 @@ TEST(Programs, refuseWhatIsNoNumber) {
           {drum + "--end-time-s ''", "--end-time-s: the value is empty"},
           {drum + "--wall-time ''", "--wall-time: the value is empty"},
           {drum + "--restart ''", "--restart: the value is empty"},
+          {drum + "--grains '' --walls none", "--grains: the value is empty"},
+          {drum + "--grains none --walls ''", "--walls: the value is empty"},
+          {tools + "/benchmark-scenes --species ''", "--species: the value is empty"},
           {tools + "/benchmark-scenes --threads \'\'", "--threads: the value is empty"},
           {tools + "/benchmark-scenes --steps \'\'", "--steps: the value is empty"},
           {tools + "/benchmark-scenes --steps -5", "--steps: '-5' is not a whole number, 0 or"},
           {tools + "/benchmark-scenes --particles -5", "--particles: '-5' is not a whole number, 0 or"},
+          {tools + "/benchmark-scenes --particles 1000000000000",
+           "number of grains = 1000000000000 is out of range"},
           {bridge + "--radius1-m ''", "--radius1-m: the value is empty"},
           {bridge + "--points ''", "--points: the value is empty"},
           {bridge + "--no-such 1", "--no-such; see --help"}})
@@ -232,7 +237,9 @@ TEST(Programs, refuseWhatIsNoNumberOfGrains) {
     const std::string costs = tools + "/output-costs";
     if (!std::filesystem::exists(costs)) GTEST_SKIP() << "a build with sanitizers has no output-costs";
     expectOneSentence(run(costs + " --particles -5"), "--particles: '-5' is not a whole number, 0 or");
-    expectOneSentence(run(costs + " --particles 0"), "particles = 0");
+    expectOneSentence(run(costs + " --particles 0"), "number of grains = 0");
+    expectOneSentence(run(costs + " --particles 1000000000000"),
+                      "number of grains = 1000000000000 is out of range");
 }
 
 TEST(UserDefinedLaw, runs) {
