@@ -66,7 +66,7 @@ int runDriver(const DriverProgram& driver, int argc, char** argv, const std::fun
         if (!o.restart.empty()) checkRestartFile(o.restart);
         if (o.hdf5Interval > 0) Hdf5Frames::prepare();
         requireOutputFolder(driver.name, o.output);
-        const FileLock lock(std::filesystem::path(o.output) / ".lock",
+        const FileLock lock(std::filesystem::path(o.output) / ".pendular-lock",
                             fmt::format("The folder {} is", o.output), "give another one (--output)");
         body();
         return 0;

@@ -40,7 +40,8 @@ FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, 
     do {
         if (descriptor >= 0) close(descriptor);
         requireRegularIfThere(path);
-        descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        // Not by a symbolic link, which may lead to any file.
+        descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (descriptor < 0)
             throw InputError(
                 fmt::format("The file {} cannot be written: {}.", path.string(), std::strerror(errno)));
@@ -60,7 +61,7 @@ FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, 
 bool FileLock::isThatOfThePath() const {
     struct stat here {};
     struct stat there {};
-    return fstat(descriptor, &here) == 0 && stat(path.c_str(), &there) == 0 && here.st_dev == there.st_dev &&
+    return fstat(descriptor, &here) == 0 && lstat(path.c_str(), &there) == 0 && here.st_dev == there.st_dev &&
            here.st_ino == there.st_ino;
 }
 

@@ -98,7 +98,7 @@ TEST(RotatingDrum, needsAFolderThatItCanWrite) {
 TEST(Drivers, areRefusedInAFolderThatAnotherProgramWritesInto) {
     for (const std::string& name : everyDriver()) {
         const TestFolder folder;
-        const FileLock lock(folder.path() / ".lock", "The folder is", "wait");
+        const FileLock lock(folder.path() / ".pendular-lock", "The folder is", "wait");
         expectOneSentence(
             run(drivers + "/" + name + "/" + name + " " + folder.option()),
             fmt::format("The folder {} is in use by another run (process {}): wait for its end, "
@@ -110,7 +110,7 @@ TEST(Drivers, areRefusedInAFolderThatAnotherProgramWritesInto) {
 /// A pipe, whose reader nobody is.
 TEST(WetTower, isRefusedWhereAFileOfItsIsAPipe) {
     for (const char* name : {"run-energy.csv.part", "run-summary.csv.part", "run-restart.h5.part",
-                             "run-restart.h5", "run.lock", ".lock", "run-fields.h5.part"}) {
+                             "run-restart.h5", "run.lock", ".pendular-lock", "run-fields.h5.part"}) {
         const TestFolder folder;
         ASSERT_EQ(mkfifo((folder.path() / name).c_str(), 0600), 0);
         const auto result = run("timeout 60 " + drivers +

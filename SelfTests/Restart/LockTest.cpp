@@ -48,6 +48,13 @@ TEST(FileLock, ofWhatIsNoFileIsRefused) {
         EXPECT_TRUE(isOneSentence(text));
         EXPECT_TRUE(contains(text, path.string() + " is not a regular file"));
     }
+    // A link to another file, which is left as it is.
+    const auto link = folder.path() / "link", precious = folder.path() / "precious";
+    std::ofstream(precious) << "content";
+    std::filesystem::create_symlink(precious, link);
+    EXPECT_TRUE(contains(refusal([&] { FileLock(link, "The folder is", "take another one"); }),
+                         "link cannot be written: Too many levels of symbolic links"));
+    EXPECT_EQ(contentOf(precious), "content");
     EXPECT_TRUE(contains(refusal([] { FileLock("/proc/none/lock", "It is", "go"); }), "cannot be written"));
 }
 
