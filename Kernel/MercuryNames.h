@@ -11,6 +11,8 @@
 #include "Kernel/Species/TimeStepAdvice.h"
 
 using Mdouble = double;
+/// Any grain has a film where liquid moves.
+using LiquidFilmParticle = pendular::SphericalParticle;
 
 /// The levels of logger(INFO, "{} grains", number). What MercuryDPM logs as ERROR or FATAL ends its program:
 /// throw an InputError or a RunError.

@@ -21,6 +21,12 @@ struct ContactEvent {
     friend auto operator<=>(const ContactEvent&, const ContactEvent&) = default;
 };
 
+/// The same for a contact by its number in the list.
+struct ContactChange {
+    std::uint32_t contact;
+    ContactEvent::Kind kind;
+};
+
 /// How many events there have been since the scene began to listen to them.
 struct ContactEventCounts {
     std::uint64_t touchesBegun = 0, touchesEnded = 0, bridgesFormed = 0, bridgesRuptured = 0;

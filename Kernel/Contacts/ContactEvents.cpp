@@ -51,11 +51,19 @@ void ContactEvents::startColumns(ContactStore& store, const Bucket& bucket) cons
 void ContactEvents::after(ContactStore& store, const Bucket& bucket,
                           const std::vector<std::uint32_t>& identity) {
     if (!startsOfColumns.empty()) startColumns(store, bucket);
-    if (!listening) return;
+    if (!listening && !watching) return;
     for (std::uint32_t b = bucket.begin; b < bucket.end; ++b)
         forEachChange(states[b - bucket.begin], store.states[b], [&](unsigned lane, Kind kind) {
-            events.push_back(eventOf(store, bucket, b * Pack::lanes + lane, identity, kind));
+            const std::uint32_t contact = b * Pack::lanes + lane;
+            if (watching) changesOfStep.push_back({contact, kind});
+            if (listening) events.push_back(eventOf(store, bucket, contact, identity, kind));
         });
+}
+
+void ContactEvents::add(const ContactStore& store, std::uint32_t contact,
+                        const std::vector<std::uint32_t>& identity, Kind kind) {
+    if (listening)
+        events.push_back(eventOf(store, store.bucketOf(contact / Pack::lanes), contact, identity, kind));
 }
 
 void ContactEvents::end(const ContactStore& store, std::uint32_t contact,

@@ -14,19 +14,28 @@ public:
     void listen(bool on) { listening = on; }
     [[nodiscard]] bool isListening() const { return listening; }
 
+    /// Keeps the changes of each step, for physics that follows from them.
+    void watch(bool on) { watching = on; }
+    /// Those of this step, in the order of the list.
+    [[nodiscard]] const std::vector<ContactChange>& changes() const { return changesOfStep; }
+
     /// A step begins: what has ended since the last one, because bodies were removed or changed, belongs to
     /// it.
     void begin() {
         events.clear();
         events.swap(early);
+        changesOfStep.clear();
     }
     /// To be called before and after the forces of a bucket; after() also gives the columns of contacts that
     /// begin to act the numbers with which they start.
     void before(const ContactStore& store, const Bucket& bucket) {
-        if (listening || !startsOfColumns.empty())
+        if (listening || watching || !startsOfColumns.empty())
             states.assign(&store.states[bucket.begin], &store.states[bucket.begin] + bucket.size());
     }
     void after(ContactStore& store, const Bucket& bucket, const std::vector<std::uint32_t>& identity);
+    /// Something has happened to a contact besides what the kernel found.
+    void add(const ContactStore& store, std::uint32_t contact, const std::vector<std::uint32_t>& identity,
+             ContactEvent::Kind kind);
     /// A contact is about to end because a body is removed or changed.
     void end(const ContactStore& store, std::uint32_t contact, const std::vector<std::uint32_t>& identity);
     /// Puts the events of the step into the order of identities, those of one contact as they happened, and
@@ -43,10 +52,11 @@ public:
 private:
     void startColumns(ContactStore& store, const Bucket& bucket) const;
 
-    bool listening = false;
+    bool listening = false, watching = false;
     std::vector<double> startsOfColumns;
     std::vector<BlockState> states;  // of a bucket before the step
     std::vector<ContactEvent> events, early;
+    std::vector<ContactChange> changesOfStep;
     ContactEventCounts sums;
 };
 

@@ -12,6 +12,7 @@
 #include "Kernel/Species/Bodies.h"
 #include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
+#include "Kernel/Species/LiquidRules.h"
 #include "Kernel/Species/Stiffness.h"
 
 namespace pendular {
@@ -25,6 +26,7 @@ struct RotationRecord;
 /// How many numbers a contact remembers, and what it gives to its bodies.
 struct ContactLayout {
     std::size_t history = 0, normalHistory = 0, interaction = 0;
+    std::size_t liquid = 0;         // 1: the volume of its bridge, which changes
     std::size_t named = 0;          // columns of a driver's own
     bool hasTorque = false;         // contacts have a tangential force, grains a spin
     bool hasContactTorque = false;  // and a torque besides that of the force
@@ -88,8 +90,15 @@ public:
     /// m^3; nothing where no laws of the scene have a bridge
     [[nodiscard]] virtual std::optional<double> bridgeVolume(int a, int b) const = 0;
 
+    /// How liquid moves between the two; nothing where it does not.
+    [[nodiscard]] virtual std::optional<LiquidRules> liquidRules(int a, int b) const = 0;
+
     // What contacts remember, as numbers.
+    /// A bridge; where liquid moves, a contact without one.
     virtual void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const = 0;
+    /// Where liquid moves: a bridge of this volume, m^3.
+    virtual void prepareBridge(int a, int b, const Bodies& bodies, double volume,
+                               double* interaction) const = 0;
     /// A bridge that was prepared again goes on with what it remembered.
     virtual void takeBridgeState(int a, int b, double* interaction, const double* before) const = 0;
     [[nodiscard]] virtual double adhesiveForce(int a, int b, const double* interaction,

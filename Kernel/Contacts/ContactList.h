@@ -299,11 +299,7 @@ private:
                 if (!entries[c]) return;
                 old.recall(*entries[c], store, c, keepsBridges);
                 if (keepsBridges || laws.layout.interaction == 0) return;
-                ContactNumbers bridge{};
-                store.memory.interaction.get(store.slotOf(c), bridge.data());
-                laws.takeBridgeState(bucket.species1, bucket.species2, bridge.data(),
-                                     old.bridgeOf(*entries[c]));
-                store.memory.interaction.set(store.slotOf(c), bridge.data());
+                prepareAgain(store, laws, bucket, c, grains, old.bridgeOf(*entries[c]));
             });
         }
         return recalled;

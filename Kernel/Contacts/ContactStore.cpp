@@ -3,7 +3,8 @@
 namespace pendular {
 
 double ContactMemory::clear(std::size_t slot) {
-    for (MemoryColumns* columns : {&history, &normalHistory, &interaction, &named}) columns->clear(slot);
+    for (MemoryColumns* columns : {&history, &normalHistory, &interaction, &liquid, &named})
+        columns->clear(slot);
     if (layout.hasTorque) records[slot] = {};
     else forces[slot] = {};
     if (layout.hasContactTorque) torques[slot] = {};

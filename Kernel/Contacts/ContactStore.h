@@ -114,6 +114,7 @@ public:
     MemoryColumns history;  // of the friction law
     MemoryColumns normalHistory;
     MemoryColumns interaction;
+    MemoryColumns liquid;                    // m^3, the volume of a bridge whose liquid moves
     MemoryColumns named;                     // of the driver's own columns
     std::vector<ForceTorqueRecord> records;  // of laws with friction
     std::vector<ForceRecord> forces;         // of laws without
@@ -126,6 +127,7 @@ public:
         history.count = of.history;
         normalHistory.count = of.normalHistory;
         interaction.count = of.interaction;
+        liquid.count = of.liquid;
         named.count = of.named;
     }
     [[nodiscard]] const ContactLayout& getLayout() const { return layout; }
@@ -143,6 +145,7 @@ public:
         history.reserve(blocks);
         normalHistory.reserve(blocks);
         interaction.reserve(blocks);
+        liquid.reserve(blocks);
         named.reserve(blocks);
         if (layout.hasTorque) reserveLarge(records, blocks * Pack::lanes);
         else reserveLarge(forces, blocks * Pack::lanes);
@@ -162,8 +165,8 @@ public:
     /// Forgets one contact; returns the energy (J) that was stored in it, where a ledger is kept.
     double clear(std::size_t slot);
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(history.columns, normalHistory.columns, interaction.columns, named.columns, records,
-                       forces, torques, energies, blockOf);
+        return bytesOf(history.columns, normalHistory.columns, interaction.columns, liquid.columns,
+                       named.columns, records, forces, torques, energies, blockOf);
     }
 
 private:
@@ -171,6 +174,7 @@ private:
         history.resize(blocks);
         normalHistory.resize(blocks);
         interaction.resize(blocks);
+        liquid.resize(blocks);
         named.resize(blocks);
         if (layout.hasTorque) records.resize(blocks * Pack::lanes);
         else forces.resize(blocks * Pack::lanes);
@@ -263,7 +267,8 @@ public:
                    Pack::lanes +
                (layout.hasTorque ? sizeof(ForceTorqueRecord) : sizeof(ForceRecord)) +
                2 * sizeof(std::uint32_t) + (layout.hasContactTorque ? sizeof(TorqueRecord) : 0) +
-               sizeof(double) * (layout.history + layout.normalHistory + layout.interaction + layout.named);
+               sizeof(double) * (layout.history + layout.normalHistory + layout.interaction + layout.liquid +
+                                 layout.named);
     }
     /// Bytes of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const {

@@ -11,7 +11,7 @@
 namespace pendular {
 
 void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
-                            const SkinChoice& skinChoice, bool withLedger) {
+                            const SkinChoice& skinChoice, bool withLedger, GrainFilms* films) {
     periodic = box;
     species = &contactLaws;
     walls = &wallHandler;
@@ -21,6 +21,8 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     ContactLayout layout = species->layout;
     layout.named = namedColumns.size();
     contacts.memory.setLayout(layout);
+    liquid.prepare(films, walls->getSize());
+    contactEvents.watch(liquid.moves());
     overlapWatch = OverlapWatch(species->overlapLimit.largest);
 }
 
@@ -47,6 +49,7 @@ double ContactSystem::renew(Grains& grains) {
         stored += endContact(grains, contact);
     });
     listAgain(grains, nullptr, false);
+    liquid.clip(contacts, *species, grains);
     return stored;
 }
 
@@ -80,6 +83,7 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts* r
     skin.listed(contacts, grains.size());
     idleLanes.listed();
     species->prepare(contacts.buckets);
+    liquid.listed(contacts, *species, walls->getSize());
     stepsListed = 0;
     unlisted = 0;
     listBefore = infinity;
@@ -186,8 +190,9 @@ double ContactSystem::endContactsAtWall(Grains& grains, int wall) {
 }
 
 /// It is listed no more, and its memory and its force are zero.
-double ContactSystem::endContact(const Grains& grains, std::uint32_t contact) {
+double ContactSystem::endContact(Grains& grains, std::uint32_t contact) {
     contactEvents.end(contacts, contact, grains.identity);
+    liquid.release(contacts, *species, grains, contact);
     const std::size_t block = contact / Pack::lanes;
     const auto others = static_cast<std::uint8_t>(~(1u << contact % Pack::lanes));
     BlockState& state = contacts.states[block];
@@ -210,9 +215,11 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     remembered.visitState(archive, grains, partsOfWalls);
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
     archive.group("events", [&] { contactEvents.visitState(archive); });
+    if (liquid.moves()) archive.group("liquid", [&] { liquid.visitState(archive); });
     if (!archive.isReading()) return;
     archive.require(listAgain(grains, &remembered) == remembered.size(), "pairs",
                     "has a contact of bodies that are out of reach");
+    if (liquid.moves()) liquid.requireWhole(archive, contacts);
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
     sumWallForces(grains);  // also those that the run of the file did not keep
@@ -224,8 +231,12 @@ void ContactSystem::computePairForces(const Grains& grains, double step, Contact
 }
 void ContactSystem::computeWallForces(const Grains& grains, double step, ContactTiming timing) {
     compute(grains, step, timing, firstWallBucket(), contacts.buckets.size());
-    contactEvents.finish();
+    if (!liquid.moves()) contactEvents.finish();
     sumWallForces(grains);
+}
+void ContactSystem::moveLiquid(Grains& grains) {
+    liquid.move(contacts, *species, grains, contactEvents);
+    contactEvents.finish();
 }
 
 ObservedContact ContactSystem::observe(const Grains& grains, const Bucket& bucket,

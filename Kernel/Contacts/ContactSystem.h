@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactEvents.h"
+#include "Kernel/Contacts/ContactLiquid.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/IdleLanes.h"
@@ -40,9 +41,9 @@ public:
 
     /// To be called when species, walls and grains are known.
     /// @param skinChoice contacts are listed again when bodies can have approached by the skin: the sum over
-    /// the steps of the largest shifts of two bodies
+    /// the steps of the largest shifts of two bodies; @param films of the grains, where liquid moves
     void prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
-                 const SkinChoice& skinChoice, bool withLedger);
+                 const SkinChoice& skinChoice, bool withLedger, GrainFilms* films = nullptr);
     /// Grains have been added at the end of the store. They are listed when bodies can have approached by the
     /// distance of the nearest of them to all others, so that most need no list of their own. False if one is
     /// so near that contacts must be listed at once, and the first time: lists keep their cells from then on.
@@ -80,6 +81,15 @@ public:
     void computePairForces(const Grains& grains, double step, ContactTiming timing = {});
     /// The second half of it.
     void computeWallForces(const Grains& grains, double step, ContactTiming timing = {});
+
+    /// After the forces of a step, in a scene in which liquid moves.
+    void moveLiquid(Grains& grains);
+    [[nodiscard]] bool movesLiquid() const { return liquid.moves(); }
+    [[nodiscard]] LiquidLedger liquidLedger(const Grains& grains) const {
+        return liquid.ledger(contacts, grains);
+    }
+    /// m^3, what a wet wall has got back minus what it gave.
+    [[nodiscard]] double liquidOfWall(std::size_t wall) const { return liquid.ofWall(wall); }
 
     [[nodiscard]] const ContactStore& store() const { return contacts; }
     [[nodiscard]] const ContactLaws& laws() const { return *species; }
@@ -162,7 +172,7 @@ private:
     /// Returns how many of the remembered contacts are listed again.
     std::size_t listAgain(Grains& grains, const RememberedContacts* remembered = nullptr,
                           bool keepsBridges = true);
-    double endContact(const Grains& grains, std::uint32_t contact);
+    double endContact(Grains& grains, std::uint32_t contact);
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
     /// act in the first half of the next one. (Not those of rigid bodies.)
     void takeForceAway(Grains& grains, const Bucket& bucket, std::uint32_t contact) const;
@@ -200,6 +210,7 @@ private:
     WallPointSearch wallPoints;
     OverlapWatch overlapWatch;
     ContactEvents contactEvents;
+    ContactLiquid liquid;
     std::vector<OverlapWatch> watches;  // of each thread
 };
 

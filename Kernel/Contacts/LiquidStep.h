@@ -61,10 +61,14 @@ public:
         form(liquid, looked);
     }
 
-    /// A contact ends without a rupture, because a body is removed or changed: its liquid goes to the films.
+    /// A bridge gives liquid to its films without a rupture, because a body is removed or changed: all of it,
+    /// or so much.
     static void release(Liquid& liquid, Number contact, std::vector<Number>& looked) {
-        const auto [own, rest] = halves(liquid, contact, liquid.volumeOf(contact));
-        liquid.setVolume(contact, 0);
+        release(liquid, contact, looked, liquid.volumeOf(contact));
+    }
+    static void release(Liquid& liquid, Number contact, std::vector<Number>& looked, Quanta volume) {
+        const auto [own, rest] = halves(liquid, contact, volume);
+        liquid.setVolume(contact, liquid.volumeOf(contact) - volume);
         wet(liquid, liquid.grainOf(contact, 0), own, looked);
         if (liquid.isAtWall(contact)) liquid.addToWall(contact, rest);
         else wet(liquid, liquid.grainOf(contact, 1), rest, looked);

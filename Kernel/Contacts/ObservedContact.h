@@ -16,7 +16,7 @@ struct ObservedContact {
     int wall;                 // -1: grain with grain
     double separation;        // m, of the surfaces; negative where they overlap
     double normalForce;       // N, elastic and damping, repulsion positive
-    double adhesiveForce;     // N, attraction positive
+    double adhesiveForce;     // N, attraction positive; of the bridge at its volume after this step
     bool bridged;
     Vector<double> shift;  // m, from the centre of particle 1 to that of particle 2 or to the wall's surface
     Vector<double> force;  // N, on particle 1
@@ -79,7 +79,10 @@ inline ObservedContact observeContact(const ContactStore& contacts, const Contac
         seen.adhesiveForce =
             laws.adhesiveForce(bucket.species1, bucket.species2, interaction.data(), seen.separation);
     }
-    if (seen.bridged) seen.bridgeVolume = laws.bridgeVolume(bucket.species1, bucket.species2).value_or(0);
+    if (seen.bridged)
+        seen.bridgeVolume = laws.liquidRules(bucket.species1, bucket.species2)
+                                ? contacts.memory.liquid.at(contacts.slotOf(contact), 0)
+                                : laws.bridgeVolume(bucket.species1, bucket.species2).value_or(0);
     seen.normalForce += seen.adhesiveForce;
     return seen;
 }

@@ -30,7 +30,7 @@ void takeRecord(const double*& from, Record& record) {
 RememberedContacts::RememberedContacts(const ContactLayout& contactLayout, bool withLedger)
     : layout(contactLayout),
       ledger(withLedger),
-      width(layout.history + layout.normalHistory + layout.interaction + layout.named +
+      width(layout.history + layout.normalHistory + layout.interaction + layout.liquid + layout.named +
             ((layout.hasTorque ? sizeof(ForceTorqueRecord) : sizeof(ForceRecord)) +
              (layout.hasContactTorque ? sizeof(TorqueRecord) : 0)) /
                 sizeof(double)) {}
@@ -76,7 +76,7 @@ void RememberedContacts::take(const ContactStore& store, const std::vector<std::
 void RememberedContacts::keep(const ContactStore& store, std::size_t slot, double* to) const {
     const ContactMemory& memory = store.memory;
     for (const MemoryColumns* columns :
-         {&memory.history, &memory.normalHistory, &memory.interaction, &memory.named}) {
+         {&memory.history, &memory.normalHistory, &memory.interaction, &memory.liquid, &memory.named}) {
         columns->get(slot, to);
         to += columns->count;
     }
@@ -92,7 +92,7 @@ void RememberedContacts::recall(const Entry& entry, ContactStore& store, std::si
     const std::size_t slot = store.slotOf(to);
     const double* from = numbers.data() + number * width;
     for (MemoryColumns* columns :
-         {&memory.history, &memory.normalHistory, &memory.interaction, &memory.named}) {
+         {&memory.history, &memory.normalHistory, &memory.interaction, &memory.liquid, &memory.named}) {
         if (withBridge || columns != &memory.interaction) columns->set(slot, from);
         from += columns->count;
     }

@@ -20,6 +20,7 @@ ContactLayout larger(const ContactLayout& a, const ContactLayout& b) {
     return {.history = std::max(a.history, b.history),
             .normalHistory = std::max(a.normalHistory, b.normalHistory),
             .interaction = std::max(a.interaction, b.interaction),
+            .liquid = std::max(a.liquid, b.liquid),
             .named = 0,
             .hasTorque = a.hasTorque || b.hasTorque,
             .hasContactTorque = a.hasContactTorque || b.hasContactTorque};

@@ -44,8 +44,17 @@ public:
     /// Zero for a dry pair beside wet ones.
     [[nodiscard]] std::optional<double> bridgeVolume(int a, int b) const override;
 
+    [[nodiscard]] std::optional<LiquidRules> liquidRules(int a, int b) const override {
+        const ContactLaws* const laws = find(a, b);
+        return laws ? laws->liquidRules(a, b) : std::nullopt;
+    }
+
     void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const override {
         ofPair(a, b).prepareBridge(a, b, bodies, interaction);
+    }
+    void prepareBridge(int a, int b, const Bodies& bodies, double volume,
+                       double* interaction) const override {
+        ofPair(a, b).prepareBridge(a, b, bodies, volume, interaction);
     }
     void takeBridgeState(int a, int b, double* interaction, const double* before) const override {
         ofPair(a, b).takeBridgeState(a, b, interaction, before);

@@ -12,6 +12,7 @@ inline constexpr ContactLayout layoutOf{
     .history = columnsOf<S::Friction::template History>,
     .normalHistory = columnsOf<NormalHistoryOf<typename S::Normal>::template type>,
     .interaction = columnsOf<S::Adhesion::template Interaction>,
+    .liquid = MovesLiquid<typename S::Adhesion> ? 1 : 0,
     .named = 0,
     .hasTorque = S::hasTorque,
     .hasContactTorque = S::hasContactTorque};
@@ -70,9 +71,20 @@ public:
         else return {};
     }
 
+    [[nodiscard]] std::optional<LiquidRules> liquidRules([[maybe_unused]] int a,
+                                                         [[maybe_unused]] int b) const override {
+        if constexpr (MovesLiquid<Adhesion>) return of(a, b).liquidRules();
+        else return {};
+    }
+
     void prepareBridge([[maybe_unused]] int a, [[maybe_unused]] int b, [[maybe_unused]] const Bodies& bodies,
                        [[maybe_unused]] double* to) const override {
         if constexpr (Adhesion::acts) putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies), to);
+    }
+    void prepareBridge([[maybe_unused]] int a, [[maybe_unused]] int b, [[maybe_unused]] const Bodies& bodies,
+                       [[maybe_unused]] double volume, [[maybe_unused]] double* to) const override {
+        if constexpr (MovesLiquid<Adhesion>)
+            putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies, volume), to);
     }
     void takeBridgeState(int /*a*/, int /*b*/, [[maybe_unused]] double* to,
                          [[maybe_unused]] const double* before) const override {

@@ -5,20 +5,43 @@
 
 namespace pendular {
 
+/// The two bodies of a contact, the smaller one first.
+inline Bodies bodiesOf(const ContactStore& store, const Bucket& bucket, std::size_t contact,
+                       const ParticleStore& grains) {
+    const ContactBlock& places = store.blocks[contact / Pack::lanes];
+    const std::size_t lane = contact % Pack::lanes;
+    const double r1 = grains.translation[places.first[lane]].radius;
+    const double r2 = bucket.wall >= 0 ? infinity : grains.translation[places.second[lane]].radius;
+    return {std::min(r1, r2), std::max(r1, r2)};
+}
+
+/// Prepares the bridge of a contact again, for the volume that it has; it goes on with what it remembers of
+/// its motion.
+/// @param before what its interaction was
+inline void prepareAgain(ContactStore& store, const ContactLaws& laws, const Bucket& bucket,
+                         std::size_t contact, const ParticleStore& grains, const double* before) {
+    const std::size_t slot = store.slotOf(contact);
+    const Bodies bodies = bodiesOf(store, bucket, contact, grains);
+    ContactNumbers bridge{};
+    if (laws.liquidRules(bucket.species1, bucket.species2))
+        laws.prepareBridge(bucket.species1, bucket.species2, bodies, store.memory.liquid.at(slot, 0),
+                           bridge.data());
+    else laws.prepareBridge(bucket.species1, bucket.species2, bodies, bridge.data());
+    laws.takeBridgeState(bucket.species1, bucket.species2, bridge.data(), before);
+    store.memory.interaction.set(slot, bridge.data());
+}
+
 /// Gives memory to a block that has none, with the adhesion of its contacts prepared.
 inline void wakeBlock(ContactStore& store, std::size_t block, const Bucket& bucket, const ContactLaws& laws,
                       const ParticleStore& grains) {
     const std::uint32_t slot = store.memory.add(block);
     store.slots[block] = slot;
     if (laws.layout.interaction == 0) return;
-    const ContactBlock& places = store.blocks[block];
     Bodies last{-1, -1};
     ContactNumbers prepared{};  // zero beyond the numbers of the pair's own laws
     for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
         if (!store.bitOf(store.states[block].listed, lane)) continue;
-        const double r1 = grains.translation[places.first[lane]].radius;
-        const double r2 = bucket.wall >= 0 ? infinity : grains.translation[places.second[lane]].radius;
-        const Bodies bodies{std::min(r1, r2), std::max(r1, r2)};
+        const Bodies bodies = bodiesOf(store, bucket, block * Pack::lanes + lane, grains);
         if (bodies.radius1 != last.radius1 || bodies.radius2 != last.radius2) {
             last = bodies;
             laws.prepareBridge(bucket.species1, bucket.species2, bodies, prepared.data());

@@ -9,6 +9,10 @@
 
 namespace pendular {
 
+inline void swapNumbers(MemoryColumns& columns, std::size_t a, std::size_t b) {
+    for (std::size_t c = 0; c < columns.count; ++c) std::swap(columns.at(a, c), columns.at(b, c));
+}
+
 /// Gives the memory of a wall's contact to another one of the same grain that stands for it from now on (the
 /// next face of a mesh), unless that one has its own: the spring goes on, turned with the normal, and so does
 /// the bridge. The block of the other one has memory.
@@ -29,8 +33,9 @@ inline void handOver(ContactStore& store, const ContactLaws& laws, const Bucket&
     memory.normalHistory.get(old, numbers);
     memory.normalHistory.set(next, numbers);
     memory.normalHistory.clear(old);
-    memory.interaction.get(old, numbers);
-    memory.interaction.set(next, numbers);
+    // The other way round as well: what stays behind is a contact without a bridge.
+    swapNumbers(memory.interaction, old, next);
+    swapNumbers(memory.liquid, old, next);
     memory.named.get(old, numbers);
     memory.named.set(next, numbers);
     // The kernel reads the forces of the last step.

@@ -169,8 +169,7 @@ PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains
                 touched.push_back(static_cast<Real>(part));
         adhesive.push_back(static_cast<Real>(seen.adhesiveForce));
         overlap.push_back(static_cast<Real>(-seen.separation));
-        if (const auto liquid = laws.bridgeVolume(bucket.species1, bucket.species2))
-            volume.push_back(seen.bridged ? static_cast<Real>(*liquid) : Real{0});
+        volume.push_back(static_cast<Real>(seen.bridgeVolume));
         bridged.push_back(seen.bridged ? 1 : 0);
         first.push_back(static_cast<std::int32_t>(seen.particle1));
         second.push_back(bucket.wall < 0 ? static_cast<std::int32_t>(seen.particle2) : -1);

@@ -72,6 +72,12 @@ Vec3D GrainReference::getForce() const {
     return getMass() * toEigen(handler->store().acceleration[place()]);
 }
 
+double GrainReference::getLiquidVolume() const { return handler->liquidFilms.of(handler->grains, place()); }
+void GrainReference::setLiquidVolume(double volume) {
+    checkValue(fmt::format("particle {}", number), "liquid volume", volume, "m^3", notNegative);
+    handler->liquidFilms.set(handler->grains, place(), volume);
+}
+
 void GrainReference::requireOwnBody(std::string_view what) const {
     if (handler->store().bodies.contains(number))
         throw InputError(
@@ -161,6 +167,7 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
     const std::uint32_t identity = grains.add(record, toVector(grain.getAngularVelocity()),
                                               static_cast<std::uint16_t>(grain.getSpeciesIndex()));
     if (!grain.isFixed()) setAcceleration(grains, grains.place[identity], gravity);
+    if (grain.getLiquidVolume() > 0) liquidFilms.set(grains, grains.place[identity], grain.getLiquidVolume());
     changes.added.push_back(identity);
     return {*this, identity};
 }
@@ -173,6 +180,7 @@ void ParticleHandler::removeObject(std::size_t identity) {
             "particle {} is part of the rigid body {}; remove that by bodyHandler.removeObject().", identity,
             grains.bodies.bodyOf(static_cast<std::uint32_t>(identity))));
     if (beforeRemoval) beforeRemoval(at);
+    liquidFilms.remove(grains, at);
     grains.remove(at);
     const auto forget = [&](std::vector<std::uint32_t>& list) { std::erase(list, identity); };
     forget(changes.added);
@@ -241,6 +249,7 @@ void ParticleHandler::noteJoined(std::span<const std::uint32_t> identities) {
 void ParticleHandler::visitState(StateArchive& archive) {
     finishStep();
     grains.visitState(archive);
+    if (liquidFilms.areKept()) archive.group("films", [&] { liquidFilms.visitState(archive, grains); });
     for (const std::uint16_t index : grains.species)
         archive.require(index < species->speciesCount(), "species", "has one that the scene has not");
     if (!archive.isReading()) return;

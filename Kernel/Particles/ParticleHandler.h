@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 
+#include "Kernel/Particles/GrainFilms.h"
 #include "Kernel/Particles/SphericalParticle.h"
 
 namespace pendular {
@@ -33,6 +34,13 @@ public:
     /// Of a grain of a rigid body: its mass times its acceleration, so with what holds it in the body.
     [[nodiscard]] Vec3D getForce() const;
 
+    /// Of the film on the grain, m^3; 0 where no liquid moves. The liquid of its bridges comes on top.
+    [[nodiscard]] double getLiquidVolume() const;
+
+    /// Of the film, m^3. In a run the difference counts as absorbed, and is rounded to a multiple of the
+    /// quantum in which the scene's liquid is counted; touching contacts draw from it at the end of the next
+    /// step.
+    void setLiquidVolume(double volume);
     void setVelocity(const Vec3D& velocity);
     /// Without effect in scenes without friction.
     void setAngularVelocity(const Vec3D& spin);
@@ -141,6 +149,10 @@ public:
     /// fields, there as NAME_UNIT. At set-up only. Throws InputError for a name that is there already.
     GrainColumnReference addColumn(const std::string& name, const std::string& unit, double initial = 0);
 
+    /// The liquid on the grains, where liquid moves.
+    [[nodiscard]] GrainFilms& films() { return liquidFilms; }
+    [[nodiscard]] const GrainFilms& films() const { return liquidFilms; }
+
     /// kg, of a grain of this size (m) and species
     [[nodiscard]] double massOf(double radius, int species) const;
     /// Gives all grains the mass of their species' density.
@@ -196,6 +208,7 @@ private:
     std::map<std::uint16_t, double> densitiesOfJoined;  // kg/m^3, of species in rigid bodies
     bool columnsAreClosed = false;
     Grains grains;
+    GrainFilms liquidFilms;
     GrainChanges changes;
     Vector<double> gravity{0, 0, 0};  // m/s^2
     std::function<void(std::uint32_t)> beforeRemoval;

@@ -31,6 +31,11 @@ public:
     void setPosition(const Vec3D& position) { positionValue = finite("position", position, "m"); }
     void setVelocity(const Vec3D& velocity) { velocityValue = finite("velocity", velocity, "m/s"); }
     void setAngularVelocity(const Vec3D& spin) { spinValue = finite("angular velocity", spin, "rad/s"); }
+    /// Of the film on the grain, where liquid moves (m^3).
+    void setLiquidVolume(double volume) {
+        checkValue("SphericalParticle", "liquid volume", volume, "m^3", notNegative);
+        liquidVolume = volume;
+    }
     template <class S>
     void setSpecies(const S* species) {
         speciesIndex = species->getIndex();
@@ -45,6 +50,7 @@ public:
     [[nodiscard]] const Vec3D& getPosition() const { return positionValue; }
     [[nodiscard]] const Vec3D& getVelocity() const { return velocityValue; }
     [[nodiscard]] const Vec3D& getAngularVelocity() const { return spinValue; }
+    [[nodiscard]] double getLiquidVolume() const { return liquidVolume; }
     [[nodiscard]] int getSpeciesIndex() const { return speciesIndex; }
     [[nodiscard]] bool isFixed() const { return fixed; }
 
@@ -59,6 +65,7 @@ private:
     Vec3D positionValue = Vec3D::Zero();
     Vec3D velocityValue = Vec3D::Zero();
     Vec3D spinValue = Vec3D::Zero();
+    double liquidVolume = 0;
     int speciesIndex = -1;
     bool fixed = false;
 };

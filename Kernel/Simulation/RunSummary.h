@@ -116,6 +116,7 @@ private:
             rows.add("bridges formed", counts.bridgesFormed);
             rows.add("bridges ruptured", counts.bridgesRuptured);
         }
+        if (scene.movesLiquid()) addLiquid(rows, scene, bridged);
         rows.addNumber("largest speed", std::sqrt(speed2), "m/s");
         rows.addNumber("kinetic energy", kineticEnergy(grains), "J");
         if (!scene.keepsEnergyLedger()) return;
@@ -124,6 +125,22 @@ private:
             rows.addNumber(fmt::format("energy: {}", entry.name), ledger.*entry.member, "J");
         rows.addNumber("energy lost", ledger.lost(), "J");
         rows.addNumber("energy unaccounted for", scene.energyUnaccountedFor(), "J");
+    }
+
+    template <class Scene>
+    static void addLiquid(SummaryRows& rows, const Scene& scene, std::size_t bridges) {
+        const LiquidLedger ledger = scene.liquidLedger();
+        const double onGrains = ledger.films + ledger.bridges;
+        const auto grains = static_cast<double>(scene.particleHandler.getSize());
+        rows.addNumber("liquid: films", ledger.films, "m^3");
+        rows.addNumber("liquid: bridges", ledger.bridges, "m^3");
+        rows.addNumber("liquid: wet walls", ledger.walls, "m^3");
+        rows.addNumber("liquid: removed with grains", ledger.removed, "m^3");
+        rows.addNumber("liquid: at the start", ledger.initial, "m^3");
+        rows.addNumber("liquid: absorbed since", ledger.absorbed, "m^3");
+        rows.addNumber("liquid unaccounted for", ledger.unaccounted(), "m^3");
+        rows.addNumber("share of the liquid in films", onGrains > 0 ? ledger.films / onGrains : 0, "");
+        rows.addNumber("bridges of a grain", grains > 0 ? 2 * static_cast<double>(bridges) / grains : 0, "");
     }
 
     template <class Scene>
@@ -171,6 +188,7 @@ private:
         for (std::size_t part = 0; part < StepTimes::names.size(); ++part) {
             if (part == static_cast<std::size_t>(StepTimes::Part::Ledger) && !scene.keepsEnergyLedger())
                 continue;
+            if (part == static_cast<std::size_t>(StepTimes::Part::Liquid) && !scene.movesLiquid()) continue;
             rows.addNumber(fmt::format("wall time: {}", StepTimes::names[part]), seconds[part], "s",
                            fmt::format(" ({:.1f} %)", 100 * seconds[part] / total));
         }

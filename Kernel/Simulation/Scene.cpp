@@ -103,7 +103,9 @@ void Scene::setUp() {
     laws().mixAll();
     particleHandler.settleSpin();
     if (!isRestarted()) particleHandler.renewMasses();
+    particleHandler.films().settle(particleHandler.store(), laws().layout.liquid > 0);
     if (isRestarted()) return readRestart();
+    beginLiquid();
     prepare();
     ParticleStore& grains = particleHandler.store();
     contactSystem.refresh(grains, 0, 0);
@@ -228,7 +230,10 @@ void Scene::prepare() {
     particleHandler.closeColumns();
     lawsAreNew = false;
     setHasBegun();
-    contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept);
+    GrainFilms& films = particleHandler.films();
+    contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept,
+                          films.areKept() ? &films : nullptr);
+    if (movesLiquid()) keepOutput({.write = [this] { requireLiquid(); }});
     if (isQuiet()) return;
     if (threads > processorCount())
         logger(LogLevel::Warn, "{} threads share {} processors; the run is slower than with {}.", threads,
@@ -236,6 +241,34 @@ void Scene::prepare() {
     for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, wallHandler))
         logger(LogLevel::Warn, "{}.", broken.text());
     warnOfFedSprings();
+}
+
+void Scene::setLiquidToCome(double volume) {
+    requireSetUp("liquid to come");
+    checkValue("Simulation", "liquid to come", volume, "m^3", notNegative);
+    liquidToCome = volume;
+}
+
+void Scene::beginLiquid() {
+    if (!particleHandler.films().areKept()) return;
+    double toCome = liquidToCome;
+    if (!isSet(toCome)) {
+        double largest = 0;
+        const auto count = static_cast<int>(laws().speciesCount());
+        for (int a = 0; a < count; ++a)
+            for (int b = a; b < count; ++b)
+                largest = std::max(largest, laws().liquidRules(a, b).value_or(LiquidRules{}).largest);
+        toCome = std::max(0x1p20, 6.0 * static_cast<double>(particleHandler.getSize())) * largest;
+    }
+    particleHandler.films().begin(particleHandler.store(), toCome);
+}
+
+void Scene::requireLiquid() const {
+    const double missing = liquidLedger().unaccounted();
+    if (missing != 0)
+        throw RunError(fmt::format(
+            "At time {:.6g} s {} m^3 of liquid are {}: this is an error in the program, not in the scene.",
+            getTime(), std::abs(missing), missing < 0 ? "lost" : "too many"));
 }
 
 void Scene::warnOfFedSprings() const {
@@ -333,6 +366,10 @@ void Scene::advance(double length, bool another) {
     contactSystem.computePairForces(grains, length, integrator.contacts);
     enter(StepTimes::Part::Walls);
     contactSystem.computeWallForces(grains, length, integrator.contacts);
+    if (contactSystem.movesLiquid()) {
+        enter(StepTimes::Part::Liquid);
+        contactSystem.moveLiquid(grains);
+    }
     enter(StepTimes::Part::Sum);
     leftLength = length;
     particleHandler.leaveStepUnfinished();

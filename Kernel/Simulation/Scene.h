@@ -76,6 +76,18 @@ public:
         ledgerKept = keep;
     }
 
+    /// In a scene in which liquid moves, an upper bound of the liquid (m^3) that will come to what is there
+    /// at the start of the run, from sprays and wet walls: it sets the quantum in which liquid is counted.
+    /// Without it, 2^20 bridges of the largest volume, and at least 6 for each grain.
+    void setLiquidToCome(double volume);
+    /// Where the liquid is that moves, and where it came from.
+    [[nodiscard]] LiquidLedger liquidLedger() const {
+        return contactSystem.liquidLedger(particleHandler.store());
+    }
+    [[nodiscard]] bool movesLiquid() const { return contactSystem.movesLiquid(); }
+    /// m^3, what a wet wall has got back from bridges minus what it gave.
+    [[nodiscard]] double liquidOfWall(std::size_t wall) const { return contactSystem.liquidOfWall(wall); }
+
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
     void listenToContacts(bool listen = true) { contactSystem.listen(listen); }
     /// Those of the last step, and how many there have been.
@@ -168,6 +180,11 @@ private:
 
     void warnOfFedSprings() const;
 
+    /// The films of the grains begin to be counted.
+    void beginLiquid();
+    /// Throws RunError, at an output, if liquid has been lost or made: an error of the program.
+    void requireLiquid() const;
+
     void visitAll(StateArchive& archive) override;
     void visitScene(StateArchive& archive);
     void visitSurroundings(StateArchive& archive);
@@ -212,6 +229,7 @@ private:
     bool lawsAreNew = false;      // prepared ones are to be made again
     double energyAtStart = 0;     // J, of the ledger
     double leftLength = 0;        // s, of the last step, whose end may be left to the next one
+    double liquidToCome = unset;  // m^3
     double approachUnseen = 0;    // m, of two grains since deep overlaps were looked for
     int threads = 1;
     bool unstableAccepted = false;

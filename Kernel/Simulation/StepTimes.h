@@ -16,9 +16,9 @@ namespace pendular {
 /// all since the last one. Output is always measured.
 class StepTimes {
 public:
-    enum class Part { Motion, Search, Contacts, Walls, Sum, Ledger, Output, Other };
-    static constexpr std::array<std::string_view, 8> names{"motion", "search",        "contacts", "walls",
-                                                           "sum",    "energy ledger", "output",   "other"};
+    enum class Part { Motion, Search, Contacts, Walls, Liquid, Sum, Ledger, Output, Other };
+    static constexpr std::array<std::string_view, 9> names{
+        "motion", "search", "contacts", "walls", "liquid", "sum", "energy ledger", "output", "other"};
 
     void measure(bool yes = true) {
         if (yes && !on) {

@@ -9,7 +9,8 @@ namespace pendular {
 template <class Law>
 concept BridgeLaw = requires(const Law law, const Bodies bodies) {
     law.scales(bodies);
-};
+}
+&&!MovesLiquid<Law>;
 
 /// Calls `function.template operator()<Law>()` for each bridge law of the kernel.
 template <class Function>

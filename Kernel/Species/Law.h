@@ -272,6 +272,14 @@ concept ResistsAsItSays = (bridgeResists<Law> == BridgeResists::Nothing
                                          bridge.takeState(bridge);
                                      });
 
+/// An adhesion law whose liquid moves: each contact has a bridge of its own volume, or none
+/// (Adhesion/Shared/LiquidMigration.h). It has liquidRules(), and prepare(bodies, volume) besides
+/// prepare(bodies), which is a contact without liquid.
+template <class Law>
+concept MovesLiquid = requires {
+    requires Law::movesLiquid;
+};
+
 /// The separation (m) that an adhesion law is given at an overlap (m): 0 in contact, or negative for a law
 /// that says `readsOverlap`.
 template <class Law, class T>

@@ -223,6 +223,17 @@ std::vector<Setter<Law>> settersOf() {
         add(
             "liquidBridgeVolume", [](L& l, double v) { l.setLiquidBridgeVolume(v); },
             [](const L& l) { return l.getLiquidBridgeVolume(); });
+    if constexpr (requires(L l) { l.setLiquidBridgeVolumeMax(0.0); }) {
+        add(
+            "liquidBridgeVolumeMax", [](L& l, double v) { l.setLiquidBridgeVolumeMax(v); },
+            [](const L& l) { return l.getLiquidBridgeVolumeMax(); });
+        add(
+            "liquidBridgeVolumeMin", [](L& l, double v) { l.setLiquidBridgeVolumeMin(v); },
+            [](const L& l) { return l.getLiquidBridgeVolumeMin(); });
+        add(
+            "distributionCoefficient", [](L& l, double v) { l.setDistributionCoefficient(v); },
+            [](const L& l) { return l.getDistributionCoefficient(); });
+    }
     if constexpr (requires(L l) { l.setContactAngle(0.0); })
         add(
             "contactAngle", [](L& l, double v) { l.setContactAngle(v); },

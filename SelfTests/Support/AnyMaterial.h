@@ -54,8 +54,10 @@ void setFriction(S& species, const MaterialScale& scale) {
 
 template <class S>
 void setAdhesion(S& species, const MaterialScale& scale) {
-    if constexpr (requires { species.setLiquidBridgeVolume(1.0); }) {
-        species.setLiquidBridgeVolume(1e-12);
+    if constexpr (requires { species.setLiquidBridgeVolume(1.0); }) species.setLiquidBridgeVolume(1e-12);
+    if constexpr (requires { species.setLiquidBridgeVolumeMax(1.0); })
+        species.setLiquidBridgeVolumeMax(1e-12);
+    if constexpr (requires { species.setContactAngle(1.0); }) {
         species.setContactAngle(0.2);
         species.setSurfaceTension(0.07);
     }

@@ -97,10 +97,13 @@ set(PENDULAR_POPULAR_SPECIES
     HertzianViscoelasticLiquidBridgeWillettSpecies
     HertzianViscoelasticMindlinLiquidBridgeWillettSpecies
     HertzianViscoelasticMindlinLiquidBridgeYoungLaplaceSpecies
+    HertzianViscoelasticMindlinLiquidMigrationWillettSpecies
+    HertzianViscoelasticMindlinLiquidMigrationLSSpecies
     HertzianViscoelasticMindlinJKRSpecies
     LinearViscoelasticSpecies
     LinearViscoelasticSlidingFrictionSpecies
-    LinearViscoelasticLiquidBridgeWillettSpecies)
+    LinearViscoelasticLiquidBridgeWillettSpecies
+    LinearViscoelasticSlidingFrictionLiquidMigrationWillettSpecies)
 
 # Writes a header that declares them, and in `sources` files that compile some of them each.
 function(pendular_generate_popular_species folder sources)

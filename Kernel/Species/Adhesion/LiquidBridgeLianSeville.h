@@ -31,6 +31,7 @@ struct LiquidBridgeLianSevilleInteraction {
 /// force at contact are those of the exact solution (a test).
 struct LiquidBridgeLianSeville : LiquidBridge<LiquidBridgeLianSeville> {
     static constexpr std::string_view name = "LiquidBridgeLianSeville";
+    static constexpr std::string_view migratingName = "LS";  // as in MercuryDPM
     static constexpr std::string_view summary = "liquid bridge, closed form of Lian and Seville (2016)";
     static constexpr std::string_view domain =
         "V* from 1e-6 to about 0.1 and theta up to about 50 degrees: 1 % at contact; apart 4 % in "

@@ -1,0 +1,20 @@
+#pragma once
+
+namespace pendular {
+
+/// Where the liquid of a scene is, and where it came from, in m^3. All are multiples of one quantum, so that
+/// the identity holds to the last bit.
+struct LiquidLedger {
+    double films = 0, bridges = 0;
+    double walls = 0;     // what wet walls have got back minus what they gave: negative while they give
+    double removed = 0;   // with grains that were removed
+    double initial = 0;   // at the start of the run
+    double absorbed = 0;  // that has come to films since then
+
+    /// Zero.
+    [[nodiscard]] double unaccounted() const {
+        return films + bridges + walls + removed - (initial + absorbed);
+    }
+};
+
+}  // namespace pendular
