@@ -30,6 +30,7 @@ void ContactLiquid::listed(const ContactStore& store, const ContactLaws& laws, s
     for (const Bucket& bucket : store.buckets)
         rules.emplace_back(laws.liquidRules(bucket.species1, bucket.species2).value_or(LiquidRules{}),
                            filmsOfGrains->quantum());
+    anyWetWall = std::ranges::any_of(rules, [](const QuantisedRules& r) { return r.wallDose > 0; });
 }
 
 void ContactLiquid::move(ContactStore& store, const ContactLaws& laws, ParticleStore& grains,
@@ -43,11 +44,18 @@ void ContactLiquid::move(ContactStore& store, const ContactLaws& laws, ParticleS
     ListedLiquid liquid = of(store, laws, grains);
     for (const ContactChange& change : events.changes()) {
         if (!liquid.moves(change.contact)) continue;
-        if (change.kind == Kind::BridgeRuptures && liquid.volumeOf(change.contact) > 0)
-            ruptured.push_back(change.contact);
+        if (liquid.volumeOf(change.contact) > 0) {
+            // A bridge that lasts draws no liquid, whether its grains touch or not.
+            if (change.kind == Kind::BridgeRuptures) ruptured.push_back(change.contact);
+            continue;
+        }
         if (change.kind != Kind::TouchBegins && change.kind != Kind::TouchEnds) continue;
-        places.push_back(liquid.grainOf(change.contact, 0));
-        if (!liquid.isAtWall(change.contact)) places.push_back(liquid.grainOf(change.contact, 1));
+        // Where neither has a film and no wall is wet, there is nothing to draw.
+        const auto lookAt = [&](std::uint32_t grain) {
+            if (anyWetWall || filmsOfGrains->of(grains, grain) > 0) places.push_back(grain);
+        };
+        lookAt(liquid.grainOf(change.contact, 0));
+        if (!liquid.isAtWall(change.contact)) lookAt(liquid.grainOf(change.contact, 1));
     }
     looked.clear();
     if (places.empty() && ruptured.empty()) return;

@@ -101,6 +101,7 @@ private:
 
     GrainFilms* filmsOfGrains = nullptr;
     std::vector<QuantisedRules> rules;  // of each bucket
+    bool anyWetWall = false;
     std::vector<double> walls;          // m^3
     std::vector<std::uint32_t> looked;  // identities of grains to be looked at in the next step
     std::vector<std::uint32_t> places, ruptured, formed;

@@ -169,7 +169,11 @@ private:
                 left -= own;
                 wet(liquid, liquid.grainOf(contact, offers[o].side), offers[o].volume - own, looked);
             }
-            if (taken > 0) liquid.setVolume(contact, held + taken);
+            if (taken == 0) continue;
+            liquid.setVolume(contact, held + taken);
+            if (held > 0) continue;  // else a contact less draws from the films
+            looked.push_back(liquid.grainOf(contact, 0));
+            if (!liquid.isAtWall(contact)) looked.push_back(liquid.grainOf(contact, 1));
         }
     }
 
@@ -192,10 +196,15 @@ private:
     void form(Liquid& liquid, std::vector<Number>& looked) {
         unique(looked);
         drawing.clear(), drawn.clear();
-        for (const Number grain : looked)
+        for (const Number grain : looked) {
+            // Without a film only a wet wall offers something that the other body has not offered before.
+            const bool isDry = liquid.filmOf(grain) == 0;
             liquid.forEachContactOf(grain, [&](Number contact) {
-                if (draws(liquid, contact)) drawing.push_back(contact);
+                const bool mayForm =
+                    !isDry || (liquid.isAtWall(contact) && liquid.rulesOf(contact).wallDose > 0);
+                if (mayForm && draws(liquid, contact)) drawing.push_back(contact);
             });
+        }
         unique(drawing);
         for (const Number contact : drawing) {
             const QuantisedRules& rules = liquid.rulesOf(contact);
@@ -209,17 +218,18 @@ private:
             drawn.push_back({contact, first, volume - first});
         }
         looked.clear();
-        for (const Draw& draw : drawn) {
-            liquid.addToFilm(liquid.grainOf(draw.contact, 0), -draw.first);
-            looked.push_back(liquid.grainOf(draw.contact, 0));
-            if (liquid.isAtWall(draw.contact)) {
-                liquid.addToWall(draw.contact, -draw.second);
-            } else {
-                liquid.addToFilm(liquid.grainOf(draw.contact, 1), -draw.second);
-                looked.push_back(liquid.grainOf(draw.contact, 1));
-            }
-            liquid.setVolume(draw.contact, draw.first + draw.second);
+        // What is left of a film serves fewer contacts in the next step.
+        const auto draw = [&](Number grain, Quanta volume) {
+            liquid.addToFilm(grain, -volume);
+            looked.push_back(grain);
+        };
+        for (const Draw& d : drawn) {
+            draw(liquid.grainOf(d.contact, 0), d.first);
+            if (liquid.isAtWall(d.contact)) liquid.addToWall(d.contact, -d.second);
+            else draw(liquid.grainOf(d.contact, 1), d.second);
+            liquid.setVolume(d.contact, d.first + d.second);
         }
+        std::erase_if(looked, [&](Number grain) { return liquid.filmOf(grain) == 0; });
     }
 
     static void unique(std::vector<Number>& numbers) {

@@ -70,6 +70,7 @@ TEST(Drivers, printNothingWhereTheyAreQuiet) {
         {"HopperDischarge",
          "--number 120 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.012 --begin-s 0.02 "
          "--end-time-s 0.06"},
+        {"LiquidInShear", "--width-m 0.02 --end-time-s 0.01 --interval-s 0.005"},
         {"ObliqueImpact", "--angles-deg 10 --angles-deg 60"},
         {"Penetration", "--number 120 --softening 100 --end-time-s 0.001"},
         {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"}};
@@ -181,6 +182,30 @@ TEST(RotatingDrum, writesZonesThatSumToTheGrains) {
     for (const char* part : {"Summary of the run\n", "at its end\n", "120\n", "wall time: search",
                              "wall time: walls", "largest overlap met"})
         EXPECT_NE(result.output.find(part), std::string::npos) << part << " in " << result.output;
+}
+
+TEST(LiquidInShear, writesProfilesThatHoldAllLiquid) {
+    const TestFolder folder;
+    const auto result = run(drivers + "/LiquidInShear/LiquidInShear --width-m 0.02 --end-time-s 0.2 " +
+                            "--interval-s 0.1 --film-m3 3e-11 " + folder.option());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_EQ(headerOf(folder.path() / "profile.csv"), "time_s,y_m,grains,velocity_m/s,film_m3,bridges_m3");
+    std::map<double, std::pair<double, double>> totals;  // grains, liquid
+    double bridged = 0;
+    for (const auto& row : rowsOf(folder.path() / "profile.csv")) {
+        totals[row[0]].first += row[2];
+        totals[row[0]].second += row[2] * (row[4] + row[5]);
+        bridged = row[0] > 0.15 ? bridged + row[5] : 0;
+    }
+    ASSERT_EQ(totals.size(), 3u);
+    for (const auto& [time, total] : totals)
+        EXPECT_NEAR(total.second / total.first, 3e-11, 1e-6 * 3e-11) << time;  // the table has 17 digits
+    EXPECT_GT(bridged, 0);
+    for (const char* part : {"liquid unaccounted for               0 m^3", "wall time: liquid"})
+        EXPECT_NE(result.output.find(part), std::string::npos) << part << " in " << result.output;
+    expectOneSentence(
+        run(drivers + "/LiquidInShear/LiquidInShear --bridge-volume-max-m3 1e-9 " + folder.option()),
+        "liquidBridgeVolumeMax = 1e-09 m^3");
 }
 
 TEST(Penetration, writesTheDepthUntilTheIntruderStops) {

@@ -263,6 +263,26 @@ TEST(HeavyLiquidStep, losesNoQuantumInAMillionEvents) {
     }
 }
 
+TEST(LiquidStep, needsToLookOnlyWhereSomethingChangedInRandomEventsToo) {
+    for (const double dose : {0.0, 1.0 / 3})
+        for (const bool option : {false, true}) {
+            const LiquidRules rules{.largest = 0.7,
+                                    .least = 0.05,
+                                    .share = 0.9,
+                                    .wallDose = dose,
+                                    .byRoom = option,
+                                    .toDry = option};
+            RandomEvents own(rules), full(rules);
+            for (int step = 0; step < 1000; ++step) {
+                own.advance();
+                for (std::uint32_t grain = 0; grain < 50; ++grain) full.liquid.looked.push_back(grain);
+                full.advance();
+                ASSERT_EQ(own.liquid.films, full.liquid.films) << step;
+                ASSERT_EQ(own.liquid.wallAccount, full.liquid.wallAccount);
+            }
+        }
+}
+
 /// A ring of 20 grains: contact k ruptures at the rate nu_k and touches again in the next step; c = 1, no
 /// V_max. The mean volumes obey dV_k/dt = (nu_(k-1) V_(k-1) - 2 nu_k V_k + nu_(k+1) V_(k+1)) / 2, so that
 /// V_k is proportional to 1 / nu_k. Rates 1 (ten) and 4 (ten), one unit a contact: 1.6 and 0.4.

@@ -9,7 +9,7 @@
 #include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/TriangleWall.h"
-#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
@@ -364,6 +364,40 @@ TEST(MovingLiquid, doesNotDependOnThreadsOrRestarts) {
         box.writeRestart(file("threads"));
         support::expectSameState(file("one"), file("threads"));
     }
+}
+
+/// A box that keeps a restart file after each step, and goes on where one left off.
+class KeptBox : public Box {
+public:
+    KeptBox(const std::filesystem::path& folder, std::size_t steps) : Box(2) {
+        setName((folder / "run").string());
+        setTimeMax(static_cast<double>(steps) * getTimeStep());
+        keepRestartFile();
+        setRestartCount(1);
+        if (std::filesystem::exists(restartFile())) restartFrom(restartFile());
+    }
+};
+
+TEST(HeavyMovingLiquid, hasTheSameBitsAfterKills) {
+    constexpr std::size_t steps = 400;
+    const TestFolder folder;
+    const auto whole = folder.path() / "whole", killed = folder.path() / "killed";
+    std::filesystem::create_directories(whole);
+    KeptBox(whole, steps).solve();
+    const auto start = [&] { return support::Child(killed, [&] { KeptBox(killed, steps).solve(); }); };
+    std::mt19937 random(1);
+    int kills = 0;
+    for (int k = 0; k < 60; ++k) {
+        const support::Child child = start();
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 60000));
+        child.send(SIGKILL);
+        const int code = child.wait();
+        ASSERT_TRUE(code == 0 || code == -SIGKILL) << code;
+        kills += code == 0 ? 0 : 1;
+    }
+    ASSERT_EQ(start().wait(), 0);
+    support::expectSameState(whole / "run-restart.h5", killed / "run-restart.h5");
+    EXPECT_GT(kills, 5);
 }
 
 /// A grain slides over a mesh: its bridge passes from face to face, and with it its liquid.
