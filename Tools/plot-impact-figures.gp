@@ -3,7 +3,8 @@
 if (ARGC < 1) exit error "give FOLDER"
 tools = system("dirname '".ARG0."'")
 load tools."/../Drivers/Shared/chart.gp"
-measured = tools."/../Drivers/ObliqueImpact/kharaz-2001.csv"
+measured = tools."/../Drivers/ObliqueImpact/kharaz-2001-measured.csv"
+computed = tools."/../Drivers/ObliqueImpact/chung-ooi-2011-computed.csv"
 set datafile commentschars "#"
 set terminal pngcairo size 990,330 fontscale 0.7 linewidth 1
 
@@ -116,14 +117,17 @@ plot for [k = 1:2] table(test) using before:(restitution(k, "theory")) with line
      for [k = 1:2] '' using before:(restitution(k, "simulated")) with points pointtype symbol(k) pointsize size(k) \
          linecolor rgb colour(k), \
      '' using before:(restitution(1, "sliding")) with lines linewidth 2 dashtype 2 linecolor rgb "#000000", \
-     measured using "incidence_deg":"tangential_restitution" with points pointtype 7 pointsize 1 linecolor rgb "#000000"
+     computed using "incidence_deg":"tangential_restitution" with points pointtype 2 pointsize 1 linecolor rgb "#009E73", \
+     measured using "incidence_deg":(stringcolumn("quantity") eq "e_t" ? column("value") : NaN) with points pointtype 7 \
+         pointsize 1 linecolor rgb "#000000"
 quantity = "rebound_of_contact_deg"
 unit = 1
 set ylabel "rebound of the contact point (°)"
 set yrange [-30:90]
 eval drawQuantity.drawSliding
 slidingOnly = slidingEntry
-slidingEntry = slidingOnly.", keyentry with points pointtype 7 pointsize 1 linecolor rgb '#000000' title 'oxide, measured'"
+slidingEntry = slidingOnly.", keyentry with points pointtype 7 pointsize 1 linecolor rgb '#000000' title 'oxide, measured', \
+    keyentry with points pointtype 2 pointsize 1 linecolor rgb '#009E73' title 'oxide, computed in the paper'"
 eval drawErrorOfSpin
 slidingEntry = slidingOnly
 unset multiplot

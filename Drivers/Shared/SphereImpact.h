@@ -17,7 +17,7 @@ struct ImpactMaterial {
     double shearModulus;  // G* of the contact, Pa
     double restitution = 1;
     double friction = 0;
-    double springFactor = 1;  // of Mindlin's law; 2/3 does not agree with measurements
+    double springFactor = 1;  // of Mindlin's law, as in the computations of Chung and Ooi (2011)
 
     /// Young's modulus (Pa) and Poisson's ratio of both bodies.
     static ImpactMaterial ofTwins(double density, double youngModulus, double poissonRatio) {

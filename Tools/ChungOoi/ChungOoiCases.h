@@ -118,7 +118,7 @@ inline std::vector<ImpactCase> chungOoi6() {
     });
 }
 
-/// Two equal spheres with the same spin.
+/// Two equal spheres with the same spin. With opposite spins, another reading of this test, nothing slips.
 inline std::vector<ImpactCase> chungOoi7() {
     const Materials materials{
         {"aluminium alloy", scenes::ImpactMaterial::ofTwins(2700, 7.0e10, 0.33).with(0.5, 0.4)},
