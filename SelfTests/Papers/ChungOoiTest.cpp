@@ -113,8 +113,8 @@ TEST(ChungOoi4, springFactorOfOneIsTheComputedCurve) {
 }
 
 /// Where the sphere slides throughout, the spring has no part in the result, and the measured values scatter
-/// about that of friction by their own error. Where it sticks, a single spring errs by far more: by up to 0.24
-/// with a factor of 1, by up to 0.09 with 2/3.
+/// about that of friction by their own error. Where it sticks, a single spring errs by far more: by up to
+/// 0.24 with a factor of 1, by up to 0.09 with 2/3.
 TEST(ChungOoi4, noSpringFactorGivesTheMeasurement) {
     const auto rows = support::rowsOf(
         support::contentOf(folders::source / "Drivers/ObliqueImpact/kharaz-2001-measured.csv"));
