@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "Kernel/Species/BridgeLaws.h"
@@ -12,6 +13,7 @@
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/PlainLiquid.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -363,6 +365,70 @@ TEST(MovingLiquid, doesNotDependOnThreadsOrRestarts) {
         runTo(box, 720);
         box.writeRestart(file("threads"));
         support::expectSameState(file("one"), file("threads"));
+    }
+}
+
+/// The touches and ruptures of a scene, in a model that looks at all contacts in each step.
+void follow(support::PlainLiquid& plain, const std::vector<ContactEvent>& events) {
+    std::vector<std::uint32_t> ruptured, all(plain.films.size());
+    for (const ContactEvent& event : events) {
+        const std::uint32_t second =
+            event.wall < 0 ? event.particle2
+                           : support::PlainLiquid::wall + static_cast<std::uint32_t>(event.wall);
+        const std::uint32_t contact = plain.contactOf({event.particle1, second});
+        if (event.kind == ContactEvent::Kind::TouchBegins) plain.contacts[contact].touching = true;
+        if (event.kind == ContactEvent::Kind::TouchEnds) plain.contacts[contact].touching = false;
+        if (event.kind == ContactEvent::Kind::BridgeRuptures) ruptured.push_back(contact);
+    }
+    std::iota(all.begin(), all.end(), 0);
+    plain.step.run(plain, ruptured, all);
+}
+
+TEST(MovingLiquid, isThatOfTheFullModelInABoxThatSettles) {
+    for (const LiquidRules& rules :
+         {LiquidRules{.largest = 4e-12, .least = 2e-13, .share = 0.8},
+          LiquidRules{.largest = 2e-12, .share = 1, .wallDose = 3e-13, .byRoom = true, .toDry = true}}) {
+        Box box(4);
+        for (std::size_t kind : {0u, 1u}) {
+            auto* const species = box.speciesHandler.getObject(kind);
+            species->setLiquidBridgeVolumeMax(rules.largest);
+            species->setLiquidBridgeVolumeMin(rules.least);
+            species->setDistributionCoefficient(rules.share);
+            species->setWallLiquidVolume(rules.wallDose);
+            species->setShareByRoom(rules.byRoom);
+            species->setShareWithDryContacts(rules.toDry);
+        }
+        box.listenToContacts();
+        box.initialise();
+        ASSERT_TRUE(box.interactions().empty());
+        const double quantum = box.particleHandler.films().quantum();
+        support::PlainLiquid plain;
+        plain.rules = QuantisedRules(rules, quantum);
+        for (auto&& grain : box.particleHandler)
+            plain.films.push_back(static_cast<Quanta>(grain.getLiquidVolume() / quantum));
+        std::size_t bridges = 0;
+        for (int k = 0; k < 2000; ++k) {
+            box.step();
+            follow(plain, box.contactEvents());
+            for (auto&& grain : box.particleHandler)
+                ASSERT_EQ(grain.getLiquidVolume() / quantum, static_cast<double>(plain.films[grain.getId()]))
+                    << k;
+            const auto seen = box.interactions();
+            bridges = 0;
+            for (const ObservedContact& contact : seen) {
+                const std::uint32_t second =
+                    contact.wall < 0 ? contact.particle2
+                                     : support::PlainLiquid::wall + static_cast<std::uint32_t>(contact.wall);
+                const auto& own = plain.contacts[plain.contactOf({contact.particle1, second})];
+                ASSERT_EQ(contact.bridgeVolume / quantum, static_cast<double>(own.volume)) << k;
+                ASSERT_EQ(contact.touching, own.touching);
+                bridges += own.volume > 0 ? 1 : 0;
+            }
+            ASSERT_EQ(bridges, static_cast<std::size_t>(std::ranges::count_if(
+                                   plain.contacts, [](const auto& c) { return c.volume > 0; })));
+        }
+        EXPECT_GT(bridges, 40u);
+        EXPECT_GT(box.contactEventCounts().bridgesRuptured, 40u);
     }
 }
 

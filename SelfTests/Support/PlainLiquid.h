@@ -9,13 +9,13 @@
 
 namespace pendular::support {
 
-/// Films, bridges and a wall as plain data, on which LiquidStep works.
+/// Films, bridges and walls as plain data, on which LiquidStep works.
 struct PlainLiquid {
     using Number = std::uint32_t;
-    static constexpr Number wall = ~Number{0};
+    static constexpr Number wall = 1u << 31;  // the first of any number of walls
 
     struct Contact {
-        Number first, second;  // grains, the lower one first; second: `wall`
+        Number first, second;  // grains, the lower one first; second: `wall` + its number
         Quanta volume = 0;
         bool touching = false;
     };
@@ -39,7 +39,7 @@ struct PlainLiquid {
     void addToWall(Number, Quanta volume) { wallAccount += volume; }
     [[nodiscard]] const QuantisedRules& rulesOf(Number) const { return rules; }
     [[nodiscard]] bool touches(Number contact) const { return contacts[contact].touching; }
-    [[nodiscard]] bool isAtWall(Number contact) const { return contacts[contact].second == wall; }
+    [[nodiscard]] bool isAtWall(Number contact) const { return contacts[contact].second >= wall; }
     [[nodiscard]] Number grainOf(Number contact, Number which) const {
         return which == 0 ? contacts[contact].first : contacts[contact].second;
     }
@@ -75,7 +75,7 @@ struct PlainLiquid {
             const Number number = contactOf(pair);
             contacts[number].touching = touches;
             looked.push_back(pair.first);
-            if (pair.second != wall) looked.push_back(pair.second);
+            if (pair.second < wall) looked.push_back(pair.second);
             return number;
         };
         for (const Pair& pair : parting)
