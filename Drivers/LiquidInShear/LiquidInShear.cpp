@@ -17,10 +17,10 @@ using Material = LinearViscoelasticSlidingFrictionLiquidMigrationBagheriSpecies;
 
 struct Options {
     double length = 0.02, width = 0.044, height = 0.013;  // m, of the bed
-    double speed = 0.04;                                   // m/s, of one half against the other
-    double film = 3e-11;                                   // m^3, on each grain at the start
-    double volumeMax = 9e-11;                              // m^3, of a bridge
-    double volumeMin = 0;                                  // m^3
+    double speed = 0.04;                                  // m/s, of one half against the other
+    double film = 3e-11;                                  // m^3, on each grain at the start
+    double volumeMax = 9e-11;                             // m^3, of a bridge
+    double volumeMin = 0;                                 // m^3
     double share = 1;                   // of a ruptured bridge, that is offered to other bridges
     double endTime = 20, interval = 1;  // s
     RunOptions run{.output = "LiquidInShear-output"};

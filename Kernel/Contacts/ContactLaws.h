@@ -26,7 +26,7 @@ struct RotationRecord;
 /// How many numbers a contact remembers, and what it gives to its bodies.
 struct ContactLayout {
     std::size_t history = 0, normalHistory = 0, interaction = 0;
-    std::size_t liquid = 0;         // 1: the volume of its bridge, which changes
+    std::size_t liquid = 0;         // of a bridge whose volume changes
     std::size_t named = 0;          // columns of a driver's own
     bool hasTorque = false;         // contacts have a tangential force, grains a spin
     bool hasContactTorque = false;  // and a torque besides that of the force

@@ -12,15 +12,24 @@ bool ListedLiquid::moves(Number contact) const {
 }
 
 void ListedLiquid::setVolume(Number contact, Quanta volume) {
-    const std::size_t slot = store.slotOf(contact);
-    double& held = store.memory.liquid.at(slot, 0);
+    double& held = store.memory.volumeOf(store.slotOf(contact));
     if (held == 0 && volume > 0) formed.push_back(contact);
     held = volumeOfQuanta(volume);
-    ContactNumbers before{};
-    store.memory.interaction.get(slot, before.data());
-    prepareAgain(store, laws, bucketOf(contact), contact, grains, before.data());
+    changed.push_back(contact);
     std::uint8_t& bridged = store.states[contact / Pack::lanes].bridged;
     if (volume > 0) bridged = static_cast<std::uint8_t>(bridged | 1u << contact % Pack::lanes);
+}
+
+void ContactLiquid::prepareChanged(ContactStore& store, const ContactLaws& laws,
+                                   const ParticleStore& grains) {
+    for (const std::uint32_t contact : changed) {
+        const std::size_t slot = store.slotOf(contact);
+        if (store.memory.volumeOf(slot) == store.memory.preparedVolumeOf(slot)) continue;
+        ContactNumbers before{};
+        store.memory.interaction.get(slot, before.data());
+        prepareAgain(store, laws, store.bucketOf(contact / Pack::lanes), contact, grains, before.data());
+    }
+    changed.clear();
 }
 
 void ContactLiquid::listed(const ContactStore& store, const ContactLaws& laws, std::size_t wallCount) {
@@ -30,6 +39,9 @@ void ContactLiquid::listed(const ContactStore& store, const ContactLaws& laws, s
     for (const Bucket& bucket : store.buckets)
         rules.emplace_back(laws.liquidRules(bucket.species1, bucket.species2).value_or(LiquidRules{}),
                            filmsOfGrains->quantum());
+    changed.clear();
+    for (std::size_t slot = Pack::lanes; slot < store.memory.slotCount(); ++slot)
+        changed.push_back(store.contactAt(static_cast<std::uint32_t>(slot)));
     anyWetWall = std::ranges::any_of(rules, [](const QuantisedRules& r) { return r.wallDose > 0; });
 }
 
@@ -102,8 +114,8 @@ LiquidLedger ContactLiquid::ledger(const ContactStore& store, const ParticleStor
                        .removed = filmsOfGrains->removed(),
                        .initial = filmsOfGrains->initial(),
                        .absorbed = filmsOfGrains->absorbed()};
-    for (const LaneColumn& column : store.memory.liquid.columns)
-        for (const double volume : column.lane) found.bridges += volume;
+    for (std::size_t slot = 0; slot < store.memory.slotCount(); ++slot)
+        found.bridges += store.memory.volumeOf(slot);
     for (const double account : walls) found.walls += account;
     return found;
 }
@@ -118,10 +130,9 @@ void ContactLiquid::visitState(StateArchive& archive) {
 }
 
 void ContactLiquid::requireWhole(const StateArchive& archive, const ContactStore& store) const {
-    for (const LaneColumn& column : store.memory.liquid.columns)
-        for (const double volume : column.lane)
-            archive.require(filmsOfGrains->isWhole(volume), "numbers",
-                            "has the volume of a bridge that is no multiple of the quantum");
+    for (std::size_t slot = 0; slot < store.memory.slotCount(); ++slot)
+        archive.require(filmsOfGrains->isWhole(store.memory.volumeOf(slot)), "numbers",
+                        "has the volume of a bridge that is no multiple of the quantum");
 }
 
 }  // namespace pendular

@@ -19,8 +19,9 @@ struct ListedLiquid {
     ParticleStore& grains;
     GrainFilms& films;
     const std::vector<QuantisedRules>& rulesOfBuckets;
-    std::vector<double>& walls;   // m^3, the account of each
-    std::vector<Number>& formed;  // contacts whose bridges have formed
+    std::vector<double>& walls;    // m^3, the account of each
+    std::vector<Number>& formed;   // contacts whose bridges have formed
+    std::vector<Number>& changed;  // contacts whose volumes have changed
 
     [[nodiscard]] Quanta quantaOf(double volume) const {
         return static_cast<Quanta>(volume / films.quantum());  // exact
@@ -31,9 +32,9 @@ struct ListedLiquid {
     [[nodiscard]] Quanta filmOf(Number grain) const { return quantaOf(films.of(grains, grain)); }
     void addToFilm(Number grain, Quanta volume) { films.add(grains, grain, volumeOfQuanta(volume)); }
     [[nodiscard]] Quanta volumeOf(Number contact) const {
-        return quantaOf(store.memory.liquid.at(store.slotOf(contact), 0));
+        return quantaOf(store.memory.volumeOf(store.slotOf(contact)));
     }
-    /// The bridge is prepared again. One that forms acts from the next step on.
+    /// It acts from the next step on, for which the bridge is prepared again.
     void setVolume(Number contact, Quanta volume);
     void addToWall(Number contact, Quanta volume) {
         walls[static_cast<std::size_t>(bucketOf(contact).wall)] += volumeOfQuanta(volume);
@@ -78,6 +79,9 @@ public:
     [[nodiscard]] bool moves() const { return filmsOfGrains != nullptr; }
     /// Contacts have been listed again.
     void listed(const ContactStore& store, const ContactLaws& laws, std::size_t wallCount);
+    /// Before the forces of a step: bridges whose volumes have changed since the last one are prepared again.
+    /// Until then observers see the forces that were.
+    void prepareChanged(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains);
     /// At the end of a step: what has begun and ended in it moves liquid. Bridges that form are added to the
     /// events.
     void move(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, ContactEvents& events);
@@ -95,7 +99,7 @@ public:
 
 private:
     ListedLiquid of(ContactStore& store, const ContactLaws& laws, ParticleStore& grains) {
-        return {store, laws, grains, *filmsOfGrains, rules, walls, formed};
+        return {store, laws, grains, *filmsOfGrains, rules, walls, formed, changed};
     }
     void remember(const ParticleStore& grains);
 
@@ -105,6 +109,7 @@ private:
     std::vector<double> walls;          // m^3
     std::vector<std::uint32_t> looked;  // identities of grains to be looked at in the next step
     std::vector<std::uint32_t> places, ruptured, formed;
+    std::vector<std::uint32_t> changed;  // contacts in the list, to be prepared
     LiquidStep<ListedLiquid> step;
 };
 

@@ -114,13 +114,20 @@ public:
     MemoryColumns history;  // of the friction law
     MemoryColumns normalHistory;
     MemoryColumns interaction;
-    MemoryColumns liquid;                    // m^3, the volume of a bridge whose liquid moves
+    MemoryColumns liquid;                    // m^3, the volumes of a bridge whose liquid moves
     MemoryColumns named;                     // of the driver's own columns
     std::vector<ForceTorqueRecord> records;  // of laws with friction
     std::vector<ForceRecord> forces;         // of laws without
     std::vector<TorqueRecord> torques;       // empty unless the friction law has a torque of its own
     std::vector<EnergyRecord> energies;      // empty unless a ledger is kept
     std::vector<std::uint32_t> blockOf;      // the block of contacts that has this block of memory
+
+    /// Of a bridge whose liquid moves: its volume, and the one for which it was prepared.
+    static constexpr std::size_t liquidNumbers = 2;
+    [[nodiscard]] double& volumeOf(std::size_t slot) { return liquid.at(slot, 0); }
+    [[nodiscard]] double volumeOf(std::size_t slot) const { return liquid.at(slot, 0); }
+    [[nodiscard]] double& preparedVolumeOf(std::size_t slot) { return liquid.at(slot, 1); }
+    [[nodiscard]] std::size_t slotCount() const { return blockOf.size() * Pack::lanes; }
 
     void setLayout(const ContactLayout& of) {
         layout = of;

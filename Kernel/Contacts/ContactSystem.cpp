@@ -227,6 +227,7 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
 
 void ContactSystem::computePairForces(const Grains& grains, double step, ContactTiming timing) {
     contactEvents.begin();
+    liquid.prepareChanged(contacts, *species, grains);
     compute(grains, step, timing, 0, firstWallBucket());
 }
 void ContactSystem::computeWallForces(const Grains& grains, double step, ContactTiming timing) {

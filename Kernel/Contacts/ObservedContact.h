@@ -16,12 +16,12 @@ struct ObservedContact {
     int wall;                 // -1: grain with grain
     double separation;        // m, of the surfaces; negative where they overlap
     double normalForce;       // N, elastic and damping, repulsion positive
-    double adhesiveForce;     // N, attraction positive; of the bridge at its volume after this step
+    double adhesiveForce;     // N, attraction positive
     bool bridged;
     Vector<double> shift;  // m, from the centre of particle 1 to that of particle 2 or to the wall's surface
     Vector<double> force;  // N, on particle 1
     bool touching;
-    double bridgeVolume;       // m^3; 0 without a bridge of liquid
+    double bridgeVolume;       // m^3; 0 without a bridge of liquid; it acts from the next step on
     Vector<double> point;      // m, in the middle of the overlap or of the gap; at a wall on its surface
     std::uint32_t number = 0;  // in the list of contacts
     std::size_t list = 0;      // which list that is
@@ -81,7 +81,7 @@ inline ObservedContact observeContact(const ContactStore& contacts, const Contac
     }
     if (seen.bridged)
         seen.bridgeVolume = laws.liquidRules(bucket.species1, bucket.species2)
-                                ? contacts.memory.liquid.at(contacts.slotOf(contact), 0)
+                                ? contacts.memory.volumeOf(contacts.slotOf(contact))
                                 : laws.bridgeVolume(bucket.species1, bucket.species2).value_or(0);
     seen.normalForce += seen.adhesiveForce;
     return seen;

@@ -12,7 +12,7 @@ inline constexpr ContactLayout layoutOf{
     .history = columnsOf<S::Friction::template History>,
     .normalHistory = columnsOf<NormalHistoryOf<typename S::Normal>::template type>,
     .interaction = columnsOf<S::Adhesion::template Interaction>,
-    .liquid = MovesLiquid<typename S::Adhesion> ? 1 : 0,
+    .liquid = MovesLiquid<typename S::Adhesion> ? ContactMemory::liquidNumbers : 0,
     .named = 0,
     .hasTorque = S::hasTorque,
     .hasContactTorque = S::hasContactTorque};

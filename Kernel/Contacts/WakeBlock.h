@@ -23,10 +23,13 @@ inline void prepareAgain(ContactStore& store, const ContactLaws& laws, const Buc
     const std::size_t slot = store.slotOf(contact);
     const Bodies bodies = bodiesOf(store, bucket, contact, grains);
     ContactNumbers bridge{};
-    if (laws.liquidRules(bucket.species1, bucket.species2))
-        laws.prepareBridge(bucket.species1, bucket.species2, bodies, store.memory.liquid.at(slot, 0),
+    if (laws.liquidRules(bucket.species1, bucket.species2)) {
+        store.memory.preparedVolumeOf(slot) = store.memory.volumeOf(slot);
+        laws.prepareBridge(bucket.species1, bucket.species2, bodies, store.memory.volumeOf(slot),
                            bridge.data());
-    else laws.prepareBridge(bucket.species1, bucket.species2, bodies, bridge.data());
+    } else {
+        laws.prepareBridge(bucket.species1, bucket.species2, bodies, bridge.data());
+    }
     laws.takeBridgeState(bucket.species1, bucket.species2, bridge.data(), before);
     store.memory.interaction.set(slot, bridge.data());
 }

@@ -11,9 +11,9 @@
 namespace pendular {
 
 /// The time of a run on the clock on the wall by part of the step; off by default. It takes about a hundredth
-/// of the run at most (and some 5 ns a step): the clock is read seven times a step (eleven with an energy
-/// ledger), so that where steps are short only some are measured, at irregular distances, and each stands for
-/// all since the last one. Output is always measured.
+/// of the run at most (and some 5 ns a step): the clock is read seven times a step (one more where liquid
+/// moves, four more with an energy ledger), so that where steps are short only some are measured, at
+/// irregular distances, and each stands for all since the last one. Output is always measured.
 class StepTimes {
 public:
     enum class Part { Motion, Search, Contacts, Walls, Liquid, Sum, Ledger, Output, Other };

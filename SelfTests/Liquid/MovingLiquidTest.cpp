@@ -122,6 +122,42 @@ TEST(MovingLiquid, twoGrainsShareAFilm) {
     }
 }
 
+/// The forces that an observer sees are those of the step, also where its end has moved liquid.
+TEST(MovingLiquid, observersSeeTheForcesThatWere) {
+    Row row({.largest = 4}, {2, 2});
+    row.arrange({apart, touch});
+    const auto seen = [&] { return row.interactions()[0]; };
+    const auto alongNormal = [&] { return -dot(seen().force, seen().normal()); };
+    // Of a grain at rest: F(0) = 2 pi R gamma, R = r; the spring of the overlap is 100 N/m.
+    EXPECT_NEAR(seen().adhesiveForce, 2 * std::numbers::pi * r * 0.07, 1e-12);
+    row.particleHandler.getObject(0).setLiquidVolume(1 * ml);
+    row.speeds[1] = {1 * 0.5e-3 / (100 * length), 0, 0};  // 0.5 mm in 100 steps: it ruptures on the way
+    bool wasWet = true;
+    for (int k = 0; k < 120; ++k) {
+        row.HookedGrains::step();
+        if (row.interactions().empty()) {
+            wasWet = false;
+            break;
+        }
+        EXPECT_NEAR(seen().normalForce - seen().adhesiveForce, alongNormal(), 1e-15) << k;
+    }
+    EXPECT_FALSE(wasWet);
+    // In the step in which the bridge forms there is a touch, and no adhesion yet.
+    row.speeds[1] = -row.speeds[1];
+    int formed = -1;
+    for (int k = 0; k < 300 && formed < 0; ++k) {
+        row.HookedGrains::step();
+        if (!row.interactions().empty()) formed = k;
+    }
+    ASSERT_GE(formed, 0);
+    EXPECT_GT(seen().bridgeVolume, 0);
+    EXPECT_EQ(seen().adhesiveForce, 0);
+    EXPECT_NEAR(seen().normalForce, alongNormal(), 1e-15);
+    row.HookedGrains::step();
+    EXPECT_GT(seen().adhesiveForce, 0);
+    EXPECT_NEAR(seen().normalForce - seen().adhesiveForce, alongNormal(), 1e-15);
+}
+
 TEST(MovingLiquid, aContactThatTouchedDryFormsWhenLiquidComes) {
     Row row({.largest = 10, .least = 1}, {0.25, 0.25});
     row.arrange({apart, touch});
