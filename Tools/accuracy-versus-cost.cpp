@@ -11,6 +11,7 @@
 #include "Tools/AccuracyVersusCost/ContactMaps.h"
 #include "Tools/AccuracyVersusCost/CriticalChart.h"
 #include "Tools/AccuracyVersusCost/FailureMap.h"
+#include "Tools/AccuracyVersusCost/FrictionChart.h"
 #include "Tools/AccuracyVersusCost/TimeChart.h"
 
 using namespace pendular;
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
     BulkChartOptions bulk;
     ContactMapOptions contacts;
     CriticalChartOptions critical;
+    FrictionChartOptions friction;
     std::string output;
     const auto addMode = [&](const char* name, const std::string& text) { return app.add_flag(name, text); };
     CLI::Option* const ofBridges = addMode(
@@ -46,8 +48,13 @@ int main(int argc, char** argv) {
     CLI::Option* const ofSteps = addMode(
         "--critical-steps",
         "each law: the largest stable time step, measured, against the stability limit that is given (%)");
+    CLI::Option* const ofFriction = addMode(
+        "--friction",
+        "friction laws: errors of force, restitution, spin and loss (%) against the exact contact with "
+        "partial slip, over populations of paths and impacts, and what they cost (ns)");
     app.add_option("--output", output,
-                   "table to write, or folder of --contact-maps; MODE.csv, or contact-maps, if not given");
+                   "table to write, or folder of --contact-maps and --friction; MODE.csv, contact-maps or "
+                   "friction, if not given");
     // An option is refused where its mode is not asked for.
     const auto add = [&](CLI::Option* mode, const char* name, auto& value, const char* text) {
         return app.add_option(name, value, text)->capture_default_str()->needs(mode);
@@ -70,16 +77,20 @@ int main(int argc, char** argv) {
         add(ofBulk, "--drums", bulk.drums, "drums of each law, of four measured times each"),
         add(ofBulk, "--turned-rad", bulk.turned, "angle by which the drum turns while it is measured, rad"),
     };
+    add(ofFriction, "--paths", friction.paths, "paths of each population, and impacts");
+    add(ofFriction, "--friction-seed", friction.seed, "of the random paths");
+    add(ofFriction, "--friction-runs", friction.runs, "measurements of time, of which the fastest counts");
     add(ofBulk, "--rounds", bulk.rounds, "measurements of time, of which the median counts");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         std::size_t modes = 0;
-        for (const CLI::Option* mode : {ofBridges, ofFailures, ofTime, ofBulk, ofContacts, ofSteps})
+        for (const CLI::Option* mode :
+             {ofBridges, ofFailures, ofTime, ofBulk, ofContacts, ofSteps, ofFriction})
             modes += mode->count();
         if (modes != 1)
             throw InputError(
                 "accuracy-versus-cost: give one of --bridges, --failure-maps, --time, --bulk, "
-                "--contact-maps and --critical-steps.");
+                "--contact-maps, --critical-steps and --friction.");
         const auto refuse = [&](const auto& options, std::string_view scene) {
             for (const CLI::Option* option : options)
                 if (option->count() > 0)
@@ -90,13 +101,15 @@ int main(int argc, char** argv) {
         if (bulk.scene == "bed") refuse(ofDrum, bulk.scene);
         if (bulk.scene == "drum") refuse(ofBed, bulk.scene);
         if (!output.empty())
-            chart.file = map.file = time.file = bulk.file = contacts.folder = critical.file = output;
+            chart.file = map.file = time.file = bulk.file = contacts.folder = critical.file =
+                friction.folder = output;
         if (*ofBridges) chartBridges(chart);
         else if (*ofFailures) mapFailures(map);
         else if (*ofTime) chartTime(time);
         else if (*ofBulk) chartBulk(bulk);
         else if (*ofContacts) mapContacts(contacts);
-        else chartCriticalSteps(critical);
+        else if (*ofSteps) chartCriticalSteps(critical);
+        else chartFriction(friction);
         return 0;
     });
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <span>
 #include <string_view>
@@ -11,27 +10,12 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Species/Adhesion/Shared/ExactBridge.h"
 #include "Kernel/Species/BridgeLaws.h"
+#include "Tools/AccuracyVersusCost/Timing.h"
 
 // What the liquid bridge laws cost: force in the form of the contact kernel, eight bridges at a time from
 // columns in the first-level cache; and prepare.
 
 namespace pendular {
-
-/// Nanoseconds of the fastest of many runs of an action: what else the machine does only adds time.
-template <class Action>
-double fastest(int runs, Action&& action) {
-    double best = infinity;
-    for (int run = 0; run < runs; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        action();
-        const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
-        best = std::min(best, time.count());
-    }
-    return best;
-}
-
-/// Keeps the compiler from leaving out what makes these numbers, or from moving it out of the loop.
-inline void use(const void* numbers) { asm volatile("" : : "g"(numbers) : "memory"); }
 
 template <class Law>
 typename Law::template Interaction<double> prepared(const BridgeCase& bridge) {

@@ -17,7 +17,9 @@ inline double computeEffectiveShearModulus(double elasticModulus, double poisson
 /// The parameters of Mindlin's tangential spring: k_t = 8 G* sqrt(R* d), with the dashpot beta_t sqrt(m* k_t)
 /// and the limit mu times the normal force. Law is the law derived from this.
 /// Source: Thornton et al. (2023), section 4.2, equations 4.5 to 4.8; the factor 2/3 of the spring is that of
-/// Di Renzo and Di Maio (2005), Chem. Eng. Sci. 60, 1303, equation 15; other codes use 1: set springFactor.
+/// Di Renzo and Di Maio (2005), Chem. Eng. Sci. 60, 1303, equation 15: the mean of k_t over slip that grows
+/// in proportion to the overlap, for which it is exact (Mindlin and Deresiewicz 1953). Other codes use 1, the
+/// stiffness of a contact that is already pressed: set springFactor. Neither is exact for an impact.
 template <class Law>
 struct MindlinSpring {
     static constexpr bool acts = true;
@@ -39,7 +41,7 @@ struct MindlinSpring {
              {"slidingFrictionCoefficient", &Spring::slidingFrictionCoefficient, "", notNegative,
               Mixing::Geometric, "Coulomb's coefficient mu", "Thornton et al. (2023), section 4.2"},
              {"springFactor", &Spring::springFactor, "", positive, Mixing::Arithmetic,
-              "factor of the spring force, 2/3 or 1", "Di Renzo and Di Maio (2005), equation 15"}});
+              "factor of the stiffness 8 G* a: see the law", "Di Renzo and Di Maio (2005), equation 15"}});
     }
 
     void setEffectiveShearModulus(double value) { set(&MindlinSpring::effectiveShearModulus, value); }

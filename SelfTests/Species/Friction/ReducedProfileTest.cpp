@@ -1,0 +1,127 @@
+/// Reduced profiles of a few springs: MindlinIncremental (one), MindlinPartialSlip (three).
+
+#include <gtest/gtest.h>
+
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/MindlinIncremental.h"
+#include "Kernel/Species/Friction/MindlinPartialSlip.h"
+#include "SelfTests/Support/Draw.h"
+
+namespace pendular {
+namespace {
+
+using support::Draw;
+
+constexpr double shearModulus = 1e9, radius = 1e-3, overlap = 1e-6, friction = 0.3;  // Pa, m
+constexpr double load = 2;                                                           // N
+
+/// A contact that is moved by hand, along x, without dashpot and response.
+template <class Law>
+struct Moved {
+    Moved() {
+        law.setEffectiveShearModulus(shearModulus);
+        law.setSlidingDissipation(0);
+        law.setSlidingFrictionCoefficient(friction);
+    }
+    double move(double depth, double normalForce, double way) {  // returns the force against it, N
+        const Slip<double> slip{.velocity = {way, 0, 0}, .timeBefore = 1, .timeAfter = 0};
+        const Contact<double> contact(depth, radius, 1e-6);
+        return -Law::force(law.prepare(AnyNormalLaw{}), contact, normalForce, slip, springs).x;
+    }
+    /// N/m, at an overlap, without factor.
+    static double stiffness(double depth) { return 8 * shearModulus * std::sqrt(radius * depth); }
+
+    Law law;
+    typename Law::template History<double> springs{};
+};
+
+template <class Law>
+class ReducedProfiles : public ::testing::Test {};
+using Laws = ::testing::Types<MindlinIncremental, MindlinPartialSlip>;
+TYPED_TEST_SUITE(ReducedProfiles, Laws);
+
+// Mindlin (1949): the work up to the slip 3 mu P / (16 G* a), at which all slips, is 3/5 of mu P times that.
+// The springs do the same work up to there, if all of them slip by then.
+TYPED_TEST(ReducedProfiles, doTheWorkOfMindlinsContact) {
+    Moved<TypeParam> contact;
+    const int steps = 20000;
+    const double limit = friction * load, fullSlip = 1.5 * limit / contact.stiffness(overlap);
+    double work = 0, before = 0;
+    for (int k = 0; k < steps; ++k) {
+        const double force = contact.move(overlap, load, fullSlip / steps);
+        work += 0.5 * (before + force) * fullSlip / steps;
+        before = force;
+    }
+    EXPECT_NEAR(before, limit, 1e-12);
+    EXPECT_NEAR(work / (limit * fullSlip), 0.6, 1.0 / steps);  // where springs begin to slip within a step
+}
+
+TEST(ReducedProfile, ofOneSpringHasFiveSixthsOfTheStiffness) {
+    EXPECT_NEAR(MindlinIncremental{}.getSpringFactor(), 5.0 / 6.0, 1e-15);
+    EXPECT_EQ(Mindlin{}.getSpringFactor(), 2.0 / 3.0);
+}
+
+// A contact that closes keeps its force, one that opens loses a/a0 of it: Thornton et al. (2013).
+TEST(ReducedProfile, ofOneSpringKeepsItsForceWhereItClosesAndRescalesItWhereItOpens) {
+    Moved<MindlinIncremental> contact;
+    const double force = contact.move(overlap, load, 0.1 * load * friction / contact.stiffness(overlap));
+    EXPECT_NEAR(contact.move(2 * overlap, load, 0), force, 1e-14 * load);
+    EXPECT_NEAR(contact.move(0.5 * overlap, load, 0), 0.5 * force, 1e-14 * load);
+}
+
+// The force of slip in proportion to the overlap is 2/3 of 8 G* a times the slip (Mindlin and Deresiewicz
+// 1953), here times the law's factor, as far as nothing slips; the sum over the steps errs by one of them.
+TYPED_TEST(ReducedProfiles, giveTwoThirdsOfTheStiffnessToSlipInProportionToTheOverlap) {
+    Moved<TypeParam> contact;
+    contact.law.setSlidingFrictionCoefficient(100);
+    const int steps = 20000;
+    const double slip = 1e-8;
+    double force = 0;
+    for (int k = 1; k <= steps; ++k) force = contact.move(k * overlap / steps, load, slip / steps);
+    EXPECT_NEAR(force / (2.0 / 3.0 * contact.law.getSpringFactor() * contact.stiffness(overlap) * slip), 1,
+                2.0 / steps);
+}
+
+// Springs that a contact takes in have no stretch, and those that it sheds go with theirs: one spring never
+// gets stronger by that. (Of several, one that goes may have been against the others.) The force is at most
+// Coulomb's.
+TYPED_TEST(ReducedProfiles, neverExceedTheLimit) {
+    Draw draw(3);
+    Moved<TypeParam> contact;
+    double before = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const bool slips = k % 2 == 1;
+        const double depth = overlap * draw.uniform(0.01, 1), normalForce = load * draw.uniform(0, 1);
+        const double force = contact.move(depth, normalForce, slips ? draw.uniform(-1, 1) * 1e-7 : 0);
+        EXPECT_LE(std::abs(force), friction * normalForce * (1 + 1e-14));
+        if (!slips && contact.springs.each.size() == 1) {
+            EXPECT_LE(std::abs(force), std::abs(before) * (1 + 1e-12)) << k;
+        }
+        before = force;
+    }
+}
+
+// One spring of a contact whose radius stays is the spring and slider of the other laws, dashpot included.
+TEST(ReducedProfile, ofOneSpringIsTheSpringAndSlider) {
+    Draw draw(4);
+    MindlinIncremental::History<double> springs{};
+    for (int k = 0; k < 1000; ++k) {
+        const Vector<double> stretch = 1e-7 * draw.direction();
+        const Slip<double> slip{.velocity = 0.01 * draw.direction(),
+                                .timeBefore = 1e-6,
+                                .timeAfter = 2e-6,
+                                .response = draw.uniform(0, 1)};
+        const double stiffness = draw.uniform(1e6, 1e7), limit = draw.uniform(0, 1);
+        const double damping = draw.uniform(0, 10);
+        springs.each[0].displacement = stretch;
+        Vector<double> other = stretch;
+        const auto one = slideProfile(stiffness, damping, limit, slip, springs);
+        const auto expected = slideSpring(stiffness, damping, limit, limit, slip, other);
+        EXPECT_LE(norm(one.force - expected.force), 1e-14 * (limit + norm(expected.force)));
+        EXPECT_LE(norm(springs.each[0].displacement - other), 1e-14 * norm(stretch));
+        EXPECT_EQ(one.slides, expected.slides);
+    }
+}
+
+}  // namespace
+}  // namespace pendular
