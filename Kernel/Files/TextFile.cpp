@@ -51,6 +51,11 @@ std::string parseLength(std::string_view word, double scale, double& value) {
 
 namespace {
 
+/// In it, not only such: "..." stands for names that are left out.
+bool hasPoint(std::string_view word) {
+    return word.find('.') != word.npos && word.find_first_not_of('.') != word.npos;
+}
+
 /// Whether a line has the names of columns: a first word that begins with a letter, and none that is a number
 /// or has a point, as numbers have in which an O stands for a 0.
 bool isHeader(std::string_view line) {
@@ -59,7 +64,7 @@ bool isHeader(std::string_view line) {
     const char first = word.empty() ? ' ' : word.front();
     if (!((first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z'))) return false;
     for (double number; !word.empty(); word = words.next())
-        if (parseNumber(word, number) || word.find('.') != word.npos) return false;
+        if (parseNumber(word, number) || hasPoint(word)) return false;
     return true;
 }
 

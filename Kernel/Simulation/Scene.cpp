@@ -229,11 +229,11 @@ void Scene::prepare() {
     static_cast<void>(particleHandler.takeChanges());
     particleHandler.closeColumns();
     lawsAreNew = false;
-    setHasBegun();
     GrainFilms& films = particleHandler.films();
+    if (films.areKept()) keepOutput({.write = [this] { requireLiquid(); }});
+    setHasBegun();
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept,
                           films.areKept() ? &films : nullptr);
-    if (movesLiquid()) keepOutput({.write = [this] { requireLiquid(); }});
     if (isQuiet()) return;
     if (threads > processorCount())
         logger(LogLevel::Warn, "{} threads share {} processors; the run is slower than with {}.", threads,
