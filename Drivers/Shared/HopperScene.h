@@ -124,12 +124,13 @@ inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const Run
     // Before any of them is made.
     const double across = std::max(hopper.diameter - edge, 0.0) / edge,
                  inLayer = 0.25 * std::numbers::pi * across * across;
-    if (!(inLayer <= std::max(1000.0, static_cast<double>(hopper.number))))
+    constexpr double most = 1e6;  // cells: they take some 50 MB
+    if (!(inLayer <= std::max(most, static_cast<double>(hopper.number))))
         throw InputError(
             fmt::format("HopperScene: one layer of grains of {:g} m in a hopper of {:g} m would be about "
                         "{:.2g} grains; it "
-                        "must be at most 1000, or the number of grains, {}.",
-                        hopper.grainDiameter, hopper.diameter, inLayer, hopper.number));
+                        "must be at most {:g}, or the number of grains, {}.",
+                        hopper.grainDiameter, hopper.diameter, inLayer, most, hopper.number));
     const auto inBox = [&](double height) {
         return latticeCells({-radius, -radius, 0}, {radius, radius, height}, edge, fits);
     };

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -105,18 +106,23 @@ double secondsOf(const std::string& clock) {
     return sum;
 }
 
+/// Bytes that this process can have: of the machine, or of the container or batch job that it runs in.
+double memoryThere() {
+    double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    for (const char* limit : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+        if (double most = 0; std::ifstream(limit) >> most) bytes = std::min(bytes, most);
+    return bytes;
+}
+
 void checkNumberOfGrains(std::string_view program, std::size_t number) {
     checkValue(program, "number of grains", static_cast<double>(number), "", {1, 1e8});
     constexpr double bytesOfGrain = 472;  // at the peak, of a bed of 1 000 000 (Kernel/Contacts/README.md)
-    const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                         static_cast<double>(sysconf(_SC_PAGESIZE)),
-                 needed = bytesOfGrain * static_cast<double>(number);
+    const double there = memoryThere(), needed = bytesOfGrain * static_cast<double>(number);
     if (there > 0 && needed > there)
-        throw InputError(
-            fmt::format("{}: {} grains would take about {:.3g} GB of memory; this machine has {:.3g} GB, so "
-                        "that the number "
-                        "of grains must be at most {:.2g}.",
-                        program, number, 1e-9 * needed, 1e-9 * there, there / bytesOfGrain));
+        throw InputError(fmt::format(
+            "{}: {} grains would take about {:.3g} GB of memory; there are {:.3g} GB, so that the "
+            "number of grains must be at most {:.2g}.",
+            program, number, 1e-9 * needed, 1e-9 * there, there / bytesOfGrain));
 }
 
 void checkRun(std::string_view driver, std::size_t number, double endTime, double interval) {

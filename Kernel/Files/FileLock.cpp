@@ -33,15 +33,20 @@ std::string ownerIn(int descriptor) {
 
 }  // namespace
 
-FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, std::string_view advice)
+FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, std::string_view advice,
+                   bool needed)
     : path(file), owner(getpid()) {
     std::error_code ignored;
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+    int tries = 0;
     do {
         if (descriptor >= 0) close(descriptor);
         requireRegularIfThere(path);
         // Not by a symbolic link, which may lead to any file.
         descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+        if (descriptor < 0 && errno == ELOOP)
+            throw InputError(fmt::format("The file {} is a symbolic link; remove it.", path.string()));
+        if (descriptor < 0 && !needed) return;
         if (descriptor < 0)
             throw InputError(
                 fmt::format("The file {} cannot be written: {}.", path.string(), std::strerror(errno)));
@@ -51,7 +56,7 @@ FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, 
             throw InputError(
                 fmt::format("{} in use by another run{}: wait for its end, or {}.", subject, holder, advice));
         }
-    } while (!isThatOfThePath());  // its owner has just removed it
+    } while (!isThatOfThePath() && ++tries < 100);  // its owner has just removed it
     const std::string number = std::to_string(owner);
     // For the sentence only: a full disk is told where results are written.
     if (ftruncate(descriptor, 0) == 0)
@@ -66,6 +71,7 @@ bool FileLock::isThatOfThePath() const {
 }
 
 FileLock::~FileLock() {
+    if (descriptor < 0) return;
     if (owner == getpid() && isThatOfThePath()) unlink(path.c_str());
     close(descriptor);
 }

@@ -14,8 +14,10 @@ class FileLock {
 public:
     /// Makes the file, which holds the number of the process.
     /// Throws InputError where another has the lock, "SUBJECT in use by another run (process 123): wait for
-    /// its end, or ADVICE.", and where the file cannot be made.
-    FileLock(const std::filesystem::path& file, std::string_view subject, std::string_view advice);
+    /// its end, or ADVICE.", and where the file cannot be made, unless the lock is not needed then.
+    /// @param needed false: where the file cannot be made, there is no lock
+    FileLock(const std::filesystem::path& file, std::string_view subject, std::string_view advice,
+             bool needed = true);
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
     /// Removes the file.

@@ -18,13 +18,16 @@ fs::path asideOf(const fs::path& file) { return file.string() + ".before"; }
 
 }  // namespace
 
-SetAside::SetAside(std::vector<fs::path> paths) : files(std::move(paths)) {
-    for (const fs::path& file : files) requireRegularIfThere(file);
-    for (const fs::path& file : files) {
+SetAside::SetAside(std::vector<fs::path> paths) {
+    for (const fs::path& file : paths) requireRegularIfThere(file);
+    for (fs::path& file : paths) {
         std::error_code problem;
         if (!fs::exists(file, problem)) continue;
         fs::rename(file, asideOf(file), problem);
-        if (!problem) continue;
+        if (!problem) {
+            files.push_back(std::move(file));
+            continue;
+        }
         putBack();
         throw InputError(
             fmt::format("The file {} cannot be set aside: {}.", file.string(), problem.message()));

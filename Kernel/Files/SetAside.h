@@ -17,7 +17,7 @@ public:
     /// Gives the files their names again, except where there is a new one.
     ~SetAside();
 
-    /// They have been replaced: removes them, and what an earlier process has set aside under these names.
+    /// They have been replaced: removes them.
     void remove() noexcept;
 
 private:

@@ -51,20 +51,21 @@ std::string parseLength(std::string_view word, double scale, double& value) {
 
 namespace {
 
-/// In it, not only such: "..." stands for names that are left out.
-bool hasPoint(std::string_view word) {
-    return word.find('.') != word.npos && word.find_first_not_of('.') != word.npos;
+/// Whether a word looks like a number in which letters stand for digits: "l.0O1".
+bool isMeantAsNumber(std::string_view word) {
+    return word.find('.') != word.npos && word.find_first_of("0123456789") != word.npos &&
+           word.find_first_not_of("0123456789.+-eEoOlI") == word.npos;
 }
 
 /// Whether a line has the names of columns: a first word that begins with a letter, and none that is a number
-/// or has a point, as numbers have in which an O stands for a 0.
+/// or is meant as one.
 bool isHeader(std::string_view line) {
     Words words(line);
     std::string_view word = words.next();
     const char first = word.empty() ? ' ' : word.front();
     if (!((first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z'))) return false;
     for (double number; !word.empty(); word = words.next())
-        if (parseNumber(word, number) || hasPoint(word)) return false;
+        if (parseNumber(word, number) || isMeantAsNumber(word)) return false;
     return true;
 }
 

@@ -79,7 +79,7 @@ inline constexpr double largestLength = 1e9;  // m; of a coordinate or a radius 
 std::string parseLength(std::string_view word, double scale, double& value);
 
 /// Reads rows of lengths. Empty lines, lines that begin with # and a first line of words (the names of the
-/// columns: the first one begins with a letter, and none is a number or has a point) are skipped.
+/// columns: the first one begins with a letter, and none is a number or "l.0O1") are skipped.
 /// @param scale m for one unit of the file
 /// @param use is given the number of the line, from 1, and the row's numbers (m)
 void forEachRow(const InputFile& file, double scale,

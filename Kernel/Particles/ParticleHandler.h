@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <span>
 
 #include "Kernel/Particles/GrainFilms.h"
@@ -180,10 +182,14 @@ public:
     void callToFinishStep(std::function<void()> function) { finishing = std::move(function); }
     void leaveStepUnfinished() { unfinished = true; }
     /// Whether the last step was, and nobody has asked for the grains since; who calls this finishes it.
-    [[nodiscard]] bool takeUnfinishedStep() { return std::exchange(unfinished, false); }
+    [[nodiscard]] bool takeUnfinishedStep() { return unfinished.exchange(false); }
+    /// From any thread: all others wait until it is done.
     void finishStep() const {
-        if (std::exchange(unfinished, false)) [[unlikely]]
-            finishing();
+        if (!unfinished.load(std::memory_order_acquire)) [[likely]]
+            return;
+        const std::scoped_lock one(finishingNow);
+        if (unfinished.load(std::memory_order_relaxed)) finishing();
+        unfinished.store(false, std::memory_order_release);
     }
 
     /// Grains have been joined to a rigid body.
@@ -213,7 +219,8 @@ private:
     Vector<double> gravity{0, 0, 0};  // m/s^2
     std::function<void(std::uint32_t)> beforeRemoval;
     std::function<void()> finishing;
-    mutable bool unfinished = false;
+    mutable std::atomic<bool> unfinished = false;
+    mutable std::mutex finishingNow;
 };
 
 }  // namespace pendular

@@ -214,9 +214,10 @@ void Run::runWhole() {
 
 /// Two runs of one name would write into each other's files.
 void Run::lockName() {
-    if ((underWay & Within::Solving) == 0 || (!restarts.kept && outputs.empty())) return;
-    lock.emplace(name + ".lock", fmt::format("The files {}-* are", name),
-                 "give this run another name or folder");
+    const bool writesByName = restarts.kept || (!outputs.empty() && name != unnamed);
+    if ((underWay & Within::Solving) == 0 || !writesByName) return;
+    lock.emplace(name + ".pendular-lock", fmt::format("The files {}-* are", name),
+                 "give this run another name or folder", restarts.kept);
 }
 
 /// From here on the restart file is one of this run: what goes on mixes no two runs. That of an earlier run

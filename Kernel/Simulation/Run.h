@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "Kernel/Files/FileLock.h"
@@ -95,8 +96,9 @@ public:
     /// and contacts at the end of the last whole step are then in NAME-last-state.csv and
     /// NAME-last-contacts.csv, and writeOutput() was called once more. A run that SIGINT, SIGTERM or the
     /// limit of wall time asks to stop ends with RunStopped, its files complete and at one time.
-    /// A run that keeps a restart file or has outputs has its name alone: while it lasts, another one of this
-    /// name is refused, also in another process.
+    /// A run that keeps a restart file, or has outputs and a name of its own, has this name alone: while it
+    /// lasts, there is a file NAME.pendular-lock, and another run of this name is refused, also in another
+    /// process.
     void solve();
     /// Checks the scene and computes the forces at its start, or takes them from the restart file. For a
     /// driver that steps by itself. Like solve() and step(), it throws InputError in hooks of this scene.
@@ -172,7 +174,8 @@ private:
     [[nodiscard]] bool isOwnRestartFile(const std::filesystem::path& file) const;
     [[nodiscard]] std::string withLastState(std::string sentence);
 
-    std::string name = "pendular";
+    static constexpr std::string_view unnamed = "pendular";
+    std::string name{unnamed};
     std::deque<KeptOutput> outputs;  // one that is called may add another one
     StepTimes times;
     double timeStep, timeMax = 0;  // s

@@ -345,8 +345,10 @@ double Scene::move(ParticleStore& grains, double length) {
 }
 
 void Scene::finishLeftStep() {
+    const StepTimes::Part before = enter(StepTimes::Part::Sum);
     Motion::finish(particleHandler.storeInStep(), contactSystem.store(), gravity, leftLength, threads,
                    integrator);
+    enter(before);
 }
 
 void Scene::advance(double length, bool another) {

@@ -111,7 +111,7 @@ TEST(Drivers, areRefusedInAFolderThatAnotherProgramWritesInto) {
 /// A pipe, whose reader nobody is.
 TEST(WetTower, isRefusedWhereAFileOfItsIsAPipe) {
     for (const char* name : {"run-energy.csv.part", "run-summary.csv.part", "run-restart.h5.part",
-                             "run-restart.h5", "run.lock", ".pendular-lock", "run-fields.h5.part"}) {
+                             "run-restart.h5", "run.pendular-lock", ".pendular-lock", "run-fields.h5.part"}) {
         const TestFolder folder;
         ASSERT_EQ(mkfifo((folder.path() / name).c_str(), 0600), 0);
         const auto result = run("timeout 60 " + drivers +
@@ -419,7 +419,7 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
         expectOneSentence(run(hopper + giant), "would be about ");
     expectOneSentence(
         run(hopper + "--hopper-diameter-m 45"),
-        "in a hopper of 45 m would be about 3e+08 grains; it must be at most 1000, or the number "
+        "in a hopper of 45 m would be about 3e+08 grains; it must be at most 1e+06, or the number "
         "of grains, 9000");
     const TestFolder clogged;
     expectOneSentence(

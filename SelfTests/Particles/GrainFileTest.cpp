@@ -59,6 +59,7 @@ TEST(GrainFile, refusesWithFilePlaceAndReason) {
         {"0,001 0 0 0\n", "line 1, column 1:", "'0,001' is not a number (decimals have a point"},
         {"0x1p-10 0 0 0\n1e-3 0 0 0\n", "line 1, column 1:", "'0x1p-10' is not a number"},
         {"r 0 0 0\n", "line 1, column 1:", "'r' is not a number"},
+        {"O.O01 y z x\n1e-3 0 0 0\n", "line 1, column 1:", "'O.O01' is not a number"},
         {"l.001 O O O\n1e-3 0 0 0\n", "line 1, column 1:", "'l.001' is not a number"},
         {"1e-3  O 0 0\n", "line 1, column 7:", "'O' is not a number"},
         {"-1e-3 0 0 0\n", "line 1", "the radius -0.001 m"},

@@ -274,7 +274,7 @@ TEST_F(AskedToStop, byAFullDiskAtItsBeginningKeepsTheFileOfTheRunBefore) {
         EXPECT_EQ(child.wait(), 1) << share;
         EXPECT_NE(printed().find("File too large.\n"), std::string::npos) << printed();
         EXPECT_TRUE(contentOf(part / "run-restart.h5") == before) << share;
-        for (const char* left : {"run-restart.h5.part", "run-restart.h5.before", "run.lock"})
+        for (const char* left : {"run-restart.h5.part", "run-restart.h5.before", "run.pendular-lock"})
             EXPECT_FALSE(std::filesystem::exists(part / left)) << left;
     }
 }

@@ -53,9 +53,10 @@ TEST(FileLock, ofWhatIsNoFileIsRefused) {
     std::ofstream(precious) << "content";
     std::filesystem::create_symlink(precious, link);
     EXPECT_TRUE(contains(refusal([&] { FileLock(link, "The folder is", "take another one"); }),
-                         "link cannot be written: Too many levels of symbolic links"));
+                         "link is a symbolic link; remove it."));
     EXPECT_EQ(contentOf(precious), "content");
     EXPECT_TRUE(contains(refusal([] { FileLock("/proc/none/lock", "It is", "go"); }), "cannot be written"));
+    EXPECT_EQ(refusal([] { FileLock("/proc/none/lock", "It is", "go", false); }), "");
 }
 
 /// A run that has begun waits after its tenth step, until it is told to go on.
@@ -102,7 +103,7 @@ TEST_F(TwoRuns, ofOneNameAreRefused) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
     std::ofstream(one / "go-on").flush();
     EXPECT_EQ(first.wait(), 0);
-    EXPECT_FALSE(std::filesystem::exists(one / "run.lock"));
+    EXPECT_FALSE(std::filesystem::exists(one / "run.pendular-lock"));
     runUndisturbed(whole, wholeRun);
     expectSameRun(whole, one);
 }
@@ -112,7 +113,7 @@ TEST_F(TwoRuns, areRefusedAlsoWhereTheFirstGoesOnFromAKilledOne) {
     const Child killed = startFirst();
     killed.send(SIGKILL);
     EXPECT_EQ(killed.wait(), -SIGKILL);
-    EXPECT_TRUE(std::filesystem::exists(one / "run.lock"));
+    EXPECT_TRUE(std::filesystem::exists(one / "run.pendular-lock"));
     const Child first = startFirst();
     EXPECT_TRUE(contains(refusalOfSecond(), "run-* are in use by another run (process "));
     std::ofstream(one / "go-on").flush();
@@ -136,10 +137,14 @@ TEST(SetAside, getsItsNamesAgainUnlessItIsRemoved) {
     }
     EXPECT_EQ(contentOf(a), "of before");
     EXPECT_EQ(contentOf(b), "new");
+    const auto earlier = folder.path() / "none.before";  // of a process that was killed
+    std::ofstream(earlier) << "its only copy";
     {
         SetAside aside({a, b, none});
         aside.remove();
     }
+    EXPECT_EQ(contentOf(earlier), "its only copy");
+    std::filesystem::remove(earlier);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
     std::filesystem::create_directory(a);
     EXPECT_TRUE(contains(refusal([&] { SetAside({a}); }), "is not a regular file"));

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
+#include <thread>
 #include <vector>
 
 #include "Kernel/Simulation/StateHash.h"
@@ -109,6 +111,25 @@ TYPED_TEST(StepsAtOnce, areFinishedBeforeAHookChangesWhatTheyDependOn) {
             };
         EXPECT_EQ(hashAtOnce(atOnce), hashOneByOne(oneByOne)) << name;
     }
+}
+
+// Several threads of a hook that look at once see the same: one of them finishes the step, the others wait.
+TYPED_TEST(StepsAtOnce, areFinishedForAllThreadsOfAHook) {
+    Watched<TypeParam> scene;
+    scene.hook = [](auto& own) {
+        std::array<double, 4> sums{};
+        const auto add = [&own](double& sum) {
+            for (const TranslationRecord& grain : own.particleHandler.store().translation)
+                sum += grain.velocity.z;
+        };
+        {
+            std::vector<std::jthread> threads;
+            for (double& sum : sums) threads.emplace_back([&add, &sum] { add(sum); });
+        }
+        for (const double sum : sums) EXPECT_EQ(sum, sums[0]);
+    };
+    scene.initialise();
+    scene.step(count);
 }
 
 TYPED_TEST(StepsAtOnce, endWithWholeOnes) {

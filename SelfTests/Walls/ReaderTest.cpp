@@ -80,6 +80,7 @@ TEST(StlReader, readsBinaryWhateverItsHeader) {
 TEST(RowReader, readsRowsWithAndWithoutHeader) {
     const std::string row = "0 0 0\t1 0 0\t0 1 -2.25e0\n";
     EXPECT_EQ(read(".txt", "v1_X[m] v1_Y[m] ...\n" + row + "\n# a comment\n" + row).size(), 2u);
+    EXPECT_EQ(read(".csv", "v1.x,v1.y,v1.z,v2.x,v2.y,v2.z,v3.x,v3.y,v3.z\n" + row).size(), 1u);
     EXPECT_EQ(read(".txt", row)[0][2].z, -2.25);
     EXPECT_EQ(read(".csv", "0 0 0 1 0 0 0 1 5\r\n0 0 0 1 0 0 0 1 5")[1][2].z, 5);
 }
