@@ -353,7 +353,7 @@ void Scene::finishLeftStep() {
 
 void Scene::advance(double length, bool another) {
     ParticleStore& grains = particleHandler.storeInStep();
-    intoLedger([&] { account.begin(particleHandler.store(), gravity, length, ledger); });
+    intoLedger([&] { account.begin(grains, gravity, length, ledger); });
     double farthest = move(grains, length);
     if (!grains.bodies.empty()) farthest = std::max(farthest, bodyMotion.begin(grains, length, integrator));
     const double grainShift = std::sqrt(farthest);
