@@ -13,8 +13,11 @@ void preferLargePages(void* begin, std::size_t bytes);
 template <class Value>
 void reserveLarge(std::vector<Value>& column, std::size_t count) {
     if (count <= column.capacity()) return;
-    column.reserve(count);
-    if (column.empty()) preferLargePages(column.data(), count * sizeof(Value));
+    std::vector<Value> larger;
+    larger.reserve(count);
+    preferLargePages(larger.data(), count * sizeof(Value));
+    larger.assign(column.begin(), column.end());
+    column.swap(larger);
 }
 
 }  // namespace pendular

@@ -25,6 +25,7 @@ struct Options {
     std::size_t steps = 2000, warm = 500;
     std::size_t exchange = 0;  // grains that come and go in a step
     bool header = false;
+    bool grains = false;   // print these instead
     std::string paraView;  // beginning of the names of frames; empty: none
 };
 
@@ -146,7 +147,20 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
         measureFrames(scene, options.paraView, seconds / static_cast<double>(options.steps));
 }
 
+/// Prints the box of a bed or a mixture, and its grains: what another code needs to run the same scene.
+void printGrains(const Options& options) {
+    check(options.choice);
+    const scenes::Settled bed = scenes::settledIn(options.choice, options.threads);
+    const auto& [lowest, highest] = bed.box;
+    fmt::print("# box (m): {:.12g} {:.12g} {:.12g} {:.12g} {:.12g}\nradius_m,x_m,y_m,z_m\n", lowest.x(),
+               highest.x(), lowest.y(), highest.y(), lowest.z());
+    for (const auto& grain : bed.grains)
+        fmt::print("{:.12g},{:.12g},{:.12g},{:.12g}\n", grain.radius, grain.position.x(), grain.position.y(),
+                   grain.position.z());
+}
+
 int run(const Options& options) {
+    if (options.grains) return printGrains(options), 0;
     checkValue("benchmark-scenes", "steps", static_cast<double>(options.steps), "", {1, 1e12});
     const double memoryBefore = peakMemory();
     scenes::withBenchmarkScene(options.choice, options.threads,
@@ -173,6 +187,8 @@ int main(int argc, char** argv) {
     app.add_option("--threads", o.threads, "threads")->capture_default_str();
     app.add_option("--steps", o.steps, "steps that are timed")->capture_default_str();
     app.add_option("--warm", o.warm, "steps before those")->capture_default_str();
+    app.add_option("--ratio", o.choice.ratio, "radius of large grains to that of small ones (polydisperse)")
+        ->capture_default_str();
     app.add_option("--positions", o.choice.positions,
                    "file of rows radius x y z (m): the bed of Dosta et al. (2024), repeated along x to the "
                    "number of --particles, or their drum or penetration");
@@ -186,6 +202,9 @@ int main(int argc, char** argv) {
     app.add_option("--paraview", o.paraView,
                    "writes a frame for ParaView of this name after the timed steps, and says what it costs");
     app.add_flag("--header", o.header, "print the names of the columns first");
+    app.add_flag(
+        "--grains", o.grains,
+        "print the box and the grains of a bed or a mixture instead, for another code to run the same scene");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] { return run(o); });
 }

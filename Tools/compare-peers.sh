@@ -1,20 +1,27 @@
 #!/usr/bin/env bash
 # Runs the same scenes in Pendular and in those of LIGGGHTS, LAMMPS and YADE that are installed, in turn, one thread each,
 # and writes the medians as a table (CSV) and a chart (PNG).
-#   Tools/compare-peers.sh [--particles "25000 250000"] [--runs 3] [--output FOLDER]
+#   Tools/compare-peers.sh [--scenes "bed wet-bed mixture"] [--particles "25000 250000"] [--runs 3] [--output FOLDER]
 #                          [--bed FILE] [--drum FILE --drum-walls FILE]
+# --scenes     bed: dry, of the numbers of --particles; wet-bed: the first of these, with liquid bridges (Bagheri's law and the
+#              exact one), beside LIGGGHTS' easo/capillary/viscous; mixture: 20 000 grains, radii 1 to 10, two sizes of equal
+#              volume, beside LIGGGHTS with cells of one size: with cells by size ("multi") version 3.8.0 finds no neighbours
 # --bed FILE   rows radius x y z: the bed of Dosta et al. (2024) instead of the one that Pendular makes by itself
 # --drum FILE  their drum, with its walls as rows of nine numbers; LIGGGHTS only. Without it there is no drum.
 # --build DIR  a build folder; build/release if not given
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-particles="25000 250000" runs=3 output=peers bed="" drum="" drum_walls="" build="$tools/../build/release"
+scenes=bed particles="25000 250000" runs=3 output=peers bed="" drum="" drum_walls="" build="$tools/../build/release"
 command_line="Tools/compare-peers.sh $*"
 source "$tools/read-options.sh"
-read_options particles runs output bed drum drum-walls build -- "$@"
+read_options scenes particles runs output bed drum drum-walls build -- "$@"
 read -ra sizes <<<"$particles"
 for number in "${sizes[@]:-}"; do require_number particles "$number"; done
 require_number runs "$runs"
+read -ra scene_names <<<"$scenes"
+for scene in "${scene_names[@]:-}"; do
+    [[ $scene == bed || $scene == wet-bed || $scene == mixture ]] || refuse "--scenes: '$scene' is none of bed, wet-bed, mixture"
+done
 require_file bed "$bed"
 require_file drum "$drum"
 require_file drum-walls "$drum_walls"
@@ -51,71 +58,98 @@ run_peer() {  # scene, code, command...
         say "$code failed: $(tail -1 "$log")"
     fi
 }
-parse_ours() {  # scene, row
-    echo "$2" | awk -F, -v scene="$1" '{ printf "%s,pendular,%d,%d,%s,%s\n", scene, $3, $7, $8, $12 }' >>"$raw"
+parse_ours() {  # scene, name, row
+    echo "$3" | awk -F, -v scene="$1" -v name="$2" '{ printf "%s,%s,%d,%d,%s,%s\n", scene, name, $3, $7, $8, $12 }' >>"$raw"
 }
 say() { echo "$(date +%H:%M:%S) $*" >&2; }
 
-lammps_data() {  # grain file, copies, length, box (xlo xhi ylo yhi zlo), types
-    read -r xlo xhi ylo yhi zlo <<<"$4"
-    awk -v copies="$2" -v length_x="$3" -v types="$5" -v xlo="$xlo" -v xhi="$xhi" -v ylo="$ylo" -v yhi="$yhi" -v zlo="$zlo" '
-        $1 + 0 > 0 { r[++n] = $1; x[n] = $2; y[n] = $3; z[n] = $4 }
+lammps_data() {  # rows of radius x y z, box (xlo xhi ylo yhi zlo), types
+    read -r xlo xhi ylo yhi zlo <<<"$2"
+    awk -v types="$3" -v xlo="$xlo" -v xhi="$xhi" -v ylo="$ylo" -v yhi="$yhi" -v zlo="$zlo" '
+        { gsub(/,/, " ") }
+        $1 + 0 > 0 { r[++n] = $1; x[n] = $2; y[n] = $3; z[n] = $4; if ($4 + $1 > top) top = $4 + $1 }
         END {
-            printf "grains\n\n%d atoms\n%d atom types\n\n%s %s xlo xhi\n%s %s ylo yhi\n%s %s zlo zhi\n\nAtoms\n\n", n * copies, types, xlo, xhi, ylo, yhi, zlo, zlo + 0.35
-            for (k = 0; k < copies; k++)
-                for (i = 1; i <= n; i++) {
-                    large = types > 1 && r[i] > 0.0015
-                    printf "%d %d %.12g %d %.12g %.12g %.12g\n", ++m, large ? 2 : 1, 2 * r[i], large ? 2000 : 2500, x[i] + length_x * k, y[i], z[i]
-                }
+            printf "grains\n\n%d atoms\n%d atom types\n\n%s %s xlo xhi\n%s %s ylo yhi\n%s %s zlo zhi\n\nAtoms\n\n", n, types, xlo, xhi, ylo, yhi, zlo, (top > zlo + 0.3 ? top + 0.05 : zlo + 0.35)
+            for (i = 1; i <= n; i++) {
+                large = types > 1 && r[i] > 0.0015
+                printf "%d %d %.12g %d %.12g %.12g %.12g\n", i, large ? 2 : 1, 2 * r[i], large ? 2000 : 2500, x[i], y[i], z[i]
+            }
         }' "$1"
 }
 
+# Writes the grains of our scene to bed.rows and bed.data, sets `box`, and `vars` for the scripts of the peers.
+prepare_bed() {  # options of benchmark-scenes for the scene...
+    "$ours" "$@" --grains >"$work/bed.rows"
+    box=$(sed -n '1s/.*: //p' "$work/bed.rows")
+    lammps_data "$work/bed.rows" "$box" 1 >"$work/bed.data"
+    read -r xlo xhi ylo yhi zlo <<<"$box"
+    vars=(-var data "$work/bed.data" -var xlo "$xlo" -var xhi "$xhi" -var ylo "$ylo" -var yhi "$yhi" -var zlo "$zlo" -var warm "$warm" -var steps "$steps")
+}
+run_ours() {  # name of the row, scene, options of benchmark-scenes...
+    local name=$1 scene=$2 row
+    shift 2
+    row=$("$ours" "$@" --steps "$steps" --warm "$warm") || exit 1
+    parse_ours "$scene" "$name" "$row"
+}
+run_liggghts() {  # scene, model
+    if command -v liggghts >/dev/null; then
+        run_peer "$1" liggghts liggghts -in "$tools/Peers/bed.liggghts" "${vars[@]}" -var model "$2"
+    fi
+}
+
 run_bed() {  # particles
-    local copies=$((($1 + 12500) / 25000))
+    local copies=$((($1 + 12500) / 25000)) box vars
     ((copies > 0)) || copies=1
     local steps=$((2000 / copies > 40 ? 2000 / copies : 40)) warm=$((500 / copies > 20 ? 500 / copies : 20))
-    local grains=$bed box length=0.1 options=(--scene bed --particles "$1" --steps "$steps" --warm "$warm")
-    if [[ -n $bed ]]; then
-        options+=(--positions "$bed")
-        box=$(awk -v c="$copies" 'BEGIN { printf "-0.05 %.9g -0.03 0.03 -0.090243", -0.05 + 0.1 * c }')
-    else
-        "$ours" --scene bed --particles 25000 --steps 1 --warm 0 >/dev/null # makes the state
-        grains=$build/benchmark-states/bed-25000.txt
-        box=$(awk -v c="$copies" 'BEGIN { printf "0 %.9g 0 0.06 0", 0.1 * c }')
-    fi
-    lammps_data "$grains" "$copies" "$length" "$box" 1 >"$work/bed.data"
-    awk 'NF == 7 { print $3 / 2, $5, $6, $7 }' "$work/bed.data" >"$work/bed.rows"
-    read -r xlo xhi ylo yhi zlo <<<"$box"
-    local vars=(-var data "$work/bed.data" -var xlo "$xlo" -var xhi "$xhi" -var ylo "$ylo" -var yhi "$yhi" -var zlo "$zlo" -var warm "$warm" -var steps "$steps")
+    local options=(--scene bed --particles "$1" ${bed:+--positions "$bed"})
+    prepare_bed "${options[@]}"
     for ((run = 1; run <= runs; ++run)); do
         say "bed of $1, run $run of $runs"
-        local row
-        row=$("$ours" "${options[@]}") || exit 1
-        parse_ours bed "$row"
-        if command -v liggghts >/dev/null; then
-            run_peer bed liggghts liggghts -in "$tools/Peers/bed.liggghts" "${vars[@]}"
-        fi
+        run_ours pendular bed "${options[@]}"
+        run_liggghts bed "hertz tangential history"
         if command -v lmp >/dev/null; then
             run_peer bed lammps lmp -in "$tools/Peers/bed.lammps" "${vars[@]}"
         fi
         if command -v yade >/dev/null && ((copies == 1)); then
-            GRAINS=$work/bed.rows BOX=$box WARM=$((warm / 5)) STEPS=$((steps / 4)) yade -n -x -j1 "$tools/Peers/bed_yade.py" 2>/dev/null |
+            awk -F, 'NF == 4 && $1 + 0 > 0 { print $1, $2, $3, $4 }' "$work/bed.rows" >"$work/yade.rows"
+            GRAINS=$work/yade.rows BOX=$box WARM=$((warm / 5)) STEPS=$((steps / 4)) yade -n -x -j1 "$tools/Peers/bed_yade.py" 2>/dev/null |
                 awk -v s=$((steps / 4)) -v n=25000 '/^result/ { printf "bed,yade,%d,%d,%s,\n", n, s, $2 }' >>"$raw"
         fi
     done
 }
 
+run_wet_bed() {  # particles
+    local steps=2000 warm=500 box vars
+    local options=(--scene wet-bed --particles "$1" ${bed:+--positions "$bed"})
+    prepare_bed "${options[@]}"
+    for ((run = 1; run <= runs; ++run)); do
+        say "wet bed of $1, run $run of $runs"
+        run_ours pendular wet-bed "${options[@]}"
+        run_ours pendular-exact wet-bed "${options[@]}" --species HertzianViscoelasticMindlinLiquidBridgeYoungLaplaceSpecies
+        run_liggghts wet-bed "hertz tangential history cohesion easo/capillary/viscous"
+    done
+}
+
+run_mixture() {
+    local steps=2000 warm=500 box vars
+    local options=(--scene polydisperse --particles 20000 --ratio 10)
+    prepare_bed "${options[@]}"
+    for ((run = 1; run <= runs; ++run)); do
+        say "mixture, run $run of $runs"
+        run_ours pendular mixture "${options[@]}"
+        run_liggghts mixture "hertz tangential history"
+    done
+}
+
 run_drum() {
     local steps=1000 warm=500
-    lammps_data "$drum" 1 0 "-0.15 0.15 -0.1 0.1 -0.15" 2 | sed 's/^2 atom types/3 atom types/' >"$work/drum.data"
+    lammps_data "$drum" "-0.15 0.15 -0.1 0.1 -0.15" 2 | sed 's/^2 atom types/3 atom types/' >"$work/drum.data"
     awk 'BEGIN { print "solid drum" } NF == 9 && $1 + 0 == $1 {
         printf "facet normal 0 0 0\n outer loop\n  vertex %s %s %s\n  vertex %s %s %s\n  vertex %s %s %s\n endloop\nendfacet\n", $1, $2, $3, $4, $5, $6, $7, $8, $9 }
         END { print "endsolid drum" }' "$drum_walls" >"$work/drum.stl"
     for ((run = 1; run <= runs; ++run)); do
         say "drum, run $run of $runs"
-        local row
-        row=$("$ours" --scene drum --positions "$drum" --walls "$drum_walls" --steps $steps --warm $warm) || exit 1
-        parse_ours drum "$row"
+        run_ours pendular drum --scene drum --positions "$drum" --walls "$drum_walls"
         if command -v liggghts >/dev/null; then
             run_peer drum liggghts liggghts -in "$tools/Peers/drum.liggghts" -var data drum.data -var mesh drum.stl \
                 -var warm $warm -var steps $steps
@@ -123,7 +157,13 @@ run_drum() {
     done
 }
 
-for n in "${sizes[@]}"; do run_bed "$n"; done
+for scene in "${scene_names[@]}"; do
+    case $scene in
+    bed) for n in "${sizes[@]}"; do run_bed "$n"; done ;;
+    wet-bed) run_wet_bed "${sizes[0]}" ;;
+    mixture) run_mixture ;;
+    esac
+done
 if [[ -n $drum ]]; then run_drum; fi
 
 {

@@ -15,6 +15,7 @@ struct BenchmarkChoice {
     std::string scene = "bed";
     std::size_t particles = 0;        // about; 0: the scene's own number
     std::string species;              // empty: the scene's own
+    double ratio = 20;                // of the radii of a mixture, large to small
     std::filesystem::path positions;  // of the grains; empty: made by the program
     std::filesystem::path walls;      // of the drum and the penetration, with their positions
     std::filesystem::path states = folders::benchmarkStates;
@@ -55,6 +56,14 @@ void fillWithGas(Scene& scene, const S* species, std::size_t grains) {
     scene.setTimeStep(benchmarkStep);
 }
 
+/// The grains and the box of a bed or a mixture.
+inline Settled settledIn(const BenchmarkChoice& choice, int threads) {
+    if (!choice.positions.empty()) return publishedBed(choice);
+    if (choice.scene == "polydisperse")
+        return settledMixture(choice.particlesOr(200000), choice.ratio, choice.states, threads);
+    return settledBed(choice.particlesOr(25000), choice.states, threads);
+}
+
 /// Calls function(scene) with a bed, a gas or a mixture of this species: one of instantiatedSpecies().
 template <class Function>
 void withSceneOf(std::string_view speciesName, const BenchmarkChoice& choice, int threads,
@@ -69,11 +78,7 @@ void withSceneOf(std::string_view speciesName, const BenchmarkChoice& choice, in
         return function(scene);
     }
     material.set(*species);
-    Settled bed;
-    if (!choice.positions.empty()) bed = publishedBed(choice);
-    else if (choice.scene == "polydisperse")
-        bed = settledMixture(choice.particlesOr(200000), 20, choice.states, threads);
-    else bed = settledBed(choice.particlesOr(25000), choice.states, threads);
+    Settled bed = settledIn(choice, threads);
     fillBox(scene, species, bed.grains, bed.box, benchmarkStep);
     bed = {};  // gives its memory back
     function(scene);
@@ -124,6 +129,7 @@ inline void check(const BenchmarkChoice& choice) {
         unknownName("scene", choice.scene, known);
     if (choice.particles > 0) checkNumberOfGrains("benchmark-scenes", choice.particles);
     const bool isBed = choice.scene == "bed" || choice.scene == "wet-bed";
+    checkValue("benchmark-scenes", "ratio", choice.ratio, "", {1, 50});
     const bool hasMesh = choice.scene == "drum" || choice.scene == "penetration";
     if (!choice.positions.empty() && !isBed && !hasMesh)
         throw InputError(fmt::format("benchmark-scenes: the scene {} takes no positions.", choice.scene));

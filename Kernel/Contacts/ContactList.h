@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Contacts/Rearrangement.h"
 #include "Kernel/Contacts/RememberedContacts.h"
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Parallel.h"
@@ -24,32 +26,31 @@ public:
 
     /// @param oldBridges bodies and laws are as they were when bridges were prepared
     ContactList(const ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
-                double skinWidth, bool withLedger, int threadCount, bool oldBridges = true)
+                double skinWidth, int threadCount, bool oldBridges = true)
         : laws(contactLaws),
           walls(wallHandler),
           periodic(box),
           skin(skinWidth),
-          ledger(withLedger),
           threads(threadCount),
           keepsBridges(oldBridges) {}
 
     /// Sorts the grains in space and lists their contacts.
-    void rebuild(Grains& grains, ContactStore& store) {
-        RememberedContacts old(store.memory.getLayout(), ledger);
-        old.take(store, grains.identity);
-        rebuild(grains, store, old);
-    }
-    /// The same with the memory of contacts that were taken or read when the grains were where they are.
+    /// @param old those that were taken or read when the grains were where they are, whose memory the store
+    /// has
+    /// @param keepsCells for takeSearch()
     /// Returns how many of them are listed again.
-    std::size_t rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old) {
-        formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin);
+    std::size_t rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old, bool keepsCells) {
+        const std::size_t pairsBefore = store.firstWallBlock() * Pack::lanes;
+        store.releaseList();  // so that the old list and the search are not there at the same time
+        formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
         std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
-        grains.reorder(formerPlace);
-        findPairs(grains, old);
+        grains.reorder(formerPlace, threads);
+        findPairs(grains, old, pairsBefore);
+        if (!keepsCells) found.reset();
         findWallContacts(grains, old);
         fill(grains, store);
         const std::size_t recalled = recall(old, grains, store);
-        store.listSides(grains.identity);
+        store.listSides(grains.identity, threads);
         return recalled;
     }
     /// The cells in which the list was made.
@@ -119,13 +120,18 @@ private:
             }
     }
 
-    void findPairs(const Grains& grains, const RememberedContacts& old) {
-        found.emplace(grains.translation, skin + (laws.actsApart ? largestRange(grains) : 0), periodic);
+    /// @param pairsBefore of the last list, about
+    void findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore) {
+        found.emplace(grains.translation, skin + (laws.actsApart ? largestRange(grains) : 0), periodic,
+                      threads);
         const NeighbourSearch& search = *found;
         listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
             for (std::size_t a = 0; a < laws.speciesCount(); ++a)
                 for (std::size_t b = a; b < laws.speciesCount(); ++b)
                     own.push_back({{0, 0, static_cast<int>(a), static_cast<int>(b), -1}, {}});
+            // A vector's own growth would take up to twice the memory.
+            const std::size_t share = pairsBefore * (end - begin) / std::max<std::size_t>(grains.size(), 1);
+            if (own.size() == 1) own[0].contacts.reserve(share + share / 16);
             for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
                 search.forEachPartner(i, [&](std::uint32_t j) {
                     if (!laws.actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j);
@@ -237,7 +243,6 @@ private:
             g.bucket.end = static_cast<std::uint32_t>(blocks);
             store.buckets.push_back(g.bucket);
         }
-        store.blocks.clear();
         reserveLarge(store.blocks, blocks);
         store.blocks.assign(blocks, {});
         store.states.assign(blocks, {});
@@ -253,8 +258,8 @@ private:
                 worthAThread);
         const auto touching =
             std::count_if(store.gaps.begin(), store.gaps.end(), [](double g) { return g <= 0; });
-        store.memory.clear(ledger, static_cast<std::size_t>(touching));
-        groups.clear();
+        store.memory.makeRoom(static_cast<std::size_t>(touching));
+        groups = {};
     }
 
     /// @param b of the group
@@ -273,46 +278,74 @@ private:
 
     /// Gives the contacts that were touching or joined before their memory again; returns how many.
     std::size_t recall(const RememberedContacts& old, const Grains& grains, ContactStore& store) const {
-        using Entry = RememberedContacts::Entry;
-        std::vector<const Entry*> entries(store.blocks.size() * Pack::lanes);
-        const auto forEachListed = [&](const Bucket& bucket, auto&& function) {
-            inParts(
-                bucket.end - bucket.begin, threads,
-                [&](int, std::size_t begin, std::size_t end) {
-                    for (std::size_t c = (bucket.begin + begin) * Pack::lanes;
-                         c < (bucket.begin + end) * Pack::lanes; ++c)
-                        if (store.bitOf(store.states[c / Pack::lanes].listed, c)) function(c);
-                },
-                worthAThread);
-        };
+        const std::vector<std::uint32_t> entries = entriesOf(old, grains, store);
+        std::vector<std::uint32_t> origins(Pack::lanes), blocks{0};
+        std::iota(origins.begin(), origins.end(), 0u);  // block 0 stays
         std::size_t recalled = 0;
-        for (const Bucket& bucket : store.buckets) {
-            forEachListed(bucket,
-                          [&](std::size_t c) { entries[c] = entryOf(old, bucket, c, grains, store); });
-            for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
-                if (!entries[c]) continue;
+        for (std::uint32_t b = 0; b < store.blocks.size(); ++b) {
+            const std::uint32_t* const own = &entries[std::size_t{b} * Pack::lanes];
+            if (std::all_of(own, own + Pack::lanes, isNone)) continue;
+            store.slots[b] = static_cast<std::uint32_t>(blocks.size());
+            blocks.push_back(b);
+            for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
+                origins.push_back(isNone(own[lane]) ? Rearrangement::nothing : old.slotOf(own[lane]));
+                if (isNone(own[lane])) continue;
                 ++recalled;
-                if (store.slots[c / Pack::lanes] == ContactStore::asleep)
-                    wakeBlock(store, c / Pack::lanes, bucket, laws, grains);
+                RememberedContacts::setState(old.entry(own[lane]), lane, store.states[b]);
             }
-            forEachListed(bucket, [&](std::size_t c) {
-                if (!entries[c]) return;
-                old.recall(*entries[c], store, c, keepsBridges);
-                if (keepsBridges || laws.layout.interaction == 0) return;
-                prepareAgain(store, laws, bucket, c, grains, old.bridgeOf(*entries[c]));
-            });
         }
+        store.memory.rearrange(std::move(origins), std::move(blocks), threads);
+        if (laws.layout.interaction > 0) prepareBridges(entries, grains, store);
         return recalled;
     }
+    static bool isNone(std::uint32_t entry) { return entry == RememberedContacts::none; }
 
-    const RememberedContacts::Entry* entryOf(const RememberedContacts& old, const Bucket& bucket,
-                                             std::size_t c, const Grains& grains,
-                                             const ContactStore& store) const {
-        const ContactBlock& block = store.blocks[c / Pack::lanes];
-        const std::uint32_t second = block.second[c % Pack::lanes];
-        return old.find(formerPlace[block.first[c % Pack::lanes]],
-                        static_cast<std::uint32_t>(bucket.wall + 1),
-                        bucket.wall >= 0 ? second : grains.identity[second]);
+    /// Of each lane of the list: the number of what it remembers.
+    std::vector<std::uint32_t> entriesOf(const RememberedContacts& old, const Grains& grains,
+                                         const ContactStore& store) const {
+        std::vector<std::uint32_t> entries(store.blocks.size() * Pack::lanes, RememberedContacts::none);
+        forEachBlock(store, [&](const Bucket& bucket, std::size_t b) {
+            for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
+                if (!store.bitOf(store.states[b].listed, lane)) continue;
+                const std::uint32_t second = store.blocks[b].second[lane];
+                entries[b * Pack::lanes + lane] = old.find(
+                    formerPlace[store.blocks[b].first[lane]], static_cast<std::uint32_t>(bucket.wall + 1),
+                    bucket.wall >= 0 ? second : grains.identity[second]);
+            }
+        });
+        return entries;
+    }
+
+    /// Of the blocks with memory: new contacts have no bridge yet, and what bodies or laws are now may differ
+    /// from what they were when the others were prepared.
+    void prepareBridges(const std::vector<std::uint32_t>& entries, const Grains& grains,
+                        ContactStore& store) const {
+        forEachBlock(store, [&](const Bucket& bucket, std::size_t b) {
+            if (store.slots[b] == ContactStore::asleep) return;
+            std::uint8_t fresh = store.states[b].listed;
+            for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
+                const std::size_t contact = b * Pack::lanes + lane;
+                if (isNone(entries[contact])) continue;
+                fresh &= static_cast<std::uint8_t>(~(1u << lane));
+                if (keepsBridges) continue;
+                ContactNumbers before{};
+                store.memory.interaction.get(store.slotOf(contact), before.data());
+                prepareAgain(store, laws, bucket, contact, grains, before.data());
+            }
+            prepareBlock(store, b, fresh, bucket, laws, grains);
+        });
+    }
+
+    /// Calls function(bucket, block) for all blocks, several at the same time.
+    template <class Function>
+    void forEachBlock(const ContactStore& store, Function&& function) const {
+        for (const Bucket& bucket : store.buckets)
+            inParts(
+                bucket.size(), threads,
+                [&](int, std::size_t begin, std::size_t end) {
+                    for (std::size_t b = begin; b < end; ++b) function(bucket, bucket.begin + b);
+                },
+                worthAThread);
     }
 
     static constexpr std::size_t worthAThread = 128;  // grains or blocks
@@ -320,7 +353,6 @@ private:
     const WallHandler& walls;
     const PeriodicBox& periodic;
     double skin;
-    bool ledger;
     int threads;
     bool keepsBridges;
     std::optional<NeighbourSearch> found;

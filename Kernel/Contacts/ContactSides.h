@@ -1,11 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "Kernel/Math/Pack.h"
+#include "Kernel/Parallel.h"
 #include "Kernel/Particles/ParticleStore.h"
 
 namespace pendular {
@@ -30,34 +33,36 @@ public:
     [[nodiscard]] std::size_t grainCount() const { return ends.size(); }
 
     /// Lists all sides again.
-    /// @param forEachSide calls its argument with (grain, contact, 0 or 1) for all sides
+    /// @param forEachSideIn (block, function) calls function(grain, 2 x contact + (0 or 1)) for those of a
+    /// block of contacts
     /// @param slotOf the place of a contact in the memory; less than a block's for contacts without
     /// @param keyOf (contact, 0 or 1): the partner, as a number by which sides are ordered
-    template <class ForEachSide, class SlotOf, class KeyOf>
-    void list(std::size_t grainCount, ForEachSide&& forEachSide, SlotOf&& slotOf, KeyOf&& keyOf) {
+    template <class ForEachSideIn, class SlotOf, class KeyOf>
+    void list(std::size_t grainCount, std::size_t blockCount, int threads, ForEachSideIn&& forEachSideIn,
+              SlotOf&& slotOf, KeyOf&& keyOf) {
+        const auto forEachSide = [&](auto&& function) {
+            inParts(
+                blockCount, threads,
+                [&](int, std::size_t first, std::size_t end) {
+                    for (std::size_t block = first; block < end; ++block) forEachSideIn(block, function);
+                },
+                worthAThread);
+        };
+        const bool isShared = threads > 1;
         begins.assign(grainCount + 1, 0);
-        forEachSide([&](std::uint32_t grain, std::uint32_t, std::uint32_t) { ++begins[grain + 1]; });
-        for (std::size_t k = 0; k < grainCount; ++k) begins[k + 1] += begins[k];
+        forEachSide([&](std::uint32_t grain, std::uint32_t) { countUp(begins[grain + 1], isShared); });
+        std::partial_sum(begins.begin(), begins.end(), begins.begin());
         sides.resize(begins.back());
         ends.assign(begins.begin(), begins.end() - 1);
-        std::vector<std::uint64_t> keys(sides.size());
-        forEachSide([&](std::uint32_t grain, std::uint32_t contact, std::uint32_t which) {
-            const auto slot = static_cast<std::uint32_t>(slotOf(contact));
-            if (!isMemory(slot)) return;
-            const std::uint64_t key = keyOf(contact, which);
-            std::uint32_t at = ends[grain]++;
-            for (; at > begins[grain] && keys[at - 1] > key; --at) {
-                keys[at] = keys[at - 1];
-                sides[at] = sides[at - 1];
-            }
-            keys[at] = key;
-            sides[at] = 2 * slot + which;
-        });
-        std::vector<std::uint32_t> next = ends;
-        forEachSide([&](std::uint32_t grain, std::uint32_t contact, std::uint32_t which) {
-            if (!isMemory(static_cast<std::uint32_t>(slotOf(contact))))
-                sides[next[grain]++] = 2 * contact + which;
-        });
+        forEachSide(
+            [&](std::uint32_t grain, std::uint32_t side) { sides[countUp(ends[grain], isShared)] = side; });
+        inParts(
+            grainCount, threads,
+            [&](int, std::size_t first, std::size_t end) {
+                std::vector<Keyed> keyed;
+                for (std::size_t grain = first; grain < end; ++grain) order(grain, keyed, slotOf, keyOf);
+            },
+            worthAThread);
     }
 
     /// Grains have come to the end of the store, which has so many places now; they have no contacts yet.
@@ -90,7 +95,39 @@ public:
     [[nodiscard]] std::size_t bytes() const { return bytesOf(begins, ends, sides); }
 
 private:
+    struct Keyed {
+        std::uint64_t key;
+        std::uint32_t side;
+    };
+    static constexpr std::size_t worthAThread = 512;  // grains or blocks
+
     static bool isMemory(std::uint32_t slot) { return slot >= Pack::lanes; }
+
+    /// Returns what the count was.
+    /// @param isShared several threads count
+    static std::uint32_t countUp(std::uint32_t& count, bool isShared) {
+        return isShared ? std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed) : count++;
+    }
+
+    /// Orders the sides of a grain, which are there in any order: those with memory, which get their place in
+    /// it, by their keys, then the others by contact.
+    template <class SlotOf, class KeyOf>
+    void order(std::size_t grain, std::vector<Keyed>& keyed, SlotOf&& slotOf, KeyOf&& keyOf) {
+        constexpr std::uint64_t afterAllKeys = std::uint64_t{1} << 63;
+        keyed.clear();
+        ends[grain] = begins[grain];
+        for (std::uint32_t k = begins[grain]; k < begins[grain + 1]; ++k) {
+            const std::uint32_t contact = sides[k] / 2, which = sides[k] % 2, slot = slotOf(contact);
+            if (isMemory(slot)) {
+                keyed.push_back({keyOf(contact, which), 2 * slot + which});
+                ++ends[grain];
+            } else {
+                keyed.push_back({afterAllKeys | sides[k], sides[k]});
+            }
+        }
+        std::ranges::sort(keyed, {}, &Keyed::key);
+        std::ranges::transform(keyed, sides.begin() + begins[grain], &Keyed::side);
+    }
 
     std::vector<std::uint32_t> begins;  // of each grain, and one more
     std::vector<std::uint32_t> ends;    // of each grain's contacts with memory

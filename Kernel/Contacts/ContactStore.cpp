@@ -1,10 +1,29 @@
 #include "Kernel/Contacts/ContactStore.h"
 
+#include "Kernel/Contacts/Rearrangement.h"
+
 namespace pendular {
 
+namespace {
+
+/// The numbers of a record, and back.
+template <class Record>
+void putRecord(const Record& record, double*& to) {
+    const auto own = std::bit_cast<std::array<double, sizeof(Record) / sizeof(double)>>(record);
+    to = std::copy(own.begin(), own.end(), to);
+}
+template <class Record>
+void takeRecord(const double*& from, Record& record) {
+    std::array<double, sizeof(Record) / sizeof(double)> own;
+    std::copy_n(from, own.size(), own.begin());
+    record = std::bit_cast<Record>(own);
+    from += own.size();
+}
+
+}  // namespace
+
 double ContactMemory::clear(std::size_t slot) {
-    for (MemoryColumns* columns : {&history, &normalHistory, &interaction, &liquid, &named})
-        columns->clear(slot);
+    for (MemoryColumns* each : columns()) each->clear(slot);
     if (layout.hasTorque) records[slot] = {};
     else forces[slot] = {};
     if (layout.hasContactTorque) torques[slot] = {};
@@ -14,16 +33,85 @@ double ContactMemory::clear(std::size_t slot) {
     return stored;
 }
 
-void ContactStore::listSides(const std::vector<std::uint32_t>& identity) {
-    const auto forEachSide = [&](auto&& function) {
-        forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-            function(blocks[c / Pack::lanes].first[c % Pack::lanes], c, 0u);
-            if (bucket.wall < 0) function(blocks[c / Pack::lanes].second[c % Pack::lanes], c, 1u);
-        });
+std::size_t ContactMemory::numberCount() const {
+    const std::size_t force = layout.hasTorque ? sizeof(ForceTorqueRecord) : sizeof(ForceRecord);
+    const std::size_t torque = layout.hasContactTorque ? sizeof(TorqueRecord) : 0;
+    return layout.history + layout.normalHistory + layout.interaction + layout.liquid + layout.named +
+           (force + torque) / sizeof(double);
+}
+
+void ContactMemory::getNumbers(std::size_t slot, double* to) const {
+    for (const MemoryColumns* each : columns()) {
+        each->get(slot, to);
+        to += each->count;
+    }
+    if (layout.hasTorque) putRecord(records[slot], to);
+    else putRecord(forces[slot], to);
+    if (layout.hasContactTorque) putRecord(torques[slot], to);
+}
+
+void ContactMemory::setNumbers(std::size_t slot, const double* from) {
+    for (MemoryColumns* each : columns()) {
+        each->set(slot, from);
+        from += each->count;
+    }
+    if (layout.hasTorque) takeRecord(from, records[slot]);
+    else takeRecord(from, forces[slot]);
+    if (layout.hasContactTorque) takeRecord(from, torques[slot]);
+}
+
+void ContactMemory::rearrange(std::vector<std::uint32_t> origins, std::vector<std::uint32_t> blocks,
+                              int threads) {
+    const Rearrangement order(std::move(origins), slotCount());
+    makeRoom(order.places() / Pack::lanes);
+    resize(order.places() / Pack::lanes);
+    const auto rearrangeRecords = [&](auto& all) {
+        if (all.empty()) return;
+        order.carryOut(
+            threads, [&](std::uint32_t slot) { return all[slot]; },
+            [&](std::uint32_t slot, const auto& record) { all[slot] = record; });
+    };
+    for (MemoryColumns* each : columns())
+        if (each->count > 0)
+            order.carryOut(
+                threads,
+                [&](std::uint32_t slot) {
+                    ContactNumbers numbers;
+                    each->get(slot, numbers.data());
+                    return numbers;
+                },
+                [&](std::uint32_t slot, const ContactNumbers& numbers) { each->set(slot, numbers.data()); });
+    rearrangeRecords(records);
+    rearrangeRecords(forces);
+    rearrangeRecords(torques);
+    rearrangeRecords(energies);
+    for (const std::uint32_t slot : order.emptyPlaces()) clear(slot);
+    resize(blocks.size());
+    std::ranges::copy(blocks, blockOf.begin());
+}
+
+void ContactStore::releaseList() {
+    const auto release = [](auto&... columns) {
+        (std::remove_reference_t<decltype(columns)>().swap(columns), ...);
+    };
+    release(blocks, states, slots, gaps, wallPoints);
+    sides = ContactSides();
+}
+
+void ContactStore::listSides(const std::vector<std::uint32_t>& identity, int threads) {
+    const std::size_t firstAtWall = firstWallBlock();
+    const auto forEachSideIn = [&](std::size_t block, auto&& function) {
+        for (std::uint32_t lane = 0; lane < Pack::lanes; ++lane) {
+            if (!bitOf(states[block].listed, lane)) continue;
+            const auto contact = static_cast<std::uint32_t>(block * Pack::lanes + lane);
+            function(blocks[block].first[lane], 2 * contact);
+            if (block < firstAtWall) function(blocks[block].second[lane], 2 * contact + 1);
+        }
     };
     sides.list(
-        identity.size(), forEachSide, [&](std::uint32_t c) { return slotOf(c); },
-        [&](std::uint32_t c, std::uint32_t which) { return keyOf(c, which, identity); });
+        identity.size(), blocks.size(), threads, forEachSideIn,
+        [&](std::uint32_t contact) { return static_cast<std::uint32_t>(slotOf(contact)); },
+        [&](std::uint32_t contact, std::uint32_t which) { return keyOf(contact, which, identity); });
 }
 
 }  // namespace pendular

@@ -139,21 +139,25 @@ public:
     }
     [[nodiscard]] const ContactLayout& getLayout() const { return layout; }
 
-    /// Forgets everything, and makes room for so many blocks and a few more.
-    void clear(bool withLedger, std::size_t blocks) {
+    /// Forgets everything, and has so many blocks of zeros besides block 0.
+    void reset(bool withLedger, std::size_t blocks = 0) {
         resize(0);
-        reserve(blocks + blocks / 16 + 64);
         if (withLedger) energies.assign(Pack::lanes, {});
         else energies.clear();
-        resize(1);
+        resize(1 + blocks);
     }
+    /// Room for so many blocks and a few more, if there is not yet.
+    void makeRoom(std::size_t blocks) {
+        // A vector's own growth would take up to twice the memory.
+        if (blocks > blockOf.capacity()) reserve(blocks + blocks / 16 + 64);
+    }
+    /// Brings what contacts remember to other places; zeros where nothing comes to.
+    /// @param origins of each new place the old one, or Rearrangement::nothing
+    /// @param blocks of each new block of memory: the block of contacts that has it
+    void rearrange(std::vector<std::uint32_t> origins, std::vector<std::uint32_t> blocks, int threads);
     /// Room for so many blocks in all.
     void reserve(std::size_t blocks) {
-        history.reserve(blocks);
-        normalHistory.reserve(blocks);
-        interaction.reserve(blocks);
-        liquid.reserve(blocks);
-        named.reserve(blocks);
+        for (MemoryColumns* each : columns()) each->reserve(blocks);
         if (layout.hasTorque) reserveLarge(records, blocks * Pack::lanes);
         else reserveLarge(forces, blocks * Pack::lanes);
         if (layout.hasContactTorque) reserveLarge(torques, blocks * Pack::lanes);
@@ -163,26 +167,31 @@ public:
     /// Adds a block of zeros for this block of contacts; returns its number.
     std::uint32_t add(std::size_t block) {
         const std::size_t count = blockOf.size();
-        // A vector's own growth would take up to twice the memory.
-        if (count == blockOf.capacity()) reserve(count + count / 8 + 64);
+        makeRoom(count + 1);
         resize(count + 1);
         blockOf.back() = static_cast<std::uint32_t>(block);
         return static_cast<std::uint32_t>(count);
     }
     /// Forgets one contact; returns the energy (J) that was stored in it, where a ledger is kept.
     double clear(std::size_t slot);
+    /// How many numbers a contact has without its energies, and these: what it remembers and its forces.
+    [[nodiscard]] std::size_t numberCount() const;
+    void getNumbers(std::size_t slot, double* to) const;
+    void setNumbers(std::size_t slot, const double* from);
     [[nodiscard]] std::size_t bytes() const {
         return bytesOf(history.columns, normalHistory.columns, interaction.columns, liquid.columns,
                        named.columns, records, forces, torques, energies, blockOf);
     }
 
 private:
+    [[nodiscard]] std::array<MemoryColumns*, 5> columns() {
+        return {&history, &normalHistory, &interaction, &liquid, &named};
+    }
+    [[nodiscard]] std::array<const MemoryColumns*, 5> columns() const {
+        return {&history, &normalHistory, &interaction, &liquid, &named};
+    }
     void resize(std::size_t blocks) {
-        history.resize(blocks);
-        normalHistory.resize(blocks);
-        interaction.resize(blocks);
-        liquid.resize(blocks);
-        named.resize(blocks);
+        for (MemoryColumns* each : columns()) each->resize(blocks);
         if (layout.hasTorque) records.resize(blocks * Pack::lanes);
         else forces.resize(blocks * Pack::lanes);
         if (layout.hasContactTorque) torques.resize(blocks * Pack::lanes);
@@ -266,7 +275,9 @@ public:
     }
     /// Lists the sides of all contacts.
     /// @param identity of the grain at each place
-    void listSides(const std::vector<std::uint32_t>& identity);
+    void listSides(const std::vector<std::uint32_t>& identity, int threads);
+    /// Gives back what a new list makes again; what contacts remember stays.
+    void releaseList();
 
     /// Bytes that one contact with memory takes, without the ledger.
     static constexpr std::size_t bytesPerContact(const ContactLayout& layout) {

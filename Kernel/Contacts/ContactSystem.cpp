@@ -21,6 +21,7 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     ContactLayout layout = species->layout;
     layout.named = namedColumns.size();
     contacts.memory.setLayout(layout);
+    contacts.memory.reset(ledger);
     liquid.prepare(films, walls->getSize());
     contactEvents.watch(liquid.moves());
     overlapWatch = OverlapWatch(species->overlapLimit.largest);
@@ -48,7 +49,7 @@ double ContactSystem::renew(Grains& grains) {
         takeForceAway(grains, bucket, contact);
         stored += endContact(grains, contact);
     });
-    listAgain(grains, nullptr, false);
+    listAgain(grains, false);
     liquid.clip(contacts, *species, grains);
     return stored;
 }
@@ -73,12 +74,15 @@ bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucke
     return seen.separation < reach;
 }
 
-std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts* remembered,
+void ContactSystem::listAgain(Grains& grains, bool keepsBridges) {
+    RememberedContacts remembered;
+    remembered.take(contacts, grains.identity, threads);
+    listAgain(grains, remembered, keepsBridges);
+}
+std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& remembered,
                                      bool keepsBridges) {
-    ContactList list(*species, *walls, periodic, skin.width(), ledger, threads, keepsBridges);
-    std::size_t recalled = 0;
-    if (remembered) recalled = list.rebuild(grains, contacts, *remembered);
-    else list.rebuild(grains, contacts);
+    ContactList list(*species, *walls, periodic, skin.width(), threads, keepsBridges);
+    const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
     if (takesInGrains) cells = list.takeSearch();
     skin.listed(contacts, grains.size());
     idleLanes.listed();
@@ -207,17 +211,17 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     std::string names;
     for (const NamedColumn& column : namedColumns) names += column.fieldName() + " ";
     archive.same("columns", names);
-    RememberedContacts remembered(contacts.memory.getLayout(), ledger);
-    if (archive.isWriting()) remembered.take(contacts, grains.identity);
+    RememberedContacts remembered;
+    if (archive.isWriting()) remembered.take(contacts, grains.identity, threads);
     std::vector<std::size_t> partsOfWalls;
     for (std::size_t w = 0; w < walls->getSize(); ++w)
         partsOfWalls.push_back(walls->getObject(w).partCount());
-    remembered.visitState(archive, grains, partsOfWalls);
+    remembered.visitState(archive, contacts.memory, ledger, grains, partsOfWalls);
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
     archive.group("events", [&] { contactEvents.visitState(archive); });
     if (liquid.moves()) archive.group("liquid", [&] { liquid.visitState(archive); });
     if (!archive.isReading()) return;
-    archive.require(listAgain(grains, &remembered) == remembered.size(), "pairs",
+    archive.require(listAgain(grains, remembered) == remembered.size(), "pairs",
                     "has a contact of bodies that are out of reach");
     if (liquid.moves()) liquid.requireWhole(archive, contacts);
     for (const Bucket& bucket : contacts.buckets)

@@ -169,9 +169,9 @@ private:
         const std::uint32_t contact = contacts.contactAt(slot);
         if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
     }
-    /// Returns how many of the remembered contacts are listed again.
-    std::size_t listAgain(Grains& grains, const RememberedContacts* remembered = nullptr,
-                          bool keepsBridges = true);
+    void listAgain(Grains& grains, bool keepsBridges = true);
+    /// The same with contacts whose memory is in the store; returns how many of them are listed again.
+    std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true);
     double endContact(Grains& grains, std::uint32_t contact);
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
     /// act in the first half of the next one. (Not those of rigid bodies.)

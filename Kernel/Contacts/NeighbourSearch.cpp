@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "Kernel/Parallel.h"
+
 namespace pendular {
 
 namespace {
@@ -17,16 +19,19 @@ double along(const Vector<double>& v, int axis) { return axis == 0 ? v.x : axis 
 
 template <class Items, class Position>
 Extent extentOf(const Items& items, Position position) {
-    Extent e{{}, {}};
-    for (int axis = 0; axis < 3; ++axis) {
-        e.lowest[axis] = e.highest[axis] = along(position(items[0]), axis);
-        for (const auto& item : items) {
-            e.lowest[axis] = std::min(e.lowest[axis], along(position(item), axis));
-            e.highest[axis] = std::max(e.highest[axis], along(position(item), axis));
+    const Vector<double> first = position(items[0]);
+    Extent e{{first.x, first.y, first.z}, {first.x, first.y, first.z}};
+    for (const auto& item : items) {
+        const Vector<double> p = position(item);
+        for (int axis = 0; axis < 3; ++axis) {
+            e.lowest[axis] = std::min(e.lowest[axis], along(p, axis));
+            e.highest[axis] = std::max(e.highest[axis], along(p, axis));
         }
     }
     return e;
 }
+
+constexpr std::size_t worthAThread = 2048;  // grains whose cells are found
 
 /// A few cells for each item.
 double mostCells(std::size_t items) { return 4.0 * static_cast<double>(items) + 64; }
@@ -83,7 +88,8 @@ std::vector<std::uint32_t> sortByCell(const std::vector<std::uint32_t>& cellOf, 
 
 }  // namespace
 
-std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grains, double cellSize) {
+std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grains, double cellSize,
+                                        int threads) {
     if (grains.empty()) return {};
     const Extent e = extentOf(grains, [](const TranslationRecord& g) { return g.position; });
     std::array<double, 3> lengths{};
@@ -102,29 +108,39 @@ std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grain
         return rank[tile] * 64 + (c[2] % 4 * 4 + c[1] % 4) * 4 + c[0] % 4;
     };
     std::vector<std::uint32_t> cells(grains.size());
-    for (std::size_t k = 0; k < grains.size(); ++k) cells[k] = cellOf(grains[k].position);
+    inParts(
+        grains.size(), threads,
+        [&](int, std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) cells[k] = cellOf(grains[k].position);
+        },
+        worthAThread);
     std::vector<std::uint32_t> begins;
     return sortByCell(cells, std::size_t{64} * tiles[0] * tiles[1] * tiles[2], begins);
 }
 
 NeighbourSearch::NeighbourSearch(std::span<const TranslationRecord> grains, double margin,
-                                 const PeriodicBox& box)
-    : periodic(box), halfMargin(0.5 * margin), self(grains.size()), levelOf(grains.size()) {
+                                 const PeriodicBox& box, int threads)
+    : periodic(box), halfMargin(0.5 * margin), points(grains.size()), levelOf(grains.size()) {
     if (grains.empty()) return;
     double smallest = grains[0].radius;
     for (const TranslationRecord& grain : grains) smallest = std::min(smallest, grain.radius);
     smallest += 0.5 * margin;
 
-    std::vector<std::vector<Point>> members;
+    inParts(
+        grains.size(), threads,
+        [&](int, std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                points[k] = {box.wrap(grains[k].position), grains[k].radius + 0.5 * margin};
+                levelOf[k] = static_cast<std::uint8_t>(std::log2(points[k].size / smallest));
+            }
+        },
+        worthAThread);
     for (std::uint32_t k = 0; k < grains.size(); ++k) {
-        self[k] = {box.wrap(grains[k].position), grains[k].radius + 0.5 * margin, k};
-        levelOf[k] = static_cast<std::uint8_t>(std::log2(self[k].size / smallest));
-        if (levelOf[k] >= members.size()) members.resize(levelOf[k] + 1u);
-        members[levelOf[k]].push_back(self[k]);
+        if (levelOf[k] >= levels.size()) levels.resize(levelOf[k] + 1u);
+        levels[levelOf[k]].members.push_back(k);
     }
-    levels.resize(members.size());
-    for (std::size_t l = 0; l < members.size(); ++l)
-        if (!members[l].empty()) levels[l].build(members[l], box);
+    for (Level& level : levels)
+        if (!level.members.empty()) level.build(points, box, threads);
 }
 
 double NeighbourSearch::crowding() const {
@@ -139,12 +155,12 @@ double NeighbourSearch::Level::crowding() const {
         const double grains = begins[c] - begins[c - 1];
         pairs += grains * grains;
     }
-    return points.empty() ? 0 : pairs / static_cast<double>(points.size());
+    return members.empty() ? 0 : pairs / static_cast<double>(members.size());
 }
 
-void NeighbourSearch::Level::build(const std::vector<Point>& members, const PeriodicBox& box) {
-    for (const Point& p : members) largest = std::max(largest, p.size);
-    const Extent e = extentOf(members, [](const Point& p) { return p.position; });
+void NeighbourSearch::Level::build(const Points& points, const PeriodicBox& box, int threads) {
+    for (const std::uint32_t k : members) largest = std::max(largest, points[k].size);
+    const Extent e = extentOf(members, [&](std::uint32_t k) { return points[k].position; });
     std::array<double, 3> lengths{};
     std::array<double, 3> low{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -155,12 +171,12 @@ void NeighbourSearch::Level::build(const std::vector<Point>& members, const Peri
     lowest = {low[0], low[1], low[2]};
     const double factor = enlargement(lengths, 2 * largest, members.size());
     divide(lengths, 2 * largest * factor);
-    sort(members);
+    sort(points, threads);
     // Of the smallest grains of a level some ten fit into a cell.
     constexpr double crowded = 40;
     if (factor == 1 || crowding() < crowded) return;
-    divideRepeatedly(lengths, 2 * largest, members.size());
-    sort(members);
+    divideRepeatedly(lengths, 2 * largest);
+    sort(points, threads);
 }
 
 void NeighbourSearch::Level::divide(const std::array<double, 3>& lengths, double size) {
@@ -173,11 +189,10 @@ void NeighbourSearch::Level::divide(const std::array<double, 3>& lengths, double
     }
 }
 
-void NeighbourSearch::Level::divideRepeatedly(const std::array<double, 3>& lengths, double size,
-                                              std::size_t members) {
+void NeighbourSearch::Level::divideRepeatedly(const std::array<double, 3>& lengths, double size) {
     std::array<double, 3> count{}, repetitions{1, 1, 1};
     for (int axis = 0; axis < 3; ++axis) count[axis] = std::max(1.0, std::floor(lengths[axis] / size));
-    while (count[0] * count[1] * count[2] > mostCells(members)) {
+    while (count[0] * count[1] * count[2] > mostCells(members.size())) {
         const auto longest = std::max_element(count.begin(), count.end()) - count.begin();
         count[longest] = std::floor(0.5 * count[longest]);
         repetitions[longest] *= 2;
@@ -191,15 +206,20 @@ void NeighbourSearch::Level::divideRepeatedly(const std::array<double, 3>& lengt
     }
 }
 
-void NeighbourSearch::Level::sort(const std::vector<Point>& members) {
+void NeighbourSearch::Level::sort(const Points& points, int threads) {
     std::vector<std::uint32_t> cell(members.size());
-    for (std::size_t k = 0; k < members.size(); ++k) {
-        const auto [x, y, z] = cellOf(members[k].position);
-        cell[k] = static_cast<std::uint32_t>(index(x, y, z));
-    }
-    const auto order = sortByCell(cell, index(0, 0, cells[2]), begins);
-    points.resize(members.size());
-    for (std::size_t k = 0; k < order.size(); ++k) points[k] = members[order[k]];
+    inParts(
+        members.size(), threads,
+        [&](int, std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                const auto [x, y, z] = cellOf(points[members[k]].position);
+                cell[k] = static_cast<std::uint32_t>(index(x, y, z));
+            }
+        },
+        worthAThread);
+    Members sorted = sortByCell(cell, index(0, 0, cells[2]), begins);
+    for (std::uint32_t& k : sorted) k = members[k];
+    members = std::move(sorted);
 }
 
 double NeighbourSearch::Level::endlessCell(int axis, double x) const {

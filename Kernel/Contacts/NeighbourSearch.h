@@ -12,7 +12,8 @@ namespace pendular {
 
 /// An order of the grains in which neighbours in space are mostly neighbours in memory: order[k] is the place
 /// of the grain that comes k-th. Cells of the size (m) given, in tiles of 4 x 4 x 4 along Morton's curve.
-std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grains, double cellSize);
+std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grains, double cellSize,
+                                        int threads = 1);
 
 /// Finds all pairs of grains whose surfaces are nearer than a margin, for any distribution of sizes: a
 /// hierarchy of cell grids, one for each factor of two of the size, as of Ogarko and Luding (2012), Comput.
@@ -24,7 +25,8 @@ std::vector<std::uint32_t> spatialOrder(std::span<const TranslationRecord> grain
 class NeighbourSearch {
 public:
     /// @param margin m, of the surfaces, at least 0
-    NeighbourSearch(std::span<const TranslationRecord> grains, double margin, const PeriodicBox& box);
+    NeighbourSearch(std::span<const TranslationRecord> grains, double margin, const PeriodicBox& box,
+                    int threads = 1);
 
     [[nodiscard]] std::size_t grainCount() const { return levelOf.size(); }
     /// How many grains of its own level a grain finds in its own cell, itself included: the mean, of the
@@ -32,19 +34,21 @@ public:
     [[nodiscard]] double crowding() const;
 
     /// Whether two grains form a pair.
-    [[nodiscard]] bool reaches(std::uint32_t a, std::uint32_t b) const { return reaches(self[a], self[b]); }
+    [[nodiscard]] bool reaches(std::uint32_t a, std::uint32_t b) const {
+        return reaches(points[a], points[b]);
+    }
 
     /// Calls function(other) for each grain that forms a pair with this one, and is not less than it in the
     /// order of (level, place); so each pair is found once. The order of the calls depends on the grains
     /// only.
     template <class Function>
     void forEachPartner(std::uint32_t grain, Function&& function) const {
-        const Point self = pointOf(grain);
+        const Point self = points[grain];
         for (std::size_t l = levelOf[grain]; l < levels.size(); ++l) {
             const bool own = l == levelOf[grain];
-            levels[l].forEachNear(self, [&](const Point& other) {
-                if (own && other.grain <= grain) return;
-                if (reaches(self, other)) function(other.grain);
+            levels[l].forEachNear(self, [&](std::uint32_t other) {
+                if (own && other <= grain) return;
+                if (reaches(self, points[other])) function(other);
             });
         }
     }
@@ -53,17 +57,17 @@ public:
     /// (m) to a sphere; grains may come that are not.
     template <class Function>
     void forEachNear(const Vector<double>& centre, double radius, double farther, Function&& function) const {
-        const Point sphere{periodic.wrap(centre), radius + halfMargin + farther, 0};
-        for (const Level& level : levels)
-            level.forEachNear(sphere, [&](const Point& other) { function(other.grain); });
+        const Point sphere{periodic.wrap(centre), radius + halfMargin + farther};
+        for (const Level& level : levels) level.forEachNear(sphere, function);
     }
 
 private:
     struct Point {
         Vector<double> position;
         double size;  // m, radius + half the margin
-        std::uint32_t grain;
     };
+    using Points = std::vector<Point>;
+    using Members = std::vector<std::uint32_t>;
 
     struct Level {
         Vector<double> lowest{0, 0, 0};
@@ -74,16 +78,16 @@ private:
         std::array<bool, 3> repeats{};  // the grid is shorter than the scene
         double largest = 0;             // m, size of the largest member
         std::vector<std::uint32_t> begins;
-        std::vector<Point> points;  // in the order of cells
+        Members members;  // in the order of cells
 
-        void build(const std::vector<Point>& members, const PeriodicBox& box);
+        void build(const Points& points, const PeriodicBox& box, int threads);
         [[nodiscard]] double crowding() const;
         /// Divides the scene's lengths (m) into cells of this size (m), or a little more where an axis is
         /// periodic.
         void divide(const std::array<double, 3>& lengths, double size);
         /// The same with so few cells that a few are there for each member, by making the grid shorter.
-        void divideRepeatedly(const std::array<double, 3>& lengths, double size, std::size_t members);
-        void sort(const std::vector<Point>& members);
+        void divideRepeatedly(const std::array<double, 3>& lengths, double size);
+        void sort(const Points& points, int threads);
         /// The number of a place's cell along an axis of endless cells.
         [[nodiscard]] double endlessCell(int axis, double x) const;
         /// The cell of the grid that stands for it.
@@ -94,11 +98,11 @@ private:
         }
         [[nodiscard]] std::array<int, 3> cellOf(const Vector<double>& p) const;
 
-        /// Calls function(point) for the points in all cells that a sphere of this size may reach into, each
-        /// cell once.
+        /// Calls function(grain) for those in all cells that a sphere of this size may reach into, each cell
+        /// once.
         template <class Function>
         void forEachNear(const Point& self, Function&& function) const {
-            if (points.empty()) return;
+            if (members.empty()) return;
             const double reach = self.size + largest;
             const auto [x0, x1] = cellRange(0, self.position.x, reach);
             const auto [y0, y1] = cellRange(1, self.position.y, reach);
@@ -107,7 +111,7 @@ private:
                 for (int y = y0; y <= y1; ++y)
                     for (int x = x0; x <= x1; ++x) {
                         const std::size_t cell = index(wrapped(0, x), wrapped(1, y), wrapped(2, z));
-                        for (std::uint32_t k = begins[cell]; k < begins[cell + 1]; ++k) function(points[k]);
+                        for (std::uint32_t k = begins[cell]; k < begins[cell + 1]; ++k) function(members[k]);
                     }
         }
         /// First and last cell along an axis within reach; beyond the ends where the axis wraps or
@@ -123,11 +127,10 @@ private:
         const double reach = a.size + b.size;
         return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
     }
-    [[nodiscard]] Point pointOf(std::uint32_t grain) const { return self[grain]; }
 
     PeriodicBox periodic;
     double halfMargin;                  // m
-    std::vector<Point> self;            // of each grain
+    Points points;                      // of each grain
     std::vector<std::uint8_t> levelOf;  // of each grain
     std::vector<Level> levels;          // from small to large
 };

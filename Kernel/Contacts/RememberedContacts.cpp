@@ -1,9 +1,10 @@
 #include "Kernel/Contacts/RememberedContacts.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <tuple>
+
+#include "Kernel/Parallel.h"
 
 namespace pendular {
 
@@ -11,145 +12,111 @@ namespace {
 
 auto orderOf(const RememberedContacts::Entry& e) { return std::tuple(e.wall, e.other); }
 
-/// The numbers of a record, and back.
-template <class Record>
-void putRecord(const Record& record, double*& to) {
-    const auto own = std::bit_cast<std::array<double, sizeof(Record) / sizeof(double)>>(record);
-    to = std::copy(own.begin(), own.end(), to);
-}
-template <class Record>
-void takeRecord(const double*& from, Record& record) {
-    std::array<double, sizeof(Record) / sizeof(double)> own;
-    std::copy_n(from, own.size(), own.begin());
-    record = std::bit_cast<Record>(own);
-    from += own.size();
-}
-
 }  // namespace
 
-RememberedContacts::RememberedContacts(const ContactLayout& contactLayout, bool withLedger)
-    : layout(contactLayout),
-      ledger(withLedger),
-      width(layout.history + layout.normalHistory + layout.interaction + layout.liquid + layout.named +
-            ((layout.hasTorque ? sizeof(ForceTorqueRecord) : sizeof(ForceRecord)) +
-             (layout.hasContactTorque ? sizeof(TorqueRecord) : 0)) /
-                sizeof(double)) {}
-
-void RememberedContacts::take(const ContactStore& store, const std::vector<std::uint32_t>& identity) {
+/// The sides of a grain are in the order of its partners, so each contact is found at its first body.
+void RememberedContacts::take(const ContactStore& store, const std::vector<std::uint32_t>& identity,
+                              int threads) {
+    constexpr std::size_t worthAThread = 512;  // grains
+    const std::size_t grains = std::min(identity.size(), store.sides.grainCount());
     const auto forEachActing = [&](auto&& function) {
-        store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-            if (store.acts(c)) function(bucket, c, store.blocks[c / Pack::lanes].first[c % Pack::lanes]);
-        });
+        inParts(
+            grains, threads,
+            [&](int, std::size_t first, std::size_t end) {
+                for (std::size_t place = first; place < end; ++place)
+                    for (const std::uint32_t side : store.sides.of(place))
+                        if (side % 2 == 0 && store.acts(store.contactAt(side / 2))) function(place, side / 2);
+            },
+            worthAThread);
     };
     begins.assign(identity.size() + 1, 0);
-    forEachActing([&](const Bucket&, std::uint32_t, std::uint32_t place) { ++begins[place + 1]; });
+    forEachActing([&](std::size_t place, std::uint32_t) { ++begins[place + 1]; });
     std::partial_sum(begins.begin(), begins.end(), begins.begin());
     std::vector<std::uint32_t> ends(begins.begin(), begins.end() - 1);
     entries.resize(begins.back());
-    std::vector<std::uint32_t> contactOf(entries.size());
-    forEachActing([&](const Bucket& bucket, std::uint32_t c, std::uint32_t place) {
-        const BlockState& bits = store.states[c / Pack::lanes];
-        const std::uint32_t second = store.blocks[c / Pack::lanes].second[c % Pack::lanes];
-        const Entry entry{.owner = identity[place],
-                          .wall = static_cast<std::uint32_t>(bucket.wall + 1),
-                          .other = bucket.wall < 0 ? identity[second] : second,
-                          .state = (store.bitOf(bits.touching, c) ? touching : 0) |
-                                   (store.bitOf(bits.bridged, c) ? bridged : 0) |
-                                   (store.bitOf(bits.closing, c) ? closing : 0)};
-        std::uint32_t at = ends[place]++;
-        for (; at > begins[place] && orderOf(entries[at - 1]) > orderOf(entry); --at) {
-            entries[at] = entries[at - 1];
-            contactOf[at] = contactOf[at - 1];
-        }
-        entries[at] = entry;
-        contactOf[at] = c;
+    slots.resize(begins.back());
+    forEachActing([&](std::size_t place, std::uint32_t slot) {
+        const std::uint32_t at = ends[place]++;
+        entries[at] = entryOf(store, identity, store.contactAt(slot));
+        slots[at] = slot;
     });
-    numbers.resize(entries.size() * width);
-    energies.resize(ledger ? entries.size() : 0);
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-        const std::size_t slot = store.slotOf(contactOf[k]);
-        keep(store, slot, &numbers[k * width]);
-        if (ledger) energies[k] = store.memory.energies[slot];
-    }
 }
 
-void RememberedContacts::keep(const ContactStore& store, std::size_t slot, double* to) const {
-    const ContactMemory& memory = store.memory;
-    for (const MemoryColumns* columns :
-         {&memory.history, &memory.normalHistory, &memory.interaction, &memory.liquid, &memory.named}) {
-        columns->get(slot, to);
-        to += columns->count;
-    }
-    if (layout.hasTorque) putRecord(memory.records[slot], to);
-    else putRecord(memory.forces[slot], to);
-    if (layout.hasContactTorque) putRecord(memory.torques[slot], to);
+RememberedContacts::Entry RememberedContacts::entryOf(const ContactStore& store,
+                                                      const std::vector<std::uint32_t>& identity,
+                                                      std::uint32_t contact) {
+    const std::size_t block = contact / Pack::lanes, lane = contact % Pack::lanes;
+    const BlockState& bits = store.states[block];
+    const std::uint32_t second = store.blocks[block].second[lane];
+    const int wall = block < store.firstWallBlock() ? -1 : store.bucketOf(block).wall;
+    return {.owner = identity[store.blocks[block].first[lane]],
+            .wall = static_cast<std::uint32_t>(wall + 1),
+            .other = wall < 0 ? identity[second] : second,
+            .state = (store.bitOf(bits.touching, contact) ? touching : 0) |
+                     (store.bitOf(bits.bridged, contact) ? bridged : 0) |
+                     (store.bitOf(bits.closing, contact) ? closing : 0)};
 }
 
-void RememberedContacts::recall(const Entry& entry, ContactStore& store, std::size_t to,
-                                bool withBridge) const {
-    ContactMemory& memory = store.memory;
-    const auto number = static_cast<std::size_t>(&entry - entries.data());
-    const std::size_t slot = store.slotOf(to);
-    const double* from = numbers.data() + number * width;
-    for (MemoryColumns* columns :
-         {&memory.history, &memory.normalHistory, &memory.interaction, &memory.liquid, &memory.named}) {
-        if (withBridge || columns != &memory.interaction) columns->set(slot, from);
-        from += columns->count;
-    }
-    if (layout.hasTorque) takeRecord(from, memory.records[slot]);
-    else takeRecord(from, memory.forces[slot]);
-    if (layout.hasContactTorque) takeRecord(from, memory.torques[slot]);
-    if (ledger) memory.energies[slot] = energies[number];
-    BlockState& state = store.states[to / Pack::lanes];
+void RememberedContacts::setState(const Entry& entry, std::size_t lane, BlockState& state) {
     const auto setBit = [&](std::uint8_t& bits, std::uint32_t which) {
-        bits = static_cast<std::uint8_t>(bits | unsigned{(entry.state & which) != 0} << (to % Pack::lanes));
+        bits = static_cast<std::uint8_t>(bits | unsigned{(entry.state & which) != 0} << lane);
     };
     setBit(state.touching, touching);
     setBit(state.bridged, bridged);
     setBit(state.closing, closing);
 }
 
-const RememberedContacts::Entry* RememberedContacts::find(std::uint32_t place, std::uint32_t wall,
-                                                          std::uint32_t other) const {
+std::uint32_t RememberedContacts::find(std::uint32_t place, std::uint32_t wall, std::uint32_t other) const {
     const std::span<const Entry> own = of(place);
     const auto found = std::ranges::lower_bound(own, std::tuple(wall, other), {}, orderOf);
-    return found != own.end() && found->wall == wall && found->other == other ? &*found : nullptr;
+    if (found == own.end() || found->wall != wall || found->other != other) return none;
+    return begins[place] + static_cast<std::uint32_t>(found - own.begin());
 }
 
-void RememberedContacts::visitState(StateArchive& archive, const ParticleStore& grains,
+void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory, bool ledger,
+                                    const ParticleStore& grains,
                                     const std::vector<std::size_t>& partsOfWalls) {
+    const std::size_t width = memory.numberCount();
+    std::vector<double> numbers;
+    std::vector<EnergyRecord> energies;
     if (archive.isReading()) {
         archive.column<std::uint32_t>("pairs", entries);
         archive.column<double>("numbers", numbers);
         archive.column<double>("energies", energies);
+        archive.require(numbers.size() == entries.size() * width, "numbers",
+                        "does not have the numbers of each of contacts/pairs");
+        archive.require(energies.size() == (ledger ? entries.size() : 0), "energies",
+                        "has another number of rows than contacts/pairs");
+        archive.requireFinite("numbers", numbers);
         requireEntries(archive, grains, partsOfWalls);
         begins.assign(grains.size() + 1, 0);
         for (const Entry& entry : entries) ++begins[grains.place[entry.owner] + 1];
         std::partial_sum(begins.begin(), begins.end(), begins.begin());
+        memory.reset(ledger, (entries.size() + Pack::lanes - 1) / Pack::lanes);
+        slots.resize(entries.size());
+        for (std::uint32_t k = 0; k < entries.size(); ++k) {
+            slots[k] = Pack::lanes + k;
+            memory.setNumbers(slots[k], &numbers[k * width]);
+            if (ledger) memory.energies[slots[k]] = energies[k];
+        }
         return;
     }
     std::vector<Entry> pairs;
-    std::vector<double> remembered;
-    std::vector<EnergyRecord> samples;
+    numbers.reserve(entries.size() * width);
     for (const std::uint32_t place : grains.place)
         for (std::size_t k = begins[place]; k < begins[place + 1]; ++k) {
             pairs.push_back(entries[k]);
-            remembered.insert(remembered.end(), numbers.begin() + static_cast<std::ptrdiff_t>(k * width),
-                              numbers.begin() + static_cast<std::ptrdiff_t>((k + 1) * width));
-            if (ledger) samples.push_back(energies[k]);
+            numbers.resize(numbers.size() + width);
+            memory.getNumbers(slots[k], &numbers[numbers.size() - width]);
+            if (ledger) energies.push_back(memory.energies[slots[k]]);
         }
     archive.column<std::uint32_t>("pairs", pairs);
-    archive.column<double>("numbers", remembered);
-    archive.column<double>("energies", samples);
+    archive.column<double>("numbers", numbers);
+    archive.column<double>("energies", energies);
 }
 
 void RememberedContacts::requireEntries(const StateArchive& archive, const ParticleStore& grains,
                                         const std::vector<std::size_t>& partsOfWalls) const {
-    archive.require(numbers.size() == entries.size() * width, "numbers",
-                    "does not have the numbers of each of contacts/pairs");
-    archive.require(energies.size() == (ledger ? entries.size() : 0), "energies",
-                    "has another number of rows than contacts/pairs");
-    archive.requireFinite("numbers", numbers);
     for (const Entry& e : entries) {
         const bool isAmong =
             grains.place.contains(e.owner) && e.wall <= partsOfWalls.size() &&

@@ -8,8 +8,9 @@
 
 namespace pendular {
 
-/// The contacts that touched or were bridged, and all that they remember, found again by who they join: what
-/// a new list takes over, and what a restart file holds. Neither knows how contacts were listed.
+/// The contacts that touched or were bridged, and where the memory holds what they remember, found again by
+/// who they join: what a new list takes over, and what a restart file holds. Neither knows how contacts were
+/// listed.
 class RememberedContacts {
 public:
     /// One contact, filed under body 1: the grain with the smaller identity, or the grain at a wall.
@@ -21,45 +22,38 @@ public:
     };
     static constexpr std::uint32_t touching = 1, bridged = 2, closing = 4;
 
-    RememberedContacts(const ContactLayout& contactLayout, bool withLedger);
-
-    /// Takes them from a list.
+    /// Takes them from a list. What they remember stays in the memory of the store.
     /// @param identity of the grain at each place, as the store's contacts have it
-    void take(const ContactStore& store, const std::vector<std::uint32_t>& identity);
+    void take(const ContactStore& store, const std::vector<std::uint32_t>& identity, int threads);
     /// Writes them in the order of identities, or reads them. Throws InputError unless they are contacts of
     /// this scene: grains by identity, and how many parts each wall has.
-    void visitState(StateArchive& archive, const ParticleStore& grains,
+    /// @param memory what they remember; what it had before is gone when they are read
+    void visitState(StateArchive& archive, ContactMemory& memory, bool ledger, const ParticleStore& grains,
                     const std::vector<std::size_t>& partsOfWalls);
 
     [[nodiscard]] std::size_t size() const { return entries.size(); }
+    [[nodiscard]] const Entry& entry(std::uint32_t number) const { return entries[number]; }
+    /// Where the memory holds an entry.
+    [[nodiscard]] std::uint32_t slotOf(std::uint32_t number) const { return slots[number]; }
     /// Those of the grain that was at a place when they were taken or read, by wall and other.
     [[nodiscard]] std::span<const Entry> of(std::uint32_t place) const {
         return {entries.data() + begins[place], entries.data() + begins[place + 1]};
     }
-    /// Null if there is none.
-    [[nodiscard]] const Entry* find(std::uint32_t place, std::uint32_t wall, std::uint32_t other) const;
-
-    /// The numbers of the bridge of a contact.
-    [[nodiscard]] const double* bridgeOf(const Entry& entry) const {
-        return numbers.data() + static_cast<std::size_t>(&entry - entries.data()) * width + layout.history +
-               layout.normalHistory;
-    }
-    /// Gives all that the contact remembered to a contact of a new store, whose block has memory.
-    /// @param withBridge also the bridge as it was prepared
-    void recall(const Entry& entry, ContactStore& store, std::size_t to, bool withBridge) const;
+    /// Sets the bits of an entry in the state of a block.
+    static void setState(const Entry& entry, std::size_t lane, BlockState& state);
+    /// The number of an entry; `none` if there is none.
+    [[nodiscard]] std::uint32_t find(std::uint32_t place, std::uint32_t wall, std::uint32_t other) const;
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
 
 private:
-    void keep(const ContactStore& store, std::size_t slot, double* to) const;
+    static Entry entryOf(const ContactStore& store, const std::vector<std::uint32_t>& identity,
+                         std::uint32_t contact);
     void requireEntries(const StateArchive& archive, const ParticleStore& grains,
                         const std::vector<std::size_t>& partsOfWalls) const;
 
-    ContactLayout layout;
-    bool ledger;
-    std::size_t width;                  // numbers of a contact
     std::vector<std::uint32_t> begins;  // of the entries of each place
     std::vector<Entry> entries;
-    std::vector<double> numbers;         // of each entry: what it remembers
-    std::vector<EnergyRecord> energies;  // none unless a ledger is kept
+    std::vector<std::uint32_t> slots;  // of each entry
 };
 
 }  // namespace pendular

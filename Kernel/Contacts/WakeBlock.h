@@ -34,23 +34,29 @@ inline void prepareAgain(ContactStore& store, const ContactLaws& laws, const Buc
     store.memory.interaction.set(slot, bridge.data());
 }
 
-/// Gives memory to a block that has none, with the adhesion of its contacts prepared.
-inline void wakeBlock(ContactStore& store, std::size_t block, const Bucket& bucket, const ContactLaws& laws,
-                      const ParticleStore& grains) {
-    const std::uint32_t slot = store.memory.add(block);
-    store.slots[block] = slot;
-    if (laws.layout.interaction == 0) return;
+/// Prepares the adhesion of these contacts of a block that has memory.
+/// @param lanes the bits of the contacts
+inline void prepareBlock(ContactStore& store, std::size_t block, unsigned lanes, const Bucket& bucket,
+                         const ContactLaws& laws, const ParticleStore& grains) {
     Bodies last{-1, -1};
     ContactNumbers prepared{};  // zero beyond the numbers of the pair's own laws
     for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
-        if (!store.bitOf(store.states[block].listed, lane)) continue;
+        if (!store.bitOf(lanes, lane)) continue;
         const Bodies bodies = bodiesOf(store, bucket, block * Pack::lanes + lane, grains);
         if (bodies.radius1 != last.radius1 || bodies.radius2 != last.radius2) {
             last = bodies;
             laws.prepareBridge(bucket.species1, bucket.species2, bodies, prepared.data());
         }
-        store.memory.interaction.set(std::size_t{slot} * Pack::lanes + lane, prepared.data());
+        store.memory.interaction.set(store.slotOf(block * Pack::lanes + lane), prepared.data());
     }
+}
+
+/// Gives memory to a block that has none, with the adhesion of its contacts prepared.
+inline void wakeBlock(ContactStore& store, std::size_t block, const Bucket& bucket, const ContactLaws& laws,
+                      const ParticleStore& grains) {
+    store.slots[block] = store.memory.add(block);
+    if (laws.layout.interaction > 0)
+        prepareBlock(store, block, store.states[block].listed, bucket, laws, grains);
 }
 
 }  // namespace pendular

@@ -2,14 +2,22 @@
 
 #include <algorithm>
 
+#include "Kernel/Parallel.h"
+
 namespace pendular {
 
 template <class Value>
-static void permute(std::vector<Value>& column, const std::vector<std::uint32_t>& order) {
+static void permute(std::vector<Value>& column, const std::vector<std::uint32_t>& order, int threads) {
+    constexpr std::size_t worthAThread = 4096;
     std::vector<Value> sorted;
     reserveLarge(sorted, order.size());
     sorted.resize(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = column[order[k]];
+    inParts(
+        order.size(), threads,
+        [&](int, std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) sorted[k] = column[order[k]];
+        },
+        worthAThread);
     column.swap(sorted);
 }
 
@@ -60,15 +68,15 @@ void ParticleStore::remove(std::uint32_t at) {
     if (!earlier.empty()) earlier[at] = {};
 }
 
-void ParticleStore::reorder(const std::vector<std::uint32_t>& order) {
+void ParticleStore::reorder(const std::vector<std::uint32_t>& order, int threads) {
     gaps.clear();
-    permute(translation, order);
-    permute(acceleration, order);
-    permute(species, order);
-    permute(identity, order);
-    if (hasSpin) permute(rotation, order);
-    if (!earlier.empty()) permute(earlier, order);
-    for (GrainColumn& column : columns) permute(column.values, order);
+    permute(translation, order, threads);
+    permute(acceleration, order, threads);
+    permute(species, order, threads);
+    permute(identity, order, threads);
+    if (hasSpin) permute(rotation, order, threads);
+    if (!earlier.empty()) permute(earlier, order, threads);
+    for (GrainColumn& column : columns) permute(column.values, order, threads);
     for (std::size_t k = 0; k < identity.size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
 }
 
