@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "Kernel/Contacts/ContactRecall.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
-#include "Kernel/Contacts/Rearrangement.h"
 #include "Kernel/Contacts/RememberedContacts.h"
-#include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Parallel.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -49,7 +47,8 @@ public:
         if (!keepsCells) found.reset();
         findWallContacts(grains, old);
         fill(grains, store);
-        const std::size_t recalled = recall(old, grains, store);
+        const std::size_t recalled =
+            ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old);
         store.listSides(grains.identity, threads);
         return recalled;
     }
@@ -274,78 +273,6 @@ private:
         store.states[block].listed = static_cast<std::uint8_t>((1u << count) - 1);
         // The first of a block has the smallest gap.
         if (g.bucket.wall < 0) store.gaps[block] = gapOf(grains, g.contacts[b * Pack::lanes]) - 1e-9 * skin;
-    }
-
-    /// Gives the contacts that were touching or joined before their memory again; returns how many.
-    std::size_t recall(const RememberedContacts& old, const Grains& grains, ContactStore& store) const {
-        const std::vector<std::uint32_t> entries = entriesOf(old, grains, store);
-        std::vector<std::uint32_t> origins(Pack::lanes), blocks{0};
-        std::iota(origins.begin(), origins.end(), 0u);  // block 0 stays
-        std::size_t recalled = 0;
-        for (std::uint32_t b = 0; b < store.blocks.size(); ++b) {
-            const std::uint32_t* const own = &entries[std::size_t{b} * Pack::lanes];
-            if (std::all_of(own, own + Pack::lanes, isNone)) continue;
-            store.slots[b] = static_cast<std::uint32_t>(blocks.size());
-            blocks.push_back(b);
-            for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
-                origins.push_back(isNone(own[lane]) ? Rearrangement::nothing : old.slotOf(own[lane]));
-                if (isNone(own[lane])) continue;
-                ++recalled;
-                RememberedContacts::setState(old.entry(own[lane]), lane, store.states[b]);
-            }
-        }
-        store.memory.rearrange(std::move(origins), std::move(blocks), threads);
-        if (laws.layout.interaction > 0) prepareBridges(entries, grains, store);
-        return recalled;
-    }
-    static bool isNone(std::uint32_t entry) { return entry == RememberedContacts::none; }
-
-    /// Of each lane of the list: the number of what it remembers.
-    std::vector<std::uint32_t> entriesOf(const RememberedContacts& old, const Grains& grains,
-                                         const ContactStore& store) const {
-        std::vector<std::uint32_t> entries(store.blocks.size() * Pack::lanes, RememberedContacts::none);
-        forEachBlock(store, [&](const Bucket& bucket, std::size_t b) {
-            for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
-                if (!store.bitOf(store.states[b].listed, lane)) continue;
-                const std::uint32_t second = store.blocks[b].second[lane];
-                entries[b * Pack::lanes + lane] = old.find(
-                    formerPlace[store.blocks[b].first[lane]], static_cast<std::uint32_t>(bucket.wall + 1),
-                    bucket.wall >= 0 ? second : grains.identity[second]);
-            }
-        });
-        return entries;
-    }
-
-    /// Of the blocks with memory: new contacts have no bridge yet, and what bodies or laws are now may differ
-    /// from what they were when the others were prepared.
-    void prepareBridges(const std::vector<std::uint32_t>& entries, const Grains& grains,
-                        ContactStore& store) const {
-        forEachBlock(store, [&](const Bucket& bucket, std::size_t b) {
-            if (store.slots[b] == ContactStore::asleep) return;
-            std::uint8_t fresh = store.states[b].listed;
-            for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
-                const std::size_t contact = b * Pack::lanes + lane;
-                if (isNone(entries[contact])) continue;
-                fresh &= static_cast<std::uint8_t>(~(1u << lane));
-                if (keepsBridges) continue;
-                ContactNumbers before{};
-                store.memory.interaction.get(store.slotOf(contact), before.data());
-                prepareAgain(store, laws, bucket, contact, grains, before.data());
-            }
-            prepareBlock(store, b, fresh, bucket, laws, grains);
-        });
-    }
-
-    /// Calls function(bucket, block) for all blocks, several at the same time.
-    template <class Function>
-    void forEachBlock(const ContactStore& store, Function&& function) const {
-        for (const Bucket& bucket : store.buckets)
-            inParts(
-                bucket.size(), threads,
-                [&](int, std::size_t begin, std::size_t end) {
-                    for (std::size_t b = begin; b < end; ++b) function(bucket, bucket.begin + b);
-                },
-                worthAThread);
     }
 
     static constexpr std::size_t worthAThread = 128;  // grains or blocks

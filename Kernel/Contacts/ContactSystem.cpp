@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "Kernel/Contacts/ContactList.h"
+#include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Parallel.h"

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/RememberedContacts.h"
+
+namespace pendular {
+
+/// Gives the contacts of a new list what the same contacts remembered before.
+class ContactRecall {
+public:
+    /// @param formerPlace where the grain at each place was when `old` was taken
+    /// @param keepsBridges bodies and laws are as they were when bridges were prepared
+    ContactRecall(const ContactLaws& contactLaws, const ParticleStore& allGrains,
+                  const std::vector<std::uint32_t>& formerPlace, int threadCount, bool keepsBridges)
+        : laws(contactLaws),
+          grains(allGrains),
+          placeBefore(formerPlace),
+          threads(threadCount),
+          keepsPrepared(keepsBridges) {}
+
+    /// @param old those of the last list, whose memory the store has
+    /// Returns how many of them are listed again.
+    std::size_t into(ContactStore& store, const RememberedContacts& old) const;
+
+private:
+    /// Of each lane of the list: the number of what it remembers.
+    [[nodiscard]] std::vector<std::uint32_t> entriesOf(const RememberedContacts& old,
+                                                       const ContactStore& store) const;
+    /// Of the blocks with memory: new contacts have no bridge yet, and what bodies or laws are now may differ
+    /// from what they were when the others were prepared.
+    void prepareBridges(const std::vector<std::uint32_t>& entries, ContactStore& store) const;
+    /// Calls function(bucket, block) for all blocks, several at the same time.
+    template <class Function>
+    void forEachBlock(const ContactStore& store, Function&& function) const;
+
+    const ContactLaws& laws;
+    const ParticleStore& grains;
+    const std::vector<std::uint32_t>& placeBefore;
+    int threads;
+    bool keepsPrepared;
+};
+
+}  // namespace pendular
