@@ -1,16 +1,20 @@
 /// Curves of Figures 3, 4, 5 and 9 of Yang, Sega and Harting, "Capillary-bridge forces between solid
 /// particles", AIChE Journal 67 (2021) e17350, with the exact solution added: models A to F, whatever their
-/// rupture rule allows, at the volumes, angles and radii of the paper.
+/// rupture rule allows, at the volumes, angles and radii of the paper. And the exact outlines of the bridges
+/// of Figure 6, on and off the axis.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Capillary/FreeDrop.h"
 #include "Kernel/Files/CsvFile.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Program.h"
@@ -159,6 +163,62 @@ void writeFigure(const std::filesystem::path& path, const std::vector<Scene>& sc
     file.close();
 }
 
+struct Point {
+    double x, z;  // in R, from the apex of the lower sphere; z along the axis
+};
+
+/// The meridian of a bridge on the axis and its mirror image, or the circle of a drop off the axis, of which
+/// the spheres cover the rest.
+std::vector<Point> outlineOfLiquid(const Scene& scene, double gap, int points) {
+    const auto [r1, r2] = scene.bodies();
+    std::vector<Point> outline;
+    if (const auto drop = findFreeDrop(scene.conditions(), gap)) {
+        const double between = r1 + r2 + gap, d1 = r1 + drop->firstHeight, d2 = r2 + drop->secondHeight;
+        const double along = 0.5 * (between + (d1 - d2) * (d1 + d2) / between);
+        const double aside = std::sqrt((d1 - along) * (d1 + along));
+        for (int k = 0; k < points; ++k) {
+            const double turn = 2 * pi * k / (points - 1);
+            outline.push_back(
+                {aside + drop->radius * std::cos(turn), along - r1 + drop->radius * std::sin(turn)});
+        }
+        return outline;
+    }
+    const auto bridge = solveBridge(scene.conditions(), gap);
+    if (!bridge) return outline;
+    for (const MeridianPoint& point : bridge->profile(points)) outline.push_back({point.radius, point.axial});
+    for (auto k = static_cast<std::size_t>(points); k-- > 0;)
+        outline.push_back({-outline[k].x, outline[k].z});
+    return outline;
+}
+
+/// Figure 6: outlines of the liquid (part 0) and of the spheres (1, 2), with the force in equilibrium and
+/// that of a bridge which is kept on the axis.
+void writeFigure6(const std::filesystem::path& path, int points) {
+    CsvFile file(path,
+                 "contact_angle_deg,volume_over_sphere,separation_over_R,part,x_over_R,z_over_R,"
+                 "force_over_R_gamma,force_on_axis_over_R_gamma");
+    struct Case {
+        Scene scene;
+        double gap;
+    };
+    for (const auto& [scene, gap] : {Case{{90, 0.5}, 0.572}, Case{{132, 0.5}, 0.572}, Case{{90, 0.65}, 1.144},
+                                     Case{{132, 0.65}, 1.144}}) {
+        const auto bridge = solveBridge(scene.conditions(), gap);
+        const double onAxis = bridge ? bridge->pinnedForce() : unset;
+        const double force = findFreeDrop(scene.conditions(), gap) ? 0 : onAxis;
+        std::array<std::vector<Point>, 3> outlines{outlineOfLiquid(scene, gap, points)};
+        for (int k = 0; k < points; ++k) {
+            const double turn = 2 * pi * k / (points - 1);
+            outlines[1].push_back({std::cos(turn), std::sin(turn) - 1});
+            outlines[2].push_back({std::cos(turn), std::sin(turn) + 1 + gap});
+        }
+        for (std::size_t part = 0; part < outlines.size(); ++part)
+            for (const Point& point : outlines[part])
+                file.row(scene.degrees, scene.relativeVolume, gap, part, point.x, point.z, force, onAxis);
+    }
+    file.close();
+}
+
 void writeFigures(const std::filesystem::path& folder, int points) {
     checkValue("bridge-figures", "points", points, "", {2, 1e5});
     const std::vector<Scene> angles{{34.6, 0.133}, {48, 0.133}, {60, 0.133}}, volumes{{48, 0.07}, {48, 0.25}};
@@ -172,6 +232,7 @@ void writeFigures(const std::filesystem::path& folder, int points) {
     writeFigure(folder / "figure-3.csv", angles, forcesBetweenEqualSpheres, force, points);
     writeFigure(folder / "figure-4.csv", volumes, forcesBetweenEqualSpheres, force, points);
     writeFigure(folder / "figure-5.csv", allUnequal, forcesBetweenUnequalSpheres, force, points);
+    writeFigure6(folder / "figure-6.csv", std::max(points, 100));
     all.insert(all.end(), allUnequal.begin(), allUnequal.end());
     writeFigure(folder / "figure-9.csv", all, fillingAngles, "filling_angle_deg", points);
 }
@@ -180,10 +241,11 @@ void writeFigures(const std::filesystem::path& folder, int points) {
 
 int main(int argc, char** argv) {
     CLI::App app(
-        "Curves of Figures 3, 4, 5 and 9 of Yang, Sega and Harting (2021), with the exact ones, as CSV.");
+        "Curves of Figures 3, 4, 5, 6 and 9 of Yang, Sega and Harting (2021), with the exact ones, as CSV.");
     std::string folder = "bridge-figures";
     int points = 59;
-    app.add_option("--output", folder, "folder for figure-3.csv, figure-4.csv, figure-5.csv, figure-9.csv")
+    app.add_option("--output", folder,
+                   "folder for figure-3.csv, figure-4.csv, figure-5.csv, figure-6.csv, figure-9.csv")
         ->capture_default_str();
     app.add_option("--points", points, "separations from 0 to 1.45 R")->capture_default_str();
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;

@@ -1,4 +1,4 @@
-# Figures 3, 4, 5 and 9 of Yang, Sega and Harting (2021) with the exact curves, from the tables of Tools/bridge-figures.
+# Figures 3, 4, 5, 6 and 9 of Yang, Sega and Harting (2021) with the exact curves, from the tables of Tools/bridge-figures.
 #   gnuplot -c Tools/plot-bridge-figures.gp FOLDER    FOLDER: its --output; writes FOLDER/figure-3.png and so on
 if (ARGC < 1) exit error "give FOLDER"
 load system("dirname '".ARG0."'")."/../Drivers/Shared/chart.gp"
@@ -89,6 +89,38 @@ plot for [k = 1:3] figure(5) using (only(48, volume(k))):(force('exact')) with l
      for [k = 1:3] '' using (only(48, volume(k))):(force('classical_willett')) with lines linewidth 2 dashtype 2 \
          linecolor rgb colour(k) title sprintf("C  Willett, {/:Italic V*} = %g", volume(k))
 unset multiplot
+
+# The liquid, and the spheres on it.
+set terminal pngcairo size 2 * 400, 2 * 430 fontscale 1 linewidth 1.3
+set output ARG1."/figure-6.png"
+set multiplot layout 2, 2 title "Figure 6: equal spheres, exact (contact lines free to move)"
+drawn(part) = only6(part) ? column("x_over_R") : NaN
+only6(part) = column("part") == part && column("contact_angle_deg") == panelAngle && column("separation_over_R") == panelGap
+set xlabel "{/:Italic x/R}"
+set ylabel "{/:Italic z/R}"
+set xrange [-1.6:1.9]
+unset key
+set style fill solid 1 border
+do for [panel = 1:4] {
+    panelAngle = real(word("90 132 90 132", panel))
+    panelGap = real(word("0.572 0.572 1.144 1.144", panel))
+    panelVolume = real(word("0.5 0.5 0.65 0.65", panel))
+    set yrange [*:*]  # statistics count what is in the range
+    stats figure(6) using (only6(0) ? column("force_over_R_gamma") : NaN) name "here" nooutput
+    stats figure(6) using (only6(0) ? column("force_on_axis_over_R_gamma") : NaN) name "axis" nooutput
+    set title sprintf("{/:Italic θ} = %g°, {/:Italic S/R} = %g, {/:Italic V*} = %g\n{/:Italic F/(R γ)} = %.3g (on the axis %.3f)", \
+                      panelAngle, panelGap, panelVolume, here_max, axis_max)
+    set yrange [-1.2:2.3]
+    set size ratio -1
+    plot figure(6) using (drawn(0)):"z_over_R" with filledcurves closed linecolor rgb "#9ECAE1", \
+         for [part = 1:2] '' using (drawn(part)):"z_over_R" with filledcurves closed linecolor rgb "#888888"
+}
+unset multiplot
+set size noratio
+set xlabel "separation {/:Italic S/R}"
+set xrange [0:1.45]
+set style fill empty
+set key
 
 set terminal pngcairo size 2 * 440, 400 fontscale 0.9 linewidth 1.3
 set output ARG1."/figure-9.png"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Pendular, runs two-particle collisions with three models of the bridge, and
 # draws Figures 3a, 3b, 4a and 4b of Bagheri, Roy and Poeschel, "Discrete Element Simulations of particles
-# interacting via capillary forces using MercuryDPM"; then the curves of Figures 3, 4, 5 and 9 of Yang, Sega and
+# interacting via capillary forces using MercuryDPM"; then the curves of Figures 3, 4, 5, 6 and 9 of Yang, Sega and
 # Harting, "Capillary-bridge forces between solid particles", with the exact ones; then the eight tests of Chung and
 # Ooi, "Benchmark tests for verifying discrete element modelling codes at particle impact level", beside theory.
 #   Tools/run-paper-figures.sh [OUTPUT_FOLDER]     (default: output/paper-figures)
@@ -70,7 +70,7 @@ write_tables() {  # program, output folder
     done
 }
 
-say "Figures 3, 4, 5 and 9 of Yang, Sega and Harting"
+say "Figures 3, 4, 5, 6 and 9 of Yang, Sega and Harting"
 models_output=$output/bridge-models
 write_tables bridge-figures "$models_output"
 quietly gnuplot -c Tools/plot-bridge-figures.gp "$models_output"
@@ -81,5 +81,5 @@ write_tables impact-figures "$impacts_output"
 quietly gnuplot -c Tools/plot-impact-figures.gp "$impacts_output"
 
 say "done after $SECONDS s"
-echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg} $models_output/figure-{3,4,5,9}.png $impacts_output/test-{1..8}.png"
-echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv $models_output/figure-{3,4,5,9}.csv $impacts_output/test-{1..8}.csv"
+echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg} $models_output/figure-{3,4,5,6,9}.png $impacts_output/test-{1..8}.png"
+echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv $models_output/figure-{3,4,5,6,9}.csv $impacts_output/test-{1..8}.csv"

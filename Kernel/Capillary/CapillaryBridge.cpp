@@ -51,6 +51,11 @@ double fillingAngle(const BodyContact& body, const ArcPoint& end, int side) {
 
 }  // namespace
 
+void requireBridge(const BridgeConditions& conditions, double gap) {
+    check(conditions);
+    checkGap(conditions, gap);
+}
+
 double CapillaryBridge::pinnedForce() const { return 2 * pi * arc_.forceLength(); }
 
 double CapillaryBridge::force() const { return std::max(pinnedForce(), 0.0); }
@@ -128,8 +133,7 @@ MeridianKind CapillaryBridge::kind(double tolerance) const {
 
 std::optional<CapillaryBridge> solveBridge(const BridgeConditions& conditions, double gap,
                                            const CapillaryBridge* nearby) {
-    check(conditions);
-    checkGap(conditions, gap);
+    requireBridge(conditions, gap);
     const BridgeEquations equations(conditions);
     if (nearby) {
         const auto converged = convergeArc(equations, gap, nearby->arc());

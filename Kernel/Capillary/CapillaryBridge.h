@@ -32,7 +32,7 @@ public:
     /// repels.
     [[nodiscard]] double pinnedForce() const;
     /// F/gamma (m) in equilibrium: a bridge with F < 0 is unstable sideways, slides off the axis and becomes
-    /// a part of a sphere with F = 0; so this is max(pinnedForce(), 0).
+    /// a part of a sphere with F = 0 (FreeDrop); so this is max(pinnedForce(), 0).
     [[nodiscard]] double force() const;
     /// (Pressure in the liquid - pressure of the gas)/gamma (1/m).
     [[nodiscard]] double pressure() const;
@@ -74,6 +74,9 @@ struct Rupture {
     CapillaryBridge last;  // the last stable bridge; its gap is the rupture distance
     RuptureMode mode;
 };
+
+/// Throws InputError for what solveBridge refuses.
+void requireBridge(const BridgeConditions& conditions, double gap);
 
 /// The axisymmetrically stable bridge at a gap (m, not negative); nothing if there is none, at or beyond
 /// rupture. Between equal bodies the bridge that is its own mirror image. `nearby` (as for another gap of the

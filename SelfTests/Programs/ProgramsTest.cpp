@@ -140,6 +140,21 @@ TEST(BridgeFigures, writesTablesWithTheMaximumOfThePaper) {
     for (const int number : {3, 4, 5, 9})
         EXPECT_TRUE(contentOf(folder / ("figure-" + std::to_string(number) + ".csv"))
                         .starts_with("contact_angle_deg,volume_over_sphere,radius_ratio,separation_over_R,"));
+    // Figure 6: off the axis without a force, where the bridge on the axis would push with 0.317 R gamma; at
+    // 90 degrees and the larger gap no drop reaches both spheres.
+    const std::string outlines = contentOf(folder / "figure-6.csv");
+    EXPECT_TRUE(
+        outlines.starts_with("contact_angle_deg,volume_over_sphere,separation_over_R,part,x_over_R,"));
+    const auto forcesOf = [&](const std::string& startOfCase) {
+        const std::size_t begin = outlines.find("\n" + startOfCase);
+        const std::string line = outlines.substr(begin + 1, outlines.find('\n', begin + 1) - begin - 1);
+        const std::size_t last = line.rfind(','), before = line.rfind(',', last - 1);
+        return std::pair{std::stod(line.substr(before + 1)), std::stod(line.substr(last + 1))};
+    };
+    EXPECT_EQ(forcesOf("90,0.5,0.572,0,").first, 0);
+    EXPECT_NEAR(forcesOf("90,0.5,0.572,0,").second, -0.317, 5e-4);
+    EXPECT_EQ(forcesOf("132,0.65,1.144,0,").first, 0);
+    EXPECT_NEAR(forcesOf("90,0.65,1.144,0,").first, 0.788, 5e-4);
     expectOneSentence(run(tools + "/bridge-figures --points 1"), "points = 1");
     expectOneSentence(run(tools + "/bridge-figures --output /proc/nowhere"), "cannot be written");
     std::filesystem::remove_all(folder);
