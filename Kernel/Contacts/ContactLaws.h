@@ -64,6 +64,7 @@ public:
     std::string_view name, friction;
     bool actsApart = false;       // bodies act on each other without having touched
     bool formsAtContact = false;  // a bridge that begins with a touch
+    bool breaks = false;          // an attraction that ends otherwise than it began: its work is lost then
     bool isPlastic = false;
     OverlapLimit overlapLimit;
 

@@ -24,7 +24,7 @@ inline constexpr std::size_t columnsOf = std::is_empty_v<Columns<double>>
                                              : sizeof(Columns<double>) / sizeof(double);
 
 /// What a law remembers of one contact, as numbers: large enough for any law (SpeciesLaws asserts it).
-using ContactNumbers = std::array<double, 16>;
+using ContactNumbers = std::array<double, 24>;
 
 /// The memory where the mask is set, zero elsewhere.
 template <template <class> class Memory>

@@ -27,6 +27,7 @@ public:
         friction = S::Friction::name;
         if constexpr (Adhesion::acts) formsAtContact = Adhesion::formsAtContact;
         actsApart = Adhesion::acts && !formsAtContact;
+        breaks = formsAtContact || bridgeResists<Adhesion> != BridgeResists::Nothing;
         isPlastic = HasNormalHistory<typename S::Normal>;
         overlapLimit = pendular::overlapLimit<typename S::Mixed>();
     }

@@ -83,7 +83,7 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
     record.adhesionWork -= against(&ContactSample::adhesiveForce);
     if (now.bridged > 0) account.adhesive += record.adhesionWork;
     else {
-        (kind.adhesionFormsAtContact ? account.brokenAdhesion : account.stepError) += record.adhesionWork;
+        (kind.adhesionBreaks ? account.brokenAdhesion : account.stepError) += record.adhesionWork;
         record.adhesionWork = 0;
     }
 

@@ -59,7 +59,7 @@ public:
             const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
             const ContactKind kind{.isWall = bucket.wall >= 0,
                                    .isPlastic = laws.isPlastic,
-                                   .adhesionFormsAtContact = laws.formsAtContact};
+                                   .adhesionBreaks = laws.breaks};
             addContact(record, meanMotion(grains, block.first[lane]),
                        kind.isWall ? BodyMotion{} : meanMotion(grains, block.second[lane]), kind, step,
                        account);

@@ -5,12 +5,12 @@
 
 namespace pendular {
 
-/// An adhesion law that is a liquid bridge of constant volume.
+/// An adhesion law that is a liquid bridge of constant volume, and nothing but its capillary force.
 template <class Law>
 concept BridgeLaw = requires(const Law law, const Bodies bodies) {
     law.scales(bodies);
 }
-&&!MovesLiquid<Law>;
+&&!MovesLiquid<Law> && bridgeResists<Law> == BridgeResists::Nothing;
 
 /// Calls `function.template operator()<Law>()` for each bridge law of the kernel.
 template <class Function>

@@ -115,8 +115,8 @@ TEST(ContactColumns, refuseWhatCannotBe) {
     EXPECT_TRUE(contains(refusal("age", 0), "a column 'age' of the contacts already"));
     EXPECT_TRUE(contains(refusal("an age", 0), "letters, digits and _ only"));
     EXPECT_TRUE(contains(refusal("heat", infinity), "starts at inf K; it must be finite"));
-    for (int k = 2; k < 16; ++k) scene.addContactColumn(fmt::format("c{}", k), "");
-    EXPECT_TRUE(contains(refusal("c16", 0), "is one too many; there can be 16"));
+    for (int k = 2; k < 24; ++k) scene.addContactColumn(fmt::format("c{}", k), "");
+    EXPECT_TRUE(contains(refusal("c24", 0), "is one too many; there can be 24"));
     scene.initialise();
     scene.steps(600);
     EXPECT_TRUE(contains(refusal("late", 0), "before the run starts"));

@@ -242,6 +242,30 @@ std::vector<Setter<Law>> settersOf() {
         add(
             "surfaceTension", [](L& l, double v) { l.setSurfaceTension(v); },
             [](const L& l) { return l.getSurfaceTension(); });
+    if constexpr (requires(L l) { l.setLiquidLayerThickness(0.0); })
+        add(
+            "liquidLayerThickness", [](L& l, double v) { l.setLiquidLayerThickness(v); },
+            [](const L& l) { return l.getLiquidLayerThickness(); });
+    if constexpr (requires(L l) { l.setHalfFillingAngle(0.0); })
+        add(
+            "halfFillingAngle", [](L& l, double v) { l.setHalfFillingAngle(v); },
+            [](const L& l) { return l.getHalfFillingAngle(); });
+    if constexpr (requires(L l) { l.setLiquidDensity(0.0); })
+        add(
+            "liquidDensity", [](L& l, double v) { l.setLiquidDensity(v); },
+            [](const L& l) { return l.getLiquidDensity(); });
+    if constexpr (requires(L l) { l.setFilmThickness(0.0); })
+        add(
+            "filmThickness", [](L& l, double v) { l.setFilmThickness(v); },
+            [](const L& l) { return l.getFilmThickness(); });
+    if constexpr (requires(L l) { l.setViscosity(0.0); })
+        add(
+            "viscosity", [](L& l, double v) { l.setViscosity(v); },
+            [](const L& l) { return l.getViscosity(); });
+    if constexpr (requires(L l) { l.setRoughness(0.0); })
+        add(
+            "roughness", [](L& l, double v) { l.setRoughness(v); },
+            [](const L& l) { return l.getRoughness(); });
     if constexpr (requires(L l) { l.setAdhesionForceMax(0.0); })
         add(
             "adhesionForceMax", [](L& l, double v) { l.setAdhesionForceMax(v); },

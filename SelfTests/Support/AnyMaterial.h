@@ -61,6 +61,16 @@ void setAdhesion(S& species, const MaterialScale& scale) {
         species.setContactAngle(0.2);
         species.setSurfaceTension(0.07);
     }
+    if constexpr (requires { species.setRoughness(1.0); }) {
+        species.setRoughness(1e-6);
+        species.setViscosity(1e-3);
+    }
+    if constexpr (requires { species.setFilmThickness(1.0); }) species.setFilmThickness(1e-5);
+    if constexpr (requires { species.setLiquidLayerThickness(1.0); }) {
+        species.setLiquidLayerThickness(1e-4);
+        species.setHalfFillingAngle(0.8);
+        species.setLiquidDensity(1000);
+    }
     if constexpr (requires { species.setAdhesionForceMax(1.0); }) {
         species.setAdhesionForceMax(1e-3);
         species.setAdhesionStiffness(100);
