@@ -3,7 +3,8 @@
 # draws Figures 3a, 3b, 4a and 4b of Bagheri, Roy and Poeschel, "Discrete Element Simulations of particles
 # interacting via capillary forces using MercuryDPM"; then the curves of Figures 3, 4, 5, 6 and 9 of Yang, Sega and
 # Harting, "Capillary-bridge forces between solid particles", with the exact ones; then the eight tests of Chung and
-# Ooi, "Benchmark tests for verifying discrete element modelling codes at particle impact level", beside theory.
+# Ooi, "Benchmark tests for verifying discrete element modelling codes at particle impact level", beside theory;
+# then Figures 6 to 13 of the force balance model of wet particle-wall collisions.
 #   Tools/run-paper-figures.sh [OUTPUT_FOLDER]     (default: output/paper-figures)
 # What the programs print is in OUTPUT_FOLDER/log.txt; if one fails, its part is shown.
 set -euo pipefail
@@ -31,8 +32,8 @@ quietly() {  # command...
 Tools/install-dependencies.sh --check >/dev/null 2>&1 || Tools/install-dependencies.sh
 say "Building (preset release, folder build/release; some minutes the first time)"
 quietly cmake --preset release
-quietly cmake --build --preset release --parallel "$(getconf _NPROCESSORS_ONLN)" --target TwoParticleCollision bridge-figures impact-figures
-say "built after $SECONDS s; the figures take some 15 s"
+quietly cmake --build --preset release --parallel "$(getconf _NPROCESSORS_ONLN)" --target TwoParticleCollision bridge-figures impact-figures WetWallCollision
+say "built after $SECONDS s; the figures take some 45 s"
 
 models='LiquidBridgeWillett LiquidBridgeClassicalWillett LiquidBridgeBagheri'
 
@@ -80,6 +81,10 @@ impacts_output=$output/chung-ooi
 write_tables impact-figures "$impacts_output"
 quietly gnuplot -c Tools/plot-impact-figures.gp "$impacts_output"
 
+say "Figures 6 to 13 of the force balance model of wet particle-wall collisions"
+wet_output=$output/wet-wall
+quietly Drivers/WetWallCollision/make-figures.sh "$wet_output" build/release
+
 say "done after $SECONDS s"
-echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg} $models_output/figure-{3,4,5,6,9}.png $impacts_output/test-{1..8}.png"
-echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv $models_output/figure-{3,4,5,6,9}.csv $impacts_output/test-{1..8}.csv"
+echo "Charts:  $output/figure-{3a,3b,4a,4b}.{png,svg} $models_output/figure-{3,4,5,6,9}.png $impacts_output/test-{1..8}.png $wet_output/figure-{6..13}.png"
+echo "Data:    $output/figure-{3a,3b,4a,4b}/MODEL/{force_separation,energy}.csv $models_output/figure-{3,4,5,6,9}.csv $impacts_output/test-{1..8}.csv $wet_output/{6..13}/CURVE/collisions.csv"

@@ -49,7 +49,7 @@ TEST(Drivers, explainTheirOptions) {
         EXPECT_EQ(help.exitCode, 0) << name;
         for (const char* option : {"--output", "--threads", "--resume", "--wall-time", "--quiet"})
             EXPECT_NE(help.output.find(option), std::string::npos) << name << option;
-        if (name == "ObliqueImpact") {  // many impacts, without states to keep or to show
+        if (name == "ObliqueImpact" || name == "WetWallCollision") {  // many impacts, without states to keep
             EXPECT_NE(help.output.find("--energy "), std::string::npos);
             continue;
         }
@@ -73,7 +73,8 @@ TEST(Drivers, printNothingWhereTheyAreQuiet) {
         {"LiquidInShear", "--width-m 0.02 --end-time-s 0.01 --interval-s 0.005"},
         {"ObliqueImpact", "--angles-deg 10 --angles-deg 60"},
         {"Penetration", "--number 120 --softening 100 --end-time-s 0.001"},
-        {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"}};
+        {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"},
+        {"WetWallCollision", "--speeds-m/s 1"}};
     for (const std::string& name : everyDriver()) {
         const TestFolder folder;
         const auto options = shorter.find(name);
