@@ -111,7 +111,7 @@ std::vector<std::vector<std::string>> rowsOf(const std::string& file) {
     return rows;
 }
 
-TEST(WetWall, followsAllNormalCollisionsOfTheReferenceData) {
+TEST(HeavyWetWall, followsAllNormalCollisionsOfTheReferenceData) {
     const std::string file = "wet/given_wall_normal.csv";
     if (!support::hasSharedData(file)) GTEST_SKIP() << support::withoutSharedData(file);
     int compared = 0;
@@ -219,7 +219,7 @@ WetWallCase oblique(bool wet, double spin, double angle) {
     return given;
 }
 
-TEST(WetWall, obliqueCollisionsAreThoseOfTheForceBalance) {
+TEST(HeavyWetWall, obliqueCollisionsAreThoseOfTheForceBalance) {
     constexpr std::array<double, 7> angles{5, 10, 20, 30, 40, 60, 89};
     constexpr std::array<double, 7> dry{.827780, .826741, .590687, .442152, .588267, .800534, .993970};
     constexpr std::array<double, 7> wet{.825030, .823025, .484455, .516633, .666284, .836460, .991539};
@@ -241,7 +241,7 @@ TEST(WetWall, obliqueCollisionsAreThoseOfTheForceBalance) {
         }
 }
 
-TEST(WetWall, followsAllObliqueCollisionsOfTheReferenceData) {
+TEST(HeavyWetWall, followsAllObliqueCollisionsOfTheReferenceData) {
     const std::string file = "wet/given_wall_oblique.csv";
     if (!support::hasSharedData(file)) GTEST_SKIP() << support::withoutSharedData(file);
     int compared = 0;
@@ -259,7 +259,7 @@ TEST(WetWall, followsAllObliqueCollisionsOfTheReferenceData) {
     EXPECT_EQ(compared, 48);
 }
 
-TEST(WetWall, normalMotionDoesNotFeelTheTangentialOne) {
+TEST(HeavyWetWall, normalMotionDoesNotFeelTheTangentialOne) {
     double least = 1, largest = 0;
     for (const double angle : {0.0, 20.0, 60.0, 85.0})
         for (const double spin : {0.0, -960.0, 500.0}) {

@@ -53,7 +53,7 @@ WetWall::Interaction<double> WetWall::prepare(const Bodies& bodies) const {
     Interaction<double> dry{};
     dry.radius = dry.roughness = dry.viscosity = dry.surfaceTension = 1;
     dry.bridge.capHeight = dry.bridge.contactRadius = 1;  // its forces are finite, and count nothing
-    dry.depth = -1;  // m, below all overlaps
+    dry.depth = -1;                                       // m, below all overlaps
     if (std::isinf(radius) || liquidLayerThickness == 0) return dry;
     const ToroidOnLayer<double> bridge = toroid(radius);
     return {.radius = radius,
