@@ -66,8 +66,8 @@ std::vector<ParaViewEntry> readParaViewSeries(const std::filesystem::path& path)
     return entries;
 }
 
-ParaViewSeries::ParaViewSeries(std::string name, double keptUntil)
-    : file(name + ".pvd"), beginning(std::move(name)) {
+ParaViewSeries::ParaViewSeries(std::string name, double keptUntil, std::string fileEnding)
+    : file(name + ".pvd"), beginning(std::move(name)), ending(std::move(fileEnding)) {
     std::vector<std::filesystem::path> dropped;
     const std::vector<ParaViewEntry> former = formerEntries(keptUntil != -INFINITY);
     for (const ParaViewEntry& entry : former)
@@ -96,19 +96,18 @@ bool ParaViewSeries::isOwn(const ParaViewEntry& entry) const {
     const std::string name = entry.file.filename().string(),
                       begin = fmt::format("{}-{}-", std::filesystem::path(beginning).filename().string(),
                                           entry.kind);
-    constexpr std::string_view end = ".vtp";
     constexpr std::size_t fewestDigits = 9;
-    if (!name.starts_with(begin) || !name.ends_with(end) ||
-        name.size() < begin.size() + fewestDigits + end.size())
+    if (!name.starts_with(begin) || !name.ends_with(ending) ||
+        name.size() < begin.size() + fewestDigits + ending.size())
         return false;
-    const std::string step = name.substr(begin.size(), name.size() - begin.size() - end.size());
+    const std::string step = name.substr(begin.size(), name.size() - begin.size() - ending.size());
     return step.find_first_not_of("0123456789") == step.npos;
 }
 
 void ParaViewSeries::check(const std::string& name) { checkFrameIndex(name + ".pvd", readParaViewSeries); }
 
 std::filesystem::path ParaViewSeries::add(std::string_view kind, double time, std::size_t step) {
-    std::filesystem::path path = fmt::format("{}-{}-{:09}.vtp", beginning, kind, step);
+    std::filesystem::path path = fmt::format("{}-{}-{:09}{}", beginning, kind, step, ending);
     std::erase_if(entries,
                   [&](const ParaViewEntry& entry) { return entry.time == time && entry.kind == kind; });
     entries.push_back({time, std::string(kind), path});

@@ -23,11 +23,12 @@ class ParaViewSeries {
 public:
     /// Entries of a series of this name up to a time (s) are kept, and the files of later ones removed, if
     /// they are called as add() calls them. -infinity: a new series, whatever is in the old one.
-    ParaViewSeries(std::string name, double keptUntil);
+    /// @param ending of the files' names
+    ParaViewSeries(std::string name, double keptUntil, std::string ending = ".vtp");
     /// Throws InputError if there is a series of this name and it cannot be read.
     static void check(const std::string& name);
 
-    /// The path of the file of one kind ("particles") at a step, NAME-KIND-STEP.vtp, taken into the series.
+    /// The path of the file of one kind ("particles") at a step, NAME-KIND-STEP.vtp (or the other ending), taken into the series.
     std::filesystem::path add(std::string_view kind, double time, std::size_t step);
     /// Writes the series as it is now.
     void write() const;
@@ -38,7 +39,7 @@ private:
     [[nodiscard]] bool isOwn(const ParaViewEntry& entry) const;
 
     std::filesystem::path file;
-    std::string beginning;
+    std::string beginning, ending;
     std::vector<ParaViewEntry> entries;
 };
 

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "Kernel/CoarseGraining/FieldFiles.h"
+#include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Output/OutputInterval.h"
+#include "Kernel/Output/ParaViewSeries.h"
+#include "Kernel/Output/RunTable.h"
+
+namespace pendular {
+
+/// Fields of a scene at points, averaged over time. Given to Simulation::addOutput():
+///   addOutput(FieldOutput(FieldGrid("XZ", lowest, highest, 1e-3), KernelShape::Gauss, 1e-3)
+///                 .withInterval(1e-3).averagedOver(0.1));
+/// For up to one resolved direction NAME-FIELDS.csv with the rows of all averages, else NAME-FIELDS.pvd for
+/// ParaView; FIELDS is "coarse" unless another name is given.
+class FieldOutput {
+public:
+    /// @param width m, of the kernel; @param cutOff m; see SmoothingKernel
+    FieldOutput(const FieldGrid& grid, KernelShape shape, double width, double cutOff = 0)
+        : sums(grid, SmoothingKernel(shape, grid.dimensions(), width, cutOff)) {}
+
+    /// A sample at the step nearest to each multiple of this time (s).
+    FieldOutput& withInterval(double seconds) {
+        return times = OutputInterval("FieldOutput", seconds), *this;
+    }
+    [[nodiscard]] OutputInterval interval() const { return times; }
+    /// Samples of this time (s) make one average; 0, the default: each is one. Infinity: the whole run.
+    FieldOutput& averagedOver(double seconds) {
+        if (!(seconds >= 0))
+            throw InputError(fmt::format(
+                "FieldOutput: the time of an average is {:g} s; it must be 0 or more, or infinity.",
+                seconds));
+        return window = seconds, *this;
+    }
+    /// Fields of each group of grains as well.
+    FieldOutput& withGroups(const GrainGroups& groups) {
+        return sums = FieldSums(sums.grid(), sums.kernel(), groups), *this;
+    }
+    FieldOutput& withName(const std::string& fields) { return ending = "-" + fields, *this; }
+
+    template <class Scene>
+    void write(const Scene& scene) {
+        const double time = scene.getTime();
+        if (time <= last) return;
+        // Half a step, so that round-off of times decides nothing.
+        if (sums.states() > 0 && time >= first + window - 0.5 * scene.getTimeStep()) writeAverage(scene);
+        if (sums.states() == 0) {
+            first = time;
+            firstStep = scene.getNumberOfTimeSteps();
+        }
+        sums.add(stateOf(scene), scene.getNumberOfThreads());
+        last = time;
+        if (window == 0) writeAverage(scene);
+    }
+    template <class Scene>
+    void complete(const Scene& scene) {
+        writeAverage(scene);
+        if (!isImage()) tableOf(scene).close();
+    }
+
+    template <class Scene>
+    void visitState(StateArchive& archive, const Scene& scene) {
+        const std::string entry = std::filesystem::path(nameOf(scene)).filename().string() + "-last-time";
+        if (archive.isReading() && !archive.holds(entry)) {
+            if (!isImage()) tableOf(scene).goOnFrom(scene.getTime());
+            keptUntil = scene.getTime();
+            return;
+        }
+        archive.value(entry, last);
+        keptUntil = last;
+        archive.group(std::filesystem::path(nameOf(scene)).filename().string(), [&] {
+            std::uint64_t states = sums.states();
+            archive.value("states", states);
+            archive.value("first", first);
+            archive.value("firstStep", firstStep);
+            std::vector<double> numbers = sums.numbers();
+            archive.column<double>("sums", numbers);
+            if (!archive.isReading()) return;
+            if (numbers.size() != sums.numbers().size())
+                throw InputError(
+                    fmt::format("FieldOutput: the run began with {} sums, and now has {}; go on with the "
+                                "same grid and groups.",
+                                numbers.size(), sums.numbers().size()));
+            sums.numbers() = std::move(numbers);
+            sums.setStates(states);
+            // What was written at the end of that part is an average that goes on.
+            if (states > 0) keptUntil = std::nextafter(first, -INFINITY);
+        });
+        if (!isImage()) tableOf(scene).visitState(archive);
+        else if (archive.isReading()) ParaViewSeries::check(nameOf(scene));
+    }
+
+private:
+    [[nodiscard]] bool isImage() const { return sums.grid().dimensions() > 1; }
+    template <class Scene>
+    [[nodiscard]] std::string nameOf(const Scene& scene) const {
+        return scene.getName() + ending;
+    }
+    template <class Scene>
+    RunTable& tableOf(const Scene& scene) {
+        if (!table) table = std::make_shared<RunTable>(nameOf(scene) + ".csv", headerOf(sums));
+        return *table;
+    }
+    /// Under the middle of the time that it is of.
+    template <class Scene>
+    void writeAverage(const Scene& scene) {
+        if (sums.states() == 0) return;
+        const double time = 0.5 * (first + last);
+        if (isImage()) {
+            if (!series) series.emplace(nameOf(scene), scene.isRestarted() ? keptUntil : -INFINITY, ".vti");
+            writeImage(series->add("fields", time, firstStep), sums, time, scene.getNumberOfThreads());
+            series->write();
+        } else {
+            forEachRow(sums, time, [&](const std::string& row) { tableOf(scene).row(row); });
+        }
+        sums.clear();
+    }
+
+    FieldSums sums;
+    OutputInterval times;
+    double window = 0;                   // s
+    double first = 0, last = -INFINITY;  // s, of the samples of this average; of the last one
+    std::uint64_t firstStep = 0;         // of the first sample, after which a file is named
+    double keptUntil = -INFINITY;        // s, of the files of an earlier part of the run
+    std::string ending = "-coarse";
+    std::shared_ptr<RunTable> table;  // none until the run begins, so that copies made before share nothing
+    std::optional<ParaViewSeries> series;
+};
+
+}  // namespace pendular

@@ -1,0 +1,451 @@
+#include "Kernel/CoarseGraining/FieldSums.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Capillary/GaussLegendre.h"
+#include "Kernel/InputError.h"
+#include "Kernel/Math/Pack.h"
+#include "Kernel/Parallel.h"
+#include "Kernel/Species/Field.h"
+
+namespace pendular {
+
+namespace {
+
+using Place = std::array<double, 3>;
+
+Place partsOf(const Vector<double>& v) { return {v.x, v.y, v.z}; }
+
+constexpr double sphereVolume(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
+
+/// Adds factor a a to xx xy xz yy yz zz.
+void addSquare(double factor, const Vector<double>& a, double* sums) {
+    const Place p = partsOf(a);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i; j < 3; ++j) sums[at++] += factor * p[i] * p[j];
+}
+
+/// The directions of r and theta at a place beside an axis along z.
+struct RoundFrame {
+    double r, cosine, sine;
+
+    explicit RoundFrame(double x, double y)
+        : r(std::hypot(x, y)), cosine(r > 0 ? x / r : 1), sine(r > 0 ? y / r : 0) {}
+    [[nodiscard]] Vector<double> turned(const Vector<double>& v) const {
+        return {cosine * v.x + sine * v.y, cosine * v.y - sine * v.x, v.z};
+    }
+};
+
+}  // namespace
+
+GrainGroups GrainGroups::bySpecies(std::size_t count) {
+    GrainGroups groups;
+    groups.species = true;
+    groups.names.clear();
+    for (std::size_t k = 0; k < std::max<std::size_t>(count, 1); ++k)
+        groups.names.push_back(fmt::format("species_{}", k));
+    return groups;
+}
+
+GrainGroups GrainGroups::bySize(std::vector<double> diameters) {
+    GrainGroups groups;
+    for (std::size_t k = 0; k < diameters.size(); ++k)
+        checkValue("GrainGroups", "diameter between two groups", diameters[k], "m",
+                   {k == 0 ? 0 : diameters[k - 1], infinity, false, false});
+    groups.edges = std::move(diameters);
+    groups.names.clear();
+    for (std::size_t k = 0; k <= groups.edges.size(); ++k) groups.names.push_back(fmt::format("size_{}", k));
+    return groups;
+}
+
+std::uint32_t GrainGroups::of(const GrainState::Grain& grain) const {
+    if (species)
+        return grain.species >= 0 && static_cast<std::size_t>(grain.species) < names.size()
+                   ? static_cast<std::uint32_t>(grain.species)
+                   : 0;
+    return static_cast<std::uint32_t>(std::upper_bound(edges.begin(), edges.end(), 2 * grain.radius) -
+                                      edges.begin());
+}
+
+struct FieldSums::PointItem {
+    Place at;  // m
+    std::uint32_t group;
+    std::array<double, 20> values;
+};
+
+/// A straight line from `from` over `branch`, both in the resolved directions only.
+struct FieldSums::LineItem {
+    Place from, branch;  // m
+    double length;       // m, of the branch
+    std::uint32_t group;
+    std::array<double, 15> values;
+};
+
+struct FieldSums::Items {
+    std::vector<PointItem> grains, tractions;
+    std::vector<LineItem> lines;
+    std::vector<PointItem> nodes;  // of lines around an axis: 15 values
+    bool isAdhesive = false;
+};
+
+/// What one thread sums: of the outermost resolved axis, or of the blocks where there is but one.
+struct FieldSums::Slab {
+    std::size_t begin, end;
+};
+
+FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups)
+    : points(std::move(grid)), weight(std::move(kernel)), kinds(std::move(groups)) {
+    if (weight.dimensions() != points.dimensions())
+        throw InputError(fmt::format("FieldSums: the kernel has {} dimensions, and the grid {}.",
+                                     weight.dimensions(), points.dimensions()));
+    // Resolved axes last.
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return points.isResolved(a) < points.isResolved(b);
+    });
+    blocks = (points.counts()[order[2]] + Pack::lanes - 1) / Pack::lanes;
+    const std::size_t rows = points.counts()[order[0]] * points.counts()[order[1]];
+    sums.assign(kinds.count() * rows * blocks * count * Pack::lanes, 0.0);
+}
+
+void FieldSums::clear() {
+    std::fill(sums.begin(), sums.end(), 0.0);
+    added = 0;
+}
+
+double FieldSums::of(std::size_t sum, std::size_t group, std::size_t point) const {
+    const auto& n = points.counts();
+    const std::array<std::size_t, 3> k{point / (n[1] * n[2]), point / n[2] % n[1], point % n[2]};
+    const std::size_t row = (group * n[order[0]] + k[order[0]]) * n[order[1]] + k[order[1]];
+    const std::size_t inner = k[order[2]];
+    const std::size_t block = row * blocks + inner / Pack::lanes;
+    const double total = sums[(block * count + sum) * Pack::lanes + inner % Pack::lanes];
+    return total / (static_cast<double>(std::max<std::size_t>(added, 1)) * points.measure(k[0]));
+}
+
+double FieldSums::ofAll(std::size_t sum, std::size_t point) const {
+    double total = 0;
+    for (std::size_t group = 0; group < kinds.count(); ++group) total += of(sum, group, point);
+    return total;
+}
+
+/// Calls use(shift) for each image of a body (m, from `low` to `high`) that the grid can see: resolved axes
+/// up to the cut-off beyond the box; others within it.
+template <class Use>
+void FieldSums::forImages(const GrainState& state, const Vector<double>& low, const Vector<double>& high,
+                          Use&& use) const {
+    const Place lows = partsOf(low), highs = partsOf(high), periods = partsOf(state.periodic.length);
+    std::array<double, 3> first{}, last{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (points.isCylindrical() && axis < 2) continue;
+        const double reach = points.isResolved(axis) ? weight.cutOff() : 0;
+        const double from = points.low(axis) - reach, to = points.high(axis) + reach;
+        if (periods[axis] > 0) {
+            first[axis] = std::ceil((from - highs[axis]) / periods[axis]);
+            last[axis] = std::floor((to - lows[axis]) / periods[axis]);
+        } else if (highs[axis] < from || lows[axis] > to) {
+            return;
+        }
+    }
+    // What lies at the upper end of a box that is averaged over is its own image at the lower end.
+    const auto isRepeated = [&](std::size_t axis, double image) {
+        return periods[axis] > 0 && !points.isResolved(axis) && !(points.isCylindrical() && axis < 2) &&
+               lows[axis] + image * periods[axis] >= points.high(axis);
+    };
+    for (double x = first[0]; x <= last[0] && !isRepeated(0, x); ++x)
+        for (double y = first[1]; y <= last[1] && !isRepeated(1, y); ++y)
+            for (double z = first[2]; z <= last[2] && !isRepeated(2, z); ++z)
+                use(Vector<double>{x * periods[0], y * periods[1], z * periods[2]});
+}
+
+void FieldSums::addGrains(const GrainState& state, Items& items) const {
+    std::vector<std::array<double, 8>> ofContacts(state.grains.size());  // fabric, contacts, liquid
+    for (const GrainState::Contact& c : state.contacts) {
+        const auto add = [&](std::uint32_t grain, bool hasFabric) {
+            auto& sum = ofContacts[grain];
+            const double volume = sphereVolume(state.grains[grain].radius);
+            if (c.touching && hasFabric) addSquare(volume / squaredNorm(c.shift), c.shift, sum.data());
+            if (c.touching) sum[6] += 1;
+            sum[7] += hasFabric ? 0.5 * c.liquid : c.liquid;
+        };
+        const bool atWall = c.second == GrainState::Contact::wall;
+        add(c.first, !atWall);
+        if (!atWall) add(c.second, true);
+    }
+    for (std::size_t k = 0; k < state.grains.size(); ++k) {
+        const GrainState::Grain& grain = state.grains[k];
+        forImages(state, grain.position, grain.position, [&](const Vector<double>& shift) {
+            const Vector<double> position = grain.position + shift;
+            PointItem item{partsOf(position), kinds.of(grain), {}};
+            Vector<double> velocity = grain.velocity;
+            std::array<double, 8> own = ofContacts[k];
+            if (points.isCylindrical()) {
+                const RoundFrame frame(position.x - points.centre().x, position.y - points.centre().y);
+                item.at[0] = frame.r;
+                velocity = frame.turned(velocity);
+                // Fabric about the new axes: T' = Q T Q^T.
+                const auto& f = ofContacts[k];
+                const Vector<double> rows[] = {frame.turned({f[0], f[1], f[2]}),
+                                               frame.turned({f[1], f[3], f[4]}),
+                                               frame.turned({f[2], f[4], f[5]})};
+                const Vector<double> a = frame.turned({rows[0].x, rows[1].x, rows[2].x}),
+                                     b = frame.turned({rows[0].y, rows[1].y, rows[2].y}),
+                                     c = frame.turned({rows[0].z, rows[1].z, rows[2].z});
+                own = {a.x, a.y, a.z, b.y, b.z, c.z, f[6], f[7]};
+            }
+            auto& values = item.values;
+            values[Number] = 1;
+            values[Volume] = sphereVolume(grain.radius);
+            values[Mass] = grain.mass;
+            values[Momentum] = grain.mass * velocity.x;
+            values[Momentum + 1] = grain.mass * velocity.y;
+            values[Momentum + 2] = grain.mass * velocity.z;
+            addSquare(grain.mass, velocity, values.data() + Flux);
+            std::copy(own.begin(), own.end(), values.begin() + Fabric);
+            values[Liquid] += grain.liquid;
+            items.grains.push_back(item);
+        });
+    }
+}
+
+/// A line from `end` + branch, where the force acts on the grain, back to `end`.
+void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
+                        const GrainState::Contact& contact, std::uint32_t group, Items& items) const {
+    const Place b = partsOf(branch), f = partsOf(contact.force);
+    std::array<double, 15> values{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) values[3 * i + j] = f[i] * b[j];
+    if (contact.adhesiveForce != 0) {
+        addSquare(-contact.adhesiveForce * norm(branch) / squaredNorm(contact.shift), contact.shift,
+                  values.data() + 9);
+        items.isAdhesive = true;
+    }
+    const Vector<double> other = end + branch;
+    const Vector<double> low{std::min(end.x, other.x), std::min(end.y, other.y), std::min(end.z, other.z)},
+        high{std::max(end.x, other.x), std::max(end.y, other.y), std::max(end.z, other.z)};
+    forImages(state, low, high, [&](const Vector<double>& shift) {
+        const Place from = partsOf(end + shift);
+        // The part of the line within the box, in the directions that are averaged over.
+        double begin = 0, stop = 1;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (points.isResolved(axis) || (points.isCylindrical() && axis < 2)) continue;
+            if (b[axis] == 0) continue;  // forImages() has seen that it is within
+            const double one = (points.low(axis) - from[axis]) / b[axis],
+                         two = (points.high(axis) - from[axis]) / b[axis];
+            begin = std::max(begin, std::min(one, two));
+            stop = std::min(stop, std::max(one, two));
+        }
+        if (!(begin < stop)) return;
+        std::array<double, 15> part = values;
+        for (double& value : part) value *= stop - begin;
+        const Vector<double> start = end + shift + begin * branch, way = (stop - begin) * branch;
+        if (points.isCylindrical()) return addRoundLine(start, way, part, group, items);
+        LineItem line{partsOf(start), partsOf(way), 0, group, part};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!points.isResolved(axis)) line.from[axis] = line.branch[axis] = 0;
+            line.length += line.branch[axis] * line.branch[axis];
+        }
+        line.length = std::sqrt(line.length);
+        items.lines.push_back(line);
+    });
+}
+
+/// Around an axis there is no closed form: nodes of Gauss and Legendre along the line, each with the
+/// directions of its own place. Their mean errs by less than 1e-8 of phi(0) (a Gauss cut at 3 w).
+void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& branch,
+                             const std::array<double, 15>& values, std::uint32_t group, Items& items) const {
+    const int count =
+        static_cast<int>(std::clamp(6 + std::ceil(9 * norm(branch) / weight.cutOff()), 6.0, 64.0));
+    for (const QuadratureNode& node : gaussLegendre(count)) {
+        const Vector<double> at = end + 0.5 * (1 + node.position) * branch;
+        const RoundFrame frame(at.x - points.centre().x, at.y - points.centre().y);
+        PointItem item{{frame.r, 0, at.z}, group, {}};
+        const Vector<double> columns[] = {frame.turned({values[0], values[3], values[6]}),
+                                          frame.turned({values[1], values[4], values[7]}),
+                                          frame.turned({values[2], values[5], values[8]})};
+        const Vector<double> rows[] = {frame.turned({columns[0].x, columns[1].x, columns[2].x}),
+                                       frame.turned({columns[0].y, columns[1].y, columns[2].y}),
+                                       frame.turned({columns[0].z, columns[1].z, columns[2].z})};
+        const Vector<double> sticky[] = {frame.turned({values[9], values[10], values[11]}),
+                                         frame.turned({values[10], values[12], values[13]}),
+                                         frame.turned({values[11], values[13], values[14]})};
+        const Vector<double> turned[] = {frame.turned({sticky[0].x, sticky[1].x, sticky[2].x}),
+                                         frame.turned({sticky[0].y, sticky[1].y, sticky[2].y}),
+                                         frame.turned({sticky[0].z, sticky[1].z, sticky[2].z})};
+        const double all[] = {rows[0].x,   rows[0].y,   rows[0].z,   rows[1].x,   rows[1].y,
+                              rows[1].z,   rows[2].x,   rows[2].y,   rows[2].z,   turned[0].x,
+                              turned[0].y, turned[0].z, turned[1].y, turned[1].z, turned[2].z};
+        for (std::size_t k = 0; k < 15; ++k) item.values[k] = 0.5 * node.weight * all[k];
+        items.nodes.push_back(item);
+    }
+}
+
+void FieldSums::addContacts(const GrainState& state, Items& items) const {
+    for (const GrainState::Contact& contact : state.contacts) {
+        const GrainState::Grain& first = state.grains[contact.first];
+        const std::uint32_t group = kinds.of(first);
+        const Vector<double> end = first.position + contact.shift;
+        if (contact.second == GrainState::Contact::wall) {
+            addLine(state, end, -contact.shift, contact, group, items);
+            forImages(state, end, end, [&](const Vector<double>& shift) {
+                PointItem item{partsOf(end + shift), group, {}};
+                Vector<double> force = contact.force;
+                if (points.isCylindrical()) {
+                    const RoundFrame frame(end.x - points.centre().x, end.y - points.centre().y);
+                    item.at[0] = frame.r;
+                    force = frame.turned(force);
+                }
+                item.values[0] = force.x, item.values[1] = force.y, item.values[2] = force.z;
+                items.tractions.push_back(item);
+            });
+            continue;
+        }
+        const GrainState::Grain& second = state.grains[contact.second];
+        const std::uint32_t other = kinds.of(second);
+        if (other == group) {
+            addLine(state, end, -contact.shift, contact, group, items);
+            continue;
+        }
+        // In the middle of the overlap or of the gap, as a fraction of the shift.
+        const double length = norm(contact.shift);
+        const double middle = (first.radius + 0.5 * (length - first.radius - second.radius)) / length;
+        addLine(state, first.position + middle * contact.shift, -middle * contact.shift, contact, group,
+                items);
+        addLine(state, end, (middle - 1) * contact.shift, contact, other, items);
+    }
+}
+
+/// Adds phi times the values to the sums from `first` on, at all points within the cut-off of a box.
+/// @param phi given the place of eight points of a row, m
+template <std::size_t size, class Phi>
+void FieldSums::overPoints(const Place& low, const Place& high, std::size_t first, std::uint32_t group,
+                           const double* values, const Slab& slab, Phi&& phi) {
+    std::array<std::size_t, 3> begin{}, end{1, 1, 1};
+    for (std::size_t place = 0; place < 3; ++place) {
+        const std::size_t axis = order[place];
+        if (!points.isResolved(axis)) continue;
+        const double h = points.spacing(axis), n = static_cast<double>(points.counts()[axis]);
+        const double from = std::ceil((low[axis] - weight.cutOff() - points.low(axis)) / h - 0.5 - 1e-9),
+                     to = std::floor((high[axis] + weight.cutOff() - points.low(axis)) / h - 0.5 + 1e-9) + 1;
+        if (!(from < n && to > 0)) return;
+        begin[place] = from > 0 ? static_cast<std::size_t>(from) : 0;
+        end[place] = to < n ? static_cast<std::size_t>(to) : points.counts()[axis];
+    }
+    std::size_t firstBlock = begin[2] / Pack::lanes, lastBlock = (end[2] + Pack::lanes - 1) / Pack::lanes;
+    const int dimensions = points.dimensions();
+    auto& limited = dimensions == 3 ? begin[0] : dimensions == 2 ? begin[1] : firstBlock;
+    auto& limitedEnd = dimensions == 3 ? end[0] : dimensions == 2 ? end[1] : lastBlock;
+    limited = std::max(limited, slab.begin);
+    limitedEnd = std::min(limitedEnd, slab.end);
+
+    const auto& n = points.counts();
+    std::array<double, Pack::lanes> along{};
+    for (std::size_t i = begin[0]; i < end[0]; ++i)
+        for (std::size_t j = begin[1]; j < end[1]; ++j)
+            for (std::size_t b = firstBlock; b < lastBlock; ++b) {
+                for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
+                    along[lane] = points.at(order[2], b * Pack::lanes + lane);
+                const Pack weights =
+                    phi(points.at(order[0], i), points.at(order[1], j), Pack::fromLanes(along));
+                if (none(weights > 0.0)) continue;
+                double* row =
+                    sums.data() +
+                    (((group * n[order[0]] + i) * n[order[1]] + j) * blocks + b) * count * Pack::lanes +
+                    first * Pack::lanes;
+                std::array<double, Pack::lanes> w = weights.toLanes();
+                for (std::size_t k = 0; k < size; ++k)
+                    for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
+                        row[k * Pack::lanes + lane] += w[lane] * values[k];
+            }
+}
+
+template <std::size_t first, std::size_t size>
+void FieldSums::spread(const Place& at, std::uint32_t group, const double* values, const Slab& slab) {
+    const auto one = [&](const Place& place) {
+        const auto phi = [&](double outer, double middle, const Pack& inner) {
+            Pack square(0.0);
+            if (points.isResolved(order[0]))
+                square = Pack((outer - place[order[0]]) * (outer - place[order[0]]));
+            if (points.isResolved(order[1])) {
+                const double d = middle - place[order[1]];
+                square = square + d * d;
+            }
+            if (points.isResolved(order[2])) {
+                const Pack d = inner - place[order[2]];
+                square = square + d * d;
+            }
+            return weight.value(square);
+        };
+        overPoints<size>(place, place, first, group, values, slab, phi);
+    };
+    one(at);
+    // Beyond the axis is the other side.
+    if (points.isCylindrical() && at[0] < weight.cutOff()) one({-at[0], at[1], at[2]});
+}
+
+template <std::size_t first, std::size_t size>
+void FieldSums::spread(const LineItem& line, const Slab& slab) {
+    if (line.length < weight.shortestLine()) {
+        const int nodes = line.length == 0 ? 1 : 3;
+        for (const QuadratureNode& node : gaussLegendre(nodes)) {
+            std::array<double, size> values;
+            for (std::size_t k = 0; k < size; ++k) values[k] = 0.5 * node.weight * line.values[k];
+            Place at{};
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                at[axis] = line.from[axis] + 0.5 * (1 + node.position) * line.branch[axis];
+            spread<first, size>(at, line.group, values.data(), slab);
+        }
+        return;
+    }
+    Place low{}, high{}, unit{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = line.from[axis] + std::min(line.branch[axis], 0.0);
+        high[axis] = line.from[axis] + std::max(line.branch[axis], 0.0);
+        unit[axis] = line.branch[axis] / line.length;
+    }
+    const auto phi = [&](double outer, double middle, const Pack& inner) {
+        const Pack zero(0.0);
+        const Vector<Pack> d{points.isResolved(order[0]) ? Pack(outer - line.from[order[0]]) : zero,
+                             points.isResolved(order[1]) ? Pack(middle - line.from[order[1]]) : zero,
+                             points.isResolved(order[2]) ? inner - line.from[order[2]] : zero};
+        const Pack along = d.x * unit[order[0]] + d.y * unit[order[1]] + d.z * unit[order[2]];
+        // Across by a difference of vectors: that of two squares would lose digits. In one dimension it is 0.
+        const Vector<Pack> across{d.x - along * unit[order[0]], d.y - along * unit[order[1]],
+                                  d.z - along * unit[order[2]]};
+        const Pack square =
+            points.dimensions() == 1 ? zero : across.x * across.x + across.y * across.y + across.z * across.z;
+        if (none(square < weight.cutOff() * weight.cutOff())) return zero;
+        return weight.lineMean(along, square, line.length);
+    };
+    overPoints<size>(low, high, first, line.group, line.values.data(), slab, phi);
+}
+
+void FieldSums::add(const GrainState& state, int threads) {
+    Items items;
+    addGrains(state, items);
+    addContacts(state, items);
+    const int dimensions = points.dimensions();
+    const std::size_t shared = dimensions == 3   ? points.counts()[order[0]]
+                               : dimensions == 2 ? points.counts()[order[1]]
+                                                 : blocks;
+    inParts(shared, threads, [&](int, std::size_t begin, std::size_t end) {
+        const Slab slab{begin, end};
+        for (const PointItem& item : items.grains)
+            spread<Number, 20>(item.at, item.group, item.values.data(), slab);
+        for (const PointItem& item : items.tractions)
+            spread<Traction, 3>(item.at, item.group, item.values.data(), slab);
+        for (const PointItem& item : items.nodes)
+            spread<ContactStress, 15>(item.at, item.group, item.values.data(), slab);
+        for (const LineItem& line : items.lines) {
+            if (items.isAdhesive) spread<ContactStress, 15>(line, slab);
+            else spread<ContactStress, 9>(line, slab);
+        }
+    });
+    ++added;
+}
+
+}  // namespace pendular

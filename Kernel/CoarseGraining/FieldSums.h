@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "Kernel/CoarseGraining/FieldGrid.h"
+#include "Kernel/CoarseGraining/GrainState.h"
+#include "Kernel/CoarseGraining/SmoothingKernel.h"
+
+namespace pendular {
+
+/// Which grains have fields of their own, beside those of all grains.
+class GrainGroups {
+public:
+    static GrainGroups none() { return {}; }
+    static GrainGroups bySpecies(std::size_t species);
+    /// Between diameters (m): below the first, between, from the last on. Throws InputError unless they are
+    /// positive and increase.
+    static GrainGroups bySize(std::vector<double> diameters);
+
+    [[nodiscard]] std::size_t count() const { return names.size(); }
+    [[nodiscard]] const std::string& nameOf(std::size_t group) const { return names[group]; }
+    /// 0 for species beyond those given.
+    [[nodiscard]] std::uint32_t of(const GrainState::Grain& grain) const;
+
+private:
+    std::vector<std::string> names{""};
+    std::vector<double> edges;  // m, diameters
+    bool species = false;
+};
+
+/// Sums over grains and contacts at the points of a grid, from which all fields follow; and their means over
+/// time: sums are averaged, quotients are taken of the averages. Sources: Goldhirsch, Granul. Matter 12
+/// (2010) 239; with boundaries Weinhart, Thornton, Luding and Bokhove, Granul. Matter 14 (2012) 289; of one
+/// kind of grains among others Tunuguntla, Thornton and Weinhart, Comput. Part. Mech. 3 (2016) 349.
+///
+/// With phi of the kernel, grains i with mass m, velocity v and volume V, and contacts with the force f on
+/// grain i and b from grain j, or the contact point at a wall, to grain i:
+///   mass      sum m phi_i                contact stress  sum f b psi, psi the mean of phi over the branch
+///   momentum  sum m v phi_i              traction        sum f phi(r - contact point), at walls
+///   flux      sum m v v phi_i            fabric          sum n n (V_i phi_i + V_j phi_j), without walls
+/// Stress is positive in compression. A contact of two groups is divided at the contact point.
+class FieldSums {
+public:
+    /// What is summed, by its first place.
+    enum Sum : std::size_t {
+        Number = 0,
+        Volume = 1,
+        Mass = 2,
+        Momentum = 3,         // 3
+        Flux = 6,             // 6: xx xy xz yy yz zz
+        Fabric = 12,          // 6
+        Contacts = 18,        // of a grain, touching
+        Liquid = 19,          // of its film, and half of its bridges
+        ContactStress = 20,   // 9: xx xy xz yx ... zz
+        AdhesiveStress = 29,  // 6, the part of the contact stress that bridges and adhesion have
+        Traction = 35,        // 3
+        count = 38
+    };
+
+    /// The kernel must have the dimensions of the grid.
+    FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups = GrainGroups::none());
+
+    /// A state at one time; all have the same weight. The sums do not depend on the number of threads.
+    void add(const GrainState& state, int threads = 1);
+    [[nodiscard]] std::size_t states() const { return added; }
+
+    /// The mean of a sum over the states, as a density, 1/m^3 times its unit: of a group, or of all.
+    /// @param point of the grid, x the slowest
+    [[nodiscard]] double of(std::size_t sum, std::size_t group, std::size_t point) const;
+    [[nodiscard]] double ofAll(std::size_t sum, std::size_t point) const;
+
+    [[nodiscard]] const FieldGrid& grid() const { return points; }
+    [[nodiscard]] const SmoothingKernel& kernel() const { return weight; }
+    [[nodiscard]] const GrainGroups& groups() const { return kinds; }
+    /// All numbers, for a restart file.
+    [[nodiscard]] std::vector<double>& numbers() { return sums; }
+    void setStates(std::size_t states) { added = states; }
+    void clear();
+
+private:
+    struct PointItem;
+    struct LineItem;
+    struct Items;
+    struct Slab;
+
+    void addGrains(const GrainState& state, Items& items) const;
+    void addContacts(const GrainState& state, Items& items) const;
+    void addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
+                 const GrainState::Contact& contact, std::uint32_t group, Items& items) const;
+    void addRoundLine(const Vector<double>& end, const Vector<double>& branch,
+                      const std::array<double, 15>& values, std::uint32_t group, Items& items) const;
+    template <class Use>
+    void forImages(const GrainState& state, const Vector<double>& low, const Vector<double>& high,
+                   Use&& use) const;
+    template <std::size_t first, std::size_t size>
+    void spread(const std::array<double, 3>& at, std::uint32_t group, const double* values, const Slab& slab);
+    template <std::size_t first, std::size_t size>
+    void spread(const LineItem& line, const Slab& slab);
+    template <std::size_t size, class Phi>
+    void overPoints(const std::array<double, 3>& low, const std::array<double, 3>& high, std::size_t first,
+                    std::uint32_t group, const double* values, const Slab& slab, Phi&& phi);
+
+    FieldGrid points;
+    SmoothingKernel weight;
+    GrainGroups kinds;
+    std::array<std::size_t, 3> order{0, 1, 2};  // of axes: the last one is stored in blocks of eight
+    std::size_t blocks = 1;                     // of a row
+    std::vector<double> sums;                   // of a group, row, block: each sum, eight points
+    std::size_t added = 0;
+};
+
+}  // namespace pendular
