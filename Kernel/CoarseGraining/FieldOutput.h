@@ -53,7 +53,8 @@ public:
             first = time;
             firstStep = scene.getNumberOfTimeSteps();
         }
-        sums.add(stateOf(scene), scene.getNumberOfThreads());
+        takeState(scene, state);
+        sums.add(state, scene.getNumberOfThreads());
         last = time;
         if (window == 0) writeAverage(scene);
     }
@@ -81,13 +82,7 @@ public:
             std::vector<double> numbers = sums.numbers();
             archive.column<double>("sums", numbers);
             if (!archive.isReading()) return;
-            if (numbers.size() != sums.numbers().size())
-                throw InputError(
-                    fmt::format("FieldOutput: the run began with {} sums, and now has {}; go on with the "
-                                "same grid and groups.",
-                                numbers.size(), sums.numbers().size()));
-            sums.numbers() = std::move(numbers);
-            sums.setStates(states);
+            sums.setNumbers(numbers, states);
             // What was written at the end of that part is an average that goes on.
             if (states > 0) keptUntil = std::nextafter(first, -INFINITY);
         });
@@ -122,6 +117,7 @@ private:
     }
 
     FieldSums sums;
+    GrainState state;
     OutputInterval times;
     double window = 0;                   // s
     double first = 0, last = -INFINITY;  // s, of the samples of this average; of the last one

@@ -72,32 +72,6 @@ std::uint32_t GrainGroups::of(const GrainState::Grain& grain) const {
                                       edges.begin());
 }
 
-struct FieldSums::PointItem {
-    Place at;  // m
-    std::uint32_t group;
-    std::array<double, 20> values;
-};
-
-/// A straight line from `from` over `branch`, both in the resolved directions only.
-struct FieldSums::LineItem {
-    Place from, branch;  // m
-    double length;       // m, of the branch
-    std::uint32_t group;
-    std::array<double, 15> values;
-};
-
-struct FieldSums::Items {
-    std::vector<PointItem> grains, tractions;
-    std::vector<LineItem> lines;
-    std::vector<PointItem> nodes;  // of lines around an axis: 15 values
-    bool isAdhesive = false;
-};
-
-/// What one thread sums: of the outermost resolved axis, or of the blocks where there is but one.
-struct FieldSums::Slab {
-    std::size_t begin, end;
-};
-
 FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups)
     : points(std::move(grid)), weight(std::move(kernel)), kinds(std::move(groups)) {
     if (weight.dimensions() != points.dimensions())
@@ -109,11 +83,32 @@ FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups)
     });
     blocks = (points.counts()[order[2]] + Pack::lanes - 1) / Pack::lanes;
     const std::size_t rows = points.counts()[order[0]] * points.counts()[order[1]];
-    sums.assign(kinds.count() * rows * blocks * count * Pack::lanes, 0.0);
+    sums.assign(kinds.count() * rows * blocks * count, Eight{});
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t padded = k == 2 ? blocks * Pack::lanes : points.counts()[order[k]];
+        for (std::size_t at = 0; at < padded; ++at) places[k].push_back(points.at(order[k], at));
+    }
+}
+
+std::vector<double> FieldSums::numbers() const {
+    std::vector<double> all;
+    all.reserve(sums.size() * Pack::lanes);
+    for (const Eight& eight : sums) all.insert(all.end(), eight.points.begin(), eight.points.end());
+    return all;
+}
+
+void FieldSums::setNumbers(const std::vector<double>& numbers, std::size_t states) {
+    if (numbers.size() != sums.size() * Pack::lanes)
+        throw InputError(fmt::format(
+            "FieldSums: the run began with {} sums, and now has {}; go on with the same grid and groups.",
+            numbers.size(), sums.size() * Pack::lanes));
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+        sums[k / Pack::lanes].points[k % Pack::lanes] = numbers[k];
+    added = states;
 }
 
 void FieldSums::clear() {
-    std::fill(sums.begin(), sums.end(), 0.0);
+    std::fill(sums.begin(), sums.end(), Eight{});
     added = 0;
 }
 
@@ -123,7 +118,7 @@ double FieldSums::of(std::size_t sum, std::size_t group, std::size_t point) cons
     const std::size_t row = (group * n[order[0]] + k[order[0]]) * n[order[1]] + k[order[1]];
     const std::size_t inner = k[order[2]];
     const std::size_t block = row * blocks + inner / Pack::lanes;
-    const double total = sums[(block * count + sum) * Pack::lanes + inner % Pack::lanes];
+    const double total = sums[block * count + sum].points[inner % Pack::lanes];
     return total / (static_cast<double>(std::max<std::size_t>(added, 1)) * points.measure(k[0]));
 }
 
@@ -162,8 +157,9 @@ void FieldSums::forImages(const GrainState& state, const Vector<double>& low, co
                 use(Vector<double>{x * periods[0], y * periods[1], z * periods[2]});
 }
 
-void FieldSums::addGrains(const GrainState& state, Items& items) const {
-    std::vector<std::array<double, 8>> ofContacts(state.grains.size());  // fabric, contacts, liquid
+void FieldSums::addGrains(const GrainState& state) {
+    auto& ofContacts = items.ofGrains;
+    ofContacts.assign(state.grains.size(), {});
     for (const GrainState::Contact& c : state.contacts) {
         const auto add = [&](std::uint32_t grain, bool hasFabric) {
             auto& sum = ofContacts[grain];
@@ -214,7 +210,7 @@ void FieldSums::addGrains(const GrainState& state, Items& items) const {
 
 /// A line from `end` + branch, where the force acts on the grain, back to `end`.
 void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
-                        const GrainState::Contact& contact, std::uint32_t group, Items& items) const {
+                        const GrainState::Contact& contact, std::uint32_t group) {
     const Place b = partsOf(branch), f = partsOf(contact.force);
     std::array<double, 15> values{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -243,7 +239,7 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
         std::array<double, 15> part = values;
         for (double& value : part) value *= stop - begin;
         const Vector<double> start = end + shift + begin * branch, way = (stop - begin) * branch;
-        if (points.isCylindrical()) return addRoundLine(start, way, part, group, items);
+        if (points.isCylindrical()) return addRoundLine(start, way, part, group);
         LineItem line{partsOf(start), partsOf(way), 0, group, part};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (!points.isResolved(axis)) line.from[axis] = line.branch[axis] = 0;
@@ -257,7 +253,7 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
 /// Around an axis there is no closed form: nodes of Gauss and Legendre along the line, each with the
 /// directions of its own place. Their mean errs by less than 1e-8 of phi(0) (a Gauss cut at 3 w).
 void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& branch,
-                             const std::array<double, 15>& values, std::uint32_t group, Items& items) const {
+                             const std::array<double, 15>& values, std::uint32_t group) {
     const int count =
         static_cast<int>(std::clamp(6 + std::ceil(9 * norm(branch) / weight.cutOff()), 6.0, 64.0));
     for (const QuadratureNode& node : gaussLegendre(count)) {
@@ -284,13 +280,13 @@ void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& br
     }
 }
 
-void FieldSums::addContacts(const GrainState& state, Items& items) const {
+void FieldSums::addContacts(const GrainState& state) {
     for (const GrainState::Contact& contact : state.contacts) {
         const GrainState::Grain& first = state.grains[contact.first];
         const std::uint32_t group = kinds.of(first);
         const Vector<double> end = first.position + contact.shift;
         if (contact.second == GrainState::Contact::wall) {
-            addLine(state, end, -contact.shift, contact, group, items);
+            addLine(state, end, -contact.shift, contact, group);
             forImages(state, end, end, [&](const Vector<double>& shift) {
                 PointItem item{partsOf(end + shift), group, {}};
                 Vector<double> force = contact.force;
@@ -307,15 +303,14 @@ void FieldSums::addContacts(const GrainState& state, Items& items) const {
         const GrainState::Grain& second = state.grains[contact.second];
         const std::uint32_t other = kinds.of(second);
         if (other == group) {
-            addLine(state, end, -contact.shift, contact, group, items);
+            addLine(state, end, -contact.shift, contact, group);
             continue;
         }
         // In the middle of the overlap or of the gap, as a fraction of the shift.
         const double length = norm(contact.shift);
         const double middle = (first.radius + 0.5 * (length - first.radius - second.radius)) / length;
-        addLine(state, first.position + middle * contact.shift, -middle * contact.shift, contact, group,
-                items);
-        addLine(state, end, (middle - 1) * contact.shift, contact, other, items);
+        addLine(state, first.position + middle * contact.shift, -middle * contact.shift, contact, group);
+        addLine(state, end, (middle - 1) * contact.shift, contact, other);
     }
 }
 
@@ -343,24 +338,21 @@ void FieldSums::overPoints(const Place& low, const Place& high, std::size_t firs
     limitedEnd = std::min(limitedEnd, slab.end);
 
     const auto& n = points.counts();
-    std::array<double, Pack::lanes> along{};
     for (std::size_t i = begin[0]; i < end[0]; ++i)
-        for (std::size_t j = begin[1]; j < end[1]; ++j)
+        for (std::size_t j = begin[1]; j < end[1]; ++j) {
+            Eight* const row =
+                sums.data() + ((group * n[order[0]] + i) * n[order[1]] + j) * blocks * count + first;
             for (std::size_t b = firstBlock; b < lastBlock; ++b) {
-                for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
-                    along[lane] = points.at(order[2], b * Pack::lanes + lane);
-                const Pack weights =
-                    phi(points.at(order[0], i), points.at(order[1], j), Pack::fromLanes(along));
+                std::array<double, Pack::lanes> along;
+                std::copy_n(places[2].data() + b * Pack::lanes, Pack::lanes, along.data());
+                const Pack weights = phi(places[0][i], places[1][j], Pack::fromLanes(along));
                 if (none(weights > 0.0)) continue;
-                double* row =
-                    sums.data() +
-                    (((group * n[order[0]] + i) * n[order[1]] + j) * blocks + b) * count * Pack::lanes +
-                    first * Pack::lanes;
-                std::array<double, Pack::lanes> w = weights.toLanes();
-                for (std::size_t k = 0; k < size; ++k)
-                    for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
-                        row[k * Pack::lanes + lane] += w[lane] * values[k];
+                for (std::size_t k = 0; k < size; ++k) {
+                    double* const eight = row[b * count + k].points.data();
+                    fma(weights, Pack(values[k]), Pack::load(eight)).store(eight);
+                }
             }
+        }
 }
 
 template <std::size_t first, std::size_t size>
@@ -425,9 +417,10 @@ void FieldSums::spread(const LineItem& line, const Slab& slab) {
 }
 
 void FieldSums::add(const GrainState& state, int threads) {
-    Items items;
-    addGrains(state, items);
-    addContacts(state, items);
+    items.grains.clear(), items.tractions.clear(), items.lines.clear(), items.nodes.clear();
+    items.isAdhesive = false;
+    addGrains(state);
+    addContacts(state);
     const int dimensions = points.dimensions();
     const std::size_t shared = dimensions == 3   ? points.counts()[order[0]]
                                : dimensions == 2 ? points.counts()[order[1]]

@@ -8,6 +8,7 @@
 #include "Kernel/CoarseGraining/FieldGrid.h"
 #include "Kernel/CoarseGraining/GrainState.h"
 #include "Kernel/CoarseGraining/SmoothingKernel.h"
+#include "Kernel/Math/Pack.h"
 
 namespace pendular {
 
@@ -75,23 +76,47 @@ public:
     [[nodiscard]] const FieldGrid& grid() const { return points; }
     [[nodiscard]] const SmoothingKernel& kernel() const { return weight; }
     [[nodiscard]] const GrainGroups& groups() const { return kinds; }
-    /// All numbers, for a restart file.
-    [[nodiscard]] std::vector<double>& numbers() { return sums; }
-    void setStates(std::size_t states) { added = states; }
     void clear();
+    /// All numbers, for a restart file.
+    [[nodiscard]] std::vector<double> numbers() const;
+    /// Throws InputError where there are as many numbers as another grid or other groups have.
+    void setNumbers(const std::vector<double>& numbers, std::size_t states);
 
 private:
-    struct PointItem;
-    struct LineItem;
-    struct Items;
-    struct Slab;
+    struct PointItem {
+        std::array<double, 3> at;  // m
+        std::uint32_t group;
+        std::array<double, 20> values;
+    };
+    /// A straight line from `from` over `branch`, both in the resolved directions only.
+    struct LineItem {
+        std::array<double, 3> from, branch;  // m
+        double length;                       // m, of the branch
+        std::uint32_t group;
+        std::array<double, 15> values;
+    };
+    /// What a state adds; kept, because memory that is new each time takes longer than to fill it.
+    struct Items {
+        std::vector<std::array<double, 8>> ofGrains;  // fabric, contacts, liquid
+        std::vector<PointItem> grains, tractions;
+        std::vector<LineItem> lines;
+        std::vector<PointItem> nodes;  // of lines around an axis: 15 values
+        bool isAdhesive = false;
+    };
+    /// What one thread sums: of the outermost resolved axis, or of the blocks where there is but one.
+    struct Slab {
+        std::size_t begin, end;
+    };
+    struct alignas(64) Eight {
+        std::array<double, Pack::lanes> points;
+    };
 
-    void addGrains(const GrainState& state, Items& items) const;
-    void addContacts(const GrainState& state, Items& items) const;
+    void addGrains(const GrainState& state);
+    void addContacts(const GrainState& state);
     void addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
-                 const GrainState::Contact& contact, std::uint32_t group, Items& items) const;
+                 const GrainState::Contact& contact, std::uint32_t group);
     void addRoundLine(const Vector<double>& end, const Vector<double>& branch,
-                      const std::array<double, 15>& values, std::uint32_t group, Items& items) const;
+                      const std::array<double, 15>& values, std::uint32_t group);
     template <class Use>
     void forImages(const GrainState& state, const Vector<double>& low, const Vector<double>& high,
                    Use&& use) const;
@@ -108,7 +133,9 @@ private:
     GrainGroups kinds;
     std::array<std::size_t, 3> order{0, 1, 2};  // of axes: the last one is stored in blocks of eight
     std::size_t blocks = 1;                     // of a row
-    std::vector<double> sums;                   // of a group, row, block: each sum, eight points
+    std::array<std::vector<double>, 3> places;  // m, of the points along each of `order`
+    std::vector<Eight> sums;                    // of a group, row, block: each sum
+    Items items;
     std::size_t added = 0;
 };
 

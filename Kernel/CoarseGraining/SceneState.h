@@ -7,10 +7,11 @@
 namespace pendular {
 
 /// The grains and contacts of a scene, as of the last step: all contacts that have a force.
+/// @param state keeps its memory from one time to the next
 template <class Scene>
-GrainState stateOf(const Scene& scene) {
+void takeState(const Scene& scene, GrainState& state) {
     const ParticleStore& grains = scene.particleHandler.store();
-    GrainState state;
+    state.grains.clear(), state.contacts.clear();
     state.time = scene.getTime();
     state.periodic = scene.contacts().periodicBox();
     const GrainColumn* film = nullptr;
@@ -32,6 +33,12 @@ GrainState stateOf(const Scene& scene) {
              bucket.wall < 0 ? number[grains.place[seen.particle2]] : GrainState::Contact::wall, seen.shift,
              seen.force, seen.adhesiveForce, seen.bridgeVolume, seen.touching});
     });
+}
+
+template <class Scene>
+GrainState stateOf(const Scene& scene) {
+    GrainState state;
+    takeState(scene, state);
     return state;
 }
 

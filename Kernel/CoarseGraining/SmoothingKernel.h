@@ -75,7 +75,8 @@ private:
         switch (form) {
             case KernelShape::Gauss:
                 // e^(-t^2 / 2w^2) sqrt(pi/2) w [erf(p_1 / sqrt(2) w) - erf(p_0 / sqrt(2) w)]
-                return exponential2(t2 * gaussFactor) * (gaussIntegral(to) - gaussIntegral(from));
+                return size == 1 ? gaussDifference(from, to)
+                                 : exponential2(t2 * gaussFactor) * gaussDifference(from, to);
             case KernelShape::Lucy:
                 return lucyIntegral(to, t2) - lucyIntegral(from, t2);
             case KernelShape::Heaviside:
@@ -84,19 +85,21 @@ private:
         return to - from;
     }
 
-    /// sqrt(pi/2) w erf(p / sqrt(2) w) for |p| <= c, m, to some 1e-15 of its largest value: p times a sum of
-    /// Chebyshev polynomials of p^2, by Clenshaw's scheme.
+    /// sqrt(pi/2) w [erf(p_1 / sqrt(2) w) - erf(p_0 / sqrt(2) w)] for both |p| <= c, m, to some 1e-15 of its
+    /// largest value: p times a sum of Chebyshev polynomials of p^2, by Clenshaw's scheme, of both at a time.
     template <Number T>
-    [[nodiscard]] T gaussIntegral(const T& p) const {
-        const T y = p * p * (2 / (c * c)) - 1.0;
-        const T twoY = 2.0 * y;
-        T later(0.0), last(0.0);
+    [[nodiscard]] T gaussDifference(const T& from, const T& to) const {
+        const double scale = 2 / (c * c);
+        const T y0 = from * from * scale - 1.0, y1 = to * to * scale - 1.0;
+        const T twice0 = 2.0 * y0, twice1 = 2.0 * y1;
+        T later0(0.0), last0(0.0), later1(0.0), last1(0.0);
         for (std::size_t k = series.size(); k-- > 1;) {
-            const T next = fma(twoY, last, series[k] - later);
-            later = last;
-            last = next;
+            const T next0 = fma(twice0, last0, series[k] - later0),
+                    next1 = fma(twice1, last1, series[k] - later1);
+            later0 = last0, later1 = last1;
+            last0 = next0, last1 = next1;
         }
-        return p * fma(y, last, series[0] - later);
+        return to * fma(y1, last1, series[0] - later1) - from * fma(y0, last0, series[0] - later0);
     }
 
     /// p - 6 P_2 / c^2 + 8 P_3 / c^3 - 3 P_4 / c^4, where P_n is the integral of (p^2 + t^2)^(n/2) over p.
