@@ -94,10 +94,10 @@ std::string headerOf(const FieldSums& sums) {
     FieldGrid onePoint("O", {0, 0, 0}, {1, 1, 1}, 1);
     const FieldSums names(onePoint, SmoothingKernel(KernelShape::Gauss, 0, 1), sums.groups());
     for (const PolyDataField& field : fieldsOf(names)) {
-        const auto [name, unit] = splitFieldName(field.name);
+        const std::size_t nameEnd = splitFieldName(field.name).quantity.size();
         const auto add = [&](const std::string& part) {
-            header += fmt::format(",{}{}", field.name.substr(0, name.size()), part);
-            header += field.name.substr(name.size());
+            header += fmt::format(",{}{}", field.name.substr(0, nameEnd), part);
+            header += field.name.substr(nameEnd);
         };
         if (field.components == 1) add("");
         for (std::size_t i = 0; i < 3 && field.components > 1; ++i) {
