@@ -10,6 +10,7 @@
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Species/Bodies.h"
+#include "Kernel/Species/BridgeSurface.h"
 #include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
 #include "Kernel/Species/LiquidRules.h"
@@ -94,6 +95,11 @@ public:
     /// How liquid moves between the two; nothing where it does not.
     [[nodiscard]] virtual std::optional<LiquidRules> liquidRules(int a, int b) const = 0;
 
+    /// The free surface of a bridge of this volume (m^3) at a separation (m), where liquid moves.
+    /// @param solved with pressure and filling angles
+    [[nodiscard]] virtual BridgeSurface bridgeSurface(int a, int b, const Bodies& bodies, double volume,
+                                                      double separation, bool solved) const = 0;
+
     // What contacts remember, as numbers.
     /// A bridge; where liquid moves, a contact without one.
     virtual void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const = 0;
@@ -104,6 +110,9 @@ public:
     virtual void takeBridgeState(int a, int b, double* interaction, const double* before) const = 0;
     [[nodiscard]] virtual double adhesiveForce(int a, int b, const double* interaction,
                                                double separation) const = 0;
+    /// J: minus the work that a bridge still does from a separation (m) to its rupture, where liquid moves.
+    [[nodiscard]] virtual double adhesionEnergy(int a, int b, const double* interaction,
+                                                double separation) const = 0;
     virtual void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const = 0;
     [[nodiscard]] virtual double springLength(int a, int b, const double* history) const = 0;
 

@@ -1,7 +1,9 @@
 #include "Kernel/Contacts/ContactLiquid.h"
 
 #include "Kernel/Contacts/WakeBlock.h"
+#include "Kernel/Math/CountedRandom.h"
 #include "Kernel/RunError.h"
+#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 
@@ -12,7 +14,10 @@ bool ListedLiquid::moves(Number contact) const {
 }
 
 void ListedLiquid::setVolume(Number contact, Quanta volume) {
-    double& held = store.memory.volumeOf(store.slotOf(contact));
+    const std::size_t slot = store.slotOf(contact);
+    double& held = store.memory.volumeOf(slot);
+    double& prepared = store.memory.preparedVolumeOf(slot);
+    prepared = -std::abs(prepared);  // to be prepared again, whatever the change
     if (held == 0 && volume > 0) formed.push_back(contact);
     held = volumeOfQuanta(volume);
     changed.push_back(contact);
@@ -24,17 +29,61 @@ void ContactLiquid::prepareChanged(ContactStore& store, const ContactLaws& laws,
                                    const ParticleStore& grains) {
     for (const std::uint32_t contact : changed) {
         const std::size_t slot = store.slotOf(contact);
-        if (store.memory.volumeOf(slot) == store.memory.preparedVolumeOf(slot)) continue;
+        const double volume = store.memory.volumeOf(slot), prepared = store.memory.preparedVolumeOf(slot);
+        const bool byMigration = std::signbit(prepared);
+        const bool byDrying = volume > 0 ? std::abs(volume - prepared) > 1e-3 * prepared : prepared > 0;
+        if (!byMigration && !byDrying) continue;
         ContactNumbers before{};
         store.memory.interaction.get(slot, before.data());
         prepareAgain(store, laws, store.bucketOf(contact / Pack::lanes), contact, grains, before.data());
+        if (prepared != 0) bookChange(store, laws, grains, contact, before.data(), byMigration);
     }
     changed.clear();
 }
 
-void ContactLiquid::listed(const ContactStore& store, const ContactLaws& laws, std::size_t wallCount) {
+/// The energy of a bridge that lasts has changed at the gap that it has.
+void ContactLiquid::bookChange(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains,
+                               std::uint32_t contact, const double* before, bool isMigration) {
+    const BlockState& state = store.states[contact / Pack::lanes];
+    if (store.memory.energies.empty() || !ContactStore::bitOf(state.bridged, contact)) return;
+    const Bucket& bucket = store.bucketOf(contact / Pack::lanes);
+    const std::size_t slot = store.slotOf(contact);
+    const double separation = separationOf(store, laws, grains, contact);
+    ContactNumbers after{};
+    store.memory.interaction.get(slot, after.data());
+    const auto energyOf = [&](const double* bridge) {
+        return laws.adhesionEnergy(bucket.species1, bucket.species2, bridge, separation);
+    };
+    const double change = energyOf(after.data()) - energyOf(before);
+    store.memory.energies[slot].adhesionWork += change;
+    (isMigration ? byMigration : byDrying).add(change);
+}
+
+LiquidEnergy ContactLiquid::takeEnergy() {
+    if (!moves()) return {};
+    const LiquidEnergy taken{byMigration.value(), byDrying.value()};
+    byMigration = byDrying = {};
+    return taken;
+}
+
+void ContactLiquid::prepare(GrainFilms* films, const WallHandler& wallHandler, const PeriodicBox& box) {
+    filmsOfGrains = films;
+    shapes = &wallHandler;
+    periodic = &box;
+    walls.resize(wallHandler.getSize());
+}
+
+double ContactLiquid::separationOf(const ContactStore& store, const ContactLaws& laws,
+                                   const ParticleStore& grains, std::uint32_t contact) const {
+    const Bucket& bucket = store.bucketOf(contact / Pack::lanes);
+    const Wall* const wall =
+        bucket.wall < 0 ? nullptr : &shapes->getObject(static_cast<std::size_t>(bucket.wall));
+    return observeContact(store, laws, grains, *periodic, bucket, wall, contact).separation;
+}
+
+void ContactLiquid::listed(const ContactStore& store, const ContactLaws& laws) {
     if (!moves()) return;
-    walls.resize(std::max(walls.size(), wallCount));
+    walls.resize(std::max(walls.size(), shapes->getSize()));
     rules.clear();
     for (const Bucket& bucket : store.buckets)
         rules.emplace_back(laws.liquidRules(bucket.species1, bucket.species2).value_or(LiquidRules{}),
@@ -79,6 +128,84 @@ void ContactLiquid::move(ContactStore& store, const ContactLaws& laws, ParticleS
     if (const auto objection = filmsOfGrains->objectionToMore(fromWalls)) throw RunError(*objection);
 }
 
+void ContactLiquid::dry(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, double time,
+                        double length) {
+    if (!drying.acts() || length == 0 || time <= drying.startTime()) return;
+    sinceUpdate += length;
+    if (++stepsSince < drying.interval()) return;
+    dryFilms(grains, sinceUpdate);
+    dryBridges(store, laws, grains, sinceUpdate);
+    sinceUpdate = 0;
+    stepsSince = 0;
+    ++updates;
+}
+
+/// A loss (m^3) in whole quanta: rounded up with the chance of its last fraction, so that in the mean nothing
+/// is lost or added by rounding, however slowly something dries.
+double ContactLiquid::lost(double volume, std::uint64_t whose, std::uint32_t purpose) const {
+    const double quanta = volume / filmsOfGrains->quantum(), whole = std::floor(quanta);
+    const double draw = CountedRandom(updates).uniform(whose, purpose);
+    return (whole + (draw < quanta - whole ? 1 : 0)) * filmsOfGrains->quantum();
+}
+
+void ContactLiquid::dryFilms(ParticleStore& grains, double time) {
+    const double depth = drying.flux() * time;
+    for (const std::uint32_t place : grains.place) {
+        const double film = filmsOfGrains->of(grains, place), radius = grains.translation[place].radius;
+        if (film == 0) continue;
+        const double loss =
+            lost(std::min(4 * std::numbers::pi * radius * radius * depth, film), grains.identity[place], 0);
+        filmsOfGrains->add(grains, place, -loss);
+        evaporated += loss;
+    }
+}
+
+void ContactLiquid::dryBridges(ContactStore& store, const ContactLaws& laws, ParticleStore& grains,
+                               double time) {
+    const ListedLiquid liquid = of(store, laws, grains);
+    places.clear();
+    for (std::size_t slot = Pack::lanes; slot < store.memory.slotCount(); ++slot) {
+        double& volume = store.memory.volumeOf(slot);
+        if (volume == 0) continue;
+        const std::uint32_t contact = store.contactAt(static_cast<std::uint32_t>(slot));
+        const bool isAtWall = liquid.isAtWall(contact);
+        const std::uint32_t first = liquid.grainOf(contact, 0), second = liquid.grainOf(contact, 1);
+        const std::uint64_t partner = isAtWall ? (1u << 31) + second : grains.identity[second];
+        const double left = std::min(leftOfBridge(store, laws, grains, contact, time), volume);
+        const double loss = lost(volume - left, std::uint64_t{grains.identity[first]} << 32 | partner, 1);
+        volume -= loss;
+        evaporated += loss;
+        changed.push_back(contact);
+        if (volume > 0) continue;
+        ++driedOut;  // where it touches it may form again
+        places.push_back(first);
+        if (!isAtWall) places.push_back(second);
+    }
+    remember(grains);
+}
+
+double ContactLiquid::leftOfBridge(const ContactStore& store, const ContactLaws& laws,
+                                   const ParticleStore& grains, std::uint32_t contact, double time) const {
+    const Bucket& bucket = store.bucketOf(contact / Pack::lanes);
+    const Bodies bodies = bodiesOf(store, bucket, contact, grains);
+    const double separation = separationOf(store, laws, grains, contact);
+    const bool solved = drying.seesCurvature();
+    return Evaporation::leftAfter(store.memory.volumeOf(store.slotOf(contact)), time, [&](double volume) {
+        const BridgeSurface surface =
+            laws.bridgeSurface(bucket.species1, bucket.species2, bodies, volume, separation, solved);
+        return drying.flux(surface.pressure) * surface.area;
+    });
+}
+
+bool ContactLiquid::giveToWall(const ContactLaws& laws, std::size_t wall, double volume) {
+    const int species = shapes->getObject(wall).species;
+    bool isWet = false;
+    for (int k = 0; k < static_cast<int>(laws.speciesCount()); ++k)
+        isWet |= laws.liquidRules(k, species).value_or(LiquidRules{}).wallDose > 0;
+    if (isWet) walls[wall] += volume;
+    return isWet;
+}
+
 /// By identity: places change when contacts are listed again.
 void ContactLiquid::remember(const ParticleStore& grains) {
     for (const std::uint32_t place : places) looked.push_back(grains.identity[place]);
@@ -112,8 +239,10 @@ LiquidLedger ContactLiquid::ledger(const ContactStore& store, const ParticleStor
     if (!moves()) return {};
     LiquidLedger found{.films = filmsOfGrains->sum(grains),
                        .removed = filmsOfGrains->removed(),
+                       .evaporated = evaporated,
                        .initial = filmsOfGrains->initial(),
-                       .absorbed = filmsOfGrains->absorbed()};
+                       .absorbed = filmsOfGrains->absorbed(),
+                       .emitted = filmsOfGrains->emitted()};
     for (std::size_t slot = 0; slot < store.memory.slotCount(); ++slot)
         found.bridges += store.memory.volumeOf(slot);
     for (const double account : walls) found.walls += account;
@@ -127,6 +256,15 @@ void ContactLiquid::visitState(StateArchive& archive) {
         archive.require(filmsOfGrains->isWhole(std::abs(account)), "walls",
                         "has no multiples of the quantum");
     if (archive.isReading()) looked.clear();  // all films count as just set
+    archive.finite("evaporated", evaporated);
+    archive.require(filmsOfGrains->isWhole(evaporated), "evaporated", "is no multiple of the quantum");
+    archive.value("driedBridges", driedOut);
+    archive.group("evaporation", [&] {
+        drying.visitState(archive);
+        archive.finite("sinceUpdate", sinceUpdate);
+        archive.value("stepsSince", stepsSince);
+        archive.value("updates", updates);
+    });
 }
 
 void ContactLiquid::requireWhole(const StateArchive& archive, const ContactStore& store) const {

@@ -3,8 +3,11 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactEvents.h"
+#include "Kernel/Contacts/Evaporation.h"
 #include "Kernel/Contacts/LiquidLedger.h"
 #include "Kernel/Contacts/LiquidStep.h"
+#include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/GrainFilms.h"
 
 namespace pendular {
@@ -67,24 +70,42 @@ private:
     }
 };
 
+/// J, that the liquid of a scene has given to its bridges in a step, by coming to them or going from them.
+struct LiquidEnergy {
+    double migration = 0, evaporation = 0;
+};
+
 /// Liquid that moves between films and bridges of a scene (LiquidStep has the model), from the touches and
 /// ruptures of a step. One thread does it: few contacts change in a step.
 class ContactLiquid {
 public:
     /// @param films null: no liquid moves in this scene
-    void prepare(GrainFilms* films, std::size_t wallCount) {
-        filmsOfGrains = films;
-        walls.resize(wallCount);
-    }
+    void prepare(GrainFilms* films, const WallHandler& wallHandler, const PeriodicBox& box);
+    /// How the liquid dries, from now on.
+    void setEvaporation(const Evaporation& law) { drying = law; }
+    [[nodiscard]] const Evaporation& evaporation() const { return drying; }
     [[nodiscard]] bool moves() const { return filmsOfGrains != nullptr; }
     /// Contacts have been listed again.
-    void listed(const ContactStore& store, const ContactLaws& laws, std::size_t wallCount);
-    /// Before the forces of a step: bridges whose volumes have changed since the last one are prepared again.
-    /// Until then observers see the forces that were.
+    void listed(const ContactStore& store, const ContactLaws& laws);
+    /// Before the forces of a step: bridges whose volumes have changed since the last one are prepared again;
+    /// where they have dried only, when the volume has changed by 0.1 % since the last preparation. (d ln F /
+    /// d ln V is 0 to 1, and the rupture distance goes as V^(1/3).) Until then observers see the forces that
+    /// were.
     void prepareChanged(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains);
     /// At the end of a step: what has begun and ended in it moves liquid. Bridges that form are added to the
     /// events.
     void move(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, ContactEvents& events);
+    /// At the end of a step (s) that ends at a time (s), after move(): films and bridges dry. A bridge that
+    /// gets too small for its gap ruptures in the next step.
+    void dry(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, double time, double length);
+    /// What changes of volumes have given to bridges since this was called last.
+    [[nodiscard]] LiquidEnergy takeEnergy();
+    /// Bridges that have dried to nothing.
+    [[nodiscard]] std::uint64_t driedBridges() const { return driedOut; }
+    /// A droplet (m^3, a multiple of the quantum) hits a wall. False if the wall is dry.
+    [[nodiscard]] bool giveToWall(const ContactLaws& laws, std::size_t wall, double volume);
+    /// Liquid of droplets (m^3, a multiple of the quantum) evaporates.
+    void addEvaporated(double volume) { evaporated += volume; }
     /// A contact is about to end because a body is removed or changed.
     void release(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, std::uint32_t contact);
     /// Values of species have changed: what bridges hold above V_max goes to films.
@@ -102,8 +123,26 @@ private:
         return {store, laws, grains, *filmsOfGrains, rules, walls, formed, changed};
     }
     void remember(const ParticleStore& grains);
+    void dryFilms(ParticleStore& grains, double time);
+    void dryBridges(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, double time);
+    [[nodiscard]] double leftOfBridge(const ContactStore& store, const ContactLaws& laws,
+                                      const ParticleStore& grains, std::uint32_t contact, double time) const;
+    [[nodiscard]] double lost(double volume, std::uint64_t whose, std::uint32_t purpose) const;
+    [[nodiscard]] double separationOf(const ContactStore& store, const ContactLaws& laws,
+                                      const ParticleStore& grains, std::uint32_t contact) const;
+    void bookChange(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains,
+                    std::uint32_t contact, const double* before, bool byMigration);
 
     GrainFilms* filmsOfGrains = nullptr;
+    const WallHandler* shapes = nullptr;
+    const PeriodicBox* periodic = nullptr;
+    Evaporation drying;
+    double sinceUpdate = 0;             // s, in which nothing has dried yet
+    std::uint64_t stepsSince = 0;       // the steps of it
+    std::uint64_t updates = 0;          // of volumes by drying
+    std::uint64_t driedOut = 0;         // bridges
+    double evaporated = 0;              // m^3
+    ExactSum byMigration, byDrying;     // J, since takeEnergy()
     std::vector<QuantisedRules> rules;  // of each bucket
     bool anyWetWall = false;
     std::vector<double> walls;          // m^3

@@ -23,7 +23,7 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     layout.named = namedColumns.size();
     contacts.memory.setLayout(layout);
     contacts.memory.reset(ledger);
-    liquid.prepare(films, walls->getSize());
+    liquid.prepare(films, *walls, periodic);
     contactEvents.watch(liquid.moves());
     overlapWatch = OverlapWatch(species->overlapLimit.largest);
 }
@@ -88,7 +88,7 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     skin.listed(contacts, grains.size());
     idleLanes.listed();
     species->prepare(contacts.buckets);
-    liquid.listed(contacts, *species, walls->getSize());
+    liquid.listed(contacts, *species);
     stepsListed = 0;
     unlisted = 0;
     listBefore = infinity;
@@ -240,8 +240,9 @@ void ContactSystem::computeWallForces(const Grains& grains, double step, Contact
     if (!liquid.moves()) contactEvents.finish();
     sumWallForces(grains);
 }
-void ContactSystem::moveLiquid(Grains& grains) {
+void ContactSystem::moveLiquid(Grains& grains, double time, double length) {
     liquid.move(contacts, *species, grains, contactEvents);
+    liquid.dry(contacts, *species, grains, time, length);
     contactEvents.finish();
 }
 

@@ -82,8 +82,13 @@ public:
     /// The second half of it.
     void computeWallForces(const Grains& grains, double step, ContactTiming timing = {});
 
-    /// After the forces of a step, in a scene in which liquid moves.
-    void moveLiquid(Grains& grains);
+    /// After the forces of a step (s) that ends at a time (s), in a scene in which liquid moves.
+    void moveLiquid(Grains& grains, double time, double length);
+    void setEvaporation(const Evaporation& law) { liquid.setEvaporation(law); }
+    [[nodiscard]] const ContactLiquid& movingLiquid() const { return liquid; }
+    [[nodiscard]] ContactLiquid& movingLiquid() { return liquid; }
+    /// J, that changes of the volumes of bridges have given to them since this was called last.
+    [[nodiscard]] LiquidEnergy takeLiquidEnergy() { return liquid.takeEnergy(); }
     [[nodiscard]] bool movesLiquid() const { return liquid.moves(); }
     [[nodiscard]] LiquidLedger liquidLedger(const Grains& grains) const {
         return liquid.ledger(contacts, grains);

@@ -63,6 +63,14 @@ public:
                                        double separation) const override {
         return ofPair(a, b).adhesiveForce(a, b, interaction, separation);
     }
+    [[nodiscard]] double adhesionEnergy(int a, int b, const double* interaction,
+                                        double separation) const override {
+        return ofPair(a, b).adhesionEnergy(a, b, interaction, separation);
+    }
+    [[nodiscard]] BridgeSurface bridgeSurface(int a, int b, const Bodies& bodies, double volume,
+                                              double separation, bool solved) const override {
+        return ofPair(a, b).bridgeSurface(a, b, bodies, volume, separation, solved);
+    }
     void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const override {
         ofPair(a, b).turn(a, b, history, rotation);
     }

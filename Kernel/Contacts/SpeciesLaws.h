@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactKernel.h"
+#include "Kernel/Species/AdhesionEnergy.h"
 #include "Kernel/Species/SpeciesHandler.h"
 #include "Kernel/Species/TimeStepAdvice.h"
 
@@ -100,6 +101,24 @@ public:
         if constexpr (Adhesion::acts)
             return memoryFrom<Interaction<double>>(from).force(separationFor<Adhesion>(-separation));
         else return 0;
+    }
+    [[nodiscard]] double adhesionEnergy(int /*a*/, int /*b*/, [[maybe_unused]] const double* from,
+                                        [[maybe_unused]] double separation) const override {
+        if constexpr (MovesLiquid<Adhesion>)
+            return adhesionEnergyOf(memoryFrom<Interaction<double>>(from), separation);
+        else return 0;
+    }
+    [[nodiscard]] BridgeSurface bridgeSurface([[maybe_unused]] int a, [[maybe_unused]] int b,
+                                              [[maybe_unused]] const Bodies& bodies,
+                                              [[maybe_unused]] double volume,
+                                              [[maybe_unused]] double separation,
+                                              [[maybe_unused]] bool solved) const override {
+        if constexpr (MovesLiquid<Adhesion>) {
+            const Adhesion& law = of(a, b);
+            const BridgeLiquid bridge{bodies, volume, law.contactAngle, law.surfaceTension};
+            return solved ? solveBridgeSurface(bridge, separation)
+                          : BridgeSurface{.area = bridgeArea(bridge, separation)};
+        } else return {};
     }
     void turn(int /*a*/, int /*b*/, [[maybe_unused]] double* numbers,
               [[maybe_unused]] const FrameRotation<double>& rotation) const override {

@@ -64,6 +64,9 @@ public:
                        kind.isWall ? BodyMotion{} : meanMotion(grains, block.second[lane]), kind, step,
                        account);
         });
+        const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
+        account.migration = byLiquid.migration;
+        account.evaporation = byLiquid.evaporation;
         takeOver(account, step > 0, ledger);  // overlaps at the start are there without work
         ledger.kinetic = kineticEnergy(grains);
         ledger.potential = ledger.carried + potentialEnergy(grains, gravity);
@@ -126,7 +129,8 @@ private:
         if (!isStep) return;
         for (double L::*summed :
              {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding, &L::rolling, &L::torsion,
-              &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls, &L::stepError})
+              &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls, &L::migration,
+              &L::evaporation, &L::stepError})
             ledger.*summed += account.*summed;
     }
 

@@ -35,6 +35,10 @@ struct EnergyLedger {
     // What the scene has been given since the start.
     double walls = 0;   // by walls that move, and by grains that are held and move
     double driver = 0;  // where a driver changes velocities, places or the gravity
+    // By liquid: bridges whose volume changes while they last (ContactLiquid). A bridge forms without energy,
+    // so that all that its force has done is in lost_in_broken_adhesion when it ends.
+    double migration = 0;    // liquid comes to a bridge
+    double evaporation = 0;  // negative while drying bridges get weaker at the same gap
 
     /// Work of conservative forces that is not found as stored energy: it falls with the time step, except
     /// for springs that the integrator feeds (the README of Kernel/Motion), and for an attraction without
@@ -55,7 +59,8 @@ struct EnergyLedger {
                viscousBridges + stiffening;
     }
     /// Constant except for the error of the time steps.
-    [[nodiscard]] double total() const { return kinetic + potential + stored() + lost() - walls - driver; }
+    [[nodiscard]] double total() const { return kinetic + potential + stored() + lost() - given(); }
+    [[nodiscard]] double given() const { return walls + driver + migration + evaporation; }
     /// Constant except for round-off.
     [[nodiscard]] double closed() const { return total() + stepError; }
     /// Net work done against adhesions and bridges: negative while they have given more than they took.
@@ -85,6 +90,8 @@ struct EnergyLedger {
                                      {"lost_in_stiffening", &L::stiffening},
                                      {"given_by_walls", &L::walls},
                                      {"given_by_driver", &L::driver},
+                                     {"given_by_migration", &L::migration},
+                                     {"given_by_evaporation", &L::evaporation},
                                      {"step_error", &L::stepError}});
     }
 };

@@ -44,6 +44,11 @@ void GrainFilms::set(ParticleStore& grains, std::uint32_t at, double volume) {
     wetted.push_back(grains.identity[at]);
 }
 
+void GrainFilms::emit(double volume) {
+    if (const auto objection = objectionToMore(volume)) throw InputError(*objection);
+    sprayed += volume;
+}
+
 void GrainFilms::remove(ParticleStore& grains, std::uint32_t at) {
     if (!areKept()) {
         waiting.erase(grains.identity[at]);
@@ -76,19 +81,20 @@ void GrainFilms::begin(ParticleStore& grains, double toCome) {
     unit = std::ldexp(1, std::max(exponent, -900) - 53);
     for (double& film : grains.columns[column].values) film = std::nearbyint(film / unit) * unit;
     atStart = sum(grains);
-    come = gone = 0;
+    come = gone = sprayed = 0;
     wetted.assign(grains.identity.begin(), grains.identity.end());
 }
 
 std::optional<std::string> GrainFilms::objectionToMore(double volume) const {
-    if (atStart + come + volume <= capacity()) return std::nullopt;
+    const double all = come + sprayed + volume;
+    if (atStart + all <= capacity()) return std::nullopt;
     return fmt::format(
         "Simulation: {:.6g} m^3 of liquid have come to the {:.6g} m^3 at the start of the run, and the "
         "quantum "
         "in which liquid is counted was chosen for {:.6g} m^3 in all; say by setLiquidToCome() before the "
         "run "
         "how much will come.",
-        come + volume, atStart, capacity());
+        all, atStart, capacity());
 }
 
 double GrainFilms::sum(const ParticleStore& grains) const {
@@ -108,8 +114,9 @@ void GrainFilms::visitState(StateArchive& archive, const ParticleStore& grains) 
     archive.finite("initial", atStart);
     archive.finite("absorbed", come);
     archive.finite("removed", gone);
-    archive.require(isWhole(atStart) && isWhole(std::abs(come)) && isWhole(gone), "initial",
-                    "or what was absorbed or removed is no multiple of the quantum");
+    archive.finite("emitted", sprayed);
+    archive.require(isWhole(atStart) && isWhole(std::abs(come)) && isWhole(gone) && isWhole(sprayed),
+                    "initial", "or what was absorbed, removed or emitted is no multiple of the quantum");
     for (const double film : grains.columns[column].values)
         archive.require(isWhole(film), "quantum", "does not divide all films");
     if (archive.isReading()) wetted.assign(grains.identity.begin(), grains.identity.end());

@@ -28,6 +28,13 @@ public:
     void add(ParticleStore& grains, std::uint32_t at, double volume) const {
         grains.columns[column].values[at] += volume;
     }
+    /// A droplet of a spray, or liquid that touching contacts draw from in the next step.
+    void wet(ParticleStore& grains, std::uint32_t at, double volume) {
+        add(grains, at, volume);
+        wetted.push_back(grains.identity[at]);
+    }
+    /// A spray emits liquid. Throws InputError if that is more than the quantum was made for.
+    void emit(double volume);
     /// A grain is about to be removed, with its film.
     void remove(ParticleStore& grains, std::uint32_t at);
 
@@ -44,6 +51,7 @@ public:
     // m^3: at the start of the run; since then.
     [[nodiscard]] double initial() const { return atStart; }
     [[nodiscard]] double absorbed() const { return come; }
+    [[nodiscard]] double emitted() const { return sprayed; }
     [[nodiscard]] double removed() const { return gone; }
     [[nodiscard]] double sum(const ParticleStore& grains) const;
     /// The identities of grains whose films were set since this was called last.
@@ -60,7 +68,7 @@ private:
     std::size_t column = none;
     bool isSettled = false;
     double unit = 0;                         // 0: the run has not begun
-    double atStart = 0, come = 0, gone = 0;  // m^3
+    double atStart = 0, come = 0, gone = 0, sprayed = 0;  // m^3
     std::vector<std::uint32_t> wetted;
 };
 

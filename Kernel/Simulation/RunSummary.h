@@ -5,6 +5,7 @@
 #include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Logger.h"
 #include "Kernel/Output/OutputForm.h"
+#include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/StepTimes.h"
@@ -46,7 +47,7 @@ public:
         writeFile(scene, rows);
         if (scene.isQuiet()) return;
         std::string text = "Summary of the run\n" + rows.shown();
-        for (const std::string& warning : warnings(scene)) text += "Warning: " + warning + ".\n";
+        for (const std::string& warning : warnings(scene, true)) text += "Warning: " + warning + ".\n";
         writeToLog(text);
     }
 
@@ -116,7 +117,7 @@ private:
             rows.add("bridges formed", counts.bridgesFormed);
             rows.add("bridges ruptured", counts.bridgesRuptured);
         }
-        if (scene.movesLiquid()) addLiquid(rows, scene, bridged);
+        if (scene.movesLiquid()) addLiquid(rows, scene);
         rows.addNumber("largest speed", std::sqrt(speed2), "m/s");
         rows.addNumber("kinetic energy", kineticEnergy(grains), "J");
         if (!scene.keepsEnergyLedger()) return;
@@ -128,19 +129,30 @@ private:
     }
 
     template <class Scene>
-    static void addLiquid(SummaryRows& rows, const Scene& scene, std::size_t bridges) {
+    static void addLiquid(SummaryRows& rows, const Scene& scene) {
         const LiquidLedger ledger = scene.liquidLedger();
-        const double onGrains = ledger.films + ledger.bridges;
-        const auto grains = static_cast<double>(scene.particleHandler.getSize());
         rows.addNumber("liquid: films", ledger.films, "m^3");
         rows.addNumber("liquid: bridges", ledger.bridges, "m^3");
         rows.addNumber("liquid: wet walls", ledger.walls, "m^3");
         rows.addNumber("liquid: removed with grains", ledger.removed, "m^3");
         rows.addNumber("liquid: at the start", ledger.initial, "m^3");
         rows.addNumber("liquid: absorbed since", ledger.absorbed, "m^3");
+        if (!scene.sprayHandler.isEmpty()) {
+            rows.addNumber("liquid: emitted by sprays", ledger.emitted, "m^3");
+            rows.addNumber("liquid: in flight", ledger.airborne, "m^3");
+            rows.addNumber("liquid: lost by sprays", ledger.lost, "m^3");
+            rows.add("droplets in flight", scene.sprayHandler.droplets().size());
+        }
+        if (scene.getEvaporation().dropsDry()) {
+            rows.addNumber("liquid: evaporated", ledger.evaporated, "m^3");
+            rows.add("bridges that have dried", scene.contacts().movingLiquid().driedBridges());
+        }
         rows.addNumber("liquid unaccounted for", ledger.unaccounted(), "m^3");
-        rows.addNumber("share of the liquid in films", onGrains > 0 ? ledger.films / onGrains : 0, "");
-        rows.addNumber("bridges of a grain", grains > 0 ? 2 * static_cast<double>(bridges) / grains : 0, "");
+        const PendularState state = pendularState(scene, false);
+        rows.addNumber("share of the liquid in films", state.shareInFilms, "");
+        rows.addNumber("bridges of a grain", state.bridgesOfAGrain, "");
+        rows.addNumber("liquid over solid", state.liquidOverSolid, "");
+        rows.addNumber("saturation at a density of 0.6", state.saturation(0.6), "");
     }
 
     template <class Scene>
@@ -152,7 +164,7 @@ private:
     }
     /// A sentence for each domain that the scene has left; no commas in it.
     template <class Scene>
-    static std::vector<std::string> warnings(const Scene& scene) {
+    static std::vector<std::string> warnings(const Scene& scene, bool atEnd = false) {
         std::vector<std::string> found;
         const OverlapWatch& overlaps = scene.contacts().overlaps();
         const OverlapLimit limit = scene.laws().overlapLimit;
@@ -164,6 +176,9 @@ private:
         for (const BrokenLimit& b : broken(scene))
             found.push_back(
                 fmt::format("{} ({} bridges now out of its domain)", b.text(), bridgesOut(scene)));
+        if (scene.movesLiquid())
+            for (std::string& sentence : pendularState(scene, atEnd).warnings())
+                found.push_back(std::move(sentence));
         return found;
     }
     template <class Scene>

@@ -104,6 +104,7 @@ void Scene::setUp() {
     particleHandler.settleSpin();
     if (!isRestarted()) particleHandler.renewMasses();
     particleHandler.films().settle(particleHandler.store(), laws().layout.liquid > 0);
+    refuseLiquidThatCannotMove();
     if (isRestarted()) return readRestart();
     beginLiquid();
     prepare();
@@ -119,6 +120,7 @@ void Scene::setUp() {
 
 void Scene::advanceByStep(bool another) {
     takeOverChanges();
+    emitDroplets();
     try {
         advance(getTimeStep(), another);
     } catch (const RunError&) {
@@ -232,6 +234,7 @@ void Scene::prepare() {
     GrainFilms& films = particleHandler.films();
     if (films.areKept()) keepOutput({.write = [this] { requireLiquid(); }});
     setHasBegun();
+    sprayHandler.close();
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept,
                           films.areKept() ? &films : nullptr);
     if (isQuiet()) return;
@@ -252,15 +255,83 @@ void Scene::setLiquidToCome(double volume) {
 void Scene::beginLiquid() {
     if (!particleHandler.films().areKept()) return;
     double toCome = liquidToCome;
+    const double sprayed = sprayHandler.volumeBy(getTimeMax());
     if (!isSet(toCome)) {
         double largest = 0;
         const auto count = static_cast<int>(laws().speciesCount());
         for (int a = 0; a < count; ++a)
             for (int b = a; b < count; ++b)
                 largest = std::max(largest, laws().liquidRules(a, b).value_or(LiquidRules{}).largest);
-        toCome = std::max(0x1p20, 6.0 * static_cast<double>(particleHandler.getSize())) * largest;
+        toCome = std::max(0x1p20, 6.0 * static_cast<double>(particleHandler.getSize())) * largest + sprayed;
+    } else if (sprayed > toCome) {
+        throw InputError(fmt::format(
+            "Simulation: liquid to come = {:.6g} m^3, but the sprays emit up to {:.6g} m^3 until the end of "
+            "the run; set at least that, or leave it out.",
+            toCome, sprayed));
     }
-    particleHandler.films().begin(particleHandler.store(), toCome);
+    GrainFilms& films = particleHandler.films();
+    films.begin(particleHandler.store(), toCome);
+    sprayHandler.begin(films.quantum());
+    if (liquidDensity > 0) weighFilms(particleHandler.store());
+}
+
+void Scene::setLiquidDensity(double density) {
+    requireSetUp("density of the liquid");
+    checkValue("Simulation", "density of the liquid", density, "kg/m^3", notNegative);
+    liquidDensity = density;
+}
+
+/// Of grains that move by themselves.
+void Scene::weighFilms(ParticleStore& grains) const {
+    const GrainFilms& films = particleHandler.films();
+    for (const std::uint32_t at : grains.place) {
+        if (!grains.isFree(at)) continue;
+        TranslationRecord& grain = grains.translation[at];
+        const double solid = particleHandler.massOf(grain.radius, grains.species[at]);
+        const double film = liquidDensity * films.of(grains, at);
+        grain.inverseMass = 1 / (solid + film);
+        if (grains.hasSpin)
+            grains.rotation[at].inverseInertia =
+                1 / ((2.0 / 5 * solid + 2.0 / 3 * film) * grain.radius * grain.radius);
+    }
+}
+
+void Scene::setEvaporation(const Evaporation& law) {
+    requireSetUp("evaporation");
+    contactSystem.setEvaporation(law);
+}
+
+void Scene::refuseLiquidThatCannotMove() const {
+    if (particleHandler.films().areKept()) return;
+    constexpr std::string_view advice =
+        "but no species of this scene moves liquid; take an adhesion law whose name begins with "
+        "LiquidMigration, or leave it out.";
+    if (!sprayHandler.isEmpty()) throw InputError(fmt::format("Simulation: there is a spray, {}", advice));
+    if (getEvaporation().dropsDry())
+        throw InputError(fmt::format("Simulation: evaporation is set, {}", advice));
+    if (liquidDensity > 0)
+        throw InputError(fmt::format("Simulation: the density of the liquid is set, {}", advice));
+}
+
+LiquidLedger Scene::liquidLedger() const {
+    LiquidLedger found = contactSystem.liquidLedger(particleHandler.store());
+    sprayHandler.addTo(found);
+    return found;
+}
+
+void Scene::emitDroplets() {
+    if (sprayHandler.isEmpty()) return;
+    try {
+        sprayHandler.emit(particleHandler.films(), getTime() + getTimeStep());
+    } catch (const InputError& refusal) {
+        throw RunError(refusal.what());
+    }
+}
+
+void Scene::flyDroplets(ParticleStore& grains, double length, double grainShift) {
+    enter(StepTimes::Part::Liquid);
+    sprayHandler.advance({grains, particleHandler.films(), contactSystem, wallHandler, periodic, gravity,
+                          getTime() + length, length, grainShift, smallestRadius, threads});
 }
 
 void Scene::requireLiquid() const {
@@ -289,6 +360,10 @@ void Scene::visitAll(StateArchive& archive) {
     visitScene(archive);
     if (archive.isReading()) prepare();
     archive.group("contacts", [&] { contactSystem.visitState(archive, particleHandler.store()); });
+    if (contactSystem.movesLiquid()) {
+        archive.same("liquidDensity", liquidDensity, "kg/m^3");
+        archive.group("sprays", [&] { sprayHandler.visitState(archive, particleHandler.films()); });
+    }
     visitOutputs(archive);
 }
 
@@ -370,16 +445,20 @@ void Scene::advance(double length, bool another) {
     contactSystem.computeWallForces(grains, length, integrator.contacts);
     if (contactSystem.movesLiquid()) {
         enter(StepTimes::Part::Liquid);
-        contactSystem.moveLiquid(grains);
+        contactSystem.moveLiquid(grains, getTime() + length, length);
     }
     enter(StepTimes::Part::Sum);
     leftLength = length;
     particleHandler.leaveStepUnfinished();
-    if (!another || ledgerKept || !grains.bodies.empty()) particleHandler.finishStep();
+    if (!another || ledgerKept || !grains.bodies.empty() || !sprayHandler.isEmpty() || liquidDensity > 0)
+        particleHandler.finishStep();
     if (!grains.bodies.empty())
         RigidBodyMotion::finish(grains, contactSystem.store(), gravity, length, integrator);
     enter(StepTimes::Part::Other);
     intoLedger([&] { account.finish(grains, contactSystem, gravity, length, integrator, ledger); });
+    if (!sprayHandler.isEmpty()) flyDroplets(grains, length, grainShift);
+    if (liquidDensity > 0) weighFilms(grains);
+    enter(StepTimes::Part::Other);
 }
 
 void Scene::bringBack(ParticleStore& grains) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "Kernel/Boundaries/SprayHandler.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/EnergyAccount.h"
 #include "Kernel/Motion/Integrator.h"
@@ -32,6 +33,8 @@ public:
     /// Grains that are joined to rigid bodies.
     BodyHandler bodyHandler{particleHandler, periodic};
     WallHandler wallHandler;
+    /// Droplets that come to the grains, in a scene in which liquid moves.
+    SprayHandler sprayHandler;
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
     /// it has a function prepare(*this), that is called at once, and again when the scene is set up;
@@ -76,14 +79,23 @@ public:
         ledgerKept = keep;
     }
 
-    /// In a scene in which liquid moves, an upper bound of the liquid (m^3) that will come to what is there
-    /// at the start of the run, from sprays and wet walls: it sets the quantum in which liquid is counted.
-    /// Without it, 2^20 bridges of the largest volume, and at least 6 for each grain.
-    void setLiquidToCome(double volume);
-    /// Where the liquid is that moves, and where it came from.
-    [[nodiscard]] LiquidLedger liquidLedger() const {
-        return contactSystem.liquidLedger(particleHandler.store());
+    /// In a scene in which liquid moves: it dries so. At set-up only.
+    void setEvaporation(const Evaporation& law);
+    [[nodiscard]] const Evaporation& getEvaporation() const {
+        return contactSystem.movingLiquid().evaporation();
     }
+    /// In a scene in which liquid moves, an upper bound of the liquid (m^3) that will come to what is there
+    /// at the start of the run, from a driver, sprays and wet walls: it sets the quantum in which liquid is
+    /// counted. Without it, 2^20 bridges of the largest volume, and at least 6 for each grain, and what
+    /// sprays emit until the end of the run.
+    void setLiquidToCome(double volume);
+    /// In a scene in which liquid moves: the mass of a film is part of its grain's, and its moment of inertia
+    /// that of a thin shell; without this, films have no mass. What is in bridges has none. The velocity of a
+    /// grain stays when its film changes, and the energy ledger counts that as given by the driver.
+    /// @param density of the liquid, kg/m^3; 0: films have no mass
+    void setLiquidDensity(double density);
+    /// Where the liquid is that moves, and where it came from.
+    [[nodiscard]] LiquidLedger liquidLedger() const;
     [[nodiscard]] bool movesLiquid() const { return contactSystem.movesLiquid(); }
     /// m^3, what a wet wall has got back from bridges minus what it gave.
     [[nodiscard]] double liquidOfWall(std::size_t wall) const { return contactSystem.liquidOfWall(wall); }
@@ -182,6 +194,11 @@ private:
 
     /// The films of the grains begin to be counted.
     void beginLiquid();
+    void refuseLiquidThatCannotMove() const;
+    void weighFilms(ParticleStore& grains) const;
+    /// Droplets of the step to come. Throws RunError where they are too many to be counted.
+    void emitDroplets();
+    void flyDroplets(ParticleStore& grains, double length, double grainShift);
     /// Throws RunError, at an output, if liquid has been lost or made: an error of the program.
     void requireLiquid() const;
 
@@ -230,6 +247,7 @@ private:
     double energyAtStart = 0;     // J, of the ledger
     double leftLength = 0;        // s, of the last step, whose end may be left to the next one
     double liquidToCome = unset;  // m^3
+    double liquidDensity = 0;     // kg/m^3, of films; 0: they have no mass
     double approachUnseen = 0;    // m, of two grains since deep overlaps were looked for
     int threads = 1;
     bool unstableAccepted = false;

@@ -67,6 +67,7 @@ TEST(Drivers, explainTheirOptions) {
 /// Each with options that make its run short.
 TEST(Drivers, printNothingWhereTheyAreQuiet) {
     const std::map<std::string, std::string> shorter{
+        {"DryingBed", "--number 100 --begin-s 0.002 --end-time-s 0.004"},
         {"HopperDischarge",
          "--number 120 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.012 --begin-s 0.02 "
          "--end-time-s 0.06"},
@@ -74,6 +75,7 @@ TEST(Drivers, printNothingWhereTheyAreQuiet) {
         {"ObliqueImpact", "--angles-deg 10 --angles-deg 60"},
         {"Penetration", "--number 120 --softening 100 --end-time-s 0.001"},
         {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"},
+        {"SprayCoating", "--length-m 0.008 --begin-s 0.01 --end-time-s 0.03 --interval-s 0.01"},
         {"WetWallCollision", "--speeds-m/s 1"}};
     for (const std::string& name : everyDriver()) {
         const TestFolder folder;
@@ -207,6 +209,52 @@ TEST(LiquidInShear, writesProfilesThatHoldAllLiquid) {
     expectOneSentence(
         run(drivers + "/LiquidInShear/LiquidInShear --bridge-volume-max-m3 1e-9 " + folder.option()),
         "liquidBridgeVolumeMax = 1e-09 m^3");
+}
+
+TEST(DryingBed, losesItsTensionWithItsLiquid) {
+    const TestFolder folder;
+    const auto result = run(drivers + "/DryingBed/DryingBed --number 150 --begin-s 0.03 --end-time-s 0.17 " +
+                            "--interval-s 0.01 " + folder.option());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_EQ(headerOf(folder.path() / "drying.csv"),
+              "time_s,films_m3,bridges_m3,evaporated_m3,bridges_of_a_grain,mean_force_N,tension_Pa,rumpf_Pa,"
+              "solid_fraction");
+    const auto rows = rowsOf(folder.path() / "drying.csv");
+    ASSERT_EQ(rows.size(), 18u);
+    for (const auto& row : rows)
+        EXPECT_NEAR(row[1] + row[2] + row[3], 150e-11, 1e-9 * 150e-11) << row[0];  // 150 films of 1e-11 m^3
+    // Forces grow to 2 pi R gamma, that of Rumpf's tension, while the bed holds.
+    EXPECT_GT(rows[12][5], rows[5][5]);
+    EXPECT_GT(rows[12][6], 0.8 * rows[12][7]);
+    EXPECT_EQ(rows.back()[2], 0);
+    EXPECT_EQ(rows.back()[6], 0);
+    EXPECT_NE(result.output.find("liquid unaccounted for               0 m^3"), std::string::npos)
+        << result.output;
+    expectOneSentence(run(drivers + "/DryingBed/DryingBed --flux-m/s -1 " + folder.option()),
+                      "flux = -1 m/s");
+}
+
+TEST(SprayCoating, countsWhatItSprays) {
+    const TestFolder folder;
+    const auto result = run(drivers + "/SprayCoating/SprayCoating --length-m 0.008 --begin-s 0.1 " +
+                            "--end-time-s 0.3 --interval-s 0.05 " + folder.option());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_EQ(headerOf(folder.path() / "coating.csv"),
+              "time_s,drops_of_a_grain,variation,variation_if_mixed,dry_share,dry_share_if_mixed,airborne_m3,"
+              "lost_m3");
+    const auto rows = rowsOf(folder.path() / "coating.csv");
+    ASSERT_EQ(rows.size(), 4u);  // from the first liquid on
+    // 20 for each grain, less what is in the air for 10 ms or so of 200.
+    EXPECT_GT(rows.back()[1], 18);
+    EXPECT_LT(rows.back()[1], 20);
+    for (const auto& row : rows) {
+        EXPECT_GT(row[2], row[3]) << "a drum that has hardly turned mixes worse than an ideal one";
+        EXPECT_NEAR(row[5], std::exp(-row[1]), 1e-12);
+    }
+    EXPECT_NE(result.output.find("liquid unaccounted for               0 m^3"), std::string::npos)
+        << result.output;
+    expectOneSentence(run(drivers + "/SprayCoating/SprayCoating --drop-radius-m 0 " + folder.option()),
+                      "droplet radius = 0 m");
 }
 
 TEST(Penetration, writesTheDepthUntilTheIntruderStops) {

@@ -7,12 +7,10 @@
 #include <numeric>
 #include <random>
 
-#include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/TriangleWall.h"
+#include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Restart/ChildRun.h"
-#include "SelfTests/Scenes/HookedGrains.h"
-#include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/PlainLiquid.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -21,7 +19,6 @@ namespace pendular {
 namespace {
 
 using scenes::HookedGrains;
-using scenes::SettlingBox;
 using support::TestFolder;
 
 using Migrating = Species<LinearViscoelastic, NoFriction, LiquidMigrationWillett>;
@@ -309,32 +306,7 @@ TEST(MovingLiquid, liquidOfWhatIsRemovedOrChangedIsAccountedFor) {
 
 // Scenes of many grains.
 
-template <class S>
-S wetBoxMaterial(int kind) {
-    S species = scenes::boxMaterial<S>(kind);
-    species.setLiquidBridgeVolumeMax(kind == 0 ? 2e-12 : 6e-12);
-    species.setLiquidBridgeVolumeMin(1e-14);
-    species.setDistributionCoefficient(0.8);
-    species.setContactAngle(kind == 0 ? 0.1 : 0.3);
-    species.setSurfaceTension(0.07);
-    if (kind == 1) species.setWallLiquidVolume(1e-13);
-    return species;
-}
-
-/// The settling box, with films.
-template <class S>
-class WetBox : public SettlingBox<S> {
-public:
-    explicit WetBox(int layers, int threads = 1) : SettlingBox<S>(layers) {
-        for (int kind : {0, 1})
-            *this->speciesHandler.getObject(static_cast<std::size_t>(kind)) = wetBoxMaterial<S>(kind);
-        for (auto&& grain : this->particleHandler) grain.setLiquidVolume(1e-12 + 1e-15 * grain.getId());
-        this->setNumberOfThreads(threads);
-        this->setQuiet();
-    }
-};
-
-using Box = WetBox<Species<HertzianViscoelastic, Mindlin, LiquidMigration<LiquidBridgeBagheri>>>;
+using Box = wet::WetBox<Species<HertzianViscoelastic, Mindlin, LiquidMigration<LiquidBridgeBagheri>>>;
 
 TEST(MovingLiquid, isConservedInEveryStepOfABoxThatSettles) {
     Box box(6);
@@ -356,52 +328,9 @@ TEST(MovingLiquid, isConservedInEveryStepOfABoxThatSettles) {
     EXPECT_GT(box.contacts().rebuildCount(), 10u);
 }
 
-template <class Scene>
-void runTo(Scene& scene, std::size_t steps) {
-    while (scene.getNumberOfTimeSteps() < steps) scene.step();
-}
-
 TEST(MovingLiquid, doesNotDependOnThreadsOrRestarts) {
-    constexpr std::size_t end = 1200;
     const TestFolder folder;
-    const auto file = [&](const std::string& name) { return folder.path() / (name + ".h5"); };
-    {
-        Box whole(3);
-        whole.initialise();
-        for (const std::size_t middle : {0u, 250u, 251u, 700u}) {
-            runTo(whole, middle);
-            whole.writeRestart(file(std::to_string(middle)));
-        }
-        runTo(whole, end);
-        whole.writeRestart(file("whole"));
-    }
-    for (const std::size_t middle : {0u, 250u, 251u, 700u}) {
-        Box restarted(3);
-        restarted.restartFrom(file(std::to_string(middle)));
-        restarted.initialise();
-        EXPECT_EQ(restarted.liquidLedger().unaccounted(), 0);
-        restarted.writeRestart(file("again"));
-        support::expectSameState(file(std::to_string(middle)), file("again"));
-        runTo(restarted, end);
-        restarted.writeRestart(file("again"));
-        support::expectSameState(file("whole"), file("again"));
-    }
-    // Few steps with several threads: on a busy machine they spend their time waiting for each other.
-    Box one(3);
-    one.initialise();
-    runTo(one, 700);
-    one.writeRestart(file("start"));
-    runTo(one, 720);
-    one.writeRestart(file("one"));
-    EXPECT_GT(one.liquidLedger().bridges, 0);
-    for (const int count : {2, 3, 8}) {
-        Box box(3, count);
-        box.restartFrom(file("start"));
-        box.initialise();
-        runTo(box, 720);
-        box.writeRestart(file("threads"));
-        support::expectSameState(file("one"), file("threads"));
-    }
+    wet::expectSameBits<Box>(folder.path(), {0, 250, 251, 700}, 1200, 700, 720);
 }
 
 /// The touches and ruptures of a scene, in a model that looks at all contacts in each step.

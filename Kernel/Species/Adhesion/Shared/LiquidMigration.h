@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "Kernel/Species/Adhesion/Shared/LiquidBridge.h"
+#include "Kernel/Species/BridgeSurface.h"
 #include "Kernel/Species/JoinedName.h"
 #include "Kernel/Species/LiquidRules.h"
 
@@ -121,6 +122,17 @@ struct LiquidMigration : Bridge {
                 .wallDose = wallLiquidVolume,
                 .byRoom = shareByRoom > 0,
                 .toDry = shareWithDryContacts > 0};
+    }
+
+    /// Those of the law, and the largest volume for which the bridges of three grains in mutual touch do not
+    /// meet: that of equal spheres of the same R.
+    [[nodiscard]] std::vector<DomainLimit> domainLimits(const Bodies& bodies) const {
+        std::vector<DomainLimit> limits = Bridge::domainLimits(bodies);
+        if (this->liquidBridgeVolume > 0 && std::isfinite(bodies.radius1 + bodies.radius2))
+            limits.push_back({"V_max/R^3 (above which bridges of three touching grains meet)",
+                              this->scales(bodies).volume,
+                              fromZeroTo(volumeWhereBridgesMeet(this->contactAngle))});
+        return limits;
     }
 
     /// A contact without liquid.

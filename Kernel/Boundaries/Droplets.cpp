@@ -1,0 +1,82 @@
+#include "Kernel/Boundaries/Droplets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pendular {
+
+namespace {
+
+/// The share of the way at which |start + share way| becomes `reach`; 0 where it is less from the start on, 2
+/// where it never does.
+double shareAtReach(const Vector<double>& start, const Vector<double>& way, double reach) {
+    const double c = dot(start, start) - reach * reach, b = dot(start, way), a = dot(way, way);
+    if (c <= 0) return 0;
+    const double root = b * b - a * c;
+    if (b >= 0 || root < 0) return 2;
+    return c / (std::sqrt(root) - b);  // the smaller root of a x^2 + 2 b x + c, without cancellation
+}
+
+}  // namespace
+
+void SweptSearch::update(const ParticleStore& grains, const PeriodicBox& box, std::size_t lists, double shift,
+                         double smallestRadius) {
+    stepShift = shift;
+    moved += shift;
+    if (cells && lists == listsThen && grains.nextIdentity() == nextThen && moved < 0.5 * smallestRadius)
+        return;
+    cells.emplace(grains.translation, 0, box);
+    moved = 0;
+    listsThen = lists;
+    nextThen = grains.nextIdentity();
+}
+
+SweepHit SweptSearch::firstHit(const Sweep& sweep, const ParticleStore& grains, const PeriodicBox& box,
+                               const WallHandler& walls) const {
+    SweepHit hit;
+    meetGrains(sweep, grains, box, hit);
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (!walls.isRemoved(w)) meetWall(sweep, walls.getObject(w), static_cast<int>(w), hit);
+    return hit;
+}
+
+void SweptSearch::meetGrains(const Sweep& sweep, const ParticleStore& grains, const PeriodicBox& box,
+                             SweepHit& hit) const {
+    const Vector<double> middle = 0.5 * (sweep.from + sweep.to);
+    const double half = 0.5 * norm(sweep.to - sweep.from);
+    cells->forEachNear(middle, half + sweep.radius, moved + stepShift, [&](std::uint32_t place) {
+        if (grains.isGap(place)) return;
+        const TranslationRecord& grain = grains.translation[place];
+        const Vector<double> before = grain.position - sweep.time * grain.velocity;
+        const Vector<double> start = box.nearest(sweep.from - before);
+        const Vector<double> way = (sweep.to - sweep.from) - sweep.time * grain.velocity;
+        const double share = shareAtReach(start, way, grain.radius + sweep.radius);
+        if (share > 1 || share > hit.share) return;
+        const bool isFirst = share < hit.share || hit.grain == SweepHit::none ||
+                             grains.identity[place] < grains.identity[hit.grain];
+        if (isFirst) hit = {share, place, -1};
+    });
+}
+
+void SweptSearch::meetWall(const Sweep& sweep, const Wall& wall, int number, SweepHit& hit) {
+    const Vector<double> way = sweep.to - sweep.from;
+    const double length = norm(way), reach = length + sweep.radius * (1 + 1e-4);
+    std::vector<std::uint32_t> parts;
+    wall.listParts(sweep.from, reach, parts);
+    if (parts.empty()) return;
+    std::vector<WallPoint> points(parts.size());
+    double share = 0;
+    for (int k = 0; k < 1000 && share < hit.share && share <= 1; ++k) {
+        wall.findPoints(sweep.from + share * way, reach, parts, points);
+        double free = infinity;
+        for (const WallPoint& point : points) free = std::min(free, point.distance - sweep.radius);
+        if (free <= 1e-4 * sweep.radius) {
+            hit = {share, SweepHit::none, number};
+            return;
+        }
+        if (!(length > 0)) return;
+        share += free / length;
+    }
+}
+
+}  // namespace pendular

@@ -1,0 +1,184 @@
+#include "Kernel/Boundaries/SprayHandler.h"
+
+#include <fmt/format.h>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Parallel.h"
+
+namespace pendular {
+
+namespace {
+
+constexpr double leastQuanta = 1024;  // of a droplet: its volume is then right to 0.05 %
+
+InputError noSprayError(std::size_t number, std::size_t count) {
+    return InputError(fmt::format("There is no spray {}; the scene has {} (counted from 0).", number, count));
+}
+
+}  // namespace
+
+std::size_t SprayHandler::copyAndAddObject(const Spray& spray) {
+    if (isClosed) throw InputError("Simulation: sprays can only be added before the run begins.");
+    spray.check(sprays.size());
+    sprays.push_back(spray);
+    counts.push_back(0);
+    return sprays.size() - 1;
+}
+
+const Spray& SprayHandler::getObject(std::size_t number) const {
+    if (number >= sprays.size()) throw noSprayError(number, sprays.size());
+    return sprays[number];
+}
+
+std::uint64_t SprayHandler::emittedBy(std::size_t number) const {
+    if (number >= sprays.size()) throw noSprayError(number, sprays.size());
+    return counts[number];
+}
+
+double SprayHandler::volumeBy(double time) const {
+    double all = 0;
+    for (const Spray& spray : sprays) all += spray.volumeBy(time);
+    return all;
+}
+
+void SprayHandler::begin(double quantum) {
+    unit = quantum;
+    for (std::size_t k = 0; k < sprays.size(); ++k) {
+        const double least = (2 - sprays[k].largestShare()) * sprays[k].dropletVolume();
+        if (least < leastQuanta * quantum)
+            throw InputError(fmt::format(
+                "spray {}: its droplets, of {:.6g} m^3 and more, are less than 1024 quanta of {:.6g} m^3, in "
+                "which all liquid of the run can be counted; take larger droplets, a smaller flow, or a "
+                "shorter run (setTimes() of the spray, setTimeMax(), setLiquidToCome()).",
+                k, least, quantum));
+    }
+}
+
+double SprayHandler::wholeVolume(double radius) const {
+    return std::nearbyint(sphereMass(radius, 1) / unit) * unit;
+}
+
+void SprayHandler::emit(GrainFilms& films, double time) {
+    newOnes = 0;
+    for (std::size_t s = 0; s < sprays.size(); ++s) {
+        const std::uint64_t count = std::max(sprays[s].countAt(time), counts[s]);
+        if (count - counts[s] > mostDroplets - std::min(inFlight.size(), mostDroplets))
+            throw InputError(fmt::format(
+                "spray {}: {} droplets come out in a step and {} are in flight; there can be {}, so give it "
+                "larger droplets, a smaller flow, or a shorter setLongestFlight().",
+                s, count - counts[s], inFlight.size(), mostDroplets));
+        for (; counts[s] < count; ++counts[s], ++newOnes) {
+            const NewDroplet made = sprays[s].droplet(counts[s], s);
+            const double volume = wholeVolume(made.radius);
+            films.emit(volume);
+            // Time before the step's end, which the flight is for.
+            inFlight.push_back({made.position, made.velocity, made.radius, volume,
+                                sprays[s].timeOf(counts[s]), static_cast<double>(s)});
+        }
+    }
+}
+
+void SprayHandler::advance(const SprayStep& step) {
+    caughtInStep.clear();
+    if (inFlight.empty()) return;
+    fly(step);
+    search.update(step.grains, step.periodic, step.contacts.rebuildCount(), step.grainShift,
+                  step.smallestRadius);
+    inParts(
+        flights.size(), step.threads,
+        [&](int, std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k)
+                flights[k].hit = search.firstHit(flights[k].sweep, step.grains, step.periodic, step.walls);
+        },
+        64);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < inFlight.size(); ++k)
+        if (finish(step, inFlight[k], flights[k])) inFlight[kept++] = inFlight[k];
+    inFlight.resize(kept);
+}
+
+/// x + v t + g t^2 / 2, exact for any step; a droplet that has just come out flies for a part of it.
+void SprayHandler::fly(const SprayStep& step) {
+    flights.clear();
+    const std::size_t old = inFlight.size() - newOnes;
+    for (std::size_t k = 0; k < inFlight.size(); ++k) {
+        Droplet& droplet = inFlight[k];
+        const double time =
+            k < old ? step.length : std::clamp(step.time - std::exchange(droplet.flown, 0), 0.0, step.length);
+        const Vector<double> from = step.periodic.wrap(droplet.position);
+        const Vector<double> way = time * droplet.velocity + (0.5 * time * time) * step.gravity;
+        flights.push_back({{from, from + way, droplet.radius, time}, droplet.velocity, {}});
+        droplet.position = from + way;
+        droplet.velocity += time * step.gravity;
+        droplet.flown += time;
+        dry(step, droplet, time);
+    }
+    newOnes = 0;
+}
+
+void SprayHandler::dry(const SprayStep& step, Droplet& droplet, double time) {
+    const Evaporation& law = step.contacts.movingLiquid().evaporation();
+    if (!law.dropsDry() || step.time <= law.startTime()) return;
+    droplet.radius = law.radiusLeftAfter(droplet.radius, time);
+    const double left = std::min(wholeVolume(droplet.radius), droplet.volume);
+    step.contacts.movingLiquid().addEvaporated(droplet.volume - left);
+    droplet.volume = left;
+}
+
+bool SprayHandler::finish(const SprayStep& step, Droplet& droplet, const Flight& flight) {
+    if (droplet.volume == 0) return false;  // it has dried
+    const auto spray = static_cast<std::size_t>(droplet.spray);
+    const SweepHit& hit = flight.hit;
+    if (!hit.isHit() && droplet.flown < sprays[spray].longestFlight()) return true;
+    const Vector<double> way = flight.sweep.to - flight.sweep.from;
+    CaughtDroplet end{spray, CaughtDroplet::none, hit.wall,
+                      flight.sweep.from + std::min(hit.share, 1.0) * way, droplet.volume};
+    if (hit.grain != SweepHit::none) {
+        end.particle = step.grains.identity[hit.grain];
+        hitGrain(step, droplet, flight);
+    } else if (hit.wall < 0 ||
+               !step.contacts.movingLiquid().giveToWall(step.contacts.laws(),
+                                                        static_cast<std::size_t>(hit.wall), droplet.volume)) {
+        lost += droplet.volume;
+    }
+    caughtInStep.push_back(end);
+    return false;
+}
+
+void SprayHandler::hitGrain(const SprayStep& step, const Droplet& droplet, const Flight& flight) {
+    const std::uint32_t place = flight.hit.grain;
+    step.films.wet(step.grains, place, droplet.volume);
+    const double density = sprays[static_cast<std::size_t>(droplet.spray)].liquidDensity();
+    if (density == 0 || !step.grains.isFree(place)) return;
+    TranslationRecord& grain = step.grains.translation[place];
+    const Vector<double> velocity = flight.velocity + (flight.hit.share * flight.sweep.time) * step.gravity;
+    const double mass = density * droplet.volume;
+    grain.velocity +=
+        (mass * grain.inverseMass / (1 + mass * grain.inverseMass)) * (velocity - grain.velocity);
+}
+
+void SprayHandler::addTo(LiquidLedger& ledger) const {
+    for (const Droplet& droplet : inFlight) ledger.airborne += droplet.volume;
+    ledger.lost = lost;
+}
+
+void SprayHandler::visitState(StateArchive& archive, const GrainFilms& films) {
+    unit = films.quantum();
+    archive.same("count", sprays.size());
+    for (std::size_t k = 0; k < sprays.size(); ++k)
+        archive.group(std::to_string(k), [&] { sprays[k].visitState(archive); });
+    std::size_t had = counts.size();
+    archive.column<std::uint64_t>("emitted", counts);
+    archive.require(counts.size() == had, "emitted", "has not one number for each spray");
+    archive.finite("lost", lost);
+    archive.column<double>("droplets", inFlight);
+    archive.requireFinite("droplets", inFlight);
+    archive.require(films.isWhole(lost), "lost", "is no multiple of the quantum");
+    for (const Droplet& droplet : inFlight)
+        archive.require(films.isWhole(droplet.volume) && droplet.radius > 0 && droplet.flown >= 0 &&
+                            droplet.spray >= 0 && droplet.spray < static_cast<double>(sprays.size()) &&
+                            droplet.spray == std::floor(droplet.spray),
+                        "droplets", "has a droplet that cannot be");
+}
+
+}  // namespace pendular
