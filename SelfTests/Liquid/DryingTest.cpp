@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Species/AdhesionEnergy.h"
 #include "Kernel/Species/Laws.h"
 #include "SelfTests/Liquid/WetScenes.h"
@@ -419,6 +420,69 @@ TEST(PendularLimits, volumeWhereBridgesOfThreeGrainsMeet) {
     law.setLiquidBridgeVolumeMax(0.0578 * r * r * r);
     EXPECT_TRUE(isBroken(equal));
     EXPECT_FALSE(isBroken({r, infinity}));
+}
+
+/// Three heavy grains in mutual touch, each with a film that becomes one bridge's volume (in r^3).
+PendularState stateOfThree(double film, double more = 0) {
+    constexpr double side = 2 * r * (1 - 1e-6);
+    scenes::FewGrains<HeavyRow<>::Material> scene(HeavyRow<>::material(),
+                                                  {{.position = {0, 0, 0}},
+                                                   {.position = {side, 0, 0}},
+                                                   {.position = {0.5 * side, std::sqrt(0.75) * side, 0}}},
+                                                  1e-3);
+    scene.setQuiet();
+    for (auto&& grain : scene.particleHandler) grain.setLiquidVolume(film * r * r * r);
+    scene.initialise();
+    if (more > 0) scene.particleHandler.getObject(0).setLiquidVolume(more * r * r * r);
+    scene.step();
+    return pendularState(scene, true);
+}
+
+TEST(PendularLimits, bridgesThatMeetAreCounted) {
+    const PendularState apart = stateOfThree(0.0575), meeting = stateOfThree(0.0580);
+    EXPECT_EQ(apart.overlappingShare, 0);
+    EXPECT_EQ(meeting.overlappingShare, 1);
+    EXPECT_EQ(apart.bridgesOfAGrain, 2);
+    EXPECT_EQ(apart.shareInFilms, 0);
+    EXPECT_EQ(apart.thickFilms, 0u);
+    EXPECT_NEAR(apart.liquidOverSolid, 0.0575 / (4.0 / 3 * std::numbers::pi), 1e-9);
+    EXPECT_NEAR(apart.saturation(0.6), 1.5 * apart.liquidOverSolid, 1e-15);
+    EXPECT_TRUE(apart.warnings().empty());
+    ASSERT_EQ(meeting.warnings().size(), 1u);
+    EXPECT_TRUE(support::contains(meeting.warnings()[0], "100 % of the bridges meet"));
+    // More than bridges hold: 0.1 r is the thickness of 4 pi 0.1 r^3.
+    EXPECT_EQ(stateOfThree(0.01, 1.25).thickFilms, 0u);
+    const PendularState thick = stateOfThree(0.01, 1.26);
+    EXPECT_EQ(thick.thickFilms, 1u);
+    EXPECT_NEAR(thick.shareInFilms, 1.26 / 1.29, 1e-6);
+    EXPECT_EQ(thick.warnings().size(), 3u) << "saturation, share in films, thick films";
+    for (const std::string& sentence : thick.warnings()) EXPECT_EQ(sentence.find(','), std::string::npos);
+}
+
+/// A run goes on with the drying and the sprays that it had.
+TEST(Drying, otherValuesAreRefusedAtARestart) {
+    const TestFolder folder;
+    const auto file = folder.path() / "box.h5";
+    const auto run = [&](double flux, double start, std::size_t interval, double density, bool restarts) {
+        Box box(1);
+        Evaporation law;
+        law.setFlux(flux), law.setStartTime(start), law.setInterval(interval);
+        box.setEvaporation(law);
+        box.setLiquidDensity(density);
+        if (restarts) box.restartFrom(file);
+        box.initialise();
+        if (!restarts) box.writeRestart(file);
+    };
+    run(1e-6, 0, 10, 0, false);
+    EXPECT_EQ(support::refusal([&] { run(1e-6, 0, 10, 0, true); }), "");
+    for (const auto& [text, what] :
+         {std::pair(support::refusal([&] { run(2e-6, 0, 10, 0, true); }), "fastest"),
+          std::pair(support::refusal([&] { run(1e-6, 1, 10, 0, true); }), "start"),
+          std::pair(support::refusal([&] { run(1e-6, 0, 11, 0, true); }), "interval"),
+          std::pair(support::refusal([&] { run(1e-6, 0, 10, 1, true); }), "liquidDensity")}) {
+        EXPECT_TRUE(support::isOneSentence(text));
+        EXPECT_TRUE(support::contains(text, what));
+    }
 }
 
 // Bad input.

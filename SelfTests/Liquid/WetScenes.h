@@ -153,14 +153,6 @@ public:
     }
     [[nodiscard]] double gap(std::size_t k) const { return contact(k)->separation / r; }
 
-    int steps = 0;
-
-private:
-    [[nodiscard]] std::optional<ObservedContact> contact(std::size_t k) const {
-        for (const ObservedContact& seen : this->interactions())
-            if (seen.particle1 == k) return seen;
-        return {};
-    }
     static Material material() {
         Material species;
         species.setDensity(1e12);
@@ -172,6 +164,14 @@ private:
         return species;
     }
 
+    int steps = 0;
+
+private:
+    [[nodiscard]] std::optional<ObservedContact> contact(std::size_t k) const {
+        for (const ObservedContact& seen : this->interactions())
+            if (seen.particle1 == k) return seen;
+        return {};
+    }
     std::vector<Vec3D> speeds;
 };
 
