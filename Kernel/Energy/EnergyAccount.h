@@ -127,10 +127,9 @@ private:
              {&L::elastic, &L::tangentialElastic, &L::rollingElastic, &L::torsionElastic, &L::adhesive})
             ledger.*stored = account.*stored;
         if (!isStep) return;
-        for (double L::*summed :
-             {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding, &L::rolling, &L::torsion,
-              &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls, &L::migration,
-              &L::evaporation, &L::stepError})
+        for (double L::*summed : {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding,
+                                  &L::rolling, &L::torsion, &L::brokenAdhesion, &L::viscousBridges,
+                                  &L::stiffening, &L::walls, &L::migration, &L::evaporation, &L::stepError})
             ledger.*summed += account.*summed;
     }
 

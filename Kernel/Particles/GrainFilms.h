@@ -67,7 +67,7 @@ private:
     std::map<std::uint32_t, double> waiting;  // m^3, by identity, until there is a column
     std::size_t column = none;
     bool isSettled = false;
-    double unit = 0;                         // 0: the run has not begun
+    double unit = 0;                                      // 0: the run has not begun
     double atStart = 0, come = 0, gone = 0, sprayed = 0;  // m^3
     std::vector<std::uint32_t> wetted;
 };
