@@ -19,6 +19,10 @@ struct ContactGeometry {
     Vector<T> spinLever;  // m/s, sum of spin x lever arm over the bodies; zero without torque
     Vector<T> spinSum;    // rad/s, of both bodies
 
+    // For bridges that resist sliding.
+    T lever;  // m, twice what lever arms are shorter than radii: the overlap; a bridge pulls in the middle of
+              // its gap, or at the surface of the grain that is at a wall
+
     // For laws with a torque of the contact's own.
     Vector<T> spinDifference;  // rad/s, of body 1 against body 2
     T asymmetry;               // (r2 - r1) / (r1 + r2), 1 at a wall: for bridges that resist rolling
@@ -70,6 +74,7 @@ struct PairGeometry {
             const auto [wx1, wy1, wz1] = loadRecords<3>(numbers(rotation), 8, block.first.data());
             const auto [wx2, wy2, wz2] = loadRecords<3>(numbers(rotation), 8, block.second.data());
             const Vector<Pack> spin1{wx1, wy1, wz1}, spin2{wx2, wy2, wz2};
+            g.lever = g.overlap;
             const Pack half = Pack(0.5) * g.overlap;
             g.spinLever = fma(radius1 - half, spin1, (radius2 - half) * spin2);
             g.spinSum = spin1 + spin2;
@@ -133,7 +138,13 @@ struct WallGeometry {
                 loadRecords<3>(reinterpret_cast<const double*>(rotation), 8, block.first.data());
             const Vector<Pack> own{wx, wy, wz}, wall{Pack(wallSpin.x), Pack(wallSpin.y), Pack(wallSpin.z)};
             g.spinSum = own + wall;
-            g.spinLever = fma(Pack(-0.5), g.overlap, radius) * own;  // the wall's is in its velocity
+            // The wall's is in its velocity.
+            if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Sliding) {
+                g.lever = max(g.overlap, Pack(0));
+                g.spinLever = fma(Pack(-0.5), g.lever, radius) * own;
+            } else {
+                g.spinLever = fma(Pack(-0.5), g.overlap, radius) * own;
+            }
             if constexpr (S::hasContactTorque) {
                 g.spinDifference = own - wall;
                 if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)

@@ -15,12 +15,17 @@ template <class S>
 struct PreparedLaws {
     typename S::Normal::Prepared normal;
     typename S::Friction::Prepared friction;
+    /// Of bridges that resist motion, which ask it in each step.
+    static constexpr bool asksAdhesion = bridgeResists<typename S::Adhesion> != BridgeResists::Nothing;
+    [[no_unique_address]] std::conditional_t<asksAdhesion, typename S::Adhesion, NoAdhesion> adhesion;
 
     PreparedLaws() = default;
     explicit PreparedLaws(const typename S::Mixed& laws)
         : normal(static_cast<const typename S::Normal&>(laws).prepare()),
           friction(static_cast<const typename S::Friction&>(laws).prepare(
-              static_cast<const typename S::Normal&>(laws))) {}
+              static_cast<const typename S::Normal&>(laws))) {
+        if constexpr (asksAdhesion) adhesion = static_cast<const typename S::Adhesion&>(laws);
+    }
 };
 
 /// The batched contact kernel: geometry, then the three laws, on eight contacts at a time. It reads grains,
@@ -82,18 +87,20 @@ public:
 
         Pack adhesive = 0;
         Mask bridged = touching & !touching;
-        BridgeResistance<Pack> resistance;
         if constexpr (Adhesion::acts) {
             const auto interaction = memory.interaction.load<Interaction>(block);
             const Pack separation = separationFor<Adhesion>(g.overlap);
-            bridged = joined & (separation < interaction.range());
-            adhesive = select(bridged, interaction.force(separation), Pack(0));
-            if constexpr (resists != BridgeResists::Nothing)
-                resistance = askResistance(block, interaction, g, bridged, maskFromBits(state.bridged));
+            if constexpr (HasDynamicRupture<Adhesion>) {
+                const Pack range = interaction.range(laws.adhesion, -dot(g.velocity, g.normal));
+                bridged = joined & (separation < range);
+                adhesive = select(bridged, interaction.force(laws.adhesion, separation, range), Pack(0));
+            } else {
+                bridged = joined & (separation < interaction.range());
+                adhesive = select(bridged, interaction.force(separation), Pack(0));
+            }
         }
         const LastForces last = loadLastForces(block);
-        const NormalPart normal =
-            computeNormal(block, state, g, last, touching, begins, adhesive, resistance.normal);
+        const NormalPart normal = computeNormal(block, state, g, last, touching, bridged, begins, adhesive);
         Pack normalForce = normal.repulsion - adhesive;
         if constexpr (resists != BridgeResists::Nothing)
             normalForce = normalForce + select(bridged, normal.viscous, Pack(0));
@@ -104,7 +111,7 @@ public:
         if constexpr (Friction::acts) tangential = computeFriction(block, g, last, touching, begins, normal);
         if constexpr (resists >= BridgeResists::Sliding)
             tangential =
-                tangential + computeDrag(block, g, last, lastTorque, bridged, resistance, tangential);
+                tangential + computeDrag(block, g, last, lastTorque, bridged, normal.resistance, tangential);
 
         writeRecords(block, g.normal, normal.lever, normalForce, tangential);
         state.touching = bits(touching);
@@ -126,7 +133,8 @@ private:
         Pack damping;    // kg/s
         Pack approach;   // m/s, at the sample
         Pack viscous;    // N, repulsion of a bridge that resists
-        Pack lever;      // m, of the overlap: half of it, each body's lever arm is shorter than its radius
+        BridgeResistance<Pack> resistance;
+        Pack lever;  // m, of the overlap: half of it, each body's lever arm is shorter than its radius
         Contact<Pack> contact;
         SampleTiming<Pack> timing;
         Mask closing;
@@ -137,13 +145,12 @@ private:
     /// (F - F_last) dt / (2 m*), in which the dashpot is implicit. For two grains that makes the step exactly
     /// the trapezoidal rule.
     NormalPart computeNormal(std::size_t block, const BlockState& state, const ContactGeometry<Pack>& g,
-                             const LastForces& last, Mask touching, Mask begins, Pack adhesive,
-                             [[maybe_unused]] Pack resistance) {
+                             const LastForces& last, Mask touching, [[maybe_unused]] Mask bridged,
+                             Mask begins, Pack adhesive) {
         NormalPart part;
         part.contact = {max(g.overlap, Pack(0)), g.effectiveRadius, g.effectiveMass};
         part.lever = part.contact.overlap;
-        if constexpr (resists >= BridgeResists::Sliding)
-            part.lever = g.overlap;  // a bridge pulls in the middle of its gap
+        if constexpr (resists >= BridgeResists::Sliding) part.lever = g.lever;
         auto history = memory.normalHistory.load<NormalHistory>(block);
         NormalForce<Pack> force = normalForce<Normal>(laws.normal, part.contact, history);
         memory.normalHistory.store<NormalHistory>(block, selectColumns<NormalHistory>(touching, history));
@@ -151,12 +158,19 @@ private:
 
         const Pack halfStep = Pack(0.5 * implicitStep) * g.inverseMass;
         const Pack predicted = dot(g.velocity, g.normal);
+        Pack known = -adhesive;  // N, the repulsion that needs no speed, without the elastic one
+        if constexpr (resists != BridgeResists::Nothing) {
+            const Pack push = select(touching, fma(force.damping, predicted, force.elastic), Pack(0));
+            part.resistance = askResistance(block, g, bridged, maskFromBits(state.bridged), push - adhesive,
+                                            last.normalForce);
+            known = part.resistance.force - adhesive;
+        }
         const auto withBridge = [&](Pack damping) {
-            if constexpr (resists != BridgeResists::Nothing) return damping + resistance;
+            if constexpr (resists != BridgeResists::Nothing) return damping + part.resistance.normal;
             else return damping;
         };
         const auto approachWith = [&](Pack damping) {
-            return fma(-halfStep, force.elastic - adhesive - last.normalForce, predicted) /
+            return fma(-halfStep, force.elastic + known - last.normalForce, predicted) /
                    fma(halfStep, withBridge(damping), Pack(1));
         };
 
@@ -165,7 +179,7 @@ private:
         part.timing = {Pack(0.5), Pack(0.5)};
         const Pack acceleration =
             Pack(-timeStep * timeStep) * g.inverseMass *
-            (fma(withBridge(part.damping), part.approach, force.elastic) - adhesive);  // m/step^2
+            (fma(withBridge(part.damping), part.approach, force.elastic) + known);  // m/step^2
         const Pack approachInStep = part.approach * timeStep;
         const Pack nextOverlap = fma(Pack(0.5), acceleration, g.overlap + approachInStep);
         part.closing = touching & (part.approach < Pack(0)) & (nextOverlap <= Pack(0)) &
@@ -184,7 +198,8 @@ private:
             part.approach = approachWith(part.damping);
         }
         part.elastic = force.elastic;
-        if constexpr (resists != BridgeResists::Nothing) part.viscous = resistance * part.approach;
+        if constexpr (resists != BridgeResists::Nothing)
+            part.viscous = fma(part.resistance.normal, part.approach, part.resistance.force);
         part.repulsion = select(touching, fma(part.damping, part.approach, force.elastic), Pack(0));
         return part;
     }
@@ -216,17 +231,26 @@ private:
     }
 
     /// What the bridges resist in this step; nothing where there are none.
-    BridgeResistance<Pack> askResistance(std::size_t block, const Interaction<Pack>& interaction,
-                                         const ContactGeometry<Pack>& g, Mask bridged, Mask before) {
+    /// @param push N, normal repulsion by what else acts in the contact; @param last N, by all that acted in
+    /// it
+    BridgeResistance<Pack> askResistance(std::size_t block, const ContactGeometry<Pack>& g, Mask bridged,
+                                         Mask before, Pack push, Pack last) {
+        const auto interaction = memory.interaction.load<Interaction>(block);
         Interaction<Pack> moved = interaction;
         Pack asymmetry = 0;
         if constexpr (resists >= BridgeResists::Rolling) asymmetry = g.asymmetry;
-        BridgeResistance<Pack> r = moved.resist({.separation = -g.overlap,
-                                                 .approach = dot(g.velocity, g.normal),
-                                                 .step = Pack(timeStep),
-                                                 .asymmetry = asymmetry,
-                                                 .forms = bridged & !before});
-        for (Pack* part : {&r.normal, &r.sliding, &r.coupling, &r.rolling})
+        BridgeResistance<Pack> r =
+            moved.resist(laws.adhesion, {.separation = -g.overlap,
+                                         .approach = dot(g.velocity, g.normal),
+                                         .step = Pack(timeStep),
+                                         .coming = Pack(timing.comingStep > 0 ? timing.comingStep : timeStep),
+                                         .effectiveRadius = g.effectiveRadius,
+                                         .inverseMass = g.inverseMass,
+                                         .push = push,
+                                         .last = last,
+                                         .asymmetry = asymmetry,
+                                         .forms = bridged & !before});
+        for (Pack* part : {&r.normal, &r.sliding, &r.coupling, &r.rolling, &r.force})
             *part = select(bridged, *part, Pack(0));
         memory.interaction.store<Interaction>(block, selectColumns<Interaction>(bridged, moved, interaction));
         return r;

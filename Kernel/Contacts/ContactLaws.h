@@ -67,6 +67,7 @@ public:
     bool formsAtContact = false;  // a bridge that begins with a touch
     bool breaks = false;          // an attraction that ends otherwise than it began: its work is lost then
     bool isPlastic = false;
+    bool resistsMotion = false;  // a bridge
     OverlapLimit overlapLimit;
 
     /// Those of a pair alone: their own names, layout and flags, where a scene has species of several types.
@@ -108,6 +109,9 @@ public:
                                double* interaction) const = 0;
     /// A bridge that was prepared again goes on with what it remembered.
     virtual void takeBridgeState(int a, int b, double* interaction, const double* before) const = 0;
+    /// Between two steps: if the separation (m) is not what it was at the end of the last one (by more than
+    /// roundOff, m), the bodies have been put there, and a bridge forgets how they moved.
+    virtual void checkGap(int a, int b, double* interaction, double separation, double roundOff) const = 0;
     [[nodiscard]] virtual double adhesiveForce(int a, int b, const double* interaction,
                                                double separation) const = 0;
     /// J: minus the work that a bridge still does from a separation (m) to its rupture, where liquid moves.

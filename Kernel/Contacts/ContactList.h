@@ -22,15 +22,17 @@ class ContactList {
 public:
     using Grains = ParticleStore;
 
-    /// @param oldBridges bodies and laws are as they were when bridges were prepared
+    /// @param oldBridges bodies and laws are as they were when bridges were prepared; @param listReach m, at
+    /// which bodies are listed where their range is shorter
     ContactList(const ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
-                double skinWidth, int threadCount, bool oldBridges = true)
+                double skinWidth, int threadCount, bool oldBridges = true, double listReach = 0)
         : laws(contactLaws),
           walls(wallHandler),
           periodic(box),
           skin(skinWidth),
           threads(threadCount),
-          keepsBridges(oldBridges) {}
+          keepsBridges(oldBridges),
+          reachOfAll(listReach) {}
 
     /// Sorts the grains in space and lists their contacts.
     /// @param old those that were taken or read when the grains were where they are, whose memory the store
@@ -121,7 +123,8 @@ private:
 
     /// @param pairsBefore of the last list, about
     void findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore) {
-        found.emplace(grains.translation, skin + (laws.actsApart ? largestRange(grains) : 0), periodic,
+        found.emplace(grains.translation,
+                      skin + std::max(reachOfAll, laws.actsApart ? largestRange(grains) : 0), periodic,
                       threads);
         const NeighbourSearch& search = *found;
         listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
@@ -148,7 +151,9 @@ private:
         const TranslationRecord& a = grains.translation[i];
         const TranslationRecord& b = grains.translation[j];
         double reach = a.radius + b.radius + skin;
-        if (laws.actsApart) reach += rangeOf(grains.species[i], grains.species[j], {a.radius, b.radius});
+        reach += std::max(
+            reachOfAll,
+            laws.actsApart ? rangeOf(grains.species[i], grains.species[j], {a.radius, b.radius}) : 0);
         return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
     }
 
@@ -185,7 +190,8 @@ private:
         bool far = laws.actsApart;
         if (laws.formsAtContact)
             for (const auto& entry : old.of(formerPlace[i])) far |= entry.wall == w + 1 && isBridged(entry);
-        const double apart = far ? rangeOf(grains.species[i], wall.species, {grain.radius}) : 0;
+        const double apart =
+            std::max(reachOfAll, far ? rangeOf(grains.species[i], wall.species, {grain.radius}) : 0);
         parts.clear();
         wall.listParts(grain.position, grain.radius + apart + skin, parts);
         if (parts.empty()) return;
@@ -282,6 +288,7 @@ private:
     double skin;
     int threads;
     bool keepsBridges;
+    double reachOfAll;
     std::optional<NeighbourSearch> found;
     std::vector<std::uint32_t> formerPlace;  // of the grain at each place
     Groups groups;

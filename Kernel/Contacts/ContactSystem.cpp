@@ -46,13 +46,27 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
 double ContactSystem::renew(Grains& grains) {
     double stored = 0;
     forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
-        if (lastsThroughChange(grains, bucket, contact)) return;
+        if (lastsThroughChange(grains, bucket, contact)) {
+            if (species->resistsMotion) checkGap(grains, bucket, contact);
+            return;
+        }
         takeForceAway(grains, bucket, contact);
         stored += endContact(grains, contact);
     });
     listAgain(grains, false);
     liquid.clip(contacts, *species, grains);
     return stored;
+}
+
+/// Its bridge forgets how the bodies moved if the change has put them somewhere else.
+void ContactSystem::checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact) {
+    const std::size_t slot = contacts.slotOf(contact);
+    const ObservedContact seen = observe(grains, bucket, contact);
+    const double radius = grains.translation[grains.place[seen.particle1]].radius;
+    ContactNumbers bridge{};
+    contacts.memory.interaction.get(slot, bridge.data());
+    species->checkGap(bucket.species1, bucket.species2, bridge.data(), seen.separation, 1e-12 * radius);
+    contacts.memory.interaction.set(slot, bridge.data());
 }
 
 bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucket,
@@ -75,14 +89,14 @@ bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucke
     return seen.separation < reach;
 }
 
-void ContactSystem::listAgain(Grains& grains, bool keepsBridges) {
+void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach) {
     RememberedContacts remembered;
     remembered.take(contacts, grains.identity, threads);
-    listAgain(grains, remembered, keepsBridges);
+    listAgain(grains, remembered, keepsBridges, reach);
 }
-std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& remembered,
-                                     bool keepsBridges) {
-    ContactList list(*species, *walls, periodic, skin.width(), threads, keepsBridges);
+std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges,
+                                     double reach) {
+    ContactList list(*species, *walls, periodic, skin.width(), threads, keepsBridges, reach);
     const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
     if (takesInGrains) cells = list.takeSearch();
     skin.listed(contacts, grains.size());
@@ -95,6 +109,24 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     late.clear();
     ++rebuilds;
     return recalled;
+}
+
+void ContactSystem::join(Grains& grains, double gap) {
+    listAgain(grains, true, gap);
+    for (const Bucket& bucket : contacts.buckets) {
+        const int a = bucket.species1, b = bucket.species2;
+        if (!species->ofPair(a, b).formsAtContact || species->liquidRules(a, b)) continue;
+        if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
+        for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
+            const std::size_t block = c / Pack::lanes;
+            if (!ContactStore::bitOf(contacts.states[block].listed, c)) continue;
+            const double separation = observe(grains, bucket, c).separation;
+            const double range = species->range(a, b, bodiesOf(contacts, bucket, c, grains));
+            if (!(separation <= gap && separation < range)) continue;
+            if (contacts.slots[block] == ContactStore::asleep) wake(block, bucket, grains);
+            contacts.states[block].bridged |= static_cast<std::uint8_t>(1u << c % Pack::lanes);
+        }
+    }
 }
 
 bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> identities) {

@@ -71,6 +71,10 @@ public:
     /// Threads for the forces; the results do not depend on it.
     void setThreads(int count) { threads = count; }
 
+    /// Joins all bodies of the scene by bridges that are within their range and not farther apart than the
+    /// gap (m), where bridges begin with a touch and their volume is constant. After the first list.
+    void join(Grains& grains, double gap);
+
     /// The force records of all contacts, for grains at the end of a step (s) with their predicted
     /// velocities.
     void computeForces(const Grains& grains, double step, ContactTiming timing = {}) {
@@ -174,15 +178,17 @@ private:
         const std::uint32_t contact = contacts.contactAt(slot);
         if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
     }
-    void listAgain(Grains& grains, bool keepsBridges = true);
+    void listAgain(Grains& grains, bool keepsBridges = true, double reach = 0);
     /// The same with contacts whose memory is in the store; returns how many of them are listed again.
-    std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true);
+    std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true,
+                          double reach = 0);
     double endContact(Grains& grains, std::uint32_t contact);
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
     /// act in the first half of the next one. (Not those of rigid bodies.)
     void takeForceAway(Grains& grains, const Bucket& bucket, std::uint32_t contact) const;
     [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
+    void checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact);
     [[nodiscard]] double gapAround(const Grains& grains, std::size_t number) const;
     [[nodiscard]] std::size_t firstWallBucket() const;
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);

@@ -11,6 +11,8 @@ struct ContactTiming {
     /// and tangential springs are kept half a step ahead; else they move by a step with the velocity at the
     /// force.
     bool timesTouches = true;
+    /// s, of the step that comes; 0: as long as the last one.
+    double comingStep = 0;
 };
 
 }  // namespace pendular

@@ -49,7 +49,7 @@ const ContactLaws& SeveralSpeciesLaws::ofPair(int a, int b) const {
 void SeveralSpeciesLaws::mixAll() {
     species.mixAll();
     layout = {};
-    actsApart = formsAtContact = isPlastic = hasBridges = false;
+    actsApart = formsAtContact = isPlastic = resistsMotion = hasBridges = false;
     overlapLimit = {};
     joinedName.clear(), joinedFriction.clear(), distinct.clear(), ofPairs.clear();
     std::vector<std::string_view> names, frictions;
@@ -68,6 +68,7 @@ void SeveralSpeciesLaws::mixAll() {
             actsApart |= laws.actsApart;
             formsAtContact |= laws.formsAtContact;
             isPlastic |= laws.isPlastic;
+            resistsMotion |= laws.resistsMotion;
             if (laws.overlapLimit.largest < overlapLimit.largest) overlapLimit = laws.overlapLimit;
             join(laws.name, names, joinedName);
             join(laws.friction, frictions, joinedFriction);

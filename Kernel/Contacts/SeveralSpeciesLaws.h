@@ -59,6 +59,9 @@ public:
     void takeBridgeState(int a, int b, double* interaction, const double* before) const override {
         ofPair(a, b).takeBridgeState(a, b, interaction, before);
     }
+    void checkGap(int a, int b, double* interaction, double separation, double roundOff) const override {
+        ofPair(a, b).checkGap(a, b, interaction, separation, roundOff);
+    }
     [[nodiscard]] double adhesiveForce(int a, int b, const double* interaction,
                                        double separation) const override {
         return ofPair(a, b).adhesiveForce(a, b, interaction, separation);

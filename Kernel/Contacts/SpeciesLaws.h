@@ -28,7 +28,8 @@ public:
         friction = S::Friction::name;
         if constexpr (Adhesion::acts) formsAtContact = Adhesion::formsAtContact;
         actsApart = Adhesion::acts && !formsAtContact;
-        breaks = formsAtContact || bridgeResists<Adhesion> != BridgeResists::Nothing;
+        resistsMotion = bridgeResists<Adhesion> != BridgeResists::Nothing;
+        breaks = formsAtContact || resistsMotion;
         isPlastic = HasNormalHistory<typename S::Normal>;
         overlapLimit = pendular::overlapLimit<typename S::Mixed>();
     }
@@ -88,12 +89,20 @@ public:
         if constexpr (MovesLiquid<Adhesion>)
             putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies, volume), to);
     }
-    void takeBridgeState(int /*a*/, int /*b*/, [[maybe_unused]] double* to,
+    void takeBridgeState([[maybe_unused]] int a, [[maybe_unused]] int b, [[maybe_unused]] double* to,
                          [[maybe_unused]] const double* before) const override {
         if constexpr (bridgeResists<Adhesion> != BridgeResists::Nothing) {
             auto bridge = memoryFrom<Interaction<double>>(to);
-            bridge.takeState(memoryFrom<Interaction<double>>(before));
+            bridge.takeState(static_cast<const Adhesion&>(of(a, b)), memoryFrom<Interaction<double>>(before));
             putMemory(bridge, to);
+        }
+    }
+    void checkGap(int /*a*/, int /*b*/, [[maybe_unused]] double* numbers, [[maybe_unused]] double separation,
+                  [[maybe_unused]] double roundOff) const override {
+        if constexpr (bridgeResists<Adhesion> != BridgeResists::Nothing) {
+            auto bridge = memoryFrom<Interaction<double>>(numbers);
+            bridge.checkGap(separation, roundOff);
+            putMemory(bridge, numbers);
         }
     }
     [[nodiscard]] double adhesiveForce(int /*a*/, int /*b*/, [[maybe_unused]] const double* from,

@@ -110,6 +110,7 @@ void Scene::setUp() {
     prepare();
     ParticleStore& grains = particleHandler.store();
     contactSystem.refresh(grains, 0, 0);
+    if (gapOfFirstBridges > 0) contactSystem.join(grains, gapOfFirstBridges);
     refuseInitialOverlaps(contactSystem, grains, [](auto&&...) { return true; });
     Motion::start(grains, integrator);
     advance(0, false);  // a step of no length: forces and accelerations at the start
@@ -250,6 +251,12 @@ void Scene::setLiquidToCome(double volume) {
     requireSetUp("liquid to come");
     checkValue("Simulation", "liquid to come", volume, "m^3", notNegative);
     liquidToCome = volume;
+}
+
+void Scene::joinAtStart(double gap) {
+    requireSetUp("gap of bridges at the start");
+    checkValue("Simulation", "gap of bridges at the start", gap, "m", notNegative);
+    gapOfFirstBridges = gap;
 }
 
 void Scene::beginLiquid() {
@@ -440,9 +447,11 @@ void Scene::advance(double length, bool another) {
     contactSystem.refresh(grains, grainShift, wallShift);
     lookForDeepOverlaps(grains, 2 * grainShift);
     enter(StepTimes::Part::Contacts);
-    contactSystem.computePairForces(grains, length, integrator.contacts);
+    ContactTiming timing = integrator.contacts;
+    timing.comingStep = getTimeStep();
+    contactSystem.computePairForces(grains, length, timing);
     enter(StepTimes::Part::Walls);
-    contactSystem.computeWallForces(grains, length, integrator.contacts);
+    contactSystem.computeWallForces(grains, length, timing);
     if (contactSystem.movesLiquid()) {
         enter(StepTimes::Part::Liquid);
         contactSystem.moveLiquid(grains, getTime() + length, length);

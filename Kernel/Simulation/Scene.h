@@ -100,6 +100,10 @@ public:
     /// m^3, what a wet wall has got back from bridges minus what it gave.
     [[nodiscard]] double liquidOfWall(std::size_t wall) const { return contactSystem.liquidOfWall(wall); }
 
+    /// At the start of the run bridges join all bodies whose surfaces are not farther apart than the gap (m),
+    /// as if they had touched before; without it only those that touch. For bridges of constant volume.
+    void joinAtStart(double gap);
+
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
     void listenToContacts(bool listen = true) { contactSystem.listen(listen); }
     /// Those of the last step, and how many there have been.
@@ -240,15 +244,16 @@ private:
     Integrator integrator = integrators::predictedVelocityVerlet;
     double smallestRadius = infinity;
     GrainSizes checkedSizes;
-    double checkedStep = unset;   // s
-    bool speciesChanged = false;  // since the run began
-    bool gravityChanged = false;  // since the run began
-    bool lawsAreNew = false;      // prepared ones are to be made again
-    double energyAtStart = 0;     // J, of the ledger
-    double leftLength = 0;        // s, of the last step, whose end may be left to the next one
-    double liquidToCome = unset;  // m^3
-    double liquidDensity = 0;     // kg/m^3, of films; 0: they have no mass
-    double approachUnseen = 0;    // m, of two grains since deep overlaps were looked for
+    double checkedStep = unset;    // s
+    bool speciesChanged = false;   // since the run began
+    bool gravityChanged = false;   // since the run began
+    bool lawsAreNew = false;       // prepared ones are to be made again
+    double energyAtStart = 0;      // J, of the ledger
+    double leftLength = 0;         // s, of the last step, whose end may be left to the next one
+    double liquidToCome = unset;   // m^3
+    double liquidDensity = 0;      // kg/m^3, of films; 0: they have no mass
+    double gapOfFirstBridges = 0;  // m
+    double approachUnseen = 0;     // m, of two grains since deep overlaps were looked for
     int threads = 1;
     bool unstableAccepted = false;
     bool ledgerKept = false;

@@ -231,34 +231,43 @@ inline constexpr BridgeResists bridgeResists = [] {
 /// How the ends of a bridge move in a step.
 template <class T>
 struct BridgeMotion {
-    T separation;     // m, of the surfaces; negative where they overlap
-    T approach;       // m/s, of the surfaces, predicted for the end of the step
-    T step;           // s; zero at the start of a scene
-    T asymmetry;      // (r2 - r1) / (r1 + r2), 1 at a wall; 0 for a law that does not resist rolling
-    MaskOf<T> forms;  // the bridge was not there in the last step: what it remembers starts
+    T separation;       // m, of the surfaces; negative where they overlap
+    T approach;         // m/s, of the surfaces, predicted for the end of the step
+    T step;             // s, the last one; zero at the start of a scene
+    T coming;           // s, the next one
+    T effectiveRadius;  // m
+    T inverseMass;      // 1/kg, of the effective mass
+    T push;             // N, normal repulsion by what else acts in the contact
+    T last;             // N, normal repulsion by all that acted in it at the last step
+    T asymmetry;        // (r2 - r1) / (r1 + r2), 1 at a wall; 0 for a law that does not resist rolling
+    MaskOf<T> forms;    // the bridge was not there in the last step: what it remembers starts
 };
 
 /// What a bridge gives against the motion of its ends, as coefficients (kg/s), so that the kernel can make
 /// the forces implicit. With the slip u (m/s) of surface 1 against surface 2, and W = R* n x (spin 1 - spin
 /// 2), the speed (m/s) with which body 1 rolls along the surface of body 2, the bridge gives body 1
-///     the normal force  -normal x approach,
+///     the normal force  -(normal x approach + force),
 ///     the tangential force  F = -(sliding u + coupling W)  at the contact point, and
 ///     the torque  R* m x n  with  m = -(coupling u + rolling W);
 /// body 2 gets the opposite. Against the twist about n there is nothing. Source of the form: the resistance
 /// matrix of lubrication theory, Jeffrey and Onishi (1984), J. Fluid Mech. 139, which is symmetric and
-/// positive definite: sliding x rolling > coupling^2.
+/// positive definite: sliding x rolling > coupling^2. `force` is for a law that makes its normal force
+/// implicit by itself.
 template <class T>
 struct BridgeResistance {
     T normal = T(0), sliding = T(0), coupling = T(0), rolling = T(0);
+    T force = T(0);  // N, repulsion
 };
 
-/// A law whose bridge resists motion: its Interaction has a function resist(motion), which may change what
-/// the interaction remembers, and takeState(before), which takes over what a bridge remembers when it is
-/// prepared again; largestResistance(bodies) is for the stability limit.
+/// A law whose bridge resists motion: its Interaction has a function resist(law, motion), which may change
+/// what the interaction remembers; takeState(law, before), which takes over what a bridge remembers when it
+/// is prepared again; and checkGap(separation, roundOff), which forgets how bodies moved that have been put
+/// somewhere else between two steps.
+/// largestResistance(bodies) is for the stability limit.
 template <class Law, class T>
-concept HasResistance = requires(typename Law::template Interaction<T> interaction,
+concept HasResistance = requires(const Law law, typename Law::template Interaction<T> interaction,
                                  const BridgeMotion<T>& motion) {
-    { interaction.resist(motion) } -> std::same_as<BridgeResistance<T>>;
+    { interaction.resist(law, motion) } -> std::same_as<BridgeResistance<T>>;
 };
 template <class Law>
 concept ResistsAsItSays = (bridgeResists<Law> == BridgeResists::Nothing
@@ -269,8 +278,18 @@ concept ResistsAsItSays = (bridgeResists<Law> == BridgeResists::Nothing
                                          {
                                              law.largestResistance(bodies)
                                              } -> std::same_as<BridgeResistance<double>>;
-                                         bridge.takeState(bridge);
+                                         bridge.takeState(law, bridge);
+                                         bridge.checkGap(0.0, 0.0);
                                      });
+
+/// A bridge that ruptures later the faster its ends part: range(law, opening) is the rupture distance (m) at
+/// the speed of opening (m/s), at most that of the law's range(), and force(law, separation, range) the force
+/// until there.
+template <class Law>
+concept HasDynamicRupture = requires(const Law law, const typename Law::template Interaction<double> bridge) {
+    { bridge.range(law, 1.0) } -> std::same_as<double>;
+    { bridge.force(law, 1.0, 1.0) } -> std::same_as<double>;
+};
 
 /// An adhesion law whose liquid moves: each contact has a bridge of its own volume, or none
 /// (Adhesion/Shared/LiquidMigration.h). It has liquidRules(), and prepare(bodies, volume) besides

@@ -15,11 +15,16 @@ struct DragBridgeInteraction {
 
     [[nodiscard]] T force(T) const { return T(0); }
     [[nodiscard]] T range() const { return reach; }
-    [[nodiscard]] BridgeResistance<T> resist(const BridgeMotion<T>& motion) {
+    template <class Law>
+    [[nodiscard]] BridgeResistance<T> resist(const Law&, const BridgeMotion<T>& motion) {
         age = select(motion.forms, T(0), age) + motion.step;
         return {normal, sliding, coupling * motion.asymmetry, rolling};
     }
-    void takeState(const DragBridgeInteraction& before) { age = before.age; }
+    template <class Law>
+    void takeState(const Law&, const DragBridgeInteraction& before) {
+        age = before.age;
+    }
+    void checkGap(double, double) {}
 };
 
 /// A bridge for tests, that only resists: with coefficients that do not depend on the gap, so that its

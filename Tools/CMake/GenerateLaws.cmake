@@ -99,6 +99,8 @@ set(PENDULAR_POPULAR_SPECIES
     HertzianViscoelasticMindlinLiquidBridgeYoungLaplaceSpecies
     HertzianViscoelasticMindlinLiquidMigrationWillettSpecies
     HertzianViscoelasticMindlinLiquidMigrationLSSpecies
+    HertzianViscoelasticMindlinViscousLiquidBridgeWillettSpecies
+    HertzianViscoelasticMindlinViscousLiquidMigrationLSSpecies
     HertzianViscoelasticMindlinJKRSpecies
     LinearViscoelasticSpecies
     LinearViscoelasticSlidingFrictionSpecies

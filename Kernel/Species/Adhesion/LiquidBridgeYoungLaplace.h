@@ -34,6 +34,9 @@ struct LiquidBridgeYoungLaplace : LiquidBridge<LiquidBridgeYoungLaplace> {
         "% below V* = 1e-6); then up to 0.985 of the rupture distance to 3.5 %, and up to 0.999 of it mostly "
         "to 8 %, at worst to 25 %";
 
+    /// Beyond the rupture distance there is no solution, as there is a value of a fit.
+    static constexpr bool endsAtRupture = true;
+
     double pinned = 0;
     double solveOutsideTable = 0;
 
