@@ -234,6 +234,14 @@ std::vector<Setter<Law>> settersOf() {
             "distributionCoefficient", [](L& l, double v) { l.setDistributionCoefficient(v); },
             [](const L& l) { return l.getDistributionCoefficient(); });
     }
+    if constexpr (requires(L l) { l.setViscosity(0.0); }) {
+        add(
+            "viscosity", [](L& l, double v) { l.setViscosity(v); },
+            [](const L& l) { return l.getViscosity(); });
+        add(
+            "roughness", [](L& l, double v) { l.setRoughness(v); },
+            [](const L& l) { return l.getRoughness(); });
+    }
     if constexpr (requires(L l) { l.setContactAngle(0.0); })
         add(
             "contactAngle", [](L& l, double v) { l.setContactAngle(v); },

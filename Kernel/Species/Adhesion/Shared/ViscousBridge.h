@@ -261,6 +261,25 @@ struct ViscousBridge : Bridge {
         return joinedFields<Law>(Bridge::fields(), added);
     }
 
+    // Those of the bridge, so that a refusal names this law.
+    void setLiquidBridgeVolume(double value) requires(!MovesLiquid<Bridge>) {
+        setField(*this, &ViscousBridge::liquidBridgeVolume, value);
+    }
+    void setLiquidBridgeVolumeMax(double value) requires MovesLiquid<Bridge> {
+        setField(*this, &ViscousBridge::liquidBridgeVolume, value);
+    }
+    void setLiquidBridgeVolumeMin(double value) requires MovesLiquid<Bridge> {
+        setField(*this, &ViscousBridge::liquidBridgeVolumeMin, value);
+    }
+    void setDistributionCoefficient(double value) requires MovesLiquid<Bridge> {
+        setField(*this, &ViscousBridge::distributionCoefficient, value);
+    }
+    void setWallLiquidVolume(double value) requires MovesLiquid<Bridge> {
+        setField(*this, &ViscousBridge::wallLiquidVolume, value);
+    }
+    void setContactAngle(double value) { setField(*this, &ViscousBridge::contactAngle, value); }
+    void setSurfaceTension(double value) { setField(*this, &ViscousBridge::surfaceTension, value); }
+
     void setViscosity(double value) { setField(*this, &ViscousBridge::viscosity, value); }
     void setRoughness(double value) { setField(*this, &ViscousBridge::roughness, value); }
     void setViscousVolumeCorrection(bool value) { viscousVolumeCorrection = value ? 1 : 0; }
