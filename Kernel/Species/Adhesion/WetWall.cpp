@@ -75,11 +75,11 @@ WetWall::Interaction<double> WetWall::prepare(const Bodies& bodies) const {
 BridgeResistance<double> WetWall::largestResistance(const Bodies& bodies) const {
     if (range(bodies) == 0) return {};
     auto wet = prepare(bodies);
-    return wet.resist({.separation = std::min(roughness, liquidLayerThickness),
-                       .approach = 0,
-                       .step = 0,
-                       .asymmetry = 1,
-                       .forms = true});
+    BridgeMotion<double> motion{};
+    motion.separation = std::min(roughness, liquidLayerThickness);
+    motion.asymmetry = 1;
+    motion.forms = true;
+    return wet.resist(*this, motion);
 }
 
 std::optional<std::string> WetWall::objection(const Bodies& bodies) const {

@@ -77,7 +77,8 @@ struct WetWallInteraction {
     }
     [[nodiscard]] T range() const { return depth + wetted * reach; }
 
-    [[nodiscard]] BridgeResistance<T> resist(const BridgeMotion<T>& motion) {
+    template <class Law>
+    [[nodiscard]] BridgeResistance<T> resist(const Law& /*law*/, const BridgeMotion<T>& motion) {
         const T x = motion.separation - depth;
         wetted = select((x > T(0)) & (hasRuptured(motion, x) | motion.forms | (wetted == T(0))), T(0), T(1));
         const T factor = T(6 * std::numbers::pi) * viscosity;
@@ -98,7 +99,9 @@ struct WetWallInteraction {
         r.rolling = sticking * (s * (s * ofShift - T(2) * ofBoth) + ofSpin);
         return r;
     }
-    void takeState(const WetWallInteraction& before) { wetted = before.wetted; }
+    template <class Law>
+    void takeState(const Law& /*law*/, const WetWallInteraction& before) { wetted = before.wetted; }
+    void checkGap(T /*separation*/, T /*roundOff*/) {}  // it remembers no gap
 
     /// m^3, of a bridge of the length x (m); none in the layer
     [[nodiscard]] T volumeAt(T x) const {

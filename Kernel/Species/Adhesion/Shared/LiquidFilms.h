@@ -52,7 +52,8 @@ struct LiquidFilmsInteraction {
     }
     [[nodiscard]] T range() const { return depth + wetted * (reach - depth); }
 
-    [[nodiscard]] BridgeResistance<T> resist(const BridgeMotion<T>& motion) {
+    template <class Law>
+    [[nodiscard]] BridgeResistance<T> resist(const Law& /*law*/, const BridgeMotion<T>& motion) {
         const T h = motion.separation;
         const T root = rootOfCapillaryNumber(motion, viscosity, surfaceTension);
         length = min(max(bridge.range() * (T(1) + root), depth), T(0.98) * reach);
@@ -68,7 +69,9 @@ struct LiquidFilmsInteraction {
         r.rolling = sticking * T(0.8);
         return r;
     }
-    void takeState(const LiquidFilmsInteraction& before) { wetted = before.wetted, length = before.length; }
+    template <class Law>
+    void takeState(const Law& /*law*/, const LiquidFilmsInteraction& before) { wetted = before.wetted, length = before.length; }
+    void checkGap(T /*separation*/, T /*roundOff*/) {}  // it remembers no gap
 };
 
 /// Bodies with films of liquid collide as a grain does with a wet wall (WetWall), in four phases: the films
@@ -184,11 +187,11 @@ struct LiquidFilms : Bridge {
     [[nodiscard]] BridgeResistance<double> largestResistance(const Bodies& bodies) const {
         if (!isWet(bodies)) return {};
         auto wet = prepare(bodies);
-        return wet.resist({.separation = std::min(roughness, filmThickness),
-                           .approach = 0,
-                           .step = 0,
-                           .asymmetry = bodies.radius1 == bodies.radius2 ? 0.0 : 1.0,
-                           .forms = true});
+        BridgeMotion<double> motion{};
+        motion.separation = std::min(roughness, filmThickness);
+        motion.asymmetry = bodies.radius1 == bodies.radius2 ? 0 : 1;
+        motion.forms = true;
+        return wet.resist(*this, motion);
     }
     [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const {
         if (!isWet(bodies)) return std::nullopt;
