@@ -262,8 +262,11 @@ TEST(LiquidFilms, slidingResistanceIsThatOfLubricationTheory) {
         const double radius = bodies.effectiveRadius(), h = 3e-6,
                      kappa = std::isinf(radius2) ? 1 : (radius2 - r) / (radius2 + r);
         auto contact = static_cast<const LiquidFilmsWillett&>(law).prepare(bodies);
-        const auto found =
-            contact.resist({.separation = h, .approach = 0, .step = 0, .asymmetry = kappa, .forms = true});
+        BridgeMotion<double> motion{};
+        motion.separation = h;
+        motion.asymmetry = kappa;
+        motion.forms = true;
+        const auto found = contact.resist(law, motion);
         const double L = 0.5 * std::log(1 + 5e-12 / (std::numbers::pi * radius * h * h));
         const double scale = 6 * std::numbers::pi * eta * radius * L;
         EXPECT_NEAR(found.sliding / scale, 1.0 / 3 + kappa * kappa / 5, 1e-14);

@@ -186,8 +186,12 @@ TEST(WetWall, bridgeIsTheToroidOfTheForceBalance) {
     // Drag at 1 m/s where the gap is large; the wall's at 10 um and below the roughness.
     const auto resistanceAt = [&](double gap) {
         auto bridge = at;
-        return bridge.resist({.separation = gap, .approach = 1, .step = 0, .asymmetry = 1, .forms = true})
-            .normal;
+        BridgeMotion<double> motion{};
+        motion.separation = gap;
+        motion.approach = 1;
+        motion.asymmetry = 1;
+        motion.forms = true;
+        return bridge.resist(law, motion).normal;
     };
     EXPECT_NEAR(resistanceAt(300e-6), 4.553009e-4, 1e-9);
     EXPECT_NEAR(resistanceAt(10e-6), 1.426723e-3, 1e-9);
