@@ -86,17 +86,16 @@ struct WetWallInteraction {
         const T apart = wetted * shareApart(motion);
         BridgeResistance<T> r;
         r.normal = apart * max(near, factor * bridge.contactRadius * dragFactor(motion));
-        // Equations 29 and 30 have the speed v of the centre and the spin w R; the slip here is that in the
-        // middle of the gap, v + w R s, and the rolling speed -w R. 0.1895 of (30) is taken as 3/4 of the
-        // 0.2526 of (29), 0.18945: then the matrix is symmetric, as it must be.
+        // Equations 29 and 30 have the speed v of the centre and the spin w R; here the slip is that of the
+        // grain's surface, v + w R, and the rolling speed -w R. 0.1895 of (30) is taken as 3/4 of the 0.2526
+        // of (29), 0.18945: then the matrix is symmetric, as it must be.
         const T sticking = select(x < T(0), apart, T(0)) * factor * radius;
         const T log = max(naturalLogarithm(radius / gap), T(0));
-        const T s = T(1) + T(0.5) * max(motion.separation, T(0)) / radius;
         const T ofShift = T(8.0 / 15) * log + T(0.9588), ofBoth = T(2.0 / 15) * log + T(0.2526),
                 ofSpin = T(4.0 / 3) * (T(2.0 / 5) * log + T(0.3817));
         r.sliding = sticking * ofShift;
-        r.coupling = sticking * (s * ofShift - ofBoth);
-        r.rolling = sticking * (s * (s * ofShift - T(2) * ofBoth) + ofSpin);
+        r.coupling = sticking * (ofShift - ofBoth);
+        r.rolling = sticking * (ofShift - T(2) * ofBoth + ofSpin);
         return r;
     }
     template <class Law>
