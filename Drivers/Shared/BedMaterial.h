@@ -24,6 +24,9 @@ struct BedMaterial {
     double liquidVolume = 2e-11;  // m^3 a bridge, 20 nl
     double contactAngle = std::numbers::pi / 9;
     double surfaceTension = 0.072;  // N/m
+    double viscosity = 1e-3;        // Pa s
+    double roughness = 1e-6;        // m
+    double film = 8e-11;            // m^3 a grain, where liquid moves
 
     double rollingFriction = 0.05,
            rollingStiffness = 1e4;     // N/m: about that of sliding at an overlap of 1 um
@@ -56,6 +59,9 @@ struct BedMaterial {
         setIfThere("liquidBridgeVolume", liquidVolume);
         setIfThere("contactAngle", contactAngle);
         setIfThere("surfaceTension", surfaceTension);
+        setIfThere("liquidBridgeVolumeMax", liquidVolume);
+        setIfThere("viscosity", viscosity);
+        setIfThere("roughness", roughness);
         setIfThere("workOfAdhesion", workOfAdhesion);
     }
     template <class S>

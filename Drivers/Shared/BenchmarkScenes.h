@@ -81,6 +81,8 @@ void withSceneOf(std::string_view speciesName, const BenchmarkChoice& choice, in
     Settled bed = settledIn(choice, threads);
     fillBox(scene, species, bed.grains, bed.box, benchmarkStep);
     bed = {};  // gives its memory back
+    if (species->has("liquidBridgeVolumeMax"))
+        for (GrainReference grain : scene.particleHandler) grain.setLiquidVolume(material.film);
     function(scene);
 }
 

@@ -170,9 +170,11 @@ void ContactLiquid::dryBridges(ContactStore& store, const ContactLaws& laws, Par
         const std::uint32_t contact = store.contactAt(static_cast<std::uint32_t>(slot));
         const bool isAtWall = liquid.isAtWall(contact);
         const std::uint32_t first = liquid.grainOf(contact, 0), second = liquid.grainOf(contact, 1);
-        const std::uint64_t partner = isAtWall ? (1u << 31) + second : grains.identity[second];
+        const std::uint64_t partner = isAtWall ? second : grains.identity[second];
+        const auto wall = static_cast<std::uint32_t>(store.bucketOf(contact / Pack::lanes).wall + 1);
         const double left = std::min(leftOfBridge(store, laws, grains, contact, time), volume);
-        const double loss = lost(volume - left, std::uint64_t{grains.identity[first]} << 32 | partner, 1);
+        const double loss =
+            lost(volume - left, std::uint64_t{grains.identity[first]} << 32 | partner, 1 + wall);
         volume -= loss;
         evaporated += loss;
         changed.push_back(contact);

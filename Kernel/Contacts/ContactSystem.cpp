@@ -117,6 +117,7 @@ void ContactSystem::join(Grains& grains, double gap) {
         const int a = bucket.species1, b = bucket.species2;
         if (!species->ofPair(a, b).formsAtContact || species->liquidRules(a, b)) continue;
         if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
+        contactEvents.before(contacts, bucket);
         for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
             const std::size_t block = c / Pack::lanes;
             if (!ContactStore::bitOf(contacts.states[block].listed, c)) continue;
@@ -126,6 +127,7 @@ void ContactSystem::join(Grains& grains, double gap) {
             if (contacts.slots[block] == ContactStore::asleep) wake(block, bucket, grains);
             contacts.states[block].bridged |= static_cast<std::uint8_t>(1u << c % Pack::lanes);
         }
+        contactEvents.after(contacts, bucket, grains.identity);  // columns start
     }
 }
 

@@ -122,8 +122,10 @@ NeighbourSearch::NeighbourSearch(std::span<const TranslationRecord> grains, doub
                                  const PeriodicBox& box, int threads)
     : periodic(box), halfMargin(0.5 * margin), points(grains.size()), levelOf(grains.size()) {
     if (grains.empty()) return;
-    double smallest = grains[0].radius;
-    for (const TranslationRecord& grain : grains) smallest = std::min(smallest, grain.radius);
+    // A place whose grain was removed has the radius 0, and is in no cell.
+    double smallest = infinity;
+    for (const TranslationRecord& grain : grains)
+        if (grain.radius > 0) smallest = std::min(smallest, grain.radius);
     smallest += 0.5 * margin;
 
     inParts(
@@ -131,11 +133,13 @@ NeighbourSearch::NeighbourSearch(std::span<const TranslationRecord> grains, doub
         [&](int, std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) {
                 points[k] = {box.wrap(grains[k].position), grains[k].radius + 0.5 * margin};
-                levelOf[k] = static_cast<std::uint8_t>(std::log2(points[k].size / smallest));
+                if (grains[k].radius > 0)
+                    levelOf[k] = static_cast<std::uint8_t>(std::log2(points[k].size / smallest));
             }
         },
         worthAThread);
     for (std::uint32_t k = 0; k < grains.size(); ++k) {
+        if (!(grains[k].radius > 0)) continue;
         if (levelOf[k] >= levels.size()) levels.resize(levelOf[k] + 1u);
         levels[levelOf[k]].members.push_back(k);
     }

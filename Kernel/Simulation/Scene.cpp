@@ -96,6 +96,30 @@ double Scene::shortestContactTime() {
     return shortestHalfPeriod(laws(), {particleHandler.store(), laws().speciesCount()}, wallHandler);
 }
 
+/// Of a run that goes on for longer than it was planned.
+static void refuseMoreSpray(const GrainFilms& films, const SprayHandler& sprays, double time,
+                            double timeMax) {
+    const double more = sprays.volumeBy(timeMax) - sprays.volumeBy(time);
+    if (films.areKept() && films.objectionToMore(more))
+        throw InputError(fmt::format(
+            "Simulation: time max = {:.6g} s; the sprays emit up to {:.6g} m^3 from {:.6g} s until then, and "
+            "the run "
+            "was begun for less liquid; say by setLiquidToCome() how much will come, and begin it again.",
+            timeMax, more, time));
+}
+
+static void refuseUnlessBridgesJoin(const ContactLaws& laws, double gap) {
+    const auto count = static_cast<int>(laws.speciesCount());
+    for (int a = 0; a < count; ++a)
+        for (int b = a; b < count; ++b)
+            if (laws.ofPair(a, b).formsAtContact && !laws.liquidRules(a, b)) return;
+    throw InputError(
+        fmt::format("Simulation: gap of bridges at the start = {:.6g} m, but no species has bridges of a "
+                    "volume of their own "
+                    "that form at a touch; leave joinAtStart() out, or take such a species.",
+                    gap));
+}
+
 void Scene::setUp() {
     setupInitialConditions();
     prepareOutputs();
@@ -105,12 +129,18 @@ void Scene::setUp() {
     if (!isRestarted()) particleHandler.renewMasses();
     particleHandler.films().settle(particleHandler.store(), laws().layout.liquid > 0);
     refuseLiquidThatCannotMove();
-    if (isRestarted()) return readRestart();
+    if (isRestarted()) {
+        readRestart();
+        return refuseMoreSpray(particleHandler.films(), sprayHandler, getTime(), getTimeMax());
+    }
     beginLiquid();
     prepare();
     ParticleStore& grains = particleHandler.store();
     contactSystem.refresh(grains, 0, 0);
-    if (gapOfFirstBridges > 0) contactSystem.join(grains, gapOfFirstBridges);
+    if (gapOfFirstBridges > 0) {
+        refuseUnlessBridgesJoin(laws(), gapOfFirstBridges);
+        contactSystem.join(grains, gapOfFirstBridges);
+    }
     refuseInitialOverlaps(contactSystem, grains, [](auto&&...) { return true; });
     Motion::start(grains, integrator);
     advance(0, false);  // a step of no length: forces and accelerations at the start
@@ -184,6 +214,7 @@ void Scene::takeOverChanges() {
                     "friction "
                     "where no others have; add it before the run begins.");
             particleHandler.renewMasses();
+            if (liquidDensity > 0) weighFilms(particleHandler.store());
             speciesChanged = true;
         }
         const bool newBodies = changedWalls || !changes.placed.empty() || !changes.altered.empty();

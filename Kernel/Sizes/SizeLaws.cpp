@@ -125,7 +125,7 @@ CutLaw rosinRammlerSizes(double size, double exponent, double low, double high) 
     const auto above = [=](double d) { return std::exp(-std::pow(d / size, exponent)); };
     const auto density = [=](double d) {
         const double x = std::pow(d / size, exponent);
-        return exponent * x / d * std::exp(-x);
+        return x > 745 ? 0 : exponent * x / d * std::exp(-x);  // where exp(-x) is 0, x may be infinite
     };
     // (d / size)^exponent grows by no more than 1.2 in a panel.
     return {onRatios(low, high, std::min(std::pow(1.2, 1 / exponent), 1.5), SizeBasis::Volume, density),

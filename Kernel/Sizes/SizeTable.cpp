@@ -206,6 +206,8 @@ Rows readRows(const InputFile& file) {
     std::optional<Columns> columns;
     Rows rows;
     std::string_view rest = file.text;
+    if (constexpr std::string_view mark = "\xEF\xBB\xBF"; rest.starts_with(mark))
+        rest.remove_prefix(mark.size());
     for (std::size_t line = 1; !rest.empty(); ++line) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         const std::string_view text = trimmed(rest.substr(0, end));

@@ -214,6 +214,8 @@ TEST(SizeLaws, sayWhatTheCutsTakeAway) {
     EXPECT_NEAR(cut.away.number, 1 - whole.sizes.moment(0, 8e-4, 1.3e-3), 1e-12);
     EXPECT_NEAR(cut.away.volume, 1 - whole.sizes.moment(3, 8e-4, 1.3e-3) / whole.sizes.moment(3), 1e-12);
     EXPECT_NEAR(rosinRammlerSizes(1e-3, 2, 1e-6, 1e-3).away.volume, std::exp(-1.0), 2e-6);
+    // All of it lies between 0.5 and 1.1 mm; (d / size)^exponent has no number at 2 m.
+    EXPECT_NEAR(rosinRammlerSizes(1e-3, 100, 5e-4, 2).away.volume, 0, 1e-15);
 }
 
 TEST(SizeLaws, normalAndRosinRammlerHaveTheirMeans) {

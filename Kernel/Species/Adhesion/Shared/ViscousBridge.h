@@ -32,10 +32,12 @@ enum class TangentialLubrication {
 /// What one contact remembers of a bridge that resists motion, and what it gives.
 template <class Capillary, class T>
 struct ViscousInteraction {
+    static constexpr double never = 1e300;  // m, the gap of a bridge that has made no step yet
+
     Capillary capillary;
     T squaredReach;  // b^2 = V / (pi R*), m^2
     T offset;        // of the integral
-    T lastGap;       // m, at the last step; infinite: none
+    T lastGap;       // m, at the last step, or never
     T charged;       // A up to which the speed of the bodies has paid
 
     [[nodiscard]] T force(T separation) const { return capillary.force(separation); }
@@ -75,7 +77,7 @@ struct ViscousInteraction {
             if (law.scheme() == ViscousScheme::Implicit) found.normal = c;
             else found.force = c * motion.approach;
         }
-        if (law.tangential() != TangentialLubrication::None) {
+        if (law.tangential() != TangentialLubrication::None && any(acts)) {
             addTangential(law, motion, found);
             for (T* part : {&found.sliding, &found.coupling, &found.rolling})
                 *part = select(acts, *part, T(0));
@@ -85,15 +87,16 @@ struct ViscousInteraction {
     /// Of a bridge that is prepared again, perhaps for another volume: what is still to be charged stays.
     template <class Law>
     void takeState(const Law& law, const ViscousInteraction& before) {
+        if (before.squaredReach == 0) return;  // there was no liquid: it is a new bridge
         lastGap = before.lastGap;
         charged = before.charged;
-        if (!(lastGap < infinity) || (squaredReach == before.squaredReach && offset == before.offset)) return;
+        if (lastGap >= never || (squaredReach == before.squaredReach && offset == before.offset)) return;
         charged +=
             integralOf(law).at(lastGap, law.roughness) - before.integralOf(law).at(lastGap, law.roughness);
     }
     /// Between two steps; bodies that have been put somewhere else have not moved there.
     void checkGap(T separation, T roundOff) {
-        if (!(abs(separation - lastGap) <= roundOff)) lastGap = infinity;
+        if (!(abs(separation - lastGap) <= roundOff)) lastGap = never;
     }
 
     template <class Law>
@@ -124,14 +127,20 @@ private:
         const T kick = max(T(0.5) * (motion.step + motion.coming), T(1e-300));  // s, between two drifts
         const T contact(isKept ? -infinity : 0.0);  // m, the gap below which nothing resists
         const T open = max(h, contact);
-        const LubricationIntegral<T> integral = integralOf(law);
-        const T atGap = integral.at(open, roughness), slope = integral.slope(open, roughness);
-        const MaskOf<T> begins = motion.forms | (motion.step <= T(0)) | (lastGap >= T(infinity));
+        const MaskOf<T> begins = motion.forms | (motion.step <= T(0)) | (lastGap >= T(never));
         const MaskOf<T> touches = h < contact;
-        const T before = select(begins | touches, atGap, charged);
         const T drift = select(begins, -motion.approach, (h - lastGap) / max(motion.step, T(1e-300)));  // m/s
         const T wanted = fma(kick * motion.inverseMass, motion.push, drift);                            // w*
-        const T k = T(law.viscousNeighbours) * drag * motion.inverseMass;                               // m/s
+        const MaskOf<T> staysClosed = touches & (fma(wanted, dt, h) < T(0));
+        if (!isKept && !any(!staysClosed)) {  // as all of a bed at rest: what follows comes to nothing
+            charged = T(0);
+            lastGap = h;
+            return T(0);
+        }
+        const LubricationIntegral<T> integral = integralOf(law);
+        const T atGap = integral.at(open, roughness), slope = integral.slope(open, roughness);
+        const T before = select(begins | touches, atGap, charged);
+        const T k = T(law.viscousNeighbours) * drag * motion.inverseMass;  // m/s
 
         const T x = k * dt * slope;
         const MaskOf<T> creeps = (k * dt * integral.plateau > roughness) & (h > contact);
@@ -153,7 +162,6 @@ private:
         }
         // The gap closes in the coming drift, whatever resists it; or it does not open.
         const MaskOf<T> closes = (!creeps) & (h > contact) & (fma(fma(k, before, wanted), dt, h) < T(0));
-        const MaskOf<T> staysClosed = touches & (fma(wanted, dt, h) < T(0));
         if (!isKept) paid = select(closes | staysClosed, T(0), paid);
         // With what others give, as in the last step, the bodies are brought to a stop at most: what they
         // have gone too far, in the first step of a scene, is not made good.
@@ -356,7 +364,7 @@ private:
         return {.capillary = capillary,
                 .squaredReach = squaredReach,
                 .offset = lubricationIntegral(reach, roughness).offset,
-                .lastGap = infinity,
+                .lastGap = Interaction<double>::never,
                 .charged = 0};
     }
 };
