@@ -8,6 +8,7 @@
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Scenes/GrainCloud.h"
 #include "SelfTests/Support/DragBridge.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -16,6 +17,7 @@
 namespace pendular {
 namespace {
 
+using scenes::cloudOfGrains;
 using scenes::FewGrains;
 using scenes::GrainMotion;
 using support::DragBridge;
@@ -184,20 +186,8 @@ template <class S>
 struct Cloud : FewGrains<S> {
     explicit Cloud(int threads = 1)
         : FewGrains<S>(species<S>({.normal = 0.01, .sliding = 0.005, .coupling = 0.002, .rolling = 0.004}),
-                       grains(), 2e-6) {
+                       cloudOfGrains(r), 2e-6) {
         this->setNumberOfThreads(threads);
-    }
-    static std::vector<GrainMotion> grains() {
-        std::vector<GrainMotion> all;
-        for (int k = 0; k < 27; ++k) {
-            const Vec3D cell(k % 3, k / 3 % 3, k / 9);
-            all.push_back(
-                {.radius = (k % 2 == 0 ? 1 : 0.7) * r,
-                 .position = 2.3 * r * cell,
-                 .velocity = 0.4 * (Vec3D(1, 1, 1) - cell) + Vec3D(0.1 * (k % 5), -0.05 * (k % 4), 0),
-                 .spin = Vec3D(20.0 * (k % 3), -30, 10.0 * (k % 7))});
-        }
-        return all;
     }
     void steps(int count) {
         for (int k = 0; k < count; ++k) this->step();
@@ -309,7 +299,7 @@ TEST(MovingBridge, remembersItsAgeThroughListsAndChangesOfItsLaw) {
 // not far from it.
 TEST(MovingBridge, isKnownToTheStabilityLimit) {
     const double c = 1;
-    std::vector<GrainMotion> grains = Cloud<Approach>::grains();
+    std::vector<GrainMotion> grains = cloudOfGrains(r);
     for (GrainMotion& grain : grains) grain.radius = r;
     FewGrains<Approach> scene(species<Approach>({.normal = c}), grains, 1e-7);
     const double ratio = scene.stabilityLimit() * c / (mass / 2);

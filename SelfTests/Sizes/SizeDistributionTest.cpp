@@ -69,14 +69,19 @@ TEST(SizeDistribution, convertsAVolumeTableToNumbers) {
     check("B", {0.918367346939, 0.0340136054422, 0.047619047619}, 0.0048);
 }
 
+/// Calls function(row, distribution) for the rows of a reference file that are of a table of this test.
+template <class Function>
+void forEachTable(const std::string& file, Function&& function) {
+    for (const support::Row& row : rowsOf(file))
+        if (tables.contains(row.at("table")))
+            function(row, distributionOf(row.at("table"), row.at("input_basis"), row.at("in_class")));
+}
+
 TEST(SizeDistribution, convertsAsTheIndependentTablesDo) {
     const std::string file = "scenes-and-shapes/psd_conversion.csv";
     if (!support::hasSharedData(file)) GTEST_SKIP() << support::withoutSharedData(file);
     int compared = 0;
-    for (const support::Row& row : rowsOf(file)) {
-        if (!tables.contains(row.at("table"))) continue;
-        const SizeDistribution sizes =
-            distributionOf(row.at("table"), row.at("input_basis"), row.at("in_class"));
+    forEachTable(file, [&](const support::Row& row, const SizeDistribution& sizes) {
         const std::vector<double>& edges = tables.at(row.at("table")).edges;
         for (const SizeBasis basis : bases) {
             if (nameOf(basis) != row.at("output_basis")) continue;
@@ -86,7 +91,7 @@ TEST(SizeDistribution, convertsAsTheIndependentTablesDo) {
                 EXPECT_NEAR(fractionBetween(sizes, basis, edges[k], edges[k + 1]) / expected, 1, 5e-12);
             }
         }
-    }
+    });
     EXPECT_GT(compared, 100);
 }
 
@@ -94,10 +99,7 @@ TEST(SizeDistribution, hasTheMeansAndQuantilesOfTheIndependentTables) {
     const std::string file = "scenes-and-shapes/psd_means.csv";
     if (!support::hasSharedData(file)) GTEST_SKIP() << support::withoutSharedData(file);
     int compared = 0;
-    for (const support::Row& row : rowsOf(file)) {
-        if (!tables.contains(row.at("table"))) continue;
-        const SizeDistribution sizes =
-            distributionOf(row.at("table"), row.at("input_basis"), row.at("in_class"));
+    forEachTable(file, [&](const support::Row& row, const SizeDistribution& sizes) {
         const std::map<std::string, double> values{{"D10_m", sizes.mean(1, 0)},
                                                    {"D30_m", sizes.mean(3, 0)},
                                                    {"D32_m", sizes.mean(3, 2)},
@@ -112,7 +114,7 @@ TEST(SizeDistribution, hasTheMeansAndQuantilesOfTheIndependentTables) {
             EXPECT_NEAR(value / std::stod(row.at(name)), 1, 5e-12) << name << " of " << row.at("table");
             ++compared;
         }
-    }
+    });
     EXPECT_GT(compared, 100);
 }
 

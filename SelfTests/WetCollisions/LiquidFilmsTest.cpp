@@ -13,6 +13,7 @@
 #include "Kernel/Species/Friction/MindlinSecant.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Scenes/GrainCloud.h"
 #include "SelfTests/Support/Refusal.h"
 
 // The four phases of a wet collision between two bodies with films.
@@ -20,6 +21,7 @@
 namespace pendular {
 namespace {
 
+using scenes::cloudOfGrains;
 using scenes::FewGrains;
 using scenes::GrainMotion;
 using scenes::PlaneAt;
@@ -284,22 +286,10 @@ TEST(LiquidFilms, slidingResistanceIsThatOfLubricationTheory) {
 /// 27 grains that collide, stick and part.
 class Cloud : public FewGrains<Wet<LiquidFilmsWillett>> {
 public:
-    explicit Cloud(int threads) : FewGrains(species<LiquidFilmsWillett>(), grains(), 2e-7) {
+    explicit Cloud(int threads) : FewGrains(species<LiquidFilmsWillett>(), cloudOfGrains(r), 2e-7) {
         setNumberOfThreads(threads);
         setQuiet();
         initialise();
-    }
-    static std::vector<GrainMotion> grains() {
-        std::vector<GrainMotion> all;
-        for (int k = 0; k < 27; ++k) {
-            const Vec3D cell(k % 3, k / 3 % 3, k / 9);
-            all.push_back(
-                {.radius = (k % 2 == 0 ? 1 : 0.7) * r,
-                 .position = 2.3 * r * cell,
-                 .velocity = 0.4 * (Vec3D(1, 1, 1) - cell) + Vec3D(0.1 * (k % 5), -0.05 * (k % 4), 0),
-                 .spin = Vec3D(20.0 * (k % 3), -30, 10.0 * (k % 7))});
-        }
-        return all;
     }
     [[nodiscard]] std::uint64_t hash() const { return stateHash(particleHandler.store()); }
 };
@@ -318,7 +308,7 @@ TEST(LiquidFilms, givesTheSameBitsForAnyThreadsAndLists) {
 }
 
 TEST(LiquidFilms, closesTheAccountOfTheEnergy) {
-    FewGrains<Wet<LiquidFilmsWillett>> cloud(species<LiquidFilmsWillett>(), Cloud::grains(), 2e-7);
+    FewGrains<Wet<LiquidFilmsWillett>> cloud(species<LiquidFilmsWillett>(), cloudOfGrains(r), 2e-7);
     cloud.setQuiet();
     cloud.keepEnergyLedger();
     cloud.initialise();
