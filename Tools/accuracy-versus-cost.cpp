@@ -13,6 +13,9 @@
 #include "Tools/AccuracyVersusCost/FailureMap.h"
 #include "Tools/AccuracyVersusCost/FrictionChart.h"
 #include "Tools/AccuracyVersusCost/TimeChart.h"
+#include "Tools/AccuracyVersusCost/ViscousChart.h"
+#include "Tools/AccuracyVersusCost/ViscousStability.h"
+#include "Tools/AccuracyVersusCost/VolumeChart.h"
 
 using namespace pendular;
 
@@ -25,6 +28,9 @@ int main(int argc, char** argv) {
     ContactMapOptions contacts;
     CriticalChartOptions critical;
     FrictionChartOptions friction;
+    ViscousChartOptions viscous;
+    VolumeChartOptions volumes;
+    ViscousStabilityOptions stability;
     std::string output;
     const auto addMode = [&](const char* name, const std::string& text) { return app.add_flag(name, text); };
     CLI::Option* const ofBridges = addMode(
@@ -52,6 +58,18 @@ int main(int argc, char** argv) {
         "--friction",
         "friction laws: errors of force, restitution, spin and loss (%) against the exact contact with "
         "partial slip, over populations of paths and impacts, and what they cost (ns)");
+    CLI::Option* const ofViscous = addMode(
+        "--viscous",
+        "schemes of viscous bridges: errors of the speed of a touch and of restitution against closed forms, "
+        "over the step, Stokes number, viscosity and radius, and what they cost (ns)");
+    CLI::Option* const ofVolumes = addMode(
+        "--bridge-volumes",
+        "bridges whose volume changes: errors of the force (%) where they are prepared again in each step, "
+        "or only after changes of 0.01, 0.1 and 1 %, and what that costs (ns)");
+    CLI::Option* const ofStability = addMode(
+        "--viscous-stability",
+        "schemes of viscous bridges: the largest step, over m*/c, in a pair, a chain, crystals and a random "
+        "bed, measured");
     app.add_option("--output", output,
                    "table to write, or folder of --contact-maps and --friction; MODE.csv, contact-maps or "
                    "friction, if not given");
@@ -80,17 +98,24 @@ int main(int argc, char** argv) {
     add(ofFriction, "--paths", friction.paths, "paths of each population, and impacts");
     add(ofFriction, "--friction-seed", friction.seed, "of the random paths");
     add(ofFriction, "--friction-runs", friction.runs, "measurements of time, of which the fastest counts");
+    add(ofViscous, "--viscous-starts", viscous.starts,
+        "gaps from which a pair starts, for steps of a roughness and more");
+    add(ofViscous, "--shortest-way", viscous.shortestWay,
+        "of a step at the first speed, over the roughness: shorter ones are left out");
+    add(ofViscous, "--viscous-runs", viscous.runs, "measurements of time, of which the fastest counts");
+    add(ofVolumes, "--volume-runs", volumes.runs, "measurements of time, of which the fastest counts");
     add(ofBulk, "--rounds", bulk.rounds, "measurements of time, of which the median counts");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         std::size_t modes = 0;
-        for (const CLI::Option* mode :
-             {ofBridges, ofFailures, ofTime, ofBulk, ofContacts, ofSteps, ofFriction})
+        for (const CLI::Option* mode : {ofBridges, ofFailures, ofTime, ofBulk, ofContacts, ofSteps,
+                                        ofFriction, ofViscous, ofVolumes, ofStability})
             modes += mode->count();
         if (modes != 1)
             throw InputError(
                 "accuracy-versus-cost: give one of --bridges, --failure-maps, --time, --bulk, "
-                "--contact-maps, --critical-steps and --friction.");
+                "--contact-maps, --critical-steps, --friction, --viscous, --bridge-volumes and "
+                "--viscous-stability.");
         const auto refuse = [&](const auto& options, std::string_view scene) {
             for (const CLI::Option* option : options)
                 if (option->count() > 0)
@@ -101,15 +126,18 @@ int main(int argc, char** argv) {
         if (bulk.scene == "bed") refuse(ofDrum, bulk.scene);
         if (bulk.scene == "drum") refuse(ofBed, bulk.scene);
         if (!output.empty())
-            chart.file = map.file = time.file = bulk.file = contacts.folder = critical.file =
-                friction.folder = output;
+            chart.file = map.file = time.file = bulk.file = contacts.folder = critical.file = viscous.file =
+                volumes.file = stability.file = friction.folder = output;
         if (*ofBridges) chartBridges(chart);
         else if (*ofFailures) mapFailures(map);
         else if (*ofTime) chartTime(time);
         else if (*ofBulk) chartBulk(bulk);
         else if (*ofContacts) mapContacts(contacts);
         else if (*ofSteps) chartCriticalSteps(critical);
-        else chartFriction(friction);
+        else if (*ofFriction) chartFriction(friction);
+        else if (*ofViscous) chartViscousBridges(viscous);
+        else if (*ofVolumes) chartVolumes(volumes);
+        else chartViscousStability(stability);
         return 0;
     });
 }

@@ -5,6 +5,9 @@ load system("dirname '".ARG0."'")."/../Drivers/Shared/chart.gp"
 set output ARG2.".png"
 set multiplot layout 2,1
 set logscale x
+set autoscale xfix
+set lmargin 11
+set rmargin 4
 set key off
 set ylabel "density (kg/m^3)"
 plot ARG1 using (1e3*column("width_m")):(column("density_kg_per_m3")) with linespoints linestyle 1

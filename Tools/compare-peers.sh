@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Runs the same scenes in Pendular and in those of LIGGGHTS, LAMMPS and YADE that are installed, in turn, one thread each,
 # and writes the medians as a table (CSV) and a chart (PNG).
-#   Tools/compare-peers.sh [--scenes "bed wet-bed mixture"] [--particles "25000 250000"] [--runs 3] [--output FOLDER]
+#   Tools/compare-peers.sh [--scenes "bed wet-bed mixture sheared-mixture"] [--particles "25000 250000"] [--runs 3] [--output FOLDER]
 #                          [--bed FILE] [--drum FILE --drum-walls FILE]
 # --scenes     bed: dry, of the numbers of --particles; wet-bed: the first of these, with liquid bridges (Bagheri's law and the
 #              exact one), beside LIGGGHTS' easo/capillary/viscous; mixture: 20 000 grains, radii 1 to 10, two sizes of equal
-#              volume, beside LIGGGHTS with cells of one size: with cells by size ("multi") version 3.8.0 finds no neighbours
+#              volume, beside LIGGGHTS with cells of one size: with cells by size ("multi") version 3.8.0 finds no neighbours;
+#              sheared-mixture: the same, whose grains start with 100 1/s times their height as speed along x; LIGGGHTS with
+#              a skin of 1 mm, the best of 0.2, 0.5, 1 and 2 mm
 # --bed FILE   rows radius x y z: the bed of Dosta et al. (2024) instead of the one that Pendular makes by itself
 # --drum FILE  their drum, with its walls as rows of nine numbers; LIGGGHTS only. Without it there is no drum.
 # --build DIR  a build folder; build/release if not given
@@ -20,7 +22,10 @@ for number in "${sizes[@]:-}"; do require_number particles "$number"; done
 require_number runs "$runs"
 read -ra scene_names <<<"$scenes"
 for scene in "${scene_names[@]:-}"; do
-    [[ $scene == bed || $scene == wet-bed || $scene == mixture ]] || refuse "--scenes: '$scene' is none of bed, wet-bed, mixture"
+    case $scene in
+    bed | wet-bed | mixture | sheared-mixture) ;;
+    *) refuse "--scenes: '$scene' is none of bed, wet-bed, mixture, sheared-mixture" ;;
+    esac
 done
 require_file bed "$bed"
 require_file drum "$drum"
@@ -83,7 +88,7 @@ prepare_bed() {  # options of benchmark-scenes for the scene...
     box=$(sed -n '1s/.*: //p' "$work/bed.rows")
     lammps_data "$work/bed.rows" "$box" 1 >"$work/bed.data"
     read -r xlo xhi ylo yhi zlo <<<"$box"
-    vars=(-var data "$work/bed.data" -var xlo "$xlo" -var xhi "$xhi" -var ylo "$ylo" -var yhi "$yhi" -var zlo "$zlo" -var warm "$warm" -var steps "$steps")
+    vars=(-var data "$work/bed.data" -var xlo "$xlo" -var xhi "$xhi" -var ylo "$ylo" -var yhi "$yhi" -var zlo "$zlo" -var warm "$warm" -var steps "$steps" -var shear "${shear:-0}" -var skin "${skin:-2e-4}")
 }
 run_ours() {  # name of the row, scene, options of benchmark-scenes...
     local name=$1 scene=$2 row
@@ -130,14 +135,14 @@ run_wet_bed() {  # particles
     done
 }
 
-run_mixture() {
-    local steps=2000 warm=500 box vars
-    local options=(--scene polydisperse --particles 20000 --ratio 10)
+run_mixture() {  # name, shear (1/s), skin of LIGGGHTS (m)
+    local steps=2000 warm=500 shear=$2 skin=$3 box vars
+    local options=(--scene polydisperse --particles 20000 --ratio 10 --shear "$shear")
     prepare_bed "${options[@]}"
     for ((run = 1; run <= runs; ++run)); do
-        say "mixture, run $run of $runs"
-        run_ours pendular mixture "${options[@]}"
-        run_liggghts mixture "hertz tangential history"
+        say "$1, run $run of $runs"
+        run_ours pendular "$1" "${options[@]}"
+        run_liggghts "$1" "hertz tangential history"
     done
 }
 
@@ -161,7 +166,8 @@ for scene in "${scene_names[@]}"; do
     case $scene in
     bed) for n in "${sizes[@]}"; do run_bed "$n"; done ;;
     wet-bed) run_wet_bed "${sizes[0]}" ;;
-    mixture) run_mixture ;;
+    mixture) run_mixture mixture 0 2e-4 ;;
+    sheared-mixture) run_mixture sheared-mixture 100 1e-3 ;;
     esac
 done
 if [[ -n $drum ]]; then run_drum; fi

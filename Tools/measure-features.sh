@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # What a scene pays for: the same bed with nothing but elasticity and damping, then with friction, bridges, liquid that
-# moves and viscous forces, each row in turn; writes medians as a table (CSV) and a chart (PNG).
-#   Tools/measure-features.sh [--runs 5] [--steps 1000] [--output FOLDER] [--build build/release] [--bed FILE]
+# moves, viscous forces, wet walls and a spray, each row in turn; writes medians as a table (CSV) and a chart (PNG).
+#   Tools/measure-features.sh [--runs 5] [--steps 1000] [--output FOLDER] [--build build/release] [--bed FILE] [--only REGEX]
 # --bed FILE  rows radius x y z: the bed of Dosta et al. (2024) instead of the one that Pendular makes by itself
+# --only REGEX  rows of these names; "friction" should be among them, to which times are compared
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-runs=5 steps=1000 output=features build="$tools/../build/release" bed=""
+runs=5 steps=1000 output=features build="$tools/../build/release" bed="" only=""
 command_line="Tools/measure-features.sh $*"
 source "$tools/read-options.sh"
-read_options runs steps output build bed -- "$@"
+read_options runs steps output build bed only -- "$@"
 require_number runs "$runs"
 require_number steps "$steps"
 require_file bed "$bed"
@@ -27,13 +28,16 @@ scenes=(
     "liquid that moves, Willett:HertzianViscoelasticMindlinLiquidMigrationWillettSpecies"
     "viscous bridge, Willett:HertzianViscoelasticMindlinViscousLiquidBridgeWillettSpecies"
     "viscous, liquid moves, LS:HertzianViscoelasticMindlinViscousLiquidMigrationLSSpecies"
+    "wet walls::wet-walls"
+    "spray, liquid moves:HertzianViscoelasticMindlinLiquidMigrationWillettSpecies:sprayed-bed"
 )
 for ((run = 1; run <= runs; ++run)); do
     echo "$(date +%H:%M:%S) run $run of $runs" >&2
     for number in "${!scenes[@]}"; do
-        scene=${scenes[$number]}
-        "$build/Tools/benchmark-scenes" --scene bed ${bed:+--positions "$bed"} --species "${scene#*:}" --steps "$steps" --warm 500 |
-            awk -F, -v what="${scene%%:*}" -v order="$number" '{ printf "%d;%s;%s;%d;%s;%s;%s\n", order, what, $2, $3, $7, $8, $10 }' >>"$rows"
+        IFS=: read -r what species scene <<<"${scenes[$number]}"
+        [[ $what =~ $only ]] || continue
+        "$build/Tools/benchmark-scenes" --scene "${scene:-bed}" ${bed:+--positions "$bed"} ${species:+--species "$species"} --steps "$steps" --warm 500 |
+            awk -F, -v what="$what" -v order="$number" '{ printf "%d;%s;%s;%d;%s;%s;%s\n", order, what, $2, $3, $7, $8, $10 }' >>"$rows"
     done
 done
 {

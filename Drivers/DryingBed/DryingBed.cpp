@@ -1,8 +1,6 @@
 /// A bed of wet grains dries: its bridges shrink and pull harder, until one after the other ruptures or is
 /// gone. The capillary tension of the bed is compared with that of Rumpf (1970) for bridges of no volume.
 
-#include <CLI/CLI.hpp>
-
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/GrainLattice.h"
 #include "Kernel/MercuryNames.h"
@@ -116,38 +114,25 @@ private:
                    "rumpf_Pa,solid_fraction"};
 };
 
-void describe(CLI::App& app, Options& o) {
-    app.option_defaults()->always_capture_default();
-    app.add_option("--number", o.number, "grains");
-    app.add_option("--radius-m", o.radius, "of the largest grain, m; the smallest have 0.8 of it");
-    app.add_option("--film-m3", o.film, "liquid on each grain at the start, m^3");
-    app.add_option("--surface-tension-N/m", o.surfaceTension, "of the liquid, N/m");
-    app.add_option("--contact-angle-deg", o.contactAngle, "degrees, below 90");
-    app.add_option("--flux-m/s", o.flux, "volume that a free surface loses for its area and time, m/s");
-    app.add_option("--drying-steps", o.steps, "steps between two updates of the volumes");
-    app.add_option("--begin-s", o.begin, "when the bed begins to dry, s");
-    app.add_option("--end-time-s", o.endTime, "end of the run, s");
-    app.add_option("--interval-s", o.interval, "time between two rows, s");
-    addRunOptions(app, o.run, "drying.csv");
-}
-
-void check(const Options& o) {
-    checkRun("DryingBed", o.number, o.endTime, o.interval);
-    checkValue("DryingBed", "radius", o.radius, "m", {1e-4, 1e-2});
-    checkValue("DryingBed", "film", o.film, "m^3", notNegative);
-    checkValue("DryingBed", "contact angle", o.contactAngle, "degrees", {0, 89});
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    const DriverProgram driver{.name = "DryingBed",
-                               .description = "A bed of wet grains dries: its capillary tension over time.",
-                               .options = options.run,
-                               .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] {
-        check(options);
-        DryingBed(options).solve();
-    });
+    Options o;
+    const DriverProgram driver{
+        .name = "DryingBed",
+        .description = "A bed of wet grains dries: its capillary tension over time.",
+        .options = o.run,
+        .files = "drying.csv",
+        .numbers = {
+            {"number", "", &o.number, {1, 1e8}, "grains"},
+            {"radius", "m", &o.radius, {1e-4, 1e-2}, "of the largest grain; the smallest have 0.8 of it"},
+            {"film", "m3", &o.film, notNegative, "liquid on each grain at the start"},
+            {"surface-tension", "N/m", &o.surfaceTension, notNegative, "of the liquid"},
+            {"contact-angle", "deg", &o.contactAngle, {0, 89}, "of the liquid"},
+            {"flux", "m/s", &o.flux, notNegative, "volume that a free surface loses for its area and time"},
+            {"drying-steps", "", &o.steps, {1, 1e9}, "steps between two updates of the volumes"},
+            {"begin", "s", &o.begin, notNegative, "when the bed begins to dry"},
+            {"end-time", "s", &o.endTime, notNegative, "end of the run"},
+            {"interval", "s", &o.interval, positive, "time between two rows"}}};
+    return runDriver(driver, argc, argv, [&] { DryingBed(o).solve(); });
 }

@@ -5,6 +5,7 @@
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/HopperScene.h"
 #include "Kernel/Files/CsvFile.h"
+#include "Kernel/Sizes/SizeTable.h"
 
 using namespace pendular;
 
@@ -12,6 +13,8 @@ namespace {
 
 struct Options {
     Hopper hopper;
+    std::string sizes;                                  // file; empty: none
+    double cone = 0;                                    // degrees
     std::vector<double> orifices{0.012, 0.015, 0.018};  // m, diameters
     double begin = 0.1;                                 // s, of the steady part
     double endTime = 0.4;                               // s
@@ -26,6 +29,13 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--hopper-diameter-m", o.hopper.diameter, "diameter of the hopper, m");
     app.add_option("--grain-diameter-m", o.hopper.grainDiameter,
                    "mean diameter of the grains, m; they spread by 10 % to either side");
+    app.add_option(
+           "--sizes", o.sizes,
+           "CSV file of the grains' sizes, as Kernel/Sizes/README.md says; the mean diameter is then the "
+           "median by volume")
+        ->excludes("--grain-diameter-m");
+    app.add_option("--cone-deg", o.cone,
+                   "slope of a conical bottom, degrees to the horizontal, which empties; 0: a flat bottom");
     app.add_option("--number", o.hopper.number, "grains in the hopper");
     app.add_option("--elastic-modulus-Pa", o.hopper.youngModulus, "Young's modulus, Pa");
     app.add_option("--friction", o.hopper.friction, "coefficient of sliding friction of grains and walls");
@@ -67,8 +77,8 @@ void run(const Options& options) {
     for (const Discharge& run : runs)
         fmt::print(
             "orifice {:.4g} m: {:.4g} kg/s ({:+.1f} % from the first half to the second); the law "
-            "gives {:.4g} kg/s\n",
-            run.orifice, run.flow, 100 * run.change, law.flow(run.orifice));
+            "gives {:.4g} kg/s; {} of {} grains have left\n",
+            run.orifice, run.flow, 100 * run.change, law.flow(run.orifice), run.number, grains.size());
     fmt::print(
         "Beverloo's law: C = {:.3f}, k = {:.2f}, with a bulk density of {:.0f} kg/m^3; wrote "
         "{}/discharge.csv and {}/flow.csv\n",
@@ -87,6 +97,11 @@ int main(int argc, char** argv) {
         .options = options.run,
         .addOptions = [&](CLI::App& app) { describe(app, options); }};
     return runDriver(driver, argc, argv, [&] {
+        if (!options.sizes.empty()) {
+            options.hopper.sizes = readSizeTable(options.sizes);
+            options.hopper.grainDiameter = options.hopper.sizes->quantile(SizeBasis::Volume, 0.5);
+        }
+        options.hopper.coneSlope = options.cone * std::numbers::pi / 180;
         checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval);
         checkValue("HopperDischarge", "start of the steady part", options.begin, "s",
                    {0, options.endTime, true, false});

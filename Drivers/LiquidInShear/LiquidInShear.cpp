@@ -2,8 +2,6 @@
 /// each other. Bridges in the shear band above the slit rupture again and again, and liquid leaves it: Mani,
 /// Kadau, Or and Herrmann, Phys. Rev. Lett. 109 (2012) 248001.
 
-#include <CLI/CLI.hpp>
-
 #include <array>
 
 #include "Drivers/Shared/CommandLine.h"
@@ -171,46 +169,27 @@ private:
                      "time_s,y_m,grains,velocity_m/s,film_m3,bridges_m3"};
 };
 
-void describe(CLI::App& app, Options& o) {
-    app.option_defaults()->always_capture_default();
-    app.add_option("--length-m", o.length, "of the bed along the slit, in which it repeats itself, m");
-    app.add_option("--width-m", o.width, "of the bed across the slit, m");
-    app.add_option("--height-m", o.height, "of the bed, about, m");
-    app.add_option("--speed-m/s", o.speed, "of one half of the floor against the other, m/s");
-    app.add_option("--film-m3", o.film, "liquid on each grain at the start, m^3");
-    app.add_option("--bridge-volume-max-m3", o.volumeMax, "largest volume of a bridge, m^3; 0: dry");
-    app.add_option("--bridge-volume-min-m3", o.volumeMin,
-                   "two films form a bridge if they offer more than this, m^3");
-    app.add_option("--distribution-coefficient", o.share,
-                   "share of a ruptured bridge that is offered to other bridges, 0 to 1");
-    app.add_option("--end-time-s", o.endTime, "end of the run, s");
-    app.add_option("--interval-s", o.interval, "time between two profiles, s");
-    addRunOptions(app, o.run, "profile.csv");
-}
-
-void check(const Options& o) {
-    checkRun("LiquidInShear", 1, o.endTime, o.interval);
-    const auto require = [](std::string_view field, double value, std::string_view unit, const Range& range) {
-        checkValue("LiquidInShear", field, value, unit, range);
-    };
-    require("length", o.length, "m", {0.01, 1});
-    require("width", o.width, "m", {0.01, 1});
-    require("height", o.height, "m", {0.004, 1});
-    require("speed", o.speed, "m/s", {-1, 1});
-    require("film", o.film, "m^3", notNegative);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
+    Options o;
     const DriverProgram driver{
         .name = "LiquidInShear",
         .description = "Wet grains in a split-bottom cell: liquid leaves the shear band.",
-        .options = options.run,
-        .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] {
-        check(options);
-        LiquidInShear(options).solve();
-    });
+        .options = o.run,
+        .files = "profile.csv",
+        .numbers = {
+            {"length", "m", &o.length, {0.01, 1}, "of the bed along the slit, in which it repeats itself"},
+            {"width", "m", &o.width, {0.01, 1}, "of the bed across the slit"},
+            {"height", "m", &o.height, {0.004, 1}, "of the bed, about"},
+            {"speed", "m/s", &o.speed, {-1, 1}, "of one half of the floor against the other"},
+            {"film", "m3", &o.film, notNegative, "liquid on each grain at the start"},
+            {"bridge-volume-max", "m3", &o.volumeMax, notNegative, "largest volume of a bridge; 0: dry"},
+            {"bridge-volume-min", "m3", &o.volumeMin, notNegative,
+             "two films form a bridge if they offer more than this"},
+            {"distribution-coefficient", "", &o.share, fromZeroTo(1),
+             "share of a ruptured bridge that is offered to others"},
+            {"end-time", "s", &o.endTime, notNegative, "end of the run"},
+            {"interval", "s", &o.interval, positive, "time between two profiles"}}};
+    return runDriver(driver, argc, argv, [&] { LiquidInShear(o).solve(); });
 }

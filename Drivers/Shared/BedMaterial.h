@@ -27,6 +27,9 @@ struct BedMaterial {
     double viscosity = 1e-3;        // Pa s
     double roughness = 1e-6;        // m
     double film = 8e-11;            // m^3 a grain, where liquid moves
+    double layer = 1e-4;            // m, on wet walls
+    double liquidDensity = 998;     // kg/m^3
+    double halfFillingAngle = std::numbers::pi / 5;
 
     double rollingFriction = 0.05,
            rollingStiffness = 1e4;     // N/m: about that of sliding at an overlap of 1 um
@@ -62,6 +65,9 @@ struct BedMaterial {
         setIfThere("liquidBridgeVolumeMax", liquidVolume);
         setIfThere("viscosity", viscosity);
         setIfThere("roughness", roughness);
+        setIfThere("liquidLayerThickness", layer);
+        setIfThere("liquidDensity", liquidDensity);
+        setIfThere("halfFillingAngle", halfFillingAngle);
         setIfThere("workOfAdhesion", workOfAdhesion);
     }
     template <class S>

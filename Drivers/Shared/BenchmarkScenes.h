@@ -6,6 +6,7 @@
 #include "Drivers/Shared/DrumScene.h"
 #include "Drivers/Shared/PenetrationScene.h"
 #include "Drivers/Shared/SettledGrains.h"
+#include "Kernel/Species/Adhesion/WetWall.h"
 #include "Kernel/Species/LawNames.h"
 
 namespace pendular::scenes {
@@ -16,6 +17,7 @@ struct BenchmarkChoice {
     std::size_t particles = 0;        // about; 0: the scene's own number
     std::string species;              // empty: the scene's own
     double ratio = 20;                // of the radii of a mixture, large to small
+    double shear = 0;                 // 1/s, speed along x over height that a bed or a mixture starts with
     std::filesystem::path positions;  // of the grains; empty: made by the program
     std::filesystem::path walls;      // of the drum and the penetration, with their positions
     std::filesystem::path states = folders::benchmarkStates;
@@ -64,6 +66,38 @@ inline Settled settledIn(const BenchmarkChoice& choice, int threads) {
     return settledBed(choice.particlesOr(25000), choice.states, threads);
 }
 
+/// Rain upon a bed: one droplet of 0.1 mm a step, which flies for some 400 steps.
+inline void addRain(Scene& scene, const Box& box) {
+    constexpr double height = 2e-3, speed = 10;  // m above the highest grain, m/s
+    double top = box.lowest.z();
+    for (GrainReference grain : scene.particleHandler)
+        top = std::max(top, grain.getPosition().z() + grain.getRadius());
+    const Vec3D edge = box.highest - box.lowest;
+    Spray rain;
+    rain.setRain(
+        {0.5 * (box.lowest.x() + box.highest.x()), 0.5 * (box.lowest.y() + box.highest.y()), top + height},
+        {edge.x(), 0, 0}, {0, edge.y(), 0}, {0, 0, -1});
+    rain.setDropletRadius(1e-4);
+    rain.setSpeed(speed);
+    rain.setFlow(rain.dropletVolume() / benchmarkStep);
+    rain.setTimes(0, 1);
+    scene.sprayHandler.copyAndAddObject(rain);
+}
+
+/// Calls function(scene) with a bed of dry grains whose walls are under a layer of liquid.
+template <class Function>
+void withWetWalls(const BenchmarkChoice& choice, int threads, Function&& function) {
+    using Dry = Species<HertzianViscoelastic, Mindlin, NoAdhesion>;
+    using WetWalls = Species<HertzianViscoelastic, Mindlin, WetWall>;
+    Simulation<Dry, WetWalls> scene;
+    const Dry* const dry = scene.speciesHandler.copyAndAddObject(BedMaterial{}.species<Dry>());
+    const WetWalls* const wet = scene.speciesHandler.copyAndAddObject(BedMaterial{}.species<WetWalls>());
+    scene.speciesHandler.template setPairType<WetWalls>(dry, wet);
+    const Settled bed = settledIn(choice, threads);
+    fillBox(scene, dry, wet, bed.grains, bed.box, benchmarkStep);
+    function(scene);
+}
+
 /// Calls function(scene) with a bed, a gas or a mixture of this species: one of instantiatedSpecies().
 template <class Function>
 void withSceneOf(std::string_view speciesName, const BenchmarkChoice& choice, int threads,
@@ -80,6 +114,10 @@ void withSceneOf(std::string_view speciesName, const BenchmarkChoice& choice, in
     material.set(*species);
     Settled bed = settledIn(choice, threads);
     fillBox(scene, species, bed.grains, bed.box, benchmarkStep);
+    if (choice.shear != 0)
+        for (GrainReference grain : scene.particleHandler)
+            grain.setVelocity({choice.shear * (grain.getPosition().z() - bed.box.lowest.z()), 0, 0});
+    if (choice.scene == "sprayed-bed") addRain(scene, bed.box);
     bed = {};  // gives its memory back
     if (species->has("liquidBridgeVolumeMax"))
         for (GrainReference grain : scene.particleHandler) grain.setLiquidVolume(material.film);
@@ -125,13 +163,17 @@ void withPenetration(const BenchmarkChoice& choice, Function&& function) {
 
 /// Refuses what does not fit together.
 inline void check(const BenchmarkChoice& choice) {
-    static const std::vector<std::string_view> known{"bed",         "wet-bed", "drum",
-                                                     "penetration", "gas",     "polydisperse"};
+    static const std::vector<std::string_view> known{"bed",  "wet-bed",     "wet-walls", "sprayed-bed",
+                                                     "drum", "penetration", "gas",       "polydisperse"};
     if (std::find(known.begin(), known.end(), choice.scene) == known.end())
         unknownName("scene", choice.scene, known);
     if (choice.particles > 0) checkNumberOfGrains("benchmark-scenes", choice.particles);
-    const bool isBed = choice.scene == "bed" || choice.scene == "wet-bed";
+    const bool isBed =
+        choice.scene == "bed" || choice.scene.starts_with("wet-") || choice.scene == "sprayed-bed";
     checkValue("benchmark-scenes", "ratio", choice.ratio, "", {1, 50});
+    checkValue("benchmark-scenes", "shear", choice.shear, "1/s", {-1e4, 1e4});
+    if (choice.shear != 0 && !isBed && choice.scene != "polydisperse")
+        throw InputError(fmt::format("benchmark-scenes: the scene {} takes no shear.", choice.scene));
     const bool hasMesh = choice.scene == "drum" || choice.scene == "penetration";
     if (!choice.positions.empty() && !isBed && !hasMesh)
         throw InputError(fmt::format("benchmark-scenes: the scene {} takes no positions.", choice.scene));
@@ -140,7 +182,7 @@ inline void check(const BenchmarkChoice& choice) {
             "benchmark-scenes: the scene {} needs both positions and walls, or neither.", choice.scene));
     if (!choice.walls.empty() && !hasMesh)
         throw InputError(fmt::format("benchmark-scenes: the scene {} takes no walls.", choice.scene));
-    if (hasMesh && !choice.species.empty())
+    if ((hasMesh || choice.scene == "wet-walls") && !choice.species.empty())
         throw InputError(fmt::format("benchmark-scenes: the scene {} has its own species.", choice.scene));
 }
 
@@ -150,9 +192,11 @@ void withBenchmarkScene(const BenchmarkChoice& choice, int threads, Function&& f
     check(choice);
     if (choice.scene == "drum") return withDrum(choice, function);
     if (choice.scene == "penetration") return withPenetration(choice, function);
-    const std::string standard = choice.scene == "wet-bed"
-                                     ? "HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies"
-                                     : "HertzianViscoelasticMindlinSpecies";
+    if (choice.scene == "wet-walls") return withWetWalls(choice, threads, function);
+    const std::string standard =
+        choice.scene == "wet-bed"       ? "HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies"
+        : choice.scene == "sprayed-bed" ? "HertzianViscoelasticMindlinLiquidMigrationWillettSpecies"
+                                        : "HertzianViscoelasticMindlinSpecies";
     withSceneOf(choice.species.empty() ? standard : choice.species, choice, threads, function);
 }
 

@@ -12,15 +12,15 @@ struct Box {
     Vec3D lowest, highest;
 };
 
-/// Fills a scene with grains of a species in a box of plane walls, under gravity.
-template <class S>
-void fillBox(Scene& scene, const S* species, const std::vector<GrainRow>& grains, const Box& box,
-             double step) {
+/// Fills a scene with grains of a species in a box of plane walls of another or the same one, under gravity.
+template <class S, class OfWalls>
+void fillBox(Scene& scene, const S* species, const OfWalls* wallSpecies, const std::vector<GrainRow>& grains,
+             const Box& box, double step) {
     scene.particleHandler.reserve(grains.size());
     for (const GrainRow& row : grains) addGrainRow(scene.particleHandler, species, row);
     const auto addWall = [&](const Vec3D& intoWall, const Vec3D& point) {
         InfiniteWall wall;
-        wall.setSpecies(species);
+        wall.setSpecies(wallSpecies);
         wall.set(intoWall, point);
         scene.wallHandler.copyAndAddObject(wall);
     };
@@ -35,6 +35,12 @@ void fillBox(Scene& scene, const S* species, const std::vector<GrainRow>& grains
     // stiffness goes with their root, so that it is stable up to 5 % / 1.5^4 = 1 %, and beds at rest have
     // 0.1 %.
     scene.acceptUnstableTimeStep();
+}
+
+template <class S>
+void fillBox(Scene& scene, const S* species, const std::vector<GrainRow>& grains, const Box& box,
+             double step) {
+    fillBox(scene, species, species, grains, box, step);
 }
 
 /// Grains of one species in such a box.

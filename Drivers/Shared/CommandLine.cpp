@@ -49,12 +49,29 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
     app.add_flag("--quiet", o.quiet, "print nothing but errors");
 }
 
+static void addOptionsOf(const DriverProgram& driver, CLI::App& app) {
+    if (driver.addOptions) driver.addOptions(app);
+    for (const NumberOption& number : driver.numbers)
+        std::visit(
+            [&](auto* value) {
+                const std::string unit = number.unit.empty() ? "" : ", " + number.unit;
+                app.add_option(number.option(), *value, number.description + unit)->capture_default_str();
+            },
+            number.value);
+    if (!driver.files.empty()) addRunOptions(app, driver.options, driver.files);
+}
+
 int runDriver(const DriverProgram& driver, int argc, char** argv, const std::function<void()>& body) {
     CLI::App app(driver.description, driver.name);
-    driver.addOptions(app);
+    addOptionsOf(driver, app);
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         const RunOptions& o = driver.options;
+        for (const NumberOption& number : driver.numbers) {
+            const double value = std::visit([](auto* v) { return static_cast<double>(*v); }, number.value);
+            checkValue(driver.name, number.option(), value, number.unit, number.allowed);
+            if (number.name == "number") checkNumberOfGrains(driver.name, static_cast<std::size_t>(value));
+        }
         checkValue(driver.name, "number of threads", o.threads, "", {1, 4096});
         checkValue(driver.name, "restart interval", o.restartInterval, "s", notNegative);
         checkValue(driver.name, "ParaView interval", o.paraViewInterval, "s", notNegative);

@@ -2,8 +2,11 @@
 
 #include <functional>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "Drivers/Shared/RunOptions.h"
+#include "Kernel/Species/Field.h"
 
 namespace CLI {
 class App;
@@ -16,11 +19,25 @@ namespace pendular {
 /// @param run what the names of the files begin with that all drivers write
 void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const std::string& run = "run");
 
+/// A number that a driver's command line can give, with its unit in its name: --end-time-s. --number is that
+/// of grains, for which there must be memory.
+struct NumberOption {
+    std::string name;                                 // "end-time"
+    std::string unit;                                 // "s"; empty: none
+    std::variant<double*, int*, std::size_t*> value;  // it has its default
+    Range allowed;                                    // any other value is refused in one sentence
+    std::string description;
+
+    [[nodiscard]] std::string option() const { return "--" + name + (unit.empty() ? "" : "-" + unit); }
+};
+
 /// What a driver says of itself on its command line.
 struct DriverProgram {
     std::string name, description;
-    const RunOptions& options;
-    std::function<void(CLI::App&)> addOptions;  // those of its run too
+    RunOptions& options;
+    std::function<void(CLI::App&)> addOptions{};  // other than those that follow
+    std::string files{};  // that it writes into its folder; with it the options of its run are added
+    std::vector<NumberOption> numbers{};
 };
 
 /// Parses the command line and runs the driver's body; returns the program's exit code.
@@ -30,8 +47,7 @@ int runDriver(const DriverProgram& driver, int argc, char** argv, const std::fun
 template <class Driver>
 int runDriver(const std::string& description, const std::string& name, int argc, char** argv) {
     RunOptions options{.output = name + "-output"};
-    const auto addOptions = [&](CLI::App& app) { addRunOptions(app, options, "what the run writes"); };
-    return runDriver({name, description, options, addOptions}, argc, argv, [&] {
+    return runDriver({name, description, options, {}, "what the run writes"}, argc, argv, [&] {
         Driver driver;
         options.apply(driver);
         driver.solve();

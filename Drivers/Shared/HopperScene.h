@@ -1,34 +1,50 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "Drivers/Shared/Beverloo.h"
-#include "Drivers/Shared/GrainLattice.h"
 #include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 
 namespace pendular {
 
-/// A cylindrical hopper with a flat bottom at z = 0, and the grains in it.
+/// A cylindrical hopper with a flat bottom at z = 0, or with a cone whose tip is there, and the grains in it.
 struct Hopper {
     double diameter = 0.045;       // m
-    double grainDiameter = 0.002;  // m, the mean; radii are spread evenly by 10 % to either side
+    double grainDiameter = 0.002;  // m, the mean; without sizes, diameters are even to 10 % to either side
     std::size_t number = 9000;     // of grains
     double youngModulus = 5e6;     // Pa
     double friction = 0.5;         // of grains and walls
+    double coneSlope = 0;          // rad, to the horizontal; 0: a flat bottom
+    std::optional<SizeDistribution> sizes{};  // of the grains
 
     static constexpr double gravity = 9.8;   // m/s^2
     static constexpr double density = 2500;  // kg/m^3
     static constexpr double poissonRatio = 0.3;
     static constexpr double restitution = 0.5;
-    static constexpr double spread = 0.1;  // of the radii, so that the grains do not form a crystal
+    static constexpr double spread = 0.1;  // of the diameters, so that the grains do not form a crystal
+
+    [[nodiscard]] SizeDistribution sizesOfGrains() const {
+        return sizes ? *sizes : evenSizes((1 - spread) * grainDiameter, (1 + spread) * grainDiameter);
+    }
+    /// m, of the bottom at a distance from the axis.
+    [[nodiscard]] double heightAt(double radius) const { return std::tan(coneSlope) * radius; }
+    /// m^3, of the hopper up to a height (m)
+    [[nodiscard]] double volumeBelow(double height) const {
+        const double radius = 0.5 * diameter, rim = heightAt(radius);
+        if (height >= rim) return std::numbers::pi * radius * radius * (height - 2.0 / 3 * rim);
+        const double there = height / std::tan(coneSlope);
+        return std::numbers::pi / 3 * there * there * height;
+    }
 };
 
 /// Grains that leave a hopper through a circular orifice in its middle. A grain that has fallen two of the
-/// mean diameters below the orifice is counted and removed.
+/// mean diameters below the orifice is counted and removed; the run ends with the last one.
 class HopperScene : public Simulation<HertzianViscoelasticMindlinSpecies> {
 public:
     /// @param orifice diameter, m; 0: a closed bottom
@@ -41,56 +57,69 @@ public:
             addGrainRow(particleHandler, material, row);
             top = std::max(top, row.position.z() + row.radius);
         }
-        AxisymmetricWall wall;
-        wall.setSpecies(material);
-        wall.set(Vec3D::UnitZ(), Vec3D::Zero(),
-                 {{0.5 * orifice, 0}, {0.5 * hopper.diameter, 0}, {0.5 * hopper.diameter, 2 * top}});
-        wallHandler.copyAndAddObject(wall);
-        setGravity({0, 0, -Hopper::gravity});
-        setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 15));
+        build(material, 2 * top);
+    }
+    /// Closed, and filled at random above the bottom, at half the density of the solid.
+    explicit HopperScene(const Hopper& given) : hopper(given), orificeDiameter(0) {
+        const Material* material = speciesHandler.copyAndAddObject(makeMaterial());
+        const SizeDistribution sizes = hopper.sizesOfGrains();
+        const double rim = hopper.heightAt(0.5 * hopper.diameter);
+        // A layer more, because walls keep grains from being dense.
+        const double height = static_cast<double>(hopper.number) * std::numbers::pi / 6 * sizes.moment(3) /
+                                  (0.5 * 0.25 * std::numbers::pi * hopper.diameter * hopper.diameter) +
+                              sizes.largest();
+        build(material, rim + 2 * height);
+        SphericalParticle grain;
+        grain.setSpecies(material);
+        insert(sizes, CylinderRegion({0, 0, rim}, {0, 0, rim + height}, 0.5 * hopper.diameter),
+               Amount::grains(hopper.number), grain);
+        chooseTimeStep();
+        setTimeMax(3 * std::sqrt(2 * (rim + height) / Hopper::gravity));
     }
 
-    void actionsAfterTimeStep() override {
-        // The store is read itself, because this looks at all grains in every step.
-        const ParticleStore& grains = particleHandler.store();
-        std::vector<std::uint32_t> gone;
-        for (const std::uint32_t at : grains.place)
-            if (grains.translation[at].position.z < -2 * hopper.grainDiameter)
-                gone.push_back(grains.identity[at]);
-        for (const std::uint32_t identity : gone) {
-            mass += particleHandler.getObject(identity).getMass();
-            particleHandler.removeObject(identity);
-        }
-        number += gone.size();
-    }
+    [[nodiscard]] bool continueSolve() const override { return particleHandler.getSize() > 0; }
 
     void writeOutput() override {
-        if (curve) curve->push_back({getTime(), mass});
+        if (curve) curve->push_back({getTime(), dischargedMass()});
     }
 
     void visitState(StateArchive& archive) override {
         archive.same("orifice", orificeDiameter, "m");
-        archive.value("mass", mass);
-        archive.value("number", number);
         if (curve) archive.column<double>("curve", *curve);
     }
 
     /// Appends the time (s) and the mass that has left (kg) whenever output is due.
     void keepCurve(std::vector<CurvePoint>* points) { curve = points; }
     /// kg, of the grains that have left.
-    [[nodiscard]] double dischargedMass() const { return mass; }
-    [[nodiscard]] std::size_t dischargedNumber() const { return number; }
+    [[nodiscard]] double dischargedMass() const { return outletHandler.removedMass(); }
+    [[nodiscard]] std::size_t dischargedNumber() const { return outletHandler.removedNumber(); }
     /// kg/m^3, between a quarter and three quarters of the height of the highest grain.
     [[nodiscard]] double bulkDensity() {
         double height = 0, sum = 0;
         for (const GrainReference grain : particleHandler) height = std::max(height, grain.getPosition().z());
         for (const GrainReference grain : particleHandler)
             if (std::abs(grain.getPosition().z() - 0.5 * height) < 0.25 * height) sum += grain.getMass();
-        return sum / (0.25 * std::numbers::pi * hopper.diameter * hopper.diameter * 0.5 * height);
+        return sum / (hopper.volumeBelow(0.75 * height) - hopper.volumeBelow(0.25 * height));
     }
 
 private:
     using Material = HertzianViscoelasticMindlinSpecies;
+
+    /// @param height m, of its wall
+    void build(const Material* material, double height) {
+        const double radius = 0.5 * hopper.diameter, hole = 0.5 * orificeDiameter;
+        AxisymmetricWall wall;
+        wall.setSpecies(material);
+        wall.set(Vec3D::UnitZ(), Vec3D::Zero(),
+                 {{hole, hopper.heightAt(hole)}, {radius, hopper.heightAt(radius)}, {radius, height}});
+        wallHandler.copyAndAddObject(wall);
+        Outlet below;
+        below.setPlane(-Vec3D::UnitZ(), {0, 0, hopper.heightAt(hole) - 2 * hopper.grainDiameter});
+        outletHandler.copyAndAddObject(below);
+        setGravity({0, 0, -Hopper::gravity});
+        if (particleHandler.getSize() > 0) chooseTimeStep();
+    }
+    void chooseTimeStep() { setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 15)); }
 
     Material makeMaterial() const {
         Material material;
@@ -106,48 +135,30 @@ private:
     Hopper hopper;
     double orificeDiameter;  // m
     std::vector<CurvePoint>* curve = nullptr;
-    double mass = 0;  // kg, of the grains that have left
-    std::size_t number = 0;
 };
 
-/// Grains that have fallen into the closed hopper from a loose lattice, for three times the time in which a
-/// stone falls through it.
+/// Grains that have settled in the closed hopper, for three times the time in which a stone falls through it.
 /// @param next names of the runs that follow, whose earlier restart files are removed when this one begins
 inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const RunOptions& options = {},
                                                  const std::vector<std::string>& next = {}) {
     checkValue("HopperScene", "grain diameter", hopper.grainDiameter, "m", positive);
     checkValue("HopperScene", "hopper diameter", hopper.diameter, "m",
                {3 * hopper.grainDiameter, infinity, true, false});
-    const double radius = 0.5 * hopper.diameter;
-    const double edge = (1 + Hopper::spread) * latticeLooseness * hopper.grainDiameter;
-    const auto fits = [&](const Vec3D& c) { return std::hypot(c.x(), c.y()) + 0.5 * edge <= radius; };
+    checkValue("HopperScene", "slope of the cone", hopper.coneSlope * 180 / std::numbers::pi, "degrees",
+               {0, 80});
     // Before any of them is made.
-    const double across = std::max(hopper.diameter - edge, 0.0) / edge,
+    const double across = std::max(hopper.diameter - hopper.grainDiameter, 0.0) / hopper.grainDiameter,
                  inLayer = 0.25 * std::numbers::pi * across * across;
-    constexpr double most = 1e6;  // cells: they take some 50 MB
+    constexpr double most = 1e6;
     if (!(inLayer <= std::max(most, static_cast<double>(hopper.number))))
         throw InputError(
             fmt::format("HopperScene: one layer of grains of {:g} m in a hopper of {:g} m would be about "
                         "{:.2g} grains; it "
                         "must be at most {:g}, or the number of grains, {}.",
                         hopper.grainDiameter, hopper.diameter, inLayer, most, hopper.number));
-    const auto inBox = [&](double height) {
-        return latticeCells({-radius, -radius, 0}, {radius, radius, height}, edge, fits);
-    };
-    const auto perLayer = static_cast<double>(inBox(edge).size());
-    const double height = edge * (std::ceil(static_cast<double>(hopper.number) / perLayer) + 0.5);
-    const std::vector<Vec3D> cells = inBox(height);
-    UniformRandom random(1);
-    std::vector<GrainRow> loose;
-    for (std::size_t k = 0; k < hopper.number; ++k) {
-        const double size =
-            0.5 * hopper.grainDiameter * random.uniform(1 - Hopper::spread, 1 + Hopper::spread);
-        loose.push_back(jittered(size, cells[k], random));
-    }
-    HopperScene scene(hopper, loose, 0);
+    HopperScene scene(hopper);
     options.apply(scene, "settling");
     options.forgetAtStart(scene, next);
-    scene.setTimeMax(3 * std::sqrt(2 * height / Hopper::gravity));
     scene.solve();
     return grainRows(scene.particleHandler);
 }
@@ -158,6 +169,7 @@ struct Discharge {
     double bulkDensity;             // kg/m^3, at the start
     std::vector<CurvePoint> curve;  // x: time, s; y: mass that has left, kg
     double flow;                    // kg/s, the slope of the line through the steady part of the curve
+    std::size_t number;             // of grains that have left
     double change;                  // of the flow from the first half of the steady part to the second, of 1
 };
 
@@ -169,13 +181,14 @@ inline std::string dischargeName(double orifice) { return fmt::format("orifice-{
 inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grains, double orifice,
                            double begin, double end, double interval, const RunOptions& options = {}) {
     HopperScene scene(hopper, grains, orifice);
-    Discharge result{orifice, scene.bulkDensity(), {}, 0, 0};
+    Discharge result{orifice, scene.bulkDensity(), {}, 0, 0, 0};
     checkValue("HopperScene", "bulk density", result.bulkDensity, "kg/m^3", positive);
     scene.keepCurve(&result.curve);
     options.apply(scene, dischargeName(orifice));
     scene.setTimeMax(end);
     scene.setSaveCount(stepsOf(interval, scene.getTimeStep()));
     scene.solve();
+    result.number = scene.dischargedNumber();
     // A run that was resumed may have gone on to a later end.
     std::erase_if(result.curve, [&](const CurvePoint& p) { return p.x > end + scene.getTimeStep(); });
 
@@ -183,7 +196,12 @@ inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grain
         return std::find_if(result.curve.begin(), result.curve.end(),
                             [&](const CurvePoint& p) { return p.x >= time; });
     };
-    const auto first = after(begin), middle = after(0.5 * (begin + end)), last = result.curve.end();
+    const double finish = std::min(end, result.curve.back().x);  // it may have emptied
+    if (!(begin < finish))
+        throw InputError(fmt::format(
+            "HopperScene: the hopper was empty at {:g} s, before the steady part that starts at {:g} s.",
+            finish, begin));
+    const auto first = after(begin), middle = after(0.5 * (begin + finish)), last = result.curve.end();
     result.flow = fitLine({first, last}).slope;
     if (!(result.flow > 0))
         throw InputError(fmt::format(

@@ -1,8 +1,6 @@
 /// Grains in a turning drum are sprayed: how evenly the liquid lies on them, over time, against what an ideal
 /// mixer would give.
 
-#include <CLI/CLI.hpp>
-
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/GrainLattice.h"
 #include "Kernel/MercuryNames.h"
@@ -121,48 +119,35 @@ private:
                    "airborne_m3,lost_m3"};
 };
 
-void describe(CLI::App& app, Options& o) {
-    app.option_defaults()->always_capture_default();
-    app.add_option("--drum-radius-m", o.drumRadius, "m");
-    app.add_option("--length-m", o.length, "of the drum, along which it repeats itself, m");
-    app.add_option("--radius-m", o.radius, "of the grains, m");
-    app.add_option("--speed-rpm", o.speed, "of the drum, turns a minute");
-    app.add_option("--drop-radius-m", o.dropRadius, "of the droplets, m");
-    app.add_option("--drop-speed-m/s", o.dropSpeed, "of the droplets at the nozzle, m/s");
-    app.add_option("--angle-deg", o.angle, "of the spray's cone, degrees");
-    app.add_option("--drops-of-a-grain", o.dropsOfAGrain, "droplets that come out, over the grains");
-    app.add_option("--volume-spread", o.spread, "relative standard deviation of the volumes of droplets");
-    app.add_option("--bridge-volume-max-m3", o.volumeMax, "largest volume of a bridge, m^3; 0: films only");
-    app.add_option("--begin-s", o.begin, "when the spray begins, s");
-    app.add_option("--end-time-s", o.endTime, "end of the run, s");
-    app.add_option("--interval-s", o.interval, "time between two rows, s");
-    addRunOptions(app, o.run, "coating.csv");
-}
-
-void check(const Options& o) {
-    checkRun("SprayCoating", 1, o.endTime, o.interval);
-    const auto require = [](std::string_view field, double value, std::string_view unit, const Range& range) {
-        checkValue("SprayCoating", field, value, unit, range);
-    };
-    require("drum radius", o.drumRadius, "m", {0.01, 1});
-    require("radius", o.radius, "m", {1e-4, 0.1 * o.drumRadius});
-    require("length", o.length, "m", {8 * o.radius, 1});
-    require("speed", o.speed, "turns a minute", {0, 300});
-    require("angle", o.angle, "degrees", positiveUpTo(360));
-    require("drops of a grain", o.dropsOfAGrain, "", positive);
-    require("begin", o.begin, "s", {0, o.endTime, true, false});
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    const DriverProgram driver{.name = "SprayCoating",
-                               .description = "Grains in a drum are sprayed: how even the liquid is.",
-                               .options = options.run,
-                               .addOptions = [&](CLI::App& app) { describe(app, options); }};
+    Options o;
+    const DriverProgram driver{
+        .name = "SprayCoating",
+        .description = "Grains in a drum are sprayed: how even the liquid is.",
+        .options = o.run,
+        .files = "coating.csv",
+        .numbers = {
+            {"drum-radius", "m", &o.drumRadius, {0.01, 1}, "of the drum"},
+            {"length", "m", &o.length, positiveUpTo(1), "of the drum, along which it repeats itself"},
+            {"radius", "m", &o.radius, {1e-4, 0.1}, "of the grains"},
+            {"speed", "rpm", &o.speed, {0, 300}, "of the drum"},
+            {"drop-radius", "m", &o.dropRadius, positive, "of the droplets"},
+            {"drop-speed", "m/s", &o.dropSpeed, notNegative, "of the droplets at the nozzle"},
+            {"angle", "deg", &o.angle, positiveUpTo(360), "of the spray's cone"},
+            {"drops-of-a-grain", "", &o.dropsOfAGrain, positive, "droplets that come out, over the grains"},
+            {"volume-spread", "", &o.spread, notNegative,
+             "relative standard deviation of the volumes of droplets"},
+            {"bridge-volume-max", "m3", &o.volumeMax, notNegative,
+             "largest volume of a bridge; 0: films only"},
+            {"begin", "s", &o.begin, notNegative, "when the spray begins"},
+            {"end-time", "s", &o.endTime, notNegative, "end of the run"},
+            {"interval", "s", &o.interval, positive, "time between two rows"}}};
     return runDriver(driver, argc, argv, [&] {
-        check(options);
-        SprayCoating(options).solve();
+        checkValue("SprayCoating", "--radius-m", o.radius, "m", {1e-4, 0.1 * o.drumRadius});
+        checkValue("SprayCoating", "--length-m", o.length, "m", {8 * o.radius, 1});
+        checkValue("SprayCoating", "--begin-s", o.begin, "s", {0, o.endTime, true, false});
+        SprayCoating(o).solve();
     });
 }

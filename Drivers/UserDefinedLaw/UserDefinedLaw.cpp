@@ -7,6 +7,7 @@
 #include "Kernel/Species/Laws.h"
 
 using namespace pendular;
+
 /// A square well: the force `strength` pulls wherever the surfaces are nearer than `width`.
 struct SquareWell {
     static constexpr std::string_view name = "SquareWell";
@@ -36,11 +37,10 @@ struct SquareWell {
 
 int main(int argc, char** argv) {
     RunOptions options{.output = "UserDefinedLaw-output"};
-    const DriverProgram driver{
-        .name = "UserDefinedLaw",
-        .description = "Two grains attract each other by a law of this driver.",
-        .options = options,
-        .addOptions = [&](CLI::App& app) { addRunOptions(app, options, "what the run writes"); }};
+    const DriverProgram driver{.name = "UserDefinedLaw",
+                               .description = "Two grains attract each other by a law of this driver.",
+                               .options = options,
+                               .files = "what the run writes"};
     return runDriver(driver, argc, argv, [&] {
         Species<HertzianViscoelastic, NoFriction, SquareWell> species;
         species.setDensity(2000);

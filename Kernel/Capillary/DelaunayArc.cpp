@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Capillary/GaussLegendre.h"
 #include "Kernel/Capillary/PanelRule.h"
+#include "Kernel/Math/GaussLegendre.h"
 
 namespace pendular {
 

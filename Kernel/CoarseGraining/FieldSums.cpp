@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Capillary/GaussLegendre.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Math/GaussLegendre.h"
 #include "Kernel/Math/Pack.h"
 #include "Kernel/Parallel.h"
 #include "Kernel/Species/Field.h"
@@ -85,7 +85,9 @@ FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups)
     const std::size_t rows = points.counts()[order[0]] * points.counts()[order[1]];
     sums.assign(kinds.count() * rows * blocks * count, Eight{});
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t padded = k == 2 ? blocks * Pack::lanes : points.counts()[order[k]];
+        perLength[k] = 1 / points.spacing(k);
+        // Eight points can be taken from each one on.
+        const std::size_t padded = k == 2 ? (blocks + 1) * Pack::lanes : points.counts()[order[k]];
         for (std::size_t at = 0; at < padded; ++at) places[k].push_back(points.at(order[k], at));
     }
 }
@@ -135,17 +137,22 @@ void FieldSums::forImages(const GrainState& state, const Vector<double>& low, co
                           Use&& use) const {
     const Place lows = partsOf(low), highs = partsOf(high), periods = partsOf(state.periodic.length);
     std::array<double, 3> first{}, last{};
+    bool hasImages = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (points.isCylindrical() && axis < 2) continue;
         const double reach = points.isResolved(axis) ? weight.cutOff() : 0;
         const double from = points.low(axis) - reach, to = points.high(axis) + reach;
         if (periods[axis] > 0) {
+            // Within a box that is no longer than a period: no image is in it.
+            if (lows[axis] >= from && highs[axis] < to && to - from <= periods[axis]) continue;
+            hasImages = true;
             first[axis] = std::ceil((from - highs[axis]) / periods[axis]);
             last[axis] = std::floor((to - lows[axis]) / periods[axis]);
         } else if (highs[axis] < from || lows[axis] > to) {
             return;
         }
     }
+    if (!hasImages) return use(Vector<double>{0, 0, 0});
     // What lies at the upper end of a box that is averaged over is its own image at the lower end.
     const auto isRepeated = [&](std::size_t axis, double image) {
         return periods[axis] > 0 && !points.isResolved(axis) && !(points.isCylindrical() && axis < 2) &&
@@ -157,60 +164,70 @@ void FieldSums::forImages(const GrainState& state, const Vector<double>& low, co
                 use(Vector<double>{x * periods[0], y * periods[1], z * periods[2]});
 }
 
-void FieldSums::addGrains(const GrainState& state) {
-    auto& ofContacts = items.ofGrains;
-    ofContacts.assign(state.grains.size(), {});
-    for (const GrainState::Contact& c : state.contacts) {
-        const auto add = [&](std::uint32_t grain, bool hasFabric) {
-            auto& sum = ofContacts[grain];
-            const double volume = sphereVolume(state.grains[grain].radius);
-            if (c.touching && hasFabric) addSquare(volume / squaredNorm(c.shift), c.shift, sum.data());
-            if (c.touching) sum[6] += 1;
-            sum[7] += hasFabric ? 0.5 * c.liquid : c.liquid;
-        };
-        const bool atWall = c.second == GrainState::Contact::wall;
-        add(c.first, !atWall);
-        if (!atWall) add(c.second, true);
-    }
-    for (std::size_t k = 0; k < state.grains.size(); ++k) {
-        const GrainState::Grain& grain = state.grains[k];
-        forImages(state, grain.position, grain.position, [&](const Vector<double>& shift) {
-            const Vector<double> position = grain.position + shift;
-            PointItem item{partsOf(position), kinds.of(grain), {}};
-            Vector<double> velocity = grain.velocity;
-            std::array<double, 8> own = ofContacts[k];
-            if (points.isCylindrical()) {
-                const RoundFrame frame(position.x - points.centre().x, position.y - points.centre().y);
-                item.at[0] = frame.r;
-                velocity = frame.turned(velocity);
-                // Fabric about the new axes: T' = Q T Q^T.
-                const auto& f = ofContacts[k];
-                const Vector<double> rows[] = {frame.turned({f[0], f[1], f[2]}),
-                                               frame.turned({f[1], f[3], f[4]}),
-                                               frame.turned({f[2], f[4], f[5]})};
-                const Vector<double> a = frame.turned({rows[0].x, rows[1].x, rows[2].x}),
-                                     b = frame.turned({rows[0].y, rows[1].y, rows[2].y}),
-                                     c = frame.turned({rows[0].z, rows[1].z, rows[2].z});
-                own = {a.x, a.y, a.z, b.y, b.z, c.z, f[6], f[7]};
+/// Each thread adds to its own grains, in the order of contacts.
+void FieldSums::gatherContactsOfGrains(const GrainState& state, int threads) {
+    ofGrains.assign(state.grains.size(), {});
+    inParts(
+        state.grains.size(), threads,
+        [&](int, std::size_t begin, std::size_t end) {
+            const auto isOwn = [&](std::uint32_t grain) { return grain >= begin && grain < end; };
+            for (const GrainState::Contact& c : state.contacts) {
+                const bool atWall = c.second == GrainState::Contact::wall;
+                const bool ownFirst = isOwn(c.first), ownSecond = !atWall && isOwn(c.second);
+                if (!ownFirst && !ownSecond) continue;
+                std::array<double, 6> fabric{};  // over the grain's volume
+                if (c.touching && !atWall) addSquare(1 / squaredNorm(c.shift), c.shift, fabric.data());
+                const auto add = [&](std::uint32_t grain) {
+                    auto& sum = ofGrains[grain];
+                    const double volume = sphereVolume(state.grains[grain].radius);
+                    for (std::size_t k = 0; k < fabric.size(); ++k) sum[k] += volume * fabric[k];
+                    sum[6] += c.touching ? 1 : 0;
+                    sum[7] += atWall ? c.liquid : 0.5 * c.liquid;
+                };
+                if (ownFirst) add(c.first);
+                if (ownSecond) add(c.second);
             }
-            auto& values = item.values;
-            values[Number] = 1;
-            values[Volume] = sphereVolume(grain.radius);
-            values[Mass] = grain.mass;
-            values[Momentum] = grain.mass * velocity.x;
-            values[Momentum + 1] = grain.mass * velocity.y;
-            values[Momentum + 2] = grain.mass * velocity.z;
-            addSquare(grain.mass, velocity, values.data() + Flux);
-            std::copy(own.begin(), own.end(), values.begin() + Fabric);
-            values[Liquid] += grain.liquid;
-            items.grains.push_back(item);
-        });
-    }
+        },
+        1024);
+}
+
+void FieldSums::addGrain(const GrainState& state, std::size_t number, Items& items) const {
+    const GrainState::Grain& grain = state.grains[number];
+    forImages(state, grain.position, grain.position, [&](const Vector<double>& shift) {
+        const Vector<double> position = grain.position + shift;
+        PointItem item{partsOf(position), kinds.of(grain), {}};
+        Vector<double> velocity = grain.velocity;
+        std::array<double, 8> own = ofGrains[number];
+        if (points.isCylindrical()) {
+            const RoundFrame frame(position.x - points.centre().x, position.y - points.centre().y);
+            item.at[0] = frame.r;
+            velocity = frame.turned(velocity);
+            // Fabric about the new axes: T' = Q T Q^T.
+            const auto& f = ofGrains[number];
+            const Vector<double> rows[] = {frame.turned({f[0], f[1], f[2]}), frame.turned({f[1], f[3], f[4]}),
+                                           frame.turned({f[2], f[4], f[5]})};
+            const Vector<double> a = frame.turned({rows[0].x, rows[1].x, rows[2].x}),
+                                 b = frame.turned({rows[0].y, rows[1].y, rows[2].y}),
+                                 c = frame.turned({rows[0].z, rows[1].z, rows[2].z});
+            own = {a.x, a.y, a.z, b.y, b.z, c.z, f[6], f[7]};
+        }
+        auto& values = item.values;
+        values[Number] = 1;
+        values[Volume] = sphereVolume(grain.radius);
+        values[Mass] = grain.mass;
+        values[Momentum] = grain.mass * velocity.x;
+        values[Momentum + 1] = grain.mass * velocity.y;
+        values[Momentum + 2] = grain.mass * velocity.z;
+        addSquare(grain.mass, velocity, values.data() + Flux);
+        std::copy(own.begin(), own.end(), values.begin() + Fabric);
+        values[Liquid] += grain.liquid;
+        items.grains.push_back(item);
+    });
 }
 
 /// A line from `end` + branch, where the force acts on the grain, back to `end`.
 void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
-                        const GrainState::Contact& contact, std::uint32_t group) {
+                        const GrainState::Contact& contact, std::uint32_t group, Items& items) const {
     const Place b = partsOf(branch), f = partsOf(contact.force);
     std::array<double, 15> values{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -229,6 +246,9 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
         double begin = 0, stop = 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (points.isResolved(axis) || (points.isCylindrical() && axis < 2)) continue;
+            const double to = from[axis] + b[axis];
+            if (std::min(from[axis], to) >= points.low(axis) && std::max(from[axis], to) <= points.high(axis))
+                continue;
             if (b[axis] == 0) continue;  // forImages() has seen that it is within
             const double one = (points.low(axis) - from[axis]) / b[axis],
                          two = (points.high(axis) - from[axis]) / b[axis];
@@ -239,7 +259,7 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
         std::array<double, 15> part = values;
         for (double& value : part) value *= stop - begin;
         const Vector<double> start = end + shift + begin * branch, way = (stop - begin) * branch;
-        if (points.isCylindrical()) return addRoundLine(start, way, part, group);
+        if (points.isCylindrical()) return addRoundLine(start, way, part, group, items);
         LineItem line{partsOf(start), partsOf(way), 0, group, part};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (!points.isResolved(axis)) line.from[axis] = line.branch[axis] = 0;
@@ -253,7 +273,7 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
 /// Around an axis there is no closed form: nodes of Gauss and Legendre along the line, each with the
 /// directions of its own place. Their mean errs by less than 1e-8 of phi(0) (a Gauss cut at 3 w).
 void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& branch,
-                             const std::array<double, 15>& values, std::uint32_t group) {
+                             const std::array<double, 15>& values, std::uint32_t group, Items& items) const {
     const int count =
         static_cast<int>(std::clamp(6 + std::ceil(9 * norm(branch) / weight.cutOff()), 6.0, 64.0));
     for (const QuadratureNode& node : gaussLegendre(count)) {
@@ -280,52 +300,51 @@ void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& br
     }
 }
 
-void FieldSums::addContacts(const GrainState& state) {
-    for (const GrainState::Contact& contact : state.contacts) {
-        const GrainState::Grain& first = state.grains[contact.first];
-        const std::uint32_t group = kinds.of(first);
-        const Vector<double> end = first.position + contact.shift;
-        if (contact.second == GrainState::Contact::wall) {
-            addLine(state, end, -contact.shift, contact, group);
-            forImages(state, end, end, [&](const Vector<double>& shift) {
-                PointItem item{partsOf(end + shift), group, {}};
-                Vector<double> force = contact.force;
-                if (points.isCylindrical()) {
-                    const RoundFrame frame(end.x - points.centre().x, end.y - points.centre().y);
-                    item.at[0] = frame.r;
-                    force = frame.turned(force);
-                }
-                item.values[0] = force.x, item.values[1] = force.y, item.values[2] = force.z;
-                items.tractions.push_back(item);
-            });
-            continue;
-        }
-        const GrainState::Grain& second = state.grains[contact.second];
-        const std::uint32_t other = kinds.of(second);
-        if (other == group) {
-            addLine(state, end, -contact.shift, contact, group);
-            continue;
-        }
-        // In the middle of the overlap or of the gap, as a fraction of the shift.
-        const double length = norm(contact.shift);
-        const double middle = (first.radius + 0.5 * (length - first.radius - second.radius)) / length;
-        addLine(state, first.position + middle * contact.shift, -middle * contact.shift, contact, group);
-        addLine(state, end, (middle - 1) * contact.shift, contact, other);
+void FieldSums::addContact(const GrainState& state, const GrainState::Contact& contact, Items& items) const {
+    const GrainState::Grain& first = state.grains[contact.first];
+    const std::uint32_t group = kinds.of(first);
+    const Vector<double> end = first.position + contact.shift;
+    if (contact.second == GrainState::Contact::wall) {
+        addLine(state, end, -contact.shift, contact, group, items);
+        forImages(state, end, end, [&](const Vector<double>& shift) {
+            PointItem item{partsOf(end + shift), group, {}};
+            Vector<double> force = contact.force;
+            if (points.isCylindrical()) {
+                const RoundFrame frame(end.x - points.centre().x, end.y - points.centre().y);
+                item.at[0] = frame.r;
+                force = frame.turned(force);
+            }
+            item.values[0] = force.x, item.values[1] = force.y, item.values[2] = force.z;
+            items.tractions.push_back(item);
+        });
+        return;
     }
+    const GrainState::Grain& second = state.grains[contact.second];
+    const std::uint32_t other = kinds.of(second);
+    if (other == group) {
+        addLine(state, end, -contact.shift, contact, group, items);
+        return;
+    }
+    // In the middle of the overlap or of the gap, as a fraction of the shift.
+    const double length = norm(contact.shift);
+    const double middle = (first.radius + 0.5 * (length - first.radius - second.radius)) / length;
+    addLine(state, first.position + middle * contact.shift, -middle * contact.shift, contact, group, items);
+    addLine(state, end, (middle - 1) * contact.shift, contact, other, items);
 }
 
 /// Adds phi times the values to the sums from `first` on, at all points within the cut-off of a box.
 /// @param phi given the place of eight points of a row, m
 template <std::size_t size, class Phi>
 void FieldSums::overPoints(const Place& low, const Place& high, std::size_t first, std::uint32_t group,
-                           const double* values, const Slab& slab, Phi&& phi) {
+                           const double* values, const Slab& slab, Phi&& phi) const {
     std::array<std::size_t, 3> begin{}, end{1, 1, 1};
     for (std::size_t place = 0; place < 3; ++place) {
         const std::size_t axis = order[place];
         if (!points.isResolved(axis)) continue;
-        const double h = points.spacing(axis), n = static_cast<double>(points.counts()[axis]);
-        const double from = std::ceil((low[axis] - weight.cutOff() - points.low(axis)) / h - 0.5 - 1e-9),
-                     to = std::floor((high[axis] + weight.cutOff() - points.low(axis)) / h - 0.5 + 1e-9) + 1;
+        const double n = static_cast<double>(points.counts()[axis]), start = points.low(axis),
+                     reach = weight.cutOff();
+        const double from = std::ceil((low[axis] - reach - start) * perLength[axis] - 0.5 - 1e-9),
+                     to = std::floor((high[axis] + reach - start) * perLength[axis] - 0.5 + 1e-9) + 1;
         if (!(from < n && to > 0)) return;
         begin[place] = from > 0 ? static_cast<std::size_t>(from) : 0;
         end[place] = to < n ? static_cast<std::size_t>(to) : points.counts()[axis];
@@ -341,22 +360,36 @@ void FieldSums::overPoints(const Place& low, const Place& high, std::size_t firs
     for (std::size_t i = begin[0]; i < end[0]; ++i)
         for (std::size_t j = begin[1]; j < end[1]; ++j) {
             Eight* const row =
-                sums.data() + ((group * n[order[0]] + i) * n[order[1]] + j) * blocks * count + first;
-            for (std::size_t b = firstBlock; b < lastBlock; ++b) {
+                slab.sums + ((group * n[order[0]] + i) * n[order[1]] + j) * blocks * count + first;
+            const auto weightsFrom = [&](std::size_t point) {
                 std::array<double, Pack::lanes> along;
-                std::copy_n(places[2].data() + b * Pack::lanes, Pack::lanes, along.data());
-                const Pack weights = phi(places[0][i], places[1][j], Pack::fromLanes(along));
-                if (none(weights > 0.0)) continue;
+                std::copy_n(places[2].data() + point, Pack::lanes, along.data());
+                return phi(places[0][i], places[1][j], Pack::fromLanes(along));
+            };
+            const auto add = [&](std::size_t block, const Pack& weights) {
+                if (none(weights > 0.0)) return;
                 for (std::size_t k = 0; k < size; ++k) {
-                    double* const eight = row[b * count + k].points.data();
+                    double* const eight = row[block * count + k].points.data();
                     fma(weights, Pack(values[k]), Pack::load(eight)).store(eight);
                 }
+            };
+            if (end[2] - begin[2] <= Pack::lanes) {
+                // Few points: one evaluation, wherever they begin, then brought to the blocks that they are
+                // in.
+                alignas(64) std::array<double, 2 * Pack::lanes> both{};
+                const std::array<double, Pack::lanes> eight = weightsFrom(begin[2]).toLanes();
+                std::copy_n(eight.data(), Pack::lanes, both.data() + begin[2] % Pack::lanes);
+                const std::size_t left = begin[2] / Pack::lanes;
+                for (std::size_t b = firstBlock; b < lastBlock; ++b)
+                    add(b, Pack::load(both.data() + (b - left) * Pack::lanes));
+            } else {
+                for (std::size_t b = firstBlock; b < lastBlock; ++b) add(b, weightsFrom(b * Pack::lanes));
             }
         }
 }
 
 template <std::size_t first, std::size_t size>
-void FieldSums::spread(const Place& at, std::uint32_t group, const double* values, const Slab& slab) {
+void FieldSums::spread(const Place& at, std::uint32_t group, const double* values, const Slab& slab) const {
     const auto one = [&](const Place& place) {
         const auto phi = [&](double outer, double middle, const Pack& inner) {
             Pack square(0.0);
@@ -380,7 +413,7 @@ void FieldSums::spread(const Place& at, std::uint32_t group, const double* value
 }
 
 template <std::size_t first, std::size_t size>
-void FieldSums::spread(const LineItem& line, const Slab& slab) {
+void FieldSums::spread(const LineItem& line, const Slab& slab) const {
     if (line.length < weight.shortestLine()) {
         const int nodes = line.length == 0 ? 1 : 3;
         for (const QuadratureNode& node : gaussLegendre(nodes)) {
@@ -399,45 +432,85 @@ void FieldSums::spread(const LineItem& line, const Slab& slab) {
         high[axis] = line.from[axis] + std::max(line.branch[axis], 0.0);
         unit[axis] = line.branch[axis] / line.length;
     }
+    if (points.dimensions() == 1) {
+        const auto inOne = [&](double, double, const Pack& inner) {
+            return weight.lineMean((inner - line.from[order[2]]) * unit[order[2]], Pack(0.0), line.length);
+        };
+        return overPoints<size>(low, high, first, line.group, line.values.data(), slab, inOne);
+    }
     const auto phi = [&](double outer, double middle, const Pack& inner) {
         const Pack zero(0.0);
         const Vector<Pack> d{points.isResolved(order[0]) ? Pack(outer - line.from[order[0]]) : zero,
                              points.isResolved(order[1]) ? Pack(middle - line.from[order[1]]) : zero,
                              points.isResolved(order[2]) ? inner - line.from[order[2]] : zero};
         const Pack along = d.x * unit[order[0]] + d.y * unit[order[1]] + d.z * unit[order[2]];
-        // Across by a difference of vectors: that of two squares would lose digits. In one dimension it is 0.
+        // Across by a difference of vectors: that of two squares would lose digits.
         const Vector<Pack> across{d.x - along * unit[order[0]], d.y - along * unit[order[1]],
                                   d.z - along * unit[order[2]]};
-        const Pack square =
-            points.dimensions() == 1 ? zero : across.x * across.x + across.y * across.y + across.z * across.z;
+        const Pack square = across.x * across.x + across.y * across.y + across.z * across.z;
         if (none(square < weight.cutOff() * weight.cutOff())) return zero;
         return weight.lineMean(along, square, line.length);
     };
     overPoints<size>(low, high, first, line.group, line.values.data(), slab, phi);
 }
 
-void FieldSums::add(const GrainState& state, int threads) {
-    items.grains.clear(), items.tractions.clear(), items.lines.clear(), items.nodes.clear();
-    items.isAdhesive = false;
-    addGrains(state);
-    addContacts(state);
+void FieldSums::Items::clear() {
+    grains.clear(), tractions.clear(), lines.clear(), nodes.clear();
+    isAdhesive = false;
+}
+
+void FieldSums::makeItems(const GrainState& state, std::size_t share, Items& of) const {
+    of.clear();
+    const std::size_t grains = state.grains.size(), contacts = state.contacts.size();
+    for (std::size_t k = grains * share / shares; k < grains * (share + 1) / shares; ++k)
+        addGrain(state, k, of);
+    for (std::size_t k = contacts * share / shares; k < contacts * (share + 1) / shares; ++k)
+        addContact(state, state.contacts[k], of);
+}
+
+void FieldSums::spread(const Items& of, const Slab& slab) const {
+    for (const PointItem& item : of.grains) spread<Number, 20>(item.at, item.group, item.values.data(), slab);
+    for (const PointItem& item : of.tractions)
+        spread<Traction, 3>(item.at, item.group, item.values.data(), slab);
+    for (const PointItem& item : of.nodes)
+        spread<ContactStress, 15>(item.at, item.group, item.values.data(), slab);
+    for (const LineItem& line : of.lines) {
+        if (of.isAdhesive) spread<ContactStress, 15>(line, slab);
+        else spread<ContactStress, 9>(line, slab);
+    }
+}
+
+std::size_t FieldSums::slabLength() const {
     const int dimensions = points.dimensions();
-    const std::size_t shared = dimensions == 3   ? points.counts()[order[0]]
-                               : dimensions == 2 ? points.counts()[order[1]]
-                                                 : blocks;
-    inParts(shared, threads, [&](int, std::size_t begin, std::size_t end) {
-        const Slab slab{begin, end};
-        for (const PointItem& item : items.grains)
-            spread<Number, 20>(item.at, item.group, item.values.data(), slab);
-        for (const PointItem& item : items.tractions)
-            spread<Traction, 3>(item.at, item.group, item.values.data(), slab);
-        for (const PointItem& item : items.nodes)
-            spread<ContactStress, 15>(item.at, item.group, item.values.data(), slab);
-        for (const LineItem& line : items.lines) {
-            if (items.isAdhesive) spread<ContactStress, 15>(line, slab);
-            else spread<ContactStress, 9>(line, slab);
-        }
-    });
+    return dimensions == 3 ? points.counts()[order[0]] : dimensions == 2 ? points.counts()[order[1]] : blocks;
+}
+
+void FieldSums::add(const GrainState& state, int threads) {
+    gatherContactsOfGrains(state, threads);
+    const bool isSmall = sums.size() <= fewSums;
+    items.resize(isSmall ? static_cast<std::size_t>(std::max(threads, 1)) : shares);
+    if (isSmall) {
+        sumsOfShares.resize(shares);
+        inParts(shares, threads, [&](int thread, std::size_t begin, std::size_t end) {
+            for (std::size_t share = begin; share < end; ++share) {
+                Items& own = items[static_cast<std::size_t>(thread)];
+                makeItems(state, share, own);
+                sumsOfShares[share].assign(sums.size(), Eight{});
+                spread(own, {0, slabLength(), sumsOfShares[share].data()});
+            }
+        });
+        for (const std::vector<Eight>& ofShare : sumsOfShares)
+            for (std::size_t k = 0; k < sums.size(); ++k)
+                for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
+                    sums[k].points[lane] += ofShare[k].points[lane];
+    } else {
+        inParts(shares, threads, [&](int, std::size_t begin, std::size_t end) {
+            for (std::size_t share = begin; share < end; ++share) makeItems(state, share, items[share]);
+        });
+        inParts(slabLength(), threads, [&](int, std::size_t begin, std::size_t end) {
+            for (const Items& ofShare : items) spread(ofShare, {begin, end, sums.data()});
+        });
+    }
     ++added;
 }
 

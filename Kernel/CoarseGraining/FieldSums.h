@@ -95,47 +95,62 @@ private:
         std::uint32_t group;
         std::array<double, 15> values;
     };
-    /// What a state adds; kept, because memory that is new each time takes longer than to fill it.
+    /// What a part of a state adds; kept, because memory that is new each time takes longer than to fill it.
     struct Items {
-        std::vector<std::array<double, 8>> ofGrains;  // fabric, contacts, liquid
         std::vector<PointItem> grains, tractions;
         std::vector<LineItem> lines;
         std::vector<PointItem> nodes;  // of lines around an axis: 15 values
         bool isAdhesive = false;
-    };
-    /// What one thread sums: of the outermost resolved axis, or of the blocks where there is but one.
-    struct Slab {
-        std::size_t begin, end;
+
+        void clear();
     };
     struct alignas(64) Eight {
         std::array<double, Pack::lanes> points;
     };
+    /// Where sums go, and which part of them one thread sums: of the outermost resolved axis, or of the
+    /// blocks where there is but one.
+    struct Slab {
+        std::size_t begin, end;
+        Eight* sums;
+    };
+    /// Into how many shares grains and contacts are divided, whatever the number of threads.
+    static constexpr std::size_t shares = 32;
+    /// Up to so many sums (64 kB) each share has its own, and is summed as soon as it is made.
+    static constexpr std::size_t fewSums = 1024;
 
-    void addGrains(const GrainState& state);
-    void addContacts(const GrainState& state);
+    void gatherContactsOfGrains(const GrainState& state, int threads);
+    void makeItems(const GrainState& state, std::size_t share, Items& items) const;
+    void addGrain(const GrainState& state, std::size_t number, Items& items) const;
+    void addContact(const GrainState& state, const GrainState::Contact& contact, Items& items) const;
     void addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
-                 const GrainState::Contact& contact, std::uint32_t group);
+                 const GrainState::Contact& contact, std::uint32_t group, Items& items) const;
     void addRoundLine(const Vector<double>& end, const Vector<double>& branch,
-                      const std::array<double, 15>& values, std::uint32_t group);
+                      const std::array<double, 15>& values, std::uint32_t group, Items& items) const;
+    void spread(const Items& items, const Slab& slab) const;
+    [[nodiscard]] std::size_t slabLength() const;
     template <class Use>
     void forImages(const GrainState& state, const Vector<double>& low, const Vector<double>& high,
                    Use&& use) const;
     template <std::size_t first, std::size_t size>
-    void spread(const std::array<double, 3>& at, std::uint32_t group, const double* values, const Slab& slab);
+    void spread(const std::array<double, 3>& at, std::uint32_t group, const double* values,
+                const Slab& slab) const;
     template <std::size_t first, std::size_t size>
-    void spread(const LineItem& line, const Slab& slab);
+    void spread(const LineItem& line, const Slab& slab) const;
     template <std::size_t size, class Phi>
     void overPoints(const std::array<double, 3>& low, const std::array<double, 3>& high, std::size_t first,
-                    std::uint32_t group, const double* values, const Slab& slab, Phi&& phi);
+                    std::uint32_t group, const double* values, const Slab& slab, Phi&& phi) const;
 
     FieldGrid points;
     SmoothingKernel weight;
     GrainGroups kinds;
-    std::array<std::size_t, 3> order{0, 1, 2};  // of axes: the last one is stored in blocks of eight
-    std::size_t blocks = 1;                     // of a row
-    std::array<std::vector<double>, 3> places;  // m, of the points along each of `order`
-    std::vector<Eight> sums;                    // of a group, row, block: each sum
-    Items items;
+    std::array<std::size_t, 3> order{0, 1, 2};    // of axes: the last one is stored in blocks of eight
+    std::size_t blocks = 1;                       // of a row
+    std::array<std::vector<double>, 3> places;    // m, of the points along each of `order`
+    std::array<double, 3> perLength{};            // 1/m, of points along each axis
+    std::vector<Eight> sums;                      // of a group, row, block: each sum
+    std::vector<std::array<double, 8>> ofGrains;  // fabric, contacts, liquid
+    std::vector<Items> items;                     // of shares, or of threads
+    std::vector<std::vector<Eight>> sumsOfShares;
     std::size_t added = 0;
 };
 

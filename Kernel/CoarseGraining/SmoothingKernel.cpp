@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -27,24 +26,20 @@ double weightWithin(double q, int dimensions) {
     }
 }
 
-/// Chebyshev coefficients of a function of y in [-1, 1], up to where they are round-off.
-template <class Function>
-std::vector<double> chebyshevSeries(Function&& function) {
-    constexpr int nodes = 128;
-    std::array<double, nodes> values{};
-    for (int k = 0; k < nodes; ++k)
-        values[static_cast<std::size_t>(k)] = function(std::cos(pi * (k + 0.5) / nodes));
-    std::vector<double> series;
-    std::size_t needed = 1;
-    for (int n = 0; n < nodes; ++n) {
-        double sum = 0;
-        for (int k = 0; k < nodes; ++k)
-            sum += values[static_cast<std::size_t>(k)] * std::cos(pi * n * (k + 0.5) / nodes);
-        series.push_back(sum * (n == 0 ? 1.0 : 2.0) / nodes);
-        if (std::abs(series.back()) > 2e-16 * std::abs(series.front())) needed = series.size();
-        if (series.size() > needed + 4) break;
+/// Coefficients of y^k in the integral over s from 0 to 1 of e^(-b s^2 (1 + y)): (-1)^k J_k / k!, where J_k
+/// is that of (b s^2)^k e^(-b s^2). By parts, (2k + 1) J_k = 2 J_(k+1) + b^k e^(-b); downwards all terms are
+/// positive. The sum of all |J_k / k!| is 1: for |y| <= 1 little is lost to round-off.
+std::vector<double> gaussSeries(double b) {
+    std::vector<double> poisson{std::exp(-b)};  // b^k e^(-b) / k!
+    while (static_cast<double>(poisson.size()) < 2 * b || poisson.back() > 1e-18 || poisson.size() % 2 != 0)
+        poisson.push_back(poisson.back() * b / static_cast<double>(poisson.size()));
+    std::vector<double> series(poisson.size());
+    double later = 0;
+    for (std::size_t k = series.size(); k-- > 0;) {
+        const auto n = static_cast<double>(k);
+        later = (2 * (n + 1) * later + poisson[k]) / (2 * n + 1);
+        series[k] = k % 2 == 0 ? later : -later;
     }
-    series.resize(needed);
     return series;
 }
 
@@ -73,10 +68,7 @@ SmoothingKernel::SmoothingKernel(KernelShape shape, int dimensions, double width
         case KernelShape::Gauss: {
             const double q = c / (std::numbers::sqrt2 * w);
             norm = 1 / (std::pow(std::sqrt(2 * pi) * w, size) * weightWithin(q, size));
-            series = chebyshevSeries([&](double y) {
-                const double p = c * std::sqrt(0.5 * (1 + y));
-                return std::sqrt(0.5 * pi) * w * std::erf(p / (std::numbers::sqrt2 * w)) / p;
-            });
+            series = gaussSeries(0.5 * q * q);
             break;
         }
         case KernelShape::Lucy:

@@ -26,6 +26,12 @@ public:
         events.swap(early);
         changesOfStep.clear();
     }
+    /// What has happened since then belongs to the next step.
+    void leaveForNextStep() {
+        early.insert(early.end(), events.begin(), events.end());
+        events.clear();
+        changesOfStep.clear();
+    }
     /// To be called before and after the forces of a bucket; after() also gives the columns of contacts that
     /// begin to act the numbers with which they start.
     void before(const ContactStore& store, const Bucket& bucket) {
@@ -33,6 +39,11 @@ public:
             states.assign(&store.states[bucket.begin], &store.states[bucket.begin] + bucket.size());
     }
     void after(ContactStore& store, const Bucket& bucket, const std::vector<std::uint32_t>& identity);
+    /// A contact begins to act besides those that the kernel found: its columns get the numbers with which
+    /// they start.
+    void startColumns(ContactStore& store, std::uint32_t contact) const {
+        if (!startsOfColumns.empty()) store.memory.named.set(store.slotOf(contact), startsOfColumns.data());
+    }
     /// Something has happened to a contact besides what the kernel found.
     void add(const ContactStore& store, std::uint32_t contact, const std::vector<std::uint32_t>& identity,
              ContactEvent::Kind kind);

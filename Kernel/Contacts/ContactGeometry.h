@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"
 
@@ -29,30 +30,61 @@ struct ContactGeometry {
     T rotationResponse;        // 1/kg, R*^2 (1/I1 + 1/I2): of R* times the relative spin, to the torque / R*
 };
 
+/// Asks for what the kernel reads of eight grains.
+template <class S>
+[[gnu::always_inline]] inline void prefetchGrains(const TranslationRecord* translation,
+                                                  const RotationRecord* rotation,
+                                                  const std::array<std::uint32_t, Pack::lanes>& grains) {
+    for (const std::uint32_t grain : grains) {
+        prefetch(translation + grain, sizeof(TranslationRecord));
+        if constexpr (S::hasTorque) prefetch(rotation + grain, sizeof(RotationRecord));
+    }
+}
+
 /// The geometry of grain with grain; in a scene that repeats itself, with the nearest image.
 template <class S, bool isPeriodic>
 struct PairGeometry {
     const TranslationRecord* translation;
     const RotationRecord* rotation;
     const ContactBlock& block;
+    const PeriodicBox& box;
 
-    Vector<Pack> shift;  // m, centre 2 - centre 1
-    Pack distance2;      // m^2
+    Vector<Pack> shift;          // m, centre 2 - centre 1
+    Vector<Pack> imageVelocity;  // m/s, where images move: of body 2 against the image that is met
+    Pack distance2;              // m^2
     Pack radius1, radius2;
 
     [[gnu::always_inline]] PairGeometry(const TranslationRecord* t, const RotationRecord* r,
-                                        const ContactBlock& b, [[maybe_unused]] const PeriodicBox& box)
-        : translation(t), rotation(r), block(b) {
+                                        const ContactBlock& b, const PeriodicBox& periodic)
+        : translation(t), rotation(r), block(b), box(periodic) {
         const auto [x1, y1, z1, r1] = loadRecords<4>(numbers(t), 8, b.first.data());
         const auto [x2, y2, z2, r2] = loadRecords<4>(numbers(t), 8, b.second.data());
         shift = {x2 - x1, y2 - y1, z2 - z1};
-        if constexpr (isPeriodic) shift = box.nearest(shift);
+        if constexpr (isPeriodic) {
+            if (box.imagesMove) {
+                const Vector<Pack> apart = shift;
+                shift = box.nearest(apart);
+                imageVelocity = box.velocityBetweenImages(apart, shift);
+            } else {
+                shift = box.nearestAlongAxes(shift);
+            }
+        }
         distance2 = squaredNorm(shift);
         radius1 = r1;
         radius2 = r2;
     }
 
+    [[gnu::always_inline]] static void prefetchBodies(const TranslationRecord* t, const RotationRecord* r,
+                                                      const ContactBlock& b) {
+        prefetchGrains<S>(t, r, b.first);
+        prefetchGrains<S>(t, r, b.second);
+    }
+
     [[nodiscard]] Mask overlapping() const { return distance2 < square(radius1 + radius2); }
+    /// @param gap m
+    [[nodiscard]] Mask isWithin(double gap) const {
+        return distance2 < square(radius1 + radius2 + Pack(gap));
+    }
 
     [[nodiscard]] ContactGeometry<Pack> complete() const {
         ContactGeometry<Pack> g;
@@ -61,6 +93,8 @@ struct PairGeometry {
         const auto [vx1, vy1, vz1, im1] = loadRecords<4>(numbers(translation) + 4, 8, block.first.data());
         const auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
         g.velocity = {vx1 - vx2, vy1 - vy2, vz1 - vz2};
+        if constexpr (isPeriodic)
+            if (box.imagesMove) g.velocity += imageVelocity;
         g.inverseMass = max(im1 + im2, Pack(1e-200));  // of two grains that are held, instead of 0
         // Three reciprocals for one division, which need not wait for the square root.
         const Pack product = distance2 * sum;
@@ -120,7 +154,14 @@ struct WallGeometry {
         radius = columns[3];
     }
 
+    [[gnu::always_inline]] static void prefetchBodies(const TranslationRecord* t, const RotationRecord* r,
+                                                      const ContactBlock& b) {
+        prefetchGrains<S>(t, r, b.first);
+    }
+
     [[nodiscard]] Mask overlapping() const { return distance < radius; }
+    /// @param gap m
+    [[nodiscard]] Mask isWithin(double gap) const { return distance < radius + Pack(gap); }
 
     [[nodiscard]] ContactGeometry<Pack> complete() const {
         ContactGeometry<Pack> g;

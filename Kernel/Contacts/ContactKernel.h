@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/BridgeDrag.h"
+#include "Kernel/Contacts/CapillaryWatch.h"
 #include "Kernel/Contacts/ContactGeometry.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactTiming.h"
@@ -59,6 +60,7 @@ public:
 
     /// Of the contacts that this kernel has computed.
     OverlapWatch overlaps;
+    CapillaryWatch capillaryNumbers;
 
     /// @return false if the block needs memory first; it is marked then
     template <class Geometry>
@@ -69,6 +71,9 @@ public:
         Mask touching = geometry.overlapping() & listed;
         Mask joined = touching | maskFromBits(state.bridged);
         if constexpr (Adhesion::acts && !Adhesion::formsAtContact) joined = listed;
+        if constexpr (HasFilmContactGap<Adhesion>)
+            if (laws.adhesion.filmContactGap > 0)
+                joined = joined | (listed & geometry.isWithin(laws.adhesion.filmContactGap));
         if (none(joined)) {
             clear(block, state);
             return true;
@@ -97,6 +102,12 @@ public:
             } else {
                 bridged = joined & (separation < interaction.range());
                 adhesive = select(bridged, interaction.force(separation), Pack(0));
+            }
+            if constexpr (HasLargestCapillaryNumber<Adhesion>) {
+                const Pack number =
+                    interaction.numberAboveBound(laws.adhesion, separation, -dot(g.velocity, g.normal));
+                if (any(bridged & (number > Pack(0)))) [[unlikely]]
+                    capillaryNumbers.note(bits(bridged), number);
             }
         }
         const LastForces last = loadLastForces(block);

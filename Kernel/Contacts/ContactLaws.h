@@ -18,6 +18,7 @@
 
 namespace pendular {
 
+class CapillaryWatch;
 class ContactStore;
 struct Bucket;
 struct PeriodicBox;
@@ -49,6 +50,7 @@ struct ContactTask {
     double unlisted;  // m, that bodies can have approached since they were listed
     bool withLedger;
     OverlapWatch* overlaps;
+    CapillaryWatch* capillaryNumbers;
 };
 
 /// A number of a law, with its name and unit.
@@ -68,6 +70,7 @@ public:
     bool breaks = false;          // an attraction that ends otherwise than it began: its work is lost then
     bool isPlastic = false;
     bool resistsMotion = false;  // a bridge
+    bool hasLargestCapillaryNumber = false;
     OverlapLimit overlapLimit;
 
     /// Those of a pair alone: their own names, layout and flags, where a scene has species of several types.
@@ -87,6 +90,9 @@ public:
     [[nodiscard]] virtual std::optional<std::string> objection(int a, int b, const Bodies& bodies) const = 0;
     [[nodiscard]] virtual ContactStiffness stiffness(int a, int b, const Bodies& bodies,
                                                      double effectiveMass) const = 0;
+    /// N/m, the slope of the normal law at an overlap (m).
+    [[nodiscard]] virtual double normalStiffness(int a, int b, const Bodies& bodies,
+                                                 double overlap) const = 0;
     /// Of each law by its name, what is out of its domain.
     [[nodiscard]] virtual std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const = 0;
@@ -95,6 +101,15 @@ public:
 
     /// How liquid moves between the two; nothing where it does not.
     [[nodiscard]] virtual std::optional<LiquidRules> liquidRules(int a, int b) const = 0;
+
+    /// m: bodies that have not touched form a bridge below this gap; 0 where they must touch. Of bridges of a
+    /// fixed volume.
+    [[nodiscard]] virtual double filmContactGap(int a, int b) const = 0;
+    /// The same where liquid moves, for films of this thickness (m, of both bodies together).
+    [[nodiscard]] virtual double filmContactGap(int a, int b, const Bodies& bodies, double films) const = 0;
+    /// Films have met: the bridge that liquid is about to make there will resist from the gap `start` (m) on,
+    /// of which the bodies have gone up to `gap` (m).
+    virtual void meetFilms(int a, int b, double* interaction, double gap, double start) const = 0;
 
     /// The free surface of a bridge of this volume (m^3) at a separation (m), where liquid moves.
     /// @param solved with pressure and filling angles

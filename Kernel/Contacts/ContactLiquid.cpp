@@ -91,7 +91,97 @@ void ContactLiquid::listed(const ContactStore& store, const ContactLaws& laws) {
     changed.clear();
     for (std::size_t slot = Pack::lanes; slot < store.memory.slotCount(); ++slot)
         changed.push_back(store.contactAt(static_cast<std::uint32_t>(slot)));
+    anyAtFilms = std::ranges::any_of(rules, [](const QuantisedRules& r) { return r.atFilms; });
     anyWetWall = std::ranges::any_of(rules, [](const QuantisedRules& r) { return r.wallDose > 0; });
+}
+
+bool ContactLiquid::formsAtFilms(const ContactLaws& laws) const {
+    if (!moves()) return false;
+    const auto count = static_cast<int>(laws.speciesCount());
+    for (int a = 0; a < count; ++a)
+        for (int b = a; b < count; ++b)
+            if (laws.liquidRules(a, b).value_or(LiquidRules{}).atFilms) return true;
+    return false;
+}
+
+/// m, of a film that is spread evenly
+static double thicknessOf(const GrainFilms& films, const ParticleStore& grains, std::uint32_t place) {
+    const double radius = grains.translation[place].radius;
+    return films.of(grains, place) / (4 * std::numbers::pi * radius * radius);
+}
+
+double ContactLiquid::largestFilmContact(const ParticleStore& grains) const {
+    double largest = 0;
+    for (const std::uint32_t place : grains.place)
+        largest = std::max(largest, thicknessOf(*filmsOfGrains, grains, place));
+    return 2 * largest;
+}
+
+/// Whether two bodies are not farther apart than this (m), without a root or a division: most are.
+static bool isWithin(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,
+                     std::uint32_t contact, double gap) {
+    const std::size_t block = contact / Pack::lanes, lane = contact % Pack::lanes;
+    const TranslationRecord& grain = grains.translation[store.blocks[block].first[lane]];
+    if (block >= store.firstWallBlock())
+        return store.wallPoints[block - store.firstWallBlock()].distance.lane[lane] <= grain.radius + gap;
+    const TranslationRecord& other = grains.translation[store.blocks[block].second[lane]];
+    const double reach = grain.radius + other.radius + gap;
+    return squaredNorm(box.nearest(other.position - grain.position)) <= reach * reach;
+}
+
+const std::vector<FilmContact>& ContactLiquid::findFilmContacts(const ContactStore& store,
+                                                                const ContactLaws& laws,
+                                                                const ParticleStore& grains, double length,
+                                                                double approached) {
+    filmContacts.clear();
+    if (!anyAtFilms) return filmContacts;
+    const double largest = largestFilmContact(grains), reach = (1 + 1e-12) * largest;
+    for (std::size_t k = 0; k < store.buckets.size(); ++k) {
+        const Bucket& bucket = store.buckets[k];
+        if (!rules[k].atFilms || rules[k].largest == 0) continue;
+        for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
+            const BlockState& state = store.states[b];
+            if (store.slots[b] == ContactStore::asleep && store.gaps[b] - approached > largest) continue;
+            const unsigned apart = state.listed & ~(unsigned{state.touching} | state.bridged);
+            for (std::uint32_t lane = 0; apart >> lane != 0; ++lane) {
+                const std::uint32_t contact = b * Pack::lanes + lane;
+                if (ContactStore::bitOf(apart, lane) && isWithin(store, grains, *periodic, contact, reach))
+                    lookForFilms(store, laws, grains, bucket, contact, length);
+            }
+        }
+    }
+    return filmContacts;
+}
+
+/// The film of a wall has no thickness: its account knows no area.
+void ContactLiquid::lookForFilms(const ContactStore& store, const ContactLaws& laws,
+                                 const ParticleStore& grains, const Bucket& bucket, std::uint32_t contact,
+                                 double length) {
+    const std::size_t block = contact / Pack::lanes, lane = contact % Pack::lanes;
+    const std::uint32_t first = store.blocks[block].first[lane], second = store.blocks[block].second[lane];
+    const TranslationRecord& grain = grains.translation[first];
+    double films = thicknessOf(*filmsOfGrains, grains, first), gap = -grain.radius;
+    Vector<double> normal, motion = grain.velocity;  // m/s, of body 1 against body 2
+    if (bucket.wall >= 0) {
+        const WallPointColumns& points = store.wallPoints[block - store.firstWallBlock()];
+        gap += points.distance.lane[lane];
+        motion = motion - points.velocityAt(lane);
+        normal = {points.normal[0].lane[lane], points.normal[1].lane[lane], points.normal[2].lane[lane]};
+    } else {
+        const TranslationRecord& other = grains.translation[second];
+        films += thicknessOf(*filmsOfGrains, grains, second);
+        const Vector<double> apart = other.position - grain.position, shift = periodic->nearest(apart);
+        const double distance = norm(shift);
+        gap += distance - other.radius;
+        normal = (1 / distance) * shift;
+        motion += periodic->velocityBetweenImages(apart, shift) - other.velocity;
+    }
+    if (films == 0 || !(gap <= films)) return;
+    const double meets = laws.filmContactGap(bucket.species1, bucket.species2,
+                                             bodiesOf(store, bucket, contact, grains), films);
+    if (!(gap < meets)) return;
+    const double before = gap + std::max(dot(motion, normal), 0.0) * length;
+    filmContacts.push_back({contact, gap, std::min(meets, before)});
 }
 
 void ContactLiquid::move(ContactStore& store, const ContactLaws& laws, ParticleStore& grains,
@@ -118,11 +208,25 @@ void ContactLiquid::move(ContactStore& store, const ContactLaws& laws, ParticleS
         lookAt(liquid.grainOf(change.contact, 0));
         if (!liquid.isAtWall(change.contact)) lookAt(liquid.grainOf(change.contact, 1));
     }
+    for (const FilmContact& met : filmContacts) {
+        places.push_back(liquid.grainOf(met.contact, 0));
+        if (!liquid.isAtWall(met.contact)) places.push_back(liquid.grainOf(met.contact, 1));
+    }
     looked.clear();
     if (places.empty() && ruptured.empty()) return;
     step.run(liquid, ruptured, places);
     remember(grains);
-    for (const std::uint32_t contact : formed) events.add(store, contact, grains.identity, Kind::BridgeForms);
+    for (const std::uint32_t contact : formed) {
+        if (const FilmContact* const met = liquid.findFilmContact(contact)) {
+            events.startColumns(store, contact);
+            const Bucket& bucket = store.bucketOf(contact / Pack::lanes);
+            ContactNumbers bridge{};
+            store.memory.interaction.get(store.slotOf(contact), bridge.data());
+            laws.meetFilms(bucket.species1, bucket.species2, bridge.data(), met->gap, met->start);
+            store.memory.interaction.set(store.slotOf(contact), bridge.data());
+        }
+        events.add(store, contact, grains.identity, Kind::BridgeForms);
+    }
     double fromWalls = 0;
     for (const double account : walls) fromWalls += std::max(-account, 0.0);
     if (const auto objection = filmsOfGrains->objectionToMore(fromWalls)) throw RunError(*objection);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "Kernel/Contacts/ContactEvents.h"
@@ -11,6 +12,12 @@
 #include "Kernel/Particles/GrainFilms.h"
 
 namespace pendular {
+
+/// Two bodies that have not touched, whose films meet.
+struct FilmContact {
+    std::uint32_t contact;
+    double gap, start;  // m, now, and where they met: the gap before the last drift at most
+};
 
 /// The liquid of a scene on which LiquidStep works: films of grains by their places, bridges of contacts by
 /// their numbers in the list. It is made for a moment in which neither changes.
@@ -25,6 +32,7 @@ struct ListedLiquid {
     std::vector<double>& walls;    // m^3, the account of each
     std::vector<Number>& formed;   // contacts whose bridges have formed
     std::vector<Number>& changed;  // contacts whose volumes have changed
+    const std::vector<FilmContact>& filmContacts;
 
     [[nodiscard]] Quanta quantaOf(double volume) const {
         return static_cast<Quanta>(volume / films.quantum());  // exact
@@ -45,7 +53,16 @@ struct ListedLiquid {
     [[nodiscard]] const QuantisedRules& rulesOf(Number contact) const {
         return rulesOfBuckets[static_cast<std::size_t>(&bucketOf(contact) - store.buckets.data())];
     }
-    [[nodiscard]] bool touches(Number contact) const { return store.touches(contact); }
+    /// Or their films do, where that makes a bridge.
+    [[nodiscard]] bool touches(Number contact) const {
+        return store.touches(contact) || findFilmContact(contact) != nullptr;
+    }
+    /// Null if their films do not meet at a gap, or no bridge forms there.
+    [[nodiscard]] const FilmContact* findFilmContact(Number contact) const {
+        if (filmContacts.empty()) return nullptr;
+        const auto found = std::ranges::lower_bound(filmContacts, contact, {}, &FilmContact::contact);
+        return found != filmContacts.end() && found->contact == contact ? &*found : nullptr;
+    }
     [[nodiscard]] bool isAtWall(Number contact) const {
         return contact / Pack::lanes >= store.firstWallBlock();
     }
@@ -59,7 +76,7 @@ struct ListedLiquid {
         if (grain >= store.sides.grainCount()) return;
         for (const std::uint32_t side : store.sides.of(grain)) {
             const std::uint32_t contact = store.contactAt(side / 2);
-            if (store.acts(contact) && moves(contact)) function(contact);
+            if ((store.acts(contact) || findFilmContact(contact)) && moves(contact)) function(contact);
         }
     }
     [[nodiscard]] bool moves(Number contact) const;
@@ -92,6 +109,16 @@ public:
     /// d ln V is 0 to 1, and the rupture distance goes as V^(1/3).) Until then observers see the forces that
     /// were.
     void prepareChanged(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains);
+    /// Whether bridges of the scene form where films meet, and the largest gap (m) at which those of these
+    /// grains can.
+    [[nodiscard]] bool formsAtFilms(const ContactLaws& laws) const;
+    [[nodiscard]] double largestFilmContact(const ParticleStore& grains) const;
+    /// At the end of a step (s), before move(): the contacts without a bridge whose films meet, in the order
+    /// of the list. For move() they need memory.
+    /// @param approached m, that bodies can have approached since they were listed
+    const std::vector<FilmContact>& findFilmContacts(const ContactStore& store, const ContactLaws& laws,
+                                                     const ParticleStore& grains, double length,
+                                                     double approached);
     /// At the end of a step: what has begun and ended in it moves liquid. Bridges that form are added to the
     /// events.
     void move(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, ContactEvents& events);
@@ -120,7 +147,7 @@ public:
 
 private:
     ListedLiquid of(ContactStore& store, const ContactLaws& laws, ParticleStore& grains) {
-        return {store, laws, grains, *filmsOfGrains, rules, walls, formed, changed};
+        return {store, laws, grains, *filmsOfGrains, rules, walls, formed, changed, filmContacts};
     }
     void remember(const ParticleStore& grains);
     void dryFilms(ParticleStore& grains, double time);
@@ -130,6 +157,8 @@ private:
     [[nodiscard]] double lost(double volume, std::uint64_t whose, std::uint32_t purpose) const;
     [[nodiscard]] double separationOf(const ContactStore& store, const ContactLaws& laws,
                                       const ParticleStore& grains, std::uint32_t contact) const;
+    void lookForFilms(const ContactStore& store, const ContactLaws& laws, const ParticleStore& grains,
+                      const Bucket& bucket, std::uint32_t contact, double length);
     void bookChange(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains,
                     std::uint32_t contact, const double* before, bool byMigration);
 
@@ -147,6 +176,8 @@ private:
     bool anyWetWall = false;
     std::vector<double> walls;          // m^3
     std::vector<std::uint32_t> looked;  // identities of grains to be looked at in the next step
+    bool anyAtFilms = false;
+    std::vector<FilmContact> filmContacts;  // of this step
     std::vector<std::uint32_t> places, ruptured, formed;
     std::vector<std::uint32_t> changed;  // contacts in the list, to be prepared
     LiquidStep<ListedLiquid> step;

@@ -23,16 +23,19 @@ public:
     using Grains = ParticleStore;
 
     /// @param oldBridges bodies and laws are as they were when bridges were prepared; @param listReach m, at
-    /// which bodies are listed where their range is shorter
+    /// which bodies are listed where their range is shorter; @param filmsReach m, the same, but no farther
+    /// than their range
     ContactList(const ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
-                double skinWidth, int threadCount, bool oldBridges = true, double listReach = 0)
+                double skinWidth, int threadCount, bool oldBridges = true, double listReach = 0,
+                double filmsReach = 0)
         : laws(contactLaws),
           walls(wallHandler),
           periodic(box),
           skin(skinWidth),
           threads(threadCount),
           keepsBridges(oldBridges),
-          reachOfAll(listReach) {}
+          reachOfAll(listReach),
+          reachOfFilms(filmsReach) {}
 
     /// Sorts the grains in space and lists their contacts.
     /// @param old those that were taken or read when the grains were where they are, whose memory the store
@@ -45,6 +48,7 @@ public:
         formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
         std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
         grains.reorder(formerPlace, threads);
+        if (reachOfFilms > 0) reachOfAll = std::max(reachOfAll, std::min(reachOfFilms, largestRange(grains)));
         findPairs(grains, old, pairsBefore);
         if (!keepsCells) found.reset();
         findWallContacts(grains, old);
@@ -190,8 +194,11 @@ private:
         bool far = laws.actsApart;
         if (laws.formsAtContact)
             for (const auto& entry : old.of(formerPlace[i])) far |= entry.wall == w + 1 && isBridged(entry);
-        const double apart =
-            std::max(reachOfAll, far ? rangeOf(grains.species[i], wall.species, {grain.radius}) : 0);
+        double apart = reachOfAll;
+        if (far || reachOfFilms > apart) {
+            const double range = rangeOf(grains.species[i], wall.species, {grain.radius});
+            apart = std::max(apart, far ? range : std::min(reachOfFilms, range));
+        }
         parts.clear();
         wall.listParts(grain.position, grain.radius + apart + skin, parts);
         if (parts.empty()) return;
@@ -228,7 +235,8 @@ private:
     double gapOf(const Grains& grains, const Listed& pair) const {
         const TranslationRecord& a = grains.translation[pair.first];
         const TranslationRecord& b = grains.translation[pair.second];
-        double reach = a.radius + b.radius;
+        double reach = a.radius + b.radius +
+                       laws.filmContactGap(grains.species[pair.first], grains.species[pair.second]);
         if (laws.actsApart)
             reach += rangeOf(grains.species[pair.first], grains.species[pair.second], {a.radius, b.radius});
         return norm(periodic.nearest(b.position - a.position)) - reach;
@@ -288,7 +296,7 @@ private:
     double skin;
     int threads;
     bool keepsBridges;
-    double reachOfAll;
+    double reachOfAll, reachOfFilms;
     std::optional<NeighbourSearch> found;
     std::vector<std::uint32_t> formerPlace;  // of the grain at each place
     Groups groups;

@@ -11,6 +11,7 @@
 #include "Kernel/Contacts/ContactSample.h"
 #include "Kernel/Contacts/ContactSides.h"
 #include "Kernel/Contacts/MemoryColumns.h"
+#include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Math/Pack.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Walls/Wall.h"
@@ -172,6 +173,17 @@ public:
         blockOf.back() = static_cast<std::uint32_t>(block);
         return static_cast<std::uint32_t>(count);
     }
+    /// Asks for what the kernel reads and writes of a block.
+    [[gnu::always_inline]] void prefetchBlock(std::size_t block) const {
+        history.prefetchBlock(block);
+        normalHistory.prefetchBlock(block);
+        interaction.prefetchBlock(block);
+        const std::size_t first = block * Pack::lanes;
+        if (layout.hasTorque) prefetch<true>(records.data() + first, Pack::lanes * sizeof(ForceTorqueRecord));
+        else prefetch<true>(forces.data() + first, Pack::lanes * sizeof(ForceRecord));
+        if (layout.hasContactTorque)
+            prefetch<true>(torques.data() + first, Pack::lanes * sizeof(TorqueRecord));
+    }
     /// Forgets one contact; returns the energy (J) that was stored in it, where a ledger is kept.
     double clear(std::size_t slot);
     /// How many numbers a contact has without its energies, and these: what it remembers and its forces.
@@ -218,7 +230,7 @@ public:
 
     ContactSides sides;
     /// Of each block, m: while no two bodies have approached by this since they were listed, nothing in it
-    /// can begin to touch. Of no meaning for blocks with memory.
+    /// can begin to touch, or to form a bridge at its filmContactGap. Of no meaning for blocks with memory.
     std::vector<double> gaps;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks.size(); }

@@ -26,6 +26,7 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     liquid.prepare(films, *walls, periodic);
     contactEvents.watch(liquid.moves());
     overlapWatch = OverlapWatch(species->overlapLimit.largest);
+    capillaryWatch = {};
 }
 
 bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift) {
@@ -33,7 +34,8 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     contacts.sides.addGrains(grains.size());
     unlisted += grainShift + std::max(grainShift, wallShift);
     ++stepsListed;
-    const bool isNear = unlisted >= std::min(skin.width(), listBefore);
+    const bool isNear = unlisted >= std::min(skin.width(), listBefore) ||
+                        (liquid.formsAtFilms(*species) && liquid.largestFilmContact(grains) > filmsReach);
     const bool isTime =
         stepsListed % IdleLanes::interval == 0 && idleLanes.areWorthAList(contacts, skin.listCost());
     if (!isNear && !isTime) return false;
@@ -96,7 +98,10 @@ void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach) {
 }
 std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges,
                                      double reach) {
-    ContactList list(*species, *walls, periodic, skin.width(), threads, keepsBridges, reach);
+    // Films get thicker: not for each drop a new list.
+    filmsReach = liquid.formsAtFilms(*species) ? 1.25 * liquid.largestFilmContact(grains) : 0;
+    ContactList list(*species, *walls, periodic, skin.width(), threads, keepsBridges,
+                     std::max(reach, largestFilmContactGap()), filmsReach);
     const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
     if (takesInGrains) cells = list.takeSearch();
     skin.listed(contacts, grains.size());
@@ -109,6 +114,14 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     late.clear();
     ++rebuilds;
     return recalled;
+}
+
+double ContactSystem::largestFilmContactGap() const {
+    double largest = 0;
+    const auto count = static_cast<int>(species->speciesCount());
+    for (int a = 0; a < count; ++a)
+        for (int b = a; b < count; ++b) largest = std::max(largest, species->filmContactGap(a, b));
+    return largest;
 }
 
 void ContactSystem::join(Grains& grains, double gap) {
@@ -129,12 +142,16 @@ void ContactSystem::join(Grains& grains, double gap) {
         }
         contactEvents.after(contacts, bucket, grains.identity);  // columns start
     }
+    contactEvents.leaveForNextStep();
 }
 
 bool ContactSystem::takeIn(const Grains& grains, std::span<const std::uint32_t> identities) {
     if (identities.empty()) return true;
-    // What acts at a distance may reach farther than all that the cells were made for.
-    if (species->actsApart) return false;
+    // What acts at a distance may reach farther than all that the cells were made for, and where images move
+    // cells do.
+    if (species->actsApart || periodic.imagesMove || largestFilmContactGap() > 0 ||
+        liquid.formsAtFilms(*species))
+        return false;
     takesInGrains = true;
     if (!cells) return false;  // the next list keeps them
     std::erase_if(late, [&](std::uint32_t identity) { return !grains.place.contains(identity); });
@@ -253,6 +270,8 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
         partsOfWalls.push_back(walls->getObject(w).partCount());
     remembered.visitState(archive, contacts.memory, ledger, grains, partsOfWalls);
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
+    if (species->hasLargestCapillaryNumber)
+        archive.group("capillaryNumbers", [&] { capillaryWatch.visitState(archive); });
     archive.group("events", [&] { contactEvents.visitState(archive); });
     if (liquid.moves()) archive.group("liquid", [&] { liquid.visitState(archive); });
     if (!archive.isReading()) return;
@@ -275,6 +294,10 @@ void ContactSystem::computeWallForces(const Grains& grains, double step, Contact
     sumWallForces(grains);
 }
 void ContactSystem::moveLiquid(Grains& grains, double time, double length) {
+    for (const FilmContact& met : liquid.findFilmContacts(contacts, *species, grains, length, unlisted)) {
+        const std::size_t block = met.contact / Pack::lanes;
+        if (contacts.slots[block] == ContactStore::asleep) wake(block, contacts.bucketOf(block), grains);
+    }
     liquid.move(contacts, *species, grains, contactEvents);
     liquid.dry(contacts, *species, grains, time, length);
     contactEvents.finish();
@@ -349,10 +372,13 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
                            timing,
                            unlisted,
                            ledger,
+                           nullptr,
                            nullptr};
     std::atomic<bool> allHaveMemory = true;
     watches.assign(static_cast<std::size_t>(threads), overlapWatch.part());
+    capillaryWatches.assign(static_cast<std::size_t>(threads), {});
     OverlapWatch last = overlapWatch.part();
+    CapillaryWatch lastCapillary;
     inParts(
         bucket.end - bucket.begin, threads,
         [&](int part, std::size_t begin, std::size_t end) {
@@ -360,10 +386,12 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
             own.begin = bucket.begin + begin;
             own.end = bucket.begin + end;
             own.overlaps = &watches[static_cast<std::size_t>(part)];
+            own.capillaryNumbers = &capillaryWatches[static_cast<std::size_t>(part)];
             if (!species->compute(own)) allHaveMemory = false;
         },
         blocksWorthAThread);
     for (const OverlapWatch& watch : watches) overlapWatch.add(watch);
+    for (const CapillaryWatch& watch : capillaryWatches) capillaryWatch.add(watch);
     if (allHaveMemory) return;
     for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
         if (contacts.slots[b] != ContactStore::waking) continue;
@@ -372,7 +400,9 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
         one.begin = b;
         one.end = b + 1;
         one.overlaps = &last;
+        one.capillaryNumbers = &lastCapillary;
         species->compute(one);
+        capillaryWatch.add(lastCapillary);
     }
     overlapWatch.add(last);
 }

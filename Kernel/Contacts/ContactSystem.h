@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "Kernel/Contacts/CapillaryWatch.h"
 #include "Kernel/Contacts/ContactEvents.h"
 #include "Kernel/Contacts/ContactLiquid.h"
 #include "Kernel/Contacts/ContactList.h"
@@ -103,11 +104,16 @@ public:
     [[nodiscard]] const ContactStore& store() const { return contacts; }
     [[nodiscard]] const ContactLaws& laws() const { return *species; }
     [[nodiscard]] const PeriodicBox& periodicBox() const { return periodic; }
+    /// In shear and strain, where the images have gone.
+    void setPeriodicBox(const PeriodicBox& box) { periodic = box; }
+    /// m, the gap at which films meet, for which contacts were listed
+    [[nodiscard]] double filmReach() const { return std::max(filmsReach, largestFilmContactGap()); }
     /// Of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const { return contacts.bytes(); }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
     /// Of all contacts since the scene began.
     [[nodiscard]] const OverlapWatch& overlaps() const { return overlapWatch; }
+    [[nodiscard]] const CapillaryWatch& capillaryNumbers() const { return capillaryWatch; }
 
     /// Calls function(bucket, contact) for each contact that has a force, in the order of identities: of body
     /// 1, then of body 2, then walls by number and part.
@@ -189,6 +195,8 @@ private:
     [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
     void checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact);
+    /// m, the largest gap at which bridges of a fixed volume form.
+    [[nodiscard]] double largestFilmContactGap() const;
     [[nodiscard]] double gapAround(const Grains& grains, std::size_t number) const;
     [[nodiscard]] std::size_t firstWallBucket() const;
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
@@ -206,6 +214,7 @@ private:
     IdleLanes idleLanes;
     std::size_t stepsListed = 0;   // since the contacts were listed
     double unlisted = infinity;    // m, that two bodies can have approached since contacts were listed
+    double filmsReach = 0;         // m, of films that meet, for which contacts were listed
     double listBefore = infinity;  // m, at which they must be listed, because of grains that came later
     struct Sphere {
         Vector<double> position;
@@ -222,7 +231,9 @@ private:
     OverlapWatch overlapWatch;
     ContactEvents contactEvents;
     ContactLiquid liquid;
+    CapillaryWatch capillaryWatch;
     std::vector<OverlapWatch> watches;  // of each thread
+    std::vector<CapillaryWatch> capillaryWatches;
 };
 
 inline double& ContactColumnReference::operator[](const ObservedContact& contact) const {

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/LargePages.h"
 #include "Kernel/Math/Pack.h"
 
@@ -52,6 +53,10 @@ struct MemoryColumns {
 
     void resize(std::size_t blocks) { columns.resize(blocks * count); }
     void reserve(std::size_t blocks) { reserveLarge(columns, blocks * count); }
+
+    [[gnu::always_inline]] void prefetchBlock(std::size_t block) const {
+        prefetch<true>(columns.data() + block * count, count * sizeof(LaneColumn));
+    }
 
     template <template <class> class Memory>
     [[nodiscard]] Memory<Pack> load(std::size_t block) const {

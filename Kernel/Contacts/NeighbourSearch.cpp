@@ -169,6 +169,7 @@ void NeighbourSearch::Level::build(const Points& points, const PeriodicBox& box,
     std::array<double, 3> low{};
     for (int axis = 0; axis < 3; ++axis) {
         wraps[axis] = along(box.length, axis) > 0;
+        slides[axis] = along(box.across, axis) > 0;
         low[axis] = wraps[axis] ? along(box.lowest, axis) : e.lowest[axis];
         lengths[axis] = wraps[axis] ? along(box.length, axis) : e.highest[axis] - e.lowest[axis];
     }
@@ -178,7 +179,7 @@ void NeighbourSearch::Level::build(const Points& points, const PeriodicBox& box,
     sort(points, threads);
     // Of the smallest grains of a level some ten fit into a cell.
     constexpr double crowded = 40;
-    if (factor == 1 || crowding() < crowded) return;
+    if (factor == 1 || box.isSheared() || crowding() < crowded) return;
     divideRepeatedly(lengths, 2 * largest);
     sort(points, threads);
 }
@@ -246,7 +247,7 @@ std::array<int, 3> NeighbourSearch::Level::cellOf(const Vector<double>& p) const
 }
 
 std::array<int, 2> NeighbourSearch::Level::cellRange(int axis, double x, double reach) const {
-    if (!wraps[axis] && !repeats[axis]) return {cellAlong(axis, x - reach), cellAlong(axis, x + reach)};
+    if ((!wraps[axis] || slides[axis]) && !repeats[axis]) return {cellAlong(axis, x - reach), cellAlong(axis, x + reach)};
     const double first = endlessCell(axis, x - reach), last = endlessCell(axis, x + reach);
     // Never a cell twice; with so few cells all of them are looked at.
     if (last - first + 1 >= cells[axis]) return {0, cells[axis] - 1};

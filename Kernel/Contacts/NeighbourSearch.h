@@ -46,7 +46,7 @@ public:
         const Point self = points[grain];
         for (std::size_t l = levelOf[grain]; l < levels.size(); ++l) {
             const bool own = l == levelOf[grain];
-            levels[l].forEachNear(self, [&](std::uint32_t other) {
+            forEachNear(levels[l], self, [&](std::uint32_t other) {
                 if (own && other <= grain) return;
                 if (reaches(self, points[other])) function(other);
             });
@@ -58,7 +58,7 @@ public:
     template <class Function>
     void forEachNear(const Vector<double>& centre, double radius, double farther, Function&& function) const {
         const Point sphere{periodic.wrap(centre), radius + halfMargin + farther};
-        for (const Level& level : levels) level.forEachNear(sphere, function);
+        for (const Level& level : levels) forEachNear(level, sphere, function);
     }
 
 private:
@@ -75,6 +75,7 @@ private:
         std::array<double, 3> inverseSize{};
         std::array<int, 3> cells{1, 1, 1};
         std::array<bool, 3> wraps{};    // the axis is periodic
+        std::array<bool, 3> slides{};   // and the images along it slide
         std::array<bool, 3> repeats{};  // the grid is shorter than the scene
         double largest = 0;             // m, size of the largest member
         std::vector<std::uint32_t> begins;
@@ -122,6 +123,22 @@ private:
             return cell < cells[axis] ? cell : cell - cells[axis];
         }
     };
+
+    /// Calls function(grain) once for those in all cells that a sphere may reach into. In shear, where cells
+    /// beyond a face have slid, it looks from its image there, for the grains to which that is the nearest.
+    template <class Function>
+    void forEachNear(const Level& level, const Point& self, Function&& function) const {
+        if (!periodic.isSheared()) return level.forEachNear(self, function);
+        const double reach = (self.size + level.largest) * norm(periodic.across);  // as a share of the box
+        const double place = dot(periodic.across, self.position - periodic.lowest);
+        for (const double image : {-1.0, 0.0, 1.0}) {
+            if (place - image + reach < 0 || place - image - reach > 1) continue;
+            const Vector<double> there = periodic.wrapAlongAxes(self.position - image * periodic.imageShift);
+            level.forEachNear({there, self.size}, [&](std::uint32_t other) {
+                if (periodic.imagesIn(points[other].position - self.position) == -image) function(other);
+            });
+        }
+    }
 
     [[nodiscard]] bool reaches(const Point& a, const Point& b) const {
         const double reach = a.size + b.size;

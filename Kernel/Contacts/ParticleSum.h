@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Math/Four.h"
 
 namespace pendular {
@@ -46,6 +47,14 @@ template <bool hasTorque, bool hasContactTorque>
             sum.force += signs[side & 1] * loadFour(store.memory.forces[side / 2].force);
         return sum;
     }
+}
+
+/// Asks for what sumContacts reads.
+template <bool hasTorque>
+[[gnu::always_inline]] inline void prefetchContacts(const ContactStore& store, std::size_t grain) {
+    for (const std::uint32_t side : store.sides.of(grain))
+        if constexpr (hasTorque) prefetch(&store.memory.records[side / 2], sizeof(ForceTorqueRecord));
+        else prefetch(&store.memory.forces[side / 2], sizeof(ForceRecord));
 }
 
 }  // namespace pendular

@@ -50,6 +50,7 @@ void SeveralSpeciesLaws::mixAll() {
     species.mixAll();
     layout = {};
     actsApart = formsAtContact = isPlastic = resistsMotion = hasBridges = false;
+    hasLargestCapillaryNumber = false;
     overlapLimit = {};
     joinedName.clear(), joinedFriction.clear(), distinct.clear(), ofPairs.clear();
     std::vector<std::string_view> names, frictions;
@@ -69,6 +70,7 @@ void SeveralSpeciesLaws::mixAll() {
             formsAtContact |= laws.formsAtContact;
             isPlastic |= laws.isPlastic;
             resistsMotion |= laws.resistsMotion;
+            hasLargestCapillaryNumber |= laws.hasLargestCapillaryNumber;
             if (laws.overlapLimit.largest < overlapLimit.largest) overlapLimit = laws.overlapLimit;
             join(laws.name, names, joinedName);
             join(laws.friction, frictions, joinedFriction);

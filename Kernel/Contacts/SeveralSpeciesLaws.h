@@ -37,6 +37,9 @@ public:
     [[nodiscard]] ContactStiffness stiffness(int a, int b, const Bodies& bodies, double mass) const override {
         return ofPair(a, b).stiffness(a, b, bodies, mass);
     }
+    [[nodiscard]] double normalStiffness(int a, int b, const Bodies& bodies, double overlap) const override {
+        return ofPair(a, b).normalStiffness(a, b, bodies, overlap);
+    }
     [[nodiscard]] std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const override {
         return ofPair(a, b).brokenLimits(a, b, bodies);
@@ -47,6 +50,17 @@ public:
     [[nodiscard]] std::optional<LiquidRules> liquidRules(int a, int b) const override {
         const ContactLaws* const laws = find(a, b);
         return laws ? laws->liquidRules(a, b) : std::nullopt;
+    }
+
+    [[nodiscard]] double filmContactGap(int a, int b) const override {
+        const ContactLaws* const laws = find(a, b);
+        return laws ? laws->filmContactGap(a, b) : 0;
+    }
+    [[nodiscard]] double filmContactGap(int a, int b, const Bodies& bodies, double films) const override {
+        return ofPair(a, b).filmContactGap(a, b, bodies, films);
+    }
+    void meetFilms(int a, int b, double* interaction, double gap, double start) const override {
+        ofPair(a, b).meetFilms(a, b, interaction, gap, start);
     }
 
     void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const override {

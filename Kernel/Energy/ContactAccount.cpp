@@ -12,18 +12,26 @@ struct RelativeMotion {
 
 RelativeMotion relativeMotion(const ContactSample& sample, const BodyMotion& first, const BodyMotion& second,
                               bool isWall) {
-    const Vector<double> velocity = first.velocity - (isWall ? sample.wallVelocity : second.velocity);
+    const Vector<double> velocity =
+        first.velocity - (isWall ? sample.wallVelocity : second.velocity + second.slide);
     Vector<double> lever = (first.radius - sample.halfOverlap) * first.spin;
     if (!isWall) lever += (second.radius - sample.halfOverlap) * second.spin;
     return {dot(velocity, sample.normal), velocity + cross(lever, sample.normal),
             sample.effectiveRadius * (first.spin - (isWall ? sample.wallSpin : second.spin))};
 }
 
+Vector<double> tangentialForce(const ContactSample& s) {
+    return s.sliding.spring + s.sliding.rest + s.bridge.drag;
+}
+/// N, on body 1
+Vector<double> forceOnFirst(const ContactSample& s) {
+    return (s.adhesiveForce - s.elasticForce - s.dashpotForce - s.bridge.normalForce) * s.normal +
+           tangentialForce(s);
+}
+
 /// W, that bodies which are held give to the contact: the force on each times its velocity, reversed.
 double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMotion& second, bool isWall) {
-    const Vector<double> tangential = s.sliding.spring + s.sliding.rest + s.bridge.drag;
-    const Vector<double> force =  // on body 1
-        (s.adhesiveForce - s.elasticForce - s.dashpotForce - s.bridge.normalForce) * s.normal + tangential;
+    const Vector<double> tangential = tangentialForce(s), force = forceOnFirst(s);
     const Vector<double> leverless = cross(s.normal, tangential);
     const Vector<double> own = s.effectiveRadius * (s.rolling.spring + s.rolling.rest + s.torsion.spring +
                                                     s.torsion.rest + s.bridge.torque);
@@ -33,8 +41,8 @@ double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMo
         given -=
             dot(force, first.velocity) + dot((first.radius - s.halfOverlap) * leverless + own, first.spin);
     if (second.isHeld)
-        given +=
-            dot(force, second.velocity) - dot((second.radius - s.halfOverlap) * leverless - own, second.spin);
+        given += dot(force, second.velocity + second.slide) -
+                 dot((second.radius - s.halfOverlap) * leverless - own, second.spin);
     return given;
 }
 
@@ -74,6 +82,9 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
     };
     account.walls +=
         half * (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall));
+
+    // An image that moves is moved by the shear or strain.
+    if (!second.isHeld) account.images += half * dot(forceOnFirst(last) + forceOnFirst(now), second.slide);
 
     account.elastic += now.elasticEnergy;
     (kind.isPlastic ? account.plastic : account.stepError) +=

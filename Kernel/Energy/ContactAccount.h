@@ -11,6 +11,7 @@ struct BodyMotion {
     Vector<double> spin{0, 0, 0};      // rad/s
     double radius = 0;                 // m
     bool isHeld = false;               // a wall, or a grain without motion of its own
+    Vector<double> slide{0, 0, 0};     // m/s, where images move: of the one that is met, against itself
 };
 
 /// What the laws of a contact say of its energy.

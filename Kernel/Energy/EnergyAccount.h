@@ -45,6 +45,16 @@ public:
         ledger.carried += potential - potentialEnergy(grains, gravity);
     }
 
+    /// In shear and strain: the grain at a place, the so-manieth in the order of identities, goes over to an
+    /// image that moves otherwise (m/s).
+    void changedImage(const Grains& grains, std::uint32_t place, std::size_t number,
+                      const Vector<double>& velocity, EnergyLedger& ledger) {
+        Vector<double>& then = before[number].velocity;
+        const TranslationRecord& grain = grains.translation[place];
+        if (grain.inverseMass > 0) ledger.images += dot(velocity, then + 0.5 * velocity) / grain.inverseMass;
+        then += velocity;
+    }
+
     /// At the end of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const Vector<double>& gravity, double step,
                 const Integrator& scheme, EnergyLedger& ledger) {
@@ -53,16 +63,21 @@ public:
         std::uint32_t next = 0;
         for (const std::uint32_t place : grains.place) rank[place] = next++;
         ledger.stepError -= workBesidesContacts(grains, gravity, step, scheme, ledger.gravityBefore);
+        const PeriodicBox& box = contacts.periodicBox();
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                  std::size_t lane, EnergyRecord& record) {
             const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
-            const ContactKind kind{.isWall = bucket.wall >= 0,
-                                   .isPlastic = laws.isPlastic,
-                                   .adhesionBreaks = laws.breaks};
-            addContact(record, meanMotion(grains, block.first[lane]),
-                       kind.isWall ? BodyMotion{} : meanMotion(grains, block.second[lane]), kind, step,
-                       account);
+            const ContactKind kind{
+                .isWall = bucket.wall >= 0, .isPlastic = laws.isPlastic, .adhesionBreaks = laws.breaks};
+            const std::uint32_t first = block.first[lane], second = block.second[lane];
+            BodyMotion other = kind.isWall ? BodyMotion{} : meanMotion(grains, second);
+            if (!kind.isWall && box.imagesMove) {
+                const Vector<double> apart =
+                    grains.translation[second].position - grains.translation[first].position;
+                other.slide = -box.velocityBetweenImages(apart, box.nearest(apart));
+            }
+            addContact(record, meanMotion(grains, first), other, kind, step, account);
         });
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
         account.migration = byLiquid.migration;
@@ -127,9 +142,10 @@ private:
              {&L::elastic, &L::tangentialElastic, &L::rollingElastic, &L::torsionElastic, &L::adhesive})
             ledger.*stored = account.*stored;
         if (!isStep) return;
-        for (double L::*summed : {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding,
-                                  &L::rolling, &L::torsion, &L::brokenAdhesion, &L::viscousBridges,
-                                  &L::stiffening, &L::walls, &L::migration, &L::evaporation, &L::stepError})
+        for (double L::*summed :
+             {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding, &L::rolling, &L::torsion,
+              &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls, &L::images, &L::migration,
+              &L::evaporation, &L::stepError})
             ledger.*summed += account.*summed;
     }
 

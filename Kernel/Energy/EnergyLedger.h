@@ -35,6 +35,7 @@ struct EnergyLedger {
     // What the scene has been given since the start.
     double walls = 0;   // by walls that move, and by grains that are held and move
     double driver = 0;  // where a driver changes velocities, places or the gravity
+    double images = 0;  // by images that move against each other: shear and strain of a periodic scene
     // By liquid: bridges whose volume changes while they last (ContactLiquid). A bridge forms without energy,
     // so that all that its force has done is in lost_in_broken_adhesion when it ends.
     double migration = 0;    // liquid comes to a bridge
@@ -60,7 +61,7 @@ struct EnergyLedger {
     }
     /// Constant except for the error of the time steps.
     [[nodiscard]] double total() const { return kinetic + potential + stored() + lost() - given(); }
-    [[nodiscard]] double given() const { return walls + driver + migration + evaporation; }
+    [[nodiscard]] double given() const { return walls + driver + images + migration + evaporation; }
     /// Constant except for round-off.
     [[nodiscard]] double closed() const { return total() + stepError; }
     /// Net work done against adhesions and bridges: negative while they have given more than they took.
@@ -90,6 +91,7 @@ struct EnergyLedger {
                                      {"lost_in_stiffening", &L::stiffening},
                                      {"given_by_walls", &L::walls},
                                      {"given_by_driver", &L::driver},
+                                     {"given_by_images", &L::images},
                                      {"given_by_migration", &L::migration},
                                      {"given_by_evaporation", &L::evaporation},
                                      {"step_error", &L::stepError}});

@@ -10,35 +10,48 @@
 namespace pendular {
 namespace {
 
-template <bool hasSpin, bool hasContactTorque>
+template <bool hasSpin, bool hasContactTorque, bool imagesMove>
 class Loops {
 public:
     using Grains = ParticleStore;
     static constexpr std::size_t grainsWorthAThread = 512;
+    static constexpr std::size_t grainsAhead = 8;  // whose contacts are asked for before
 
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
     /// if one is not a number.
-    static double begin(Grains& grains, double step, int threads, const Integrator& scheme) {
+    static double begin(Grains& grains, double step, int threads, const Integrator& scheme,
+                        const PeriodicBox& box) {
         if (scheme.remembersEarlier()) grains.earlier.resize(grains.size());  // of the first grains in a run
         return largestOfAll(grains, threads, scheme, [&]<bool remembers>(std::size_t k) {
-            return move<remembers>(grains, step, scheme, k);
+            Motion motion = load(grains, k);
+            const double shift2 = move<remembers>(grains, step, scheme, k, box, motion);
+            storeVelocity(grains, k, motion);
+            return shift2;
         });
     }
     /// The new accelerations, and with them the velocities at the end of the step.
     static void finish(Grains& grains, const ContactStore& store, const Vector<double>& gravity, double step,
                        int threads, const Integrator& scheme) {
         largestOfAll(grains, threads, scheme, [&, weight = fourOf(gravity)]<bool remembers>(std::size_t k) {
-            accelerate<remembers>(grains, store, weight, step, scheme, k);
+            Motion motion = load(grains, k);
+            accelerate<remembers>(grains, store, weight, step, scheme, k, motion);
+            storeVelocity(grains, k, motion);
+            storeAcceleration(grains, k, motion);
             return 0.0;
         });
     }
     static double finishAndBegin(Grains& grains, const ContactStore& store, const Vector<double>& gravity,
-                                 double step, double nextStep, int threads, const Integrator& scheme) {
-        return largestOfAll(grains, threads, scheme,
-                            [&, weight = fourOf(gravity)]<bool remembers>(std::size_t k) {
-                                accelerate<remembers>(grains, store, weight, step, scheme, k);
-                                return move<remembers>(grains, nextStep, scheme, k);
-                            });
+                                 double step, double nextStep, int threads, const Integrator& scheme,
+                                 const PeriodicBox& box) {
+        return largestOfAll(
+            grains, threads, scheme, [&, weight = fourOf(gravity)]<bool remembers>(std::size_t k) {
+                Motion motion = load(grains, k);
+                accelerate<remembers>(grains, store, weight, step, scheme, k, motion);
+                storeAcceleration(grains, k, motion);
+                const double shift2 = move<remembers>(grains, nextStep, scheme, k, box, motion);
+                storeVelocity(grains, k, motion);
+                return shift2;
+            });
     }
 
     /// Undoes begin, up to round-off.
@@ -94,57 +107,80 @@ private:
         return *std::max_element(largest.begin(), largest.end());
     }
 
-    /// Returns the squared displacement (m^2).
+    /// How a grain moves, in registers; lane 3 is the number behind the vector in its record.
+    struct Motion {
+        Four velocity, acceleration;         // m/s, m/s^2
+        Four spin{}, angularAcceleration{};  // rad/s, rad/s^2
+    };
+    [[gnu::always_inline]] static Motion load(const Grains& grains, std::size_t k) {
+        Motion motion{loadFour(grains.translation[k].velocity), fourOf(grains.acceleration[k])};
+        if constexpr (hasSpin) {
+            motion.spin = loadFour(grains.rotation[k].spin);
+            motion.angularAcceleration = loadFour(grains.rotation[k].angularAcceleration);
+        }
+        return motion;
+    }
+    /// Only what a part of a step changes: not the numbers behind the vectors.
+    [[gnu::always_inline]] static void storeVelocity(Grains& grains, std::size_t k, const Motion& now) {
+        storeVector(grains.translation[k].velocity, now.velocity, loadFour(grains.translation[k].velocity));
+        if constexpr (hasSpin)
+            storeVector(grains.rotation[k].spin, now.spin, loadFour(grains.rotation[k].spin));
+    }
+    [[gnu::always_inline]] static void storeAcceleration(Grains& grains, std::size_t k, const Motion& now) {
+        grains.acceleration[k] = vectorOf(now.acceleration);
+        if constexpr (hasSpin) {
+            Vector<double>& angular = grains.rotation[k].angularAcceleration;
+            storeVector(angular, now.angularAcceleration, Four{});
+        }
+    }
+
+    /// Moves a grain, and its motion to the start of the forces; returns the squared displacement (m^2).
     template <bool remembers>
     [[gnu::always_inline]] static double move(Grains& grains, double step, const Integrator& scheme,
-                                              std::size_t k) {
+                                              std::size_t k, const PeriodicBox& box, Motion& motion) {
         const double position = scheme.position0 * step, velocity = scheme.velocity0 * step;
         TranslationRecord& grain = grains.translation[k];
-        const Four before = loadFour(grain.velocity), place = loadFour(grain.position);
-        const Four acceleration = fourOf(grains.acceleration[k]);
-        Four mean = before + position * acceleration;
+        const Four place = loadFour(grain.position);
+        Four mean = motion.velocity + position * motion.acceleration;
         if constexpr (remembers) mean += (scheme.position1 * step) * fourOf(grains.earlier[k].acceleration);
         const Four shift = step * mean;
         storeVector(grain.position, place + shift, place);
-        Four after = before + velocity * acceleration;
-        if constexpr (remembers) after += (scheme.velocity1 * step) * fourOf(grains.earlier[k].acceleration);
-        storeVector(grain.velocity, after, before);
+        motion.velocity += velocity * motion.acceleration;
+        if constexpr (remembers)
+            motion.velocity += (scheme.velocity1 * step) * fourOf(grains.earlier[k].acceleration);
         if constexpr (hasSpin) {
-            RotationRecord& turning = grains.rotation[k];
-            const Four spin = loadFour(turning.spin);
-            Four next = spin + velocity * loadFour(turning.angularAcceleration);
+            motion.spin += velocity * motion.angularAcceleration;
             if constexpr (remembers)
-                next += (scheme.velocity1 * step) * fourOf(grains.earlier[k].angularAcceleration);
-            storeVector(turning.spin, next, spin);
+                motion.spin += (scheme.velocity1 * step) * fourOf(grains.earlier[k].angularAcceleration);
         }
-        const double shift2 = squaredNorm(vectorOf(shift));
+        Vector<double> seen = vectorOf(shift);
+        if constexpr (imagesMove)
+            if (grain.radius > 0) seen -= step * box.flowAt(vectorOf(place));  // else a gap, at rest
+        const double shift2 = squaredNorm(seen);
         return std::isnan(shift2) ? infinity : shift2;
     }
 
     template <bool remembers>
     [[gnu::always_inline]] static void accelerate(Grains& grains, const ContactStore& store, Four gravity,
-                                                  double step, const Integrator& scheme, std::size_t k) {
-        TranslationRecord& grain = grains.translation[k];
+                                                  double step, const Integrator& scheme, std::size_t k,
+                                                  Motion& motion) {
+        if (k + grainsAhead < grains.size()) prefetchContacts<hasSpin>(store, k + grainsAhead);
+        const TranslationRecord& grain = grains.translation[k];
         const auto sum = sumContacts<hasSpin, hasContactTorque>(store, k, grain.radius);
         const Four weight = grain.inverseMass == 0 ? Four{} : gravity;
         const Four acceleration = grain.inverseMass * sum.force + weight;
         const Earlier last = remembers ? lastOf(grains, k) : Earlier{};
         const double corrector = scheme.corrector * step;
-        const Four velocity = loadFour(grain.velocity);
-        Four after = velocity + corrector * (acceleration - scheme.now * fourOf(grains.acceleration[k]));
+        motion.velocity += corrector * (acceleration - scheme.now * motion.acceleration);
         if constexpr (remembers)
-            after += (corrector * scheme.earlier) * fourOf(grains.earlier[k].acceleration);
-        storeVector(grain.velocity, after, velocity);
-        grains.acceleration[k] = vectorOf(acceleration);
+            motion.velocity += (corrector * scheme.earlier) * fourOf(grains.earlier[k].acceleration);
+        motion.acceleration = acceleration;
         if constexpr (hasSpin) {
-            RotationRecord& turning = grains.rotation[k];
-            const Four spin = loadFour(turning.spin), before = loadFour(turning.angularAcceleration);
-            const Four angular = turning.inverseInertia * sum.torque;
-            Four next = spin + corrector * (angular - scheme.now * before);
+            const Four angular = grains.rotation[k].inverseInertia * sum.torque;
+            motion.spin += corrector * (angular - scheme.now * motion.angularAcceleration);
             if constexpr (remembers)
-                next += (corrector * scheme.earlier) * fourOf(grains.earlier[k].angularAcceleration);
-            storeVector(turning.spin, next, spin);
-            storeVector(turning.angularAcceleration, angular, before);
+                motion.spin += (corrector * scheme.earlier) * fourOf(grains.earlier[k].angularAcceleration);
+            motion.angularAcceleration = angular;
         }
         if constexpr (remembers) grains.earlier[k] = last;
     }
@@ -152,35 +188,40 @@ private:
 
 /// Calls function.template operator()<Loops<...>>().
 template <class Function>
-auto withLoops(bool hasSpin, bool hasContactTorque, Function&& function) {
-    if (!hasSpin) return function.template operator()<Loops<false, false>>();
-    if (!hasContactTorque) return function.template operator()<Loops<true, false>>();
-    return function.template operator()<Loops<true, true>>();
+auto withLoops(bool hasSpin, bool hasContactTorque, bool imagesMove, Function&& function) {
+    const auto with = [&]<bool moving>() {
+        if (!hasSpin) return function.template operator()<Loops<false, false, moving>>();
+        if (!hasContactTorque) return function.template operator()<Loops<true, false, moving>>();
+        return function.template operator()<Loops<true, true, moving>>();
+    };
+    return imagesMove ? with.template operator()<true>() : with.template operator()<false>();
 }
 
 }  // namespace
 
-double TimeIntegration::begin(ParticleStore& grains, double step, int threads, const Integrator& scheme) {
-    return withLoops(grains.hasSpin, false,
-                     [&]<class L>() { return L::begin(grains, step, threads, scheme); });
+double TimeIntegration::begin(ParticleStore& grains, double step, int threads, const Integrator& scheme,
+                              const PeriodicBox& box) {
+    return withLoops(grains.hasSpin, false, box.imagesMove,
+                     [&]<class L>() { return L::begin(grains, step, threads, scheme, box); });
 }
 void TimeIntegration::finish(ParticleStore& grains, const ContactStore& store, const Vector<double>& gravity,
                              double step, int threads, const Integrator& scheme) {
-    withLoops(grains.hasSpin, store.memory.getLayout().hasContactTorque,
+    withLoops(grains.hasSpin, store.memory.getLayout().hasContactTorque, false,
               [&]<class L>() { L::finish(grains, store, gravity, step, threads, scheme); });
 }
 double TimeIntegration::finishAndBegin(ParticleStore& grains, const ContactStore& store,
                                        const Vector<double>& gravity, double step, double nextStep,
-                                       int threads, const Integrator& scheme) {
-    return withLoops(grains.hasSpin, store.memory.getLayout().hasContactTorque, [&]<class L>() {
-        return L::finishAndBegin(grains, store, gravity, step, nextStep, threads, scheme);
-    });
+                                       int threads, const Integrator& scheme, const PeriodicBox& box) {
+    return withLoops(
+        grains.hasSpin, store.memory.getLayout().hasContactTorque, box.imagesMove, [&]<class L>() {
+            return L::finishAndBegin(grains, store, gravity, step, nextStep, threads, scheme, box);
+        });
 }
 void TimeIntegration::takeBack(ParticleStore& grains, double step, const Integrator& scheme) {
-    withLoops(grains.hasSpin, false, [&]<class L>() { L::takeBack(grains, step, scheme); });
+    withLoops(grains.hasSpin, false, false, [&]<class L>() { L::takeBack(grains, step, scheme); });
 }
 void TimeIntegration::start(ParticleStore& grains, const Integrator& scheme) {
-    withLoops(grains.hasSpin, false, [&]<class L>() { L::start(grains, scheme); });
+    withLoops(grains.hasSpin, false, false, [&]<class L>() { L::start(grains, scheme); });
 }
 
 }  // namespace pendular

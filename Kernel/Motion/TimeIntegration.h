@@ -3,6 +3,7 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
 
@@ -10,8 +11,10 @@ namespace pendular {
 struct TimeIntegration {
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
     /// if one is not a number.
+    /// @param box in shear and strain, displacements are against the flow
     static double begin(ParticleStore& grains, double step, int threads = 1,
-                        const Integrator& scheme = integrators::predictedVelocityVerlet);
+                        const Integrator& scheme = integrators::predictedVelocityVerlet,
+                        const PeriodicBox& box = {});
     /// The new accelerations, and with them the velocities at the end of the step.
     static void finish(ParticleStore& grains, const ContactStore& store, const Vector<double>& gravity,
                        double step, int threads = 1,
@@ -20,7 +23,7 @@ struct TimeIntegration {
     /// once. The same bits.
     static double finishAndBegin(ParticleStore& grains, const ContactStore& store,
                                  const Vector<double>& gravity, double step, double nextStep, int threads,
-                                 const Integrator& scheme);
+                                 const Integrator& scheme, const PeriodicBox& box);
     /// Undoes begin, up to round-off.
     static void takeBack(ParticleStore& grains, double step,
                          const Integrator& scheme = integrators::predictedVelocityVerlet);

@@ -160,6 +160,9 @@ private:
         const OverlapWatch& overlaps = scene.contacts().overlaps();
         rows.addNumber("largest overlap met", overlaps.largestOverlap(), "of the effective radius");
         rows.add("evaluations out of domain", overlaps.countAbove());
+        if (scene.laws().hasLargestCapillaryNumber)
+            rows.add("evaluations above the largest capillary number",
+                     scene.contacts().capillaryNumbers().countAbove());
         if (!broken(scene).empty()) rows.add("bridges out of domain now", bridgesOut(scene));
     }
     /// A sentence for each domain that the scene has left; no commas in it.
@@ -173,6 +176,13 @@ private:
                 "{}: overlaps were above {} of the effective radius in {} evaluations of contacts and the "
                 "largest was {:.3g}; take stiffer grains or lower speeds and loads",
                 limit.law, limit.largest, overlaps.countAbove(), overlaps.largestOverlap()));
+        const CapillaryWatch& numbers = scene.contacts().capillaryNumbers();
+        if (numbers.countAbove() > 0)
+            found.push_back(fmt::format(
+                "bridges were drawn at capillary numbers above the largestCapillaryNumber of their law in {} "
+                "evaluations and the largest was {:.3g}; they may have ruptured too early: set "
+                "largestCapillaryNumber to at least that",
+                numbers.countAbove(), numbers.largestNumber()));
         for (const BrokenLimit& b : broken(scene))
             found.push_back(
                 fmt::format("{} ({} bridges now out of its domain)", b.text(), bridgesOut(scene)));

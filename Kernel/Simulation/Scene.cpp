@@ -7,6 +7,7 @@
 #include "Kernel/Parallel.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
+#include "Kernel/Simulation/StressServo.h"
 
 namespace pendular {
 
@@ -54,7 +55,13 @@ Vec3D Scene::contactForceOn(std::size_t identity) const {
 void Scene::setGravity(const Vec3D& acceleration) {
     for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
     particleHandler.finishStep();  // with the gravity that it had
-    gravity = toVector(acceleration);
+    const Vector<double> before = std::exchange(gravity, toVector(acceleration));
+    try {
+        refuseForMovingImages();
+    } catch (const InputError&) {
+        gravity = before;
+        throw;
+    }
     particleHandler.setGravity(gravity);
     gravityChanged |= hasBegun();
 }
@@ -63,9 +70,71 @@ void Scene::setPeriodic(int axis, double lowest, double highest) {
     requireSetUp("periodic length");
     checkValue("Simulation", "periodic axis", axis, "", fromZeroTo(2));
     checkValue("Simulation", "periodic length", highest - lowest, "m", positive);
-    double Vector<double>::*const along[] = {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
-    periodic.lowest.*along[axis] = lowest;
-    periodic.length.*along[axis] = highest - lowest;
+    periodic.lowest.*LeesEdwards::axes[axis] = lowest;
+    periodic.length.*LeesEdwards::axes[axis] = highest - lowest;
+    lowestAtSetUp = periodic.lowest;
+    lengthAtSetUp = periodic.length;
+    shear.move(periodic, getTime());
+}
+
+void Scene::setLeesEdwards(int flow, int gradient, double rate) {
+    requireSetUp("shear");
+    checkValue("Simulation", "axis of the flow", flow, "", fromZeroTo(2));
+    checkValue("Simulation", "axis of the gradient", gradient, "", fromZeroTo(2));
+    checkValue("Simulation", "shear rate", rate, "1/s", anyFinite);
+    if (flow == gradient)
+        throw InputError(fmt::format(
+            "Simulation: shear: the flow and its gradient are both along axis {}; take two axes.", flow));
+    for (const int axis : {flow, gradient})
+        if (!(periodic.length.*LeesEdwards::axes[axis] > 0))
+            throw InputError(
+                fmt::format("Simulation: shear: the scene does not repeat itself along axis {}; call "
+                            "setPeriodic() for the flow and the gradient first.",
+                            axis));
+    periodic = {periodic.lowest, periodic.length};
+    shear = {flow, gradient, rate, true};
+    shear.move(periodic, getTime());
+}
+
+AxisStrain& Scene::axisToStrain(int axis, std::string_view what) {
+    checkValue("Simulation", fmt::format("axis of the {}", what), axis, "", fromZeroTo(2));
+    if (hasBegun() && !strain.isSet)
+        throw InputError(
+            fmt::format("Simulation: {}: the scene was not set up to be strained; call setStrainRate() at "
+                        "set-up (a rate of 0 will do).",
+                        what));
+    if (!(periodic.length.*LeesEdwards::axes[axis] > 0))
+        throw InputError(fmt::format(
+            "Simulation: {}: the scene does not repeat itself along axis {}; call setPeriodic() first.", what,
+            axis));
+    return strain.axes[static_cast<std::size_t>(axis)];
+}
+
+void Scene::setStrain(int axis, const AxisStrain& how) {
+    strain.axes[static_cast<std::size_t>(axis)] = how;
+    strain.isSet = periodic.imagesMove = true;
+    if (hasBegun()) refuseForMovingImages();
+    else strainAtSetUp = strain;
+}
+
+void Scene::setStrainRate(int axis, double rate) {
+    static_cast<void>(axisToStrain(axis, "strain rate"));
+    checkValue("Simulation", "strain rate", rate, "1/s", anyFinite);
+    setStrain(axis, {.rate = rate});
+}
+
+void Scene::setTargetStress(int axis, double stress, double time, double largestRate) {
+    const double rate = axisToStrain(axis, "target stress").rate;
+    checkValue("Simulation", "target stress", stress, "Pa", anyFinite);
+    checkValue("Simulation", "time of the target stress", time, "s", positive);
+    if (!isSet(largestRate)) largestRate = 0.1 / time;
+    checkValue("Simulation", "largest strain rate", largestRate, "1/s", positive);
+    setStrain(axis, {rate, true, stress, time, largestRate});
+}
+
+double Scene::getStrainRate(int axis) const {
+    checkValue("Simulation", "axis of the strain rate", axis, "", fromZeroTo(2));
+    return strain.axes[static_cast<std::size_t>(axis)].rate;
 }
 
 void Scene::setNumberOfThreads(int count) {
@@ -76,8 +145,7 @@ void Scene::setNumberOfThreads(int count) {
 
 double Scene::stabilityLimit() {
     mixChangedLaws();
-    return sceneStabilityLimit(laws(), {particleHandler.store(), laws().speciesCount()}, wallHandler,
-                               integrator);
+    return sceneStabilityLimit(laws(), grainSizes(particleHandler.store()), wallHandler, integrator);
 }
 
 double Scene::stabilityLimit(std::span<const SphericalParticle> toCome) {
@@ -88,12 +156,65 @@ double Scene::stabilityLimit(std::span<const SphericalParticle> toCome) {
         grains.add({{0, 0, 0}, grain.getRadius(), {0, 0, 0}, grain.isFixed() ? 0 : 1 / mass}, {0, 0, 0},
                    static_cast<std::uint16_t>(grain.getSpeciesIndex()));
     }
-    return sceneStabilityLimit(laws(), {grains, laws().speciesCount()}, wallHandler, integrator);
+    return sceneStabilityLimit(laws(), grainSizes(grains), wallHandler, integrator);
 }
 
 double Scene::shortestContactTime() {
     mixChangedLaws();
-    return shortestHalfPeriod(laws(), {particleHandler.store(), laws().speciesCount()}, wallHandler);
+    return shortestHalfPeriod(laws(), grainSizes(particleHandler.store()), wallHandler);
+}
+
+GrainSizes Scene::grainSizes(const ParticleStore& grains) const {
+    GrainSizes sizes(grains, laws().speciesCount());
+    for (const InletHandler::Sizes& toCome : inletHandler.sizes()) {
+        // Twice, so that of all sizes between them any number may come; the count is that of a dense bed.
+        const auto species = static_cast<std::size_t>(toCome.species);
+        for (const double radius : {toCome.smallest, toCome.smallest, toCome.largest, toCome.largest})
+            for (auto* ranges : {&sizes.all, &sizes.free}) ranges->at(species).add(radius);
+        sizes.count += contactsInDensestBed + 1;
+    }
+    return sizes;
+}
+
+/// Why less than the amount was inserted, and what helps.
+static std::array<std::string, 2> whyLess(const Inserted& made) {
+    if (made.wanted == 0)
+        return {
+            fmt::format("insert(): no grain came, because the first random one is heavier than the amount "
+                        "of {:.6g} kg",
+                        made.wantedMass),
+            "take a larger amount, another seed, or Sample::Exact"};
+    return {fmt::format("insert(): {} of {} grains found room, {:.6g} kg of {:.6g} kg, a solid fraction of "
+                        "{:.3g} of the region; the first left out has a radius of {:.6g} m",
+                        made.number, made.wanted, made.mass, made.wantedMass, made.solidFraction,
+                        made.firstLeftOut),
+            "take a smaller amount, a larger region, or more tries"};
+}
+
+Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
+                       const SphericalParticle& like, const InsertOptions& options) {
+    if (hasBegun() && periodic.imagesMove)
+        throw InputError(
+            "insert(): in a run in shear or strain grains cannot be inserted; insert them at set-up.");
+    const Inserted made = insertGrains(insertionScene(), sizes, region, amount, like, options);
+    if (made.number == made.wanted && made.wanted > 0) return made;
+    const auto [what, advice] = whyLess(made);
+    if (!hasBegun()) throw InputError(fmt::format("{}; {}.", what, advice));
+    if (!std::exchange(noRoomWasTold, true)) logger(LogLevel::Warn, "{}.", what);
+    return made;
+}
+
+void Scene::letOutAndIn(double time) {
+    if (outletHandler.isEmpty() && inletHandler.isEmpty()) return;
+    try {
+        if (!outletHandler.isEmpty()) outletHandler.letOut(particleHandler, threads);
+        if (!inletHandler.isEmpty())
+            inletHandler.letIn(insertionScene(), time, [this](const std::string& sentence) {
+                logger(LogLevel::Warn, "{}", sentence);
+            });
+    } catch (const InputError& refusal) {
+        throw RunError(refusal.what());
+    }
 }
 
 /// Of a run that goes on for longer than it was planned.
@@ -152,15 +273,24 @@ void Scene::setUp() {
 void Scene::advanceByStep(bool another) {
     takeOverChanges();
     emitDroplets();
+    serveStress();
+    boxAtStep = periodic;
     try {
         advance(getTimeStep(), another);
     } catch (const RunError&) {
         Motion::takeBack(particleHandler.store(), getTimeStep(), integrator);
         if (!particleHandler.store().bodies.empty()) bodyMotion.takeBack(particleHandler.store());
         wallHandler.moveTo(getTime());
+        periodic = boxAtStep;
+        if (strain.isSet)
+            for (TranslationRecord& grain : particleHandler.storeInStep().translation)
+                grain.velocity -= periodic.strainAt(grain.position, strainChange);
+        contactSystem.setPeriodicBox(periodic);
         if (ledgerKept) account.takeBack(ledger);
+        fluxPlaneHandler.takeBack();
         throw;
     }
+    letOutAndIn(getTime() + getTimeStep());
 }
 
 void Scene::tellEvents() {
@@ -169,9 +299,10 @@ void Scene::tellEvents() {
 
 void Scene::check() {
     refuseForBodies(particleHandler.store().bodies);
-    GrainSizes sizes(particleHandler.store(), laws().speciesCount());
+    GrainSizes sizes = grainSizes(particleHandler.store());
     checkScene(laws(), sizes, wallHandler, unstableAccepted ? 0 : getTimeStep(), integrator);
-    checkPeriodicLengths(laws(), sizes, wallHandler, periodic);
+    largestReach = checkPeriodicLengths(laws(), sizes, wallHandler, periodic);
+    refuseForMovingImages();
     checkedStep = getTimeStep();
     wallHandler.changesAreKnown();
     const double smallest = sizes.smallest();
@@ -189,6 +320,42 @@ void Scene::refuseForBodies(const RigidBodies& bodies) const {
             fmt::format("Simulation: the integrator {} does not move rigid bodies; take "
                         "integrators::predictedVelocityVerlet or velocityVerlet.",
                         integrator.name));
+    if (!outletHandler.isEmpty())
+        throw InputError("Simulation: outlets do not know rigid bodies; leave the outlets out.");
+}
+
+void Scene::refuseForMovingImages() const {
+    if (!periodic.imagesMove) return;
+    if (shear.isSet && strain.isSet)
+        throw InputError(
+            "Simulation: a scene cannot have both shear (setLeesEdwards()) and strain (setStrainRate(), "
+            "setTargetStress()); take one of them.");
+    const auto refuse = [this](std::string_view what) {
+        throw InputError(fmt::format(
+            "Simulation: in {} there can be no {}.",
+            shear.isSet ? "shear (setLeesEdwards())" : "strain (setStrainRate(), setTargetStress())", what));
+    };
+    if (wallHandler.getSize() > 0) refuse("walls");
+    if (strain.isSet && gravity != Vector<double>{0, 0, 0}) refuse("gravity");
+    if (shear.isSet && gravity.*LeesEdwards::axes[shear.gradient] != 0) refuse("gravity along the gradient");
+    if (!particleHandler.store().bodies.empty()) refuse("rigid bodies");
+    if (!sprayHandler.isEmpty()) refuse("sprays");
+    if (!inletHandler.isEmpty()) refuse("inlets");
+    if (!outletHandler.isEmpty()) refuse("outlets");
+    if (!fluxPlaneHandler.isEmpty()) refuse("flux planes");
+    for (const AxisStrain& axis : strain.axes) {
+        if (!axis.isControlled) continue;
+        if (getTimeStep() >= 2 * axis.time)
+            throw InputError(
+                fmt::format("Simulation: time of the target stress = {:.6g} s; it must be more than half a "
+                            "time step of {:.6g} s, or the stress would ring ever more.",
+                            axis.time, getTimeStep()));
+        for (const double length : {periodic.length.x, periodic.length.y, periodic.length.z})
+            if (!(length > 0))
+                throw InputError(
+                    "Simulation: target stress: the scene does not repeat itself along all three axes, so "
+                    "its stress is not known; call setPeriodic() for all of them.");
+    }
 }
 
 void Scene::mixChangedLaws() {
@@ -267,6 +434,10 @@ void Scene::prepare() {
     if (films.areKept()) keepOutput({.write = [this] { requireLiquid(); }});
     setHasBegun();
     sprayHandler.close();
+    shear.move(periodic, getTime());
+    outletHandler.begin(periodic);
+    fluxPlaneHandler.begin(periodic);
+    inletHandler.begin(insertionScene());
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept,
                           films.areKept() ? &films : nullptr);
     if (isQuiet()) return;
@@ -294,13 +465,15 @@ void Scene::beginLiquid() {
     if (!particleHandler.films().areKept()) return;
     double toCome = liquidToCome;
     const double sprayed = sprayHandler.volumeBy(getTimeMax());
+    const double withGrains = inletHandler.liquidBy(particleHandler, getTimeMax());
     if (!isSet(toCome)) {
         double largest = 0;
         const auto count = static_cast<int>(laws().speciesCount());
         for (int a = 0; a < count; ++a)
             for (int b = a; b < count; ++b)
                 largest = std::max(largest, laws().liquidRules(a, b).value_or(LiquidRules{}).largest);
-        toCome = std::max(0x1p20, 6.0 * static_cast<double>(particleHandler.getSize())) * largest + sprayed;
+        toCome = std::max(0x1p20, 6.0 * static_cast<double>(particleHandler.getSize())) * largest + sprayed +
+                 withGrains;
     } else if (sprayed > toCome) {
         throw InputError(fmt::format(
             "Simulation: liquid to come = {:.6g} m^3, but the sprays emit up to {:.6g} m^3 until the end of "
@@ -358,9 +531,9 @@ LiquidLedger Scene::liquidLedger() const {
 }
 
 void Scene::emitDroplets() {
-    if (sprayHandler.isEmpty()) return;
     try {
-        sprayHandler.emit(particleHandler.films(), getTime() + getTimeStep());
+        inletHandler.requireLiquid(particleHandler, getTime() + getTimeStep());
+        if (!sprayHandler.isEmpty()) sprayHandler.emit(particleHandler.films(), getTime() + getTimeStep());
     } catch (const InputError& refusal) {
         throw RunError(refusal.what());
     }
@@ -402,6 +575,10 @@ void Scene::visitAll(StateArchive& archive) {
         archive.same("liquidDensity", liquidDensity, "kg/m^3");
         archive.group("sprays", [&] { sprayHandler.visitState(archive, particleHandler.films()); });
     }
+    archive.group("inlets", [&] { inletHandler.visitState(archive); });
+    archive.group("outlets", [&] { outletHandler.visitState(archive); });
+    archive.group("fluxPlanes", [&] { fluxPlaneHandler.visitState(archive); });
+    archive.value("noRoomWasTold", noRoomWasTold);
     visitOutputs(archive);
 }
 
@@ -432,12 +609,43 @@ void Scene::visitSurroundings(StateArchive& archive) {
     archive.value("gravityChanged", gravityChanged);
     if (gravityChanged) archive.finite("gravity", gravity);
     particleHandler.setGravity(gravity);
+    archive.same("shearRate", shear.rate, "1/s");
+    archive.same("shearFlow", shear.flow);
+    archive.same("shearGradient", shear.gradient);
     for (std::size_t k = 0; k < 3; ++k) {
         if (!gravityChanged)
             archive.group("gravity", [&] { archive.same(axes[k], gravity.*along[k], "m/s^2"); });
-        archive.group("periodicLowest", [&] { archive.same(axes[k], periodic.lowest.*along[k], "m"); });
-        archive.group("periodicLength", [&] { archive.same(axes[k], periodic.length.*along[k], "m"); });
+        archive.group("periodicLowest", [&] { archive.same(axes[k], lowestAtSetUp.*along[k], "m"); });
+        archive.group("periodicLength", [&] { archive.same(axes[k], lengthAtSetUp.*along[k], "m"); });
     }
+    archive.group("strain", [&] { visitStrain(archive); });
+}
+
+/// Rates and targets are set up as they were; what the run has made of them comes from the file.
+void Scene::visitStrain(StateArchive& archive) {
+    archive.same("isSet", strain.isSet);
+    if (!strain.isSet) return;
+    for (std::size_t k = 0; k < 3; ++k)
+        archive.group(fmt::format("axis{}", k), [&] {
+            const AxisStrain& first = strainAtSetUp.axes[k];
+            archive.same("firstRate", first.rate, "1/s");
+            archive.same("firstStress", first.stress, "Pa");
+            archive.same("firstTime", first.time, "s");
+            archive.same("firstLargestRate", first.largestRate, "1/s");
+            AxisStrain& now = strain.axes[k];
+            archive.value("isControlled", now.isControlled);
+            archive.finite("rate", now.rate);
+            archive.finite("stress", now.stress);
+            archive.finite("time", now.time);
+            archive.finite("largestRate", now.largestRate);
+        });
+    archive.finite("lowest", periodic.lowest);
+    archive.finite("length", periodic.length);
+    archive.finite("imageSpeed", periodic.strainRate);
+    for (std::size_t k = 0; k < 3; ++k)
+        archive.require(
+            (periodic.length.*LeesEdwards::axes[k] > 0) == (lengthAtSetUp.*LeesEdwards::axes[k] > 0),
+            "length", "is not that of a periodic scene");
 }
 
 void Scene::writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
@@ -448,13 +656,29 @@ void Scene::writeLastState(const std::filesystem::path& grains, const std::files
 
 /// The first half of a step's motion, and what was left of the last step.
 double Scene::move(ParticleStore& grains, double length) {
+    double farthest = 0;  // m^2
     if (particleHandler.takeUnfinishedStep()) {
         enter(StepTimes::Part::Sum);
-        return Motion::finishAndBegin(grains, contactSystem.store(), gravity, leftLength, length, threads,
-                                      integrator);
+        farthest = Motion::finishAndBegin(grains, contactSystem.store(), gravity, leftLength, length, threads,
+                                          integrator, periodic);
+    } else {
+        enter(StepTimes::Part::Motion);
+        farthest = Motion::begin(grains, length, threads, integrator, periodic);
     }
-    enter(StepTimes::Part::Motion);
-    return Motion::begin(grains, length, threads, integrator);
+    if (!grains.bodies.empty()) farthest = std::max(farthest, bodyMotion.begin(grains, length, integrator));
+    if (!periodic.imagesMove) return std::sqrt(farthest);
+    // The flow carries all grains, and those that are near each other apart at this rate; the skin of a list
+    // is at most the smallest radius.
+    const Vector<double> rates = periodic.strainRate;
+    const double rate =
+        std::max({std::abs(shear.rate), std::abs(rates.x), std::abs(rates.y), std::abs(rates.z)});
+    shear.move(periodic, getTime() + length);
+    if (strain.isSet) HomogeneousStrain::move(periodic, length);
+    contactSystem.setPeriodicBox(periodic);
+    if (const auto objection = objectionToLengths(periodic, largestReach))
+        throw RunError(fmt::format("At time {:.6g} s the {}", getTime(), *objection));
+    return std::sqrt(farthest) +
+           0.5 * rate * length * (largestReach + contactSystem.filmReach() + smallestRadius);
 }
 
 void Scene::finishLeftStep() {
@@ -467,9 +691,10 @@ void Scene::finishLeftStep() {
 void Scene::advance(double length, bool another) {
     ParticleStore& grains = particleHandler.storeInStep();
     intoLedger([&] { account.begin(grains, gravity, length, ledger); });
-    double farthest = move(grains, length);
-    if (!grains.bodies.empty()) farthest = std::max(farthest, bodyMotion.begin(grains, length, integrator));
-    const double grainShift = std::sqrt(farthest);
+    if (!fluxPlaneHandler.isEmpty()) fluxPlaneHandler.beforeMotion(grains);
+    beginStrain(grains, length);
+    const double grainShift = move(grains, length);
+    if (!fluxPlaneHandler.isEmpty()) fluxPlaneHandler.afterMotion(particleHandler);
     refuseRunaway(grainShift);
     const double wallShift = wallHandler.moveTo(getTime() + length);
     enter(StepTimes::Part::Search);
@@ -490,7 +715,8 @@ void Scene::advance(double length, bool another) {
     enter(StepTimes::Part::Sum);
     leftLength = length;
     particleHandler.leaveStepUnfinished();
-    if (!another || ledgerKept || !grains.bodies.empty() || !sprayHandler.isEmpty() || liquidDensity > 0)
+    if (!another || ledgerKept || !grains.bodies.empty() || !sprayHandler.isEmpty() || liquidDensity > 0 ||
+        strain.isSet)
         particleHandler.finishStep();
     if (!grains.bodies.empty())
         RigidBodyMotion::finish(grains, contactSystem.store(), gravity, length, integrator);
@@ -501,8 +727,51 @@ void Scene::advance(double length, bool another) {
     enter(StepTimes::Part::Other);
 }
 
+template <class Function>
+void Scene::changeVelocities(ParticleStore& grains, Function&& changeAt) {
+    std::size_t number = 0;
+    for (const std::uint32_t place : grains.place) {
+        TranslationRecord& grain = grains.translation[place];
+        if (const Vector<double> change = changeAt(grain.position); squaredNorm(change) > 0) {
+            grain.velocity += change;
+            intoLedger([&] { account.changedImage(grains, place, number, change, ledger); });
+        }
+        ++number;
+    }
+}
+
+void Scene::beginStrain(ParticleStore& grains, double length) {
+    if (!strain.isSet || length == 0) return;
+    strainChange = strain.begin(periodic, length);
+    changeVelocities(grains,
+                     [&](const Vector<double>& place) { return periodic.strainAt(place, strainChange); });
+}
+
+void Scene::serveStress() {
+    double shortest = infinity;  // s
+    double lowest = 0;           // Pa
+    for (const AxisStrain& axis : strain.axes)
+        if (axis.isControlled)
+            shortest = std::min(shortest, axis.time), lowest = std::min(lowest, axis.stress);
+    if (shortest == infinity) return;
+    constexpr double looksInTime = 100;
+    const auto interval =
+        std::max<std::size_t>(static_cast<std::size_t>(shortest / getTimeStep() / looksInTime), 1);
+    if (getNumberOfTimeSteps() % interval != 0) return;
+    const DiagonalStress now = diagonalStress(contactSystem, particleHandler.store(), strain);
+    if (now.touches == 0 && lowest < 0)
+        throw RunError(fmt::format(
+            "At time {:.6g} s no two grains touch, and the target stress of {:.6g} Pa is a tension: grains "
+            "that are apart cannot bear it; take a higher one, or grains that stick together.",
+            getTime(), lowest));
+    controlStress(strain, now);
+}
+
 void Scene::bringBack(ParticleStore& grains) {
     if (!periodic.any() || getNumberOfTimeSteps() % stepsBetweenBringingBack != 0) return;
+    // Grains that have left a scene whose images move go over to the velocity of their image inside.
+    if (periodic.imagesMove)
+        changeVelocities(grains, [&](const Vector<double>& place) { return periodic.velocityOfWrap(place); });
     for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         grains.bodies[k].position = periodic.wrap(grains.bodies[k].position);

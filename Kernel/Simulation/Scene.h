@@ -2,13 +2,18 @@
 
 #include <memory>
 
+#include "Kernel/Boundaries/FluxPlane.h"
+#include "Kernel/Boundaries/Outlet.h"
 #include "Kernel/Boundaries/SprayHandler.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/EnergyAccount.h"
+#include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Output/OutputForm.h"
 #include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/Particles/HomogeneousStrain.h"
+#include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/DomainBox.h"
 #include "Kernel/Simulation/Run.h"
@@ -35,6 +40,19 @@ public:
     WallHandler wallHandler;
     /// Droplets that come to the grains, in a scene in which liquid moves.
     SprayHandler sprayHandler;
+    /// Where grains come at a rate, where they go, and planes that count them.
+    InletHandler inletHandler;
+    OutletHandler outletHandler;
+    FluxPlaneHandler fluxPlaneHandler;
+
+    /// Inserts grains that overlap nothing, at set-up or from a hook, after the walls that are to hold them.
+    /// Dense starts (a solid fraction above 0.2, up to 0.6) take some 30 us of one core for each grain.
+    ///
+    /// Throws InputError if sizes, region and amount do not fit each other (Insertion.h), and at set-up if
+    /// there is no room for all grains. In a run this is said once, and told by what is returned.
+    /// @param like species, velocity, spin and film of all of them; sizes and places come from this
+    Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
+                    const SphericalParticle& like, const InsertOptions& options = {});
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
     /// it has a function prepare(*this), that is called at once, and again when the scene is set up;
@@ -62,6 +80,31 @@ public:
     /// The scene repeats itself along an axis (0, 1, 2: x, y, z) from lowest to highest (m). The length must
     /// be at least twice the largest distance of two centres at which grains act on each other.
     void setPeriodic(int axis, double lowest, double highest);
+    /// Shears a periodic scene without walls: images that follow each other along the axis `gradient` move
+    /// past each other along the axis `flow`, so that the mean velocity along the flow grows by the rate
+    /// (1/s) with each metre of the gradient. The scene must repeat itself along both axes, and have no walls
+    /// and no gravity along the gradient. Grains begin with the velocities that they are given: those of
+    /// shearFlowAt(), or momentum must first spread from the faces.
+    void setLeesEdwards(int flow, int gradient, double rate);
+    /// Strains a periodic scene without walls and gravity: the logarithm of its length along an axis grows by
+    /// the rate (1/s), about its middle. Dashpots feel the flow, in which grains that are at rest go along:
+    /// when a rate is set or changed, all grains get the change of their velocity that it makes where they
+    /// are. In a run it holds from the next step on; the scene must have been set up with a rate (0 will do)
+    /// or a stress along one of its axes.
+    void setStrainRate(int axis, double rate);
+    /// The same by a servo, so that the mean stress along the axis (Pa, compression positive; 0 is a target
+    /// too) becomes the target: the rate is the difference over the stiffness of the contacts and the time
+    /// (s), at most the largest rate (1/s), 0.1 / time if it is not given. The time must be more than half a
+    /// step; take at least twice the time in which sound passes the scene. The stress is looked at 100 times
+    /// in it, or at each step.
+    void setTargetStress(int axis, double stress, double time, double largestRate = unset);
+    /// 1/s, of the logarithm of the length along an axis, in the last step.
+    [[nodiscard]] double getStrainRate(int axis) const;
+    /// m/s, of the flow of setLeesEdwards() at a place (m); it is at rest in the middle of the box.
+    [[nodiscard]] Vec3D shearFlowAt(const Vec3D& place) const {
+        return toEigen(periodic.flowAt(toVector(place)));
+    }
+    [[nodiscard]] const PeriodicBox& getPeriodicBox() const { return periodic; }
     /// Threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
     /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
@@ -187,7 +230,23 @@ private:
     /// RunError with the sentence of set-up.
     void takeOverChanges();
     void mixChangedLaws();
+    [[nodiscard]] InsertionScene insertionScene() {
+        return {particleHandler, wallHandler, periodic, threads};
+    }
+    /// Of all grains that there are and that inlets will bring.
+    [[nodiscard]] GrainSizes grainSizes(const ParticleStore& grains) const;
+    /// At the end of a step (s), grains go and come.
+    void letOutAndIn(double time);
     void refuseForBodies(const RigidBodies& bodies) const;
+    void refuseForMovingImages() const;
+    AxisStrain& axisToStrain(int axis, std::string_view what);
+    void setStrain(int axis, const AxisStrain& how);
+    /// Where a target of the stress is set, takes the rates for the step to come. Throws RunError where the
+    /// grains cannot bear it.
+    void serveStress();
+    /// The grains go along with the strain of a step (s) to come.
+    void beginStrain(ParticleStore& grains, double length);
+    void visitStrain(StateArchive& archive);
     /// Whether the checks must be made again for grains that were added.
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
     void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
@@ -213,6 +272,7 @@ private:
                         const std::string& remark) override;
 
     void advance(double length, bool another);
+    /// Returns a bound of what two grains that are near each other approach by, half of it (m).
     double move(ParticleStore& grains, double length);
     void finishLeftStep();
     template <class Entries>
@@ -226,6 +286,10 @@ private:
     /// Brings grains that have left a periodic scene back into it; at fixed steps, so that no bit depends on
     /// when contacts are listed.
     void bringBack(ParticleStore& grains);
+    /// Grains whose images move otherwise from now on get another velocity.
+    /// @param changeAt (place, m): by how much, m/s
+    template <class Function>
+    void changeVelocities(ParticleStore& grains, Function&& changeAt);
     static constexpr std::size_t stepsBetweenBringingBack = 256;
     /// Whenever grains can have approached by a tenth of the smallest radius: nothing that lasts goes deeper
     /// unseen by more. It does not depend on when contacts are listed.
@@ -240,6 +304,12 @@ private:
     EnergyLedger ledger;
     EnergyAccount account;
     PeriodicBox periodic;
+    PeriodicBox boxAtStep;                                          // before the step
+    Vector<double> lowestAtSetUp{0, 0, 0}, lengthAtSetUp{0, 0, 0};  // m
+    LeesEdwards shear;
+    HomogeneousStrain strain, strainAtSetUp;
+    Vector<double> strainChange{0, 0, 0};  // 1/s, with which the step began
+    double largestReach = 0;               // m, of two centres that act on each other
     Vector<double> gravity{0, 0, 0};
     Integrator integrator = integrators::predictedVelocityVerlet;
     double smallestRadius = infinity;
@@ -257,6 +327,7 @@ private:
     int threads = 1;
     bool unstableAccepted = false;
     bool ledgerKept = false;
+    bool noRoomWasTold = false;  // of insert() in the run
 };
 
 }  // namespace pendular

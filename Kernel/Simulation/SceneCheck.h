@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -158,24 +160,34 @@ inline void checkScene(const ContactLaws& species, const GrainSizes& grains, con
                         timeStep, limit, std::min(limit, 0.04 * shortestHalfPeriod(species, grains, walls))));
 }
 
-/// Throws InputError if the scene repeats itself so soon that a grain could meet two images of another: a
-/// contact knows the nearest image only.
-inline void checkPeriodicLengths(const ContactLaws& species, const GrainSizes& grains,
-                                 const WallHandler& walls, const PeriodicBox& box) {
-    double reach = 0;  // m, of two centres that act on each other
-    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {
-        if (bodies.radius2 < infinity)
-            reach = std::max(reach, bodies.radius1 + bodies.radius2 + laws.range(bodies));
-    });
+/// If the scene repeats itself so soon that a grain could meet two images of another: a contact knows the
+/// nearest image only.
+/// @param reach m, the largest distance of two centres that act on each other
+inline std::optional<std::string> objectionToLengths(const PeriodicBox& box, double reach) {
     const std::array<std::pair<char, double>, 3> lengths{
         {{'x', box.length.x}, {'y', box.length.y}, {'z', box.length.z}}};
     for (const auto& [axis, length] : lengths)
         if (length > 0 && length < 2 * reach)
-            throw InputError(fmt::format(
-                "Simulation: periodic length along {} = {:.6g} m is too short; it must be at "
+            return fmt::format(
+                "periodic length along {} = {:.6g} m is too short; it must be at "
                 "least {:.6g} m, twice the largest distance at which two grains of this scene act "
                 "on each other.",
-                axis, length, 2 * reach));
+                axis, length, 2 * reach);
+    return std::nullopt;
+}
+
+/// Throws InputError with that objection. Returns the largest distance (m) of two centres that act on each
+/// other.
+inline double checkPeriodicLengths(const ContactLaws& species, const GrainSizes& grains,
+                                   const WallHandler& walls, const PeriodicBox& box) {
+    double reach = 0;
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {
+        if (bodies.radius2 < infinity)
+            reach = std::max(reach, bodies.radius1 + bodies.radius2 + laws.range(bodies));
+    });
+    if (const auto objection = objectionToLengths(box, reach))
+        throw InputError(fmt::format("Simulation: {}", *objection));
+    return reach;
 }
 
 /// Throws InputError if two bodies overlap by more than a sound share of the smaller radius (m).

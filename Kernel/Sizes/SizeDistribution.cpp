@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "Kernel/Capillary/GaussLegendre.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Math/GaussLegendre.h"
 
 namespace pendular {
 

@@ -291,12 +291,27 @@ concept HasDynamicRupture = requires(const Law law, const typename Law::template
     { bridge.force(law, 1.0, 1.0) } -> std::same_as<double>;
 };
 
+/// A bridge whose law has a largest capillary number, for which its range is made: numberAboveBound(law,
+/// separation, speed of opening) is its capillary number where that is larger, and else 0.
+template <class Law>
+concept HasLargestCapillaryNumber = requires(const Law law,
+                                             const typename Law::template Interaction<double> bridge) {
+    { bridge.numberAboveBound(law, 1.0, 1.0) } -> std::same_as<double>;
+};
+
 /// An adhesion law whose liquid moves: each contact has a bridge of its own volume, or none
 /// (Adhesion/Shared/LiquidMigration.h). It has liquidRules(), and prepare(bodies, volume) besides
 /// prepare(bodies), which is a contact without liquid.
 template <class Law>
 concept MovesLiquid = requires {
     requires Law::movesLiquid;
+};
+
+/// A bridge of a fixed volume that may form before the bodies touch, below the gap `filmContactGap` (m) of
+/// its law: 0 where it does not.
+template <class Law>
+concept HasFilmContactGap = !MovesLiquid<Law> && requires(const Law law) {
+    { law.filmContactGap } -> std::convertible_to<double>;
 };
 
 /// The separation (m) that an adhesion law is given at an overlap (m): 0 in contact, or negative for a law

@@ -134,7 +134,7 @@ public:
     template <class Number, RecordOf<Number> Record>
     void same(std::string_view name, std::span<const Record> records) {
         std::vector<Number> numbers(records.size_bytes() / sizeof(Number));
-        std::memcpy(numbers.data(), records.data(), records.size_bytes());
+        if (!records.empty()) std::memcpy(numbers.data(), records.data(), records.size_bytes());
         if (!isReading()) return column<Number>(name, numbers);
         std::vector<Number> kept;
         column<Number>(name, kept);

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "Kernel/Capillary/GaussLegendre.h"
+#include "Kernel/Math/GaussLegendre.h"
 
 using namespace pendular;
 

@@ -62,6 +62,31 @@ TEST(FieldsOfAScene, areItsMassMomentumVirialAndWallForces) {
     EXPECT_NEAR(onGrains.z, -walls.z(), 1e-11 * walls.norm());
 }
 
+// What fields take of contacts is what an observer sees, in the same order, by any number of threads.
+TEST(FieldsOfAScene, takeTheContactsThatAreObserved) {
+    const TestFolder folder;
+    const auto run = settled(folder.path());
+    for (const int threads : {1, 3}) {
+        run->setNumberOfThreads(threads);
+        const GrainState state = stateOf(*run);
+        std::size_t k = 0, bridged = 0, walls = 0;
+        for (const ObservedContact& seen : run->interactions()) {
+            ASSERT_LT(k, state.contacts.size());
+            const GrainState::Contact& taken = state.contacts[k++];
+            EXPECT_EQ(taken.shift, seen.shift);
+            EXPECT_EQ(taken.force, seen.force);
+            EXPECT_EQ(taken.adhesiveForce, seen.adhesiveForce);
+            EXPECT_EQ(taken.liquid, seen.bridgeVolume);
+            EXPECT_EQ(taken.touching, seen.touching);
+            EXPECT_EQ(taken.second == GrainState::Contact::wall, seen.wall >= 0);
+            bridged += seen.bridged, walls += seen.wall >= 0;
+        }
+        EXPECT_EQ(k, state.contacts.size());
+        EXPECT_GT(bridged, 0u);
+        EXPECT_GT(walls, 0u);
+    }
+}
+
 TEST(FieldsOfAScene, areThoseOfItsFrames) {
     const TestFolder folder;
     const auto run = settled(folder.path());

@@ -75,7 +75,14 @@ TEST(Drivers, printNothingWhereTheyAreQuiet) {
         {"ObliqueImpact", "--angles-deg 10 --angles-deg 60"},
         {"Penetration", "--number 120 --softening 100 --end-time-s 0.001"},
         {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"},
+        {"ShearCell", "--number 108 --stiffness 1e4 --strain 0.2 --interval-strain 0.1"},
+        {"SiloFilling", "--mass-kg 0.002 --fill-time-s 0.02 --end-time-s 0.04 --average-s 0.01"},
+        {"ShearedSuspension", "--number 60 --strain 0.1 --begin-strain 0.05 --interval-strain 0.05"},
+        {"SplitBottom", "--cylinder-m 0.008 --disc-m 0.004 --layers 3 --begin-s 0.01 --end-time-s 0.03"},
         {"SprayCoating", "--length-m 0.008 --begin-s 0.01 --end-time-s 0.03 --interval-s 0.01"},
+        {"WetPlaneShear", "--strain 0.2"},
+        {"TriaxialTest",
+         "--number 64 --stiffness 1e3 --inertial-number 0.05 --strain 0.1 --interval-strain 0.05"},
         {"WetWallCollision", "--speeds-m/s 1"}};
     for (const std::string& name : everyDriver()) {
         const TestFolder folder;
@@ -211,6 +218,36 @@ TEST(LiquidInShear, writesProfilesThatHoldAllLiquid) {
         "liquidBridgeVolumeMax = 1e-09 m^3");
 }
 
+// Friction rises and the solid fraction falls with the reduced pressure (Khamseh, Roux and Chevoir 2015). The
+// wall is in balance: what its brake takes in the mean is that of a fall of some grains' size, 1 % of the
+// pressure; the rest of the tenth is noise.
+TEST(HeavyWetPlaneShear, isHarderAndLooserTheLessItIsPressed) {
+    struct Means {
+        double friction = 0, push = 0, solidFraction = 0, rows = 0;
+    };
+    const auto meansAt = [](const std::string& pressure) {
+        const TestFolder folder;
+        const auto result = run(drivers + "/WetPlaneShear/WetPlaneShear --strain 4 --reduced-pressure " +
+                                pressure + " " + folder.option());
+        EXPECT_EQ(result.exitCode, 0) << result.output;
+        EXPECT_EQ(headerOf(folder.path() / "shear.csv"),
+                  "time_s,strain,reduced_pressure,friction,normal_stress_over_pressure,solid_fraction");
+        Means means;
+        for (const auto& row : rowsOf(folder.path() / "shear.csv"))
+            if (row[1] > 2)
+                means.friction += row[3], means.push += row[4], means.solidFraction += row[5],
+                    means.rows += 1;
+        EXPECT_GT(means.rows, 15);
+        EXPECT_NEAR(means.push / means.rows, 1, 0.1) << pressure;
+        return means;
+    };
+    const Means loose = meansAt("0.5"), pressed = meansAt("20");
+    EXPECT_GT(loose.friction / loose.rows, 1.2 * pressed.friction / pressed.rows);
+    EXPECT_LT(loose.solidFraction / loose.rows, pressed.solidFraction / pressed.rows - 0.02);
+    expectOneSentence(run(drivers + "/WetPlaneShear/WetPlaneShear --reduced-pressure 0"),
+                      "reduced-pressure = 0");
+}
+
 TEST(DryingBed, losesItsTensionWithItsLiquid) {
     const TestFolder folder;
     const auto result = run(drivers + "/DryingBed/DryingBed --number 150 --begin-s 0.03 --end-time-s 0.17 " +
@@ -231,7 +268,7 @@ TEST(DryingBed, losesItsTensionWithItsLiquid) {
     EXPECT_NE(result.output.find("liquid unaccounted for               0 m^3"), std::string::npos)
         << result.output;
     expectOneSentence(run(drivers + "/DryingBed/DryingBed --flux-m/s -1 " + folder.option()),
-                      "flux = -1 m/s");
+                      "--flux-m/s = -1 m/s");
 }
 
 TEST(SprayCoating, countsWhatItSprays) {
@@ -254,7 +291,7 @@ TEST(SprayCoating, countsWhatItSprays) {
     EXPECT_NE(result.output.find("liquid unaccounted for               0 m^3"), std::string::npos)
         << result.output;
     expectOneSentence(run(drivers + "/SprayCoating/SprayCoating --drop-radius-m 0 " + folder.option()),
-                      "droplet radius = 0 m");
+                      "--drop-radius-m = 0 m");
 }
 
 TEST(Penetration, writesTheDepthUntilTheIntruderStops) {
@@ -287,6 +324,41 @@ TEST(Penetration, goesOnAfterTheStopIfAsked) {
         << "it comes back from its deepest point";
 }
 
+/// Floor and wall bear the weight of all that has come; what the wall bears is what its layers say.
+TEST(SiloFilling, bearsTheWeightOfWhatHasCome) {
+    const TestFolder folder;
+    const auto result = run(drivers +
+                            "/SiloFilling/SiloFilling --mass-kg 0.004 --fill-time-s 0.04 --end-time-s 0.36 "
+                            "--average-s 0.02 --wall-force-interval-s 0.002 " +
+                            folder.option());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_NE(result.output.find("of the weight"), std::string::npos);
+    const auto inlets = rowsOf(folder.path() / "run-inlets.csv");
+    ASSERT_GE(inlets.size(), 30u);
+    const double mass = inlets.back()[3];
+    EXPECT_LE(mass, 0.004);
+    EXPECT_GT(mass, 0.004 - 4.0 / 3 * std::numbers::pi * std::pow(0.5 * 1.5 * 2.5e-3, 3) * 2500);
+    double floor = 0, wall = 0, squares = 0, samples = 0;
+    for (const auto& row : rowsOf(folder.path() / "run-wall-forces.csv")) {
+        if (row[0] <= 0.34) continue;
+        (row[1] == 0 ? floor : wall) += row[4], samples += 0.5;
+        if (row[1] == 1) squares += row[4] * row[4];
+    }
+    // The floor, which went down at 2.5 medians a second, stops at the beginning of these 20 ms: the momentum
+    // that the bed loses is this part of what its weight gives in that time,
+    // which states that are 2 ms apart may see or miss.
+    EXPECT_NEAR(-(floor + wall) / samples / (9.81 * mass), 1, 2.5 * 2.5e-3 / (9.81 * 0.02));
+    // Layers and file are means of as many states, at times up to 0.2 ms apart: three standard errors of
+    // their difference.
+    const double mean = wall / samples, error = std::sqrt((squares / samples - mean * mean) / samples);
+    double shear = 0, depth = 0;
+    const auto layers = rowsOf(folder.path() / "pressure.csv");
+    ASSERT_EQ(layers.size(), 12u);
+    for (const auto& row : layers) shear += row[2], depth += 2 * row[0] / 12;
+    EXPECT_NEAR(shear * 2 * std::numbers::pi * 0.0125 * depth / 12, -wall / samples,
+                3 * std::sqrt(2) * error);
+}
+
 TEST(HopperDischarge, writesCurvesAndFlows) {
     const TestFolder folder;
     const auto result = run(hopper +
@@ -306,6 +378,23 @@ TEST(HopperDischarge, writesCurvesAndFlows) {
     EXPECT_GT(mass[0.012], mass[0.01]) << "the wider orifice lets more through";
     // A line through two points meets both.
     for (const auto& row : rowsOf(folder.path() / "flow.csv")) EXPECT_NEAR(row[3] / row[1], 1, 1e-9);
+}
+
+TEST(HopperDischarge, withAConeEmptiesToTheLastGrainOfAFileOfSizes) {
+    const TestFolder folder;
+    const TemporaryFile sizes(".csv", "diameter_mm,cumulative_volume_percent\n1.6,0\n2,50\n2.6,100\n");
+    const auto result =
+        run(hopper + "--number 150 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.012 " +
+            "--cone-deg 60 --begin-s 0.02 --end-time-s 3 --interval-s 0.01 --sizes " + sizes.path.string() +
+            " " + folder.option());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    const std::string all = "150 of 150 grains have left";
+    const std::size_t once = result.output.find(all);
+    ASSERT_NE(once, std::string::npos) << result.output;
+    EXPECT_NE(result.output.find(all, once + 1), std::string::npos);
+    for (const auto& row : rowsOf(folder.path() / "discharge.csv"))
+        EXPECT_LT(row[1], 2);  // it ended with them
+    expectOneSentence(run(hopper + "--sizes " + sizes.path.string() + " --grain-diameter-m 0.001"), "");
 }
 
 /// The closed hopper bears the weight of what has settled in it, 2500 kg/m^3, evenly from 1.8 to 2.2 mm; the
@@ -406,6 +495,9 @@ TEST(Drivers, goOnWhereTheyWere) {
     expectResumes(
         hopper + "--number 120 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.012 --begin-s 0.02",
         "--end-time-s 0.05", "--end-time-s 0.06");
+    expectResumes(
+        drivers + "/SplitBottom/SplitBottom --cylinder-m 0.008 --disc-m 0.004 --layers 3 --begin-s 0.01",
+        "--end-time-s 0.05", "--end-time-s 0.1");
     expectResumes(drivers + "/TwoParticleCollision/TwoParticleCollision ", "--time-max-s 2e-4",
                   "--time-max-s 0.02");
 }
@@ -461,14 +553,29 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
     expectOneSentence(run(hopper + "--orifice-m 0.01 --orifice-m 0.045"), "orifice diameter = 0.045 m");
     expectOneSentence(run(hopper + "--grain-diameter-m -1"), "grain diameter = -1 m");
     expectOneSentence(run(hopper + "--elastic-modulus-Pa 0"), "elastic modulus = 0 Pa");
+    expectOneSentence(run(hopper + "--cone-deg 90"), "slope of the cone = 90 degrees");
+    expectOneSentence(run(hopper + "--cone-deg nan"), "slope of the cone");
+    expectOneSentence(run(hopper + "--sizes nowhere.csv"), "nowhere.csv");
+    const std::string silo = drivers + "/SiloFilling/SiloFilling ";
+    for (const std::string option : {"--radius-m", "--mass-kg", "--median-m", "--deviation", "--friction",
+                                     "--fill-time-s", "--end-time-s", "--average-s", "--interval-s"})
+        for (const std::string value : {"nan", "inf", "-1"})
+            expectOneSentence(run(silo + option + " " + value), "");
+    expectOneSentence(run(silo + "--fill-time-s 0.1"), "solid fraction of 0.25");
+    expectOneSentence(run(silo + "--median-m 0.02"), "does not fit the region");
     expectOneSentence(run(hopper + "--begin-s 1"), "start of the steady part = 1 s");
+    const std::string split = drivers + "/SplitBottom/SplitBottom ";
+    expectOneSentence(run(split + "--disc-m 0.04"), "--disc-m = 0.04 m");
+    expectOneSentence(run(split + "--rate-rad/s nan"), "--rate-rad/s");
+    expectOneSentence(run(split + "--layers 0"), "--layers = 0 is out of range");
+    expectOneSentence(run(split + "--begin-s 6"), "--begin-s = 6 s");
     // The lattice of one layer would take all of the memory.
     for (const char* giant : {"--hopper-diameter-m 45", "--grain-diameter-m 2e-6",
                               "--hopper-diameter-m 1e9 --grain-diameter-m 1e-12"})
         expectOneSentence(run(hopper + giant), "would be about ");
     expectOneSentence(
         run(hopper + "--hopper-diameter-m 45"),
-        "in a hopper of 45 m would be about 3e+08 grains; it must be at most 1e+06, or the number "
+        "in a hopper of 45 m would be about 4e+08 grains; it must be at most 1e+06, or the number "
         "of grains, 9000");
     const TestFolder clogged;
     expectOneSentence(

@@ -35,7 +35,7 @@ TEST(Beverloo, isFoundAgainFromItsOwnFlows) {
     EXPECT_NEAR(found.emptyAnnulus, 1.4, 1e-12);
 }
 
-constexpr Hopper smallHopper{.diameter = 0.016, .number = 200};
+const Hopper smallHopper{.diameter = 0.016, .number = 200};
 
 const std::vector<GrainRow>& settled() {
     static const std::vector<GrainRow> grains = settledHopperGrains(smallHopper);
@@ -58,8 +58,8 @@ TEST(Hopper, isFilledAtTheDensityOfARandomPacking) {
     EXPECT_EQ(scene.dischargedNumber(), 0u);
 }
 
-/// Grains that have left are removed and counted once each with their mass; all others are still in the hopper
-/// or within the fall below it.
+/// Grains that have left are removed and counted once each with their mass; all others are still in the
+/// hopper or within the fall below it.
 TEST(Hopper, losesNoGrain) {
     HopperScene scene(smallHopper, settled(), 0.01);
     scene.setTimeMax(0.1);
@@ -75,6 +75,37 @@ TEST(Hopper, losesNoGrain) {
     EXPECT_EQ(scene.dischargedNumber() + scene.particleHandler.getSize(), settled().size());
     // Two sums of 200 numbers, each rounded by 1e-16 at every step.
     EXPECT_NEAR((massLeft + scene.dischargedMass()) / massBefore, 1, 1e-13);
+}
+
+/// A cone of 60 degrees, 200 grains of sizes from 1 to 2.4 mm: all leave, and the counter is what the hopper
+/// has lost.
+TEST(Hopper, withAConeEmptiesToTheLastGrain) {
+    Hopper hopper{.diameter = 0.016, .grainDiameter = 1.6e-3, .number = 200};
+    hopper.coneSlope = std::numbers::pi / 3;
+    hopper.sizes = evenSizes(1e-3, 2.4e-3);
+    const auto grains = settledHopperGrains(hopper);
+    ASSERT_EQ(grains.size(), 200u);
+    double massBefore = 0;
+    for (const GrainRow& grain : grains) {
+        EXPECT_GT(grain.position.z(), 1.7 * std::hypot(grain.position.x(), grain.position.y()));
+        massBefore += sphereMass(grain.radius, Hopper::density);
+    }
+    HopperScene scene(hopper, grains, 0.01);
+    std::vector<CurvePoint> counted, left;
+    scene.setTimeMax(5);
+    scene.initialise();
+    while (scene.continueSolve() && scene.getTime() < 5) {
+        scene.step();
+        if (scene.getNumberOfTimeSteps() % 100 != 0) continue;
+        counted.push_back({scene.getTime(), scene.dischargedMass()});
+        left.push_back({scene.getTime(), scene.getTotalMass()});
+    }
+    EXPECT_EQ(scene.particleHandler.getSize(), 0u);
+    EXPECT_EQ(scene.dischargedNumber(), 200u);
+    EXPECT_NEAR(scene.dischargedMass(), massBefore, 1e-13 * massBefore);
+    ASSERT_GT(counted.size(), 20u);
+    // Both curves have the same sums, but for round-off.
+    EXPECT_NEAR(-fitLine(left).slope / fitLine(counted).slope, 1, 1e-10);
 }
 
 /// Free fall from rest just above an open bottom: a lone grain reaches the counting plane, two diameters

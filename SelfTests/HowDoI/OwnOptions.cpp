@@ -14,11 +14,13 @@ struct OwnOptions : FirstDriver {
 int main(int argc, char** argv) {
     OwnOptions driver;
     RunOptions run{.output = "OwnOptions"};
-    const auto addOptions = [&](CLI::App& app) {
-        app.add_option("--end-time-s", driver.endTime, "end of the run, s")->capture_default_str();
-        addRunOptions(app, run, "what the run writes");
-    };
-    return runDriver({"OwnOptions", "One grain flies.", run, addOptions}, argc, argv, [&] {
+    const DriverProgram program{
+        .name = "OwnOptions",
+        .description = "One grain flies.",
+        .options = run,
+        .files = "what the run writes",
+        .numbers = {{"end-time", "s", &driver.endTime, {0, 10}, "end of the run"}}};  // --end-time-s
+    return runDriver(program, argc, argv, [&] {
         run.apply(driver);
         driver.solve();
     });

@@ -9,8 +9,9 @@
 #include "Kernel/Species/Adhesion/ViscousLiquidMigrationLS.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Liquid/ViscousPair.h"
 #include "SelfTests/Restart/StateContent.h"
-#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -23,8 +24,7 @@ namespace {
 using scenes::FewGrains;
 using scenes::GrainMotion;
 
-using Wet = Species<LinearViscoelastic, NoFriction, ViscousLiquidBridgeWillett>;
-using HertzWet = Species<HertzianViscoelastic, NoFriction, ViscousLiquidBridgeWillett>;
+using namespace wet;
 
 // Only scenes whose bridges resist pay for it: four numbers a contact, and torques.
 using Plain = Species<LinearViscoelastic, NoFriction, LiquidBridgeWillett>;
@@ -32,20 +32,7 @@ static_assert(columnsOf<Wet::Adhesion::Interaction> == columnsOf<Plain::Adhesion
 static_assert(!Plain::hasTorque && Wet::hasContactTorque);
 static_assert(!HasDynamicRupture<LiquidBridgeWillett> && HasDynamicRupture<ViscousLiquidBridgeWillett>);
 
-constexpr double um = 1e-6;  // m
 const Vec3D none = Vec3D::Zero();
-
-/// A law with the given liquid; the other values are those of water.
-ViscousLiquidBridgeWillett liquid(double viscosity, double volume, double roughness, bool withVolume) {
-    ViscousLiquidBridgeWillett law;
-    law.setLiquidBridgeVolume(volume);
-    law.setContactAngle(0);
-    law.setSurfaceTension(0.0728);
-    law.setViscosity(viscosity);
-    law.setRoughness(roughness);
-    law.setViscousVolumeCorrection(withVolume);
-    return law;
-}
 
 BridgeResistance<double> resistance(ViscousLiquidBridgeWillett law, const Bodies& bodies, double gap) {
     law.setViscousScheme(ViscousScheme::Implicit);
@@ -140,79 +127,6 @@ TEST(ViscousBridge, integratesItsResistanceInClosedForm) {
     }
 }
 
-/// A pair of equal grains, or a grain at a wall, joined at a gap.
-struct Pair {
-    double radius = 1e-3, density = 2500, viscosity = 1e-3, volume = 1e-11, roughness = 1 * um;
-    double gap = 100 * um, speed = 0.1;  // of closing
-    bool atWall = false, withVolume = false;
-    double tension = 1e-15;  // N/m: as if there were no capillary force
-    double angle = 0;        // rad
-
-    [[nodiscard]] Bodies bodies() const { return {radius, atWall ? infinity : radius}; }
-    [[nodiscard]] double mass() const {  // kg, effective
-        return (atWall ? 1 : 0.5) * 4.0 / 3 * std::numbers::pi * std::pow(radius, 3) * density;
-    }
-    /// m/s: 6 pi eta R*^2 / m*
-    [[nodiscard]] double k() const {
-        return 6 * std::numbers::pi * viscosity * std::pow(bodies().effectiveRadius(), 2) / mass();
-    }
-    [[nodiscard]] ViscousLiquidBridgeWillett law() const {
-        auto found = liquid(viscosity, volume, roughness, withVolume);
-        found.setSurfaceTension(tension);
-        found.setContactAngle(angle);
-        return found;
-    }
-    /// A(to) - A(from).
-    [[nodiscard]] double way(double from, double to) const {
-        const auto integral = law().prepare(bodies()).integralOf(law());
-        return integral.at(to, roughness) - integral.at(from, roughness);
-    }
-    [[nodiscard]] double rupture() const { return law().range(bodies()); }
-
-    template <class S>
-    [[nodiscard]] S species() const {
-        S s;
-        s.setDensity(density);
-        static_cast<ViscousLiquidBridgeWillett&>(s) = law();
-        return s;
-    }
-    template <class S>
-    [[nodiscard]] FewGrains<S> scene(const S& species, double step) const {
-        const Vec3D toward(atWall ? speed : 0.5 * speed, 0, 0);
-        std::vector<GrainMotion> grains{
-            {.radius = radius, .position = {-radius - gap, 0, 0}, .velocity = toward}};
-        std::vector<scenes::PlaneAt> planes;
-        if (atWall) planes.push_back({{1, 0, 0}, none});
-        else grains.push_back({.radius = radius, .position = {radius, 0, 0}, .velocity = -toward});
-        return {species, grains, step, planes};
-    }
-    /// m/s, of closing; the gap, m
-    template <class S>
-    [[nodiscard]] double closing(FewGrains<S>& scene) const {
-        return scene.motion(0).velocity.x() - (atWall ? 0 : scene.motion(1).velocity.x());
-    }
-    template <class S>
-    [[nodiscard]] double gapIn(FewGrains<S>& scene) const {
-        return (atWall ? 0 : scene.motion(1).position.x() - radius) - scene.motion(0).position.x() - radius;
-    }
-};
-
-/// Grains that hardly feel their contact.
-Wet ghosts(const Pair& pair) {
-    Wet s = pair.species<Wet>();
-    s.setStiffness(1e-12);
-    s.setDissipation(0);
-    return s;
-}
-
-template <class S>
-void begin(FewGrains<S>& scene, double gap) {
-    scene.acceptUnstableTimeStep();
-    scene.setQuiet(true);
-    scene.joinAtStart(1.01 * gap);
-    scene.initialise();
-}
-
 // At any step: the speed lost on the way in is K (A(h0) - A(0)), and on the way out up to the rupture
 // K (A(S_c) - A(h0)). Round-off: some 1e3 steps of 2^-53 of the speed, and of gaps (1e-16 of 1 mm) over the
 // roughness.
@@ -256,33 +170,6 @@ TEST(ViscousBridge, stopsAPairWhereItsSpeedIsUsedUp) {
                     step > 1e-4 ? 1e-3 : 1e-9)
             << step;
     }
-}
-
-/// What the given trajectories (DOP853 to 1e-12, phases located) start from.
-struct GivenSet {
-    Pair pair;
-    double tension;
-};
-GivenSet setA() { return {{.atWall = true}, 0.0728}; }
-GivenSet setB() {
-    return {{.radius = 0.5e-3,
-             .viscosity = 6.7e-3,
-             .volume = 2e-12,
-             .roughness = 0.5 * um,
-             .gap = 50 * um,
-             .speed = 0.25,
-             .angle = std::numbers::pi / 12},
-            0.0682};
-}
-GivenSet setF() {
-    return {{.radius = 0.5e-3, .viscosity = 1, .volume = 2e-12, .gap = 50 * um, .speed = 0.3}, 0.07};
-}
-HertzWet material(GivenSet set, bool capillary, bool withVolume) {
-    set.pair.withVolume = withVolume;
-    if (capillary) set.pair.tension = set.tension;
-    auto s = set.pair.species<HertzWet>();
-    s.setEffectiveElasticModulusAndRestitutionCoefficient(1e7, 0.9);
-    return s;
 }
 
 // The restitution of both sets, at a step of 1/20 of the roughness over the speed: without capillary force it
@@ -656,6 +543,26 @@ TEST(ViscousBridge, givesTheSameBitsForAnyThreadsListsAndRestarts) {
     for (int k = 0; k < 110; ++k) resumed.step();
     resumed.writeRestart(folder.path() / "resumed.h5");
     support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
+}
+
+// Those that join bodies at the start are told and counted as those that form later: at a gap, and where
+// bodies touch once.
+TEST(ViscousBridge, tellsOfBridgesThatJoinBodiesAtTheStart) {
+    const Pair pair{.speed = 0};
+    scenes::HookedGrains<Wet> scene(ghosts(pair),
+                                    {{.radius = pair.radius, .position = {-2e-3 - pair.gap, 0, 0}},
+                                     {.radius = pair.radius, .position = {0, 0, 0}},
+                                     {.radius = pair.radius, .position = {2e-3 - 1 * um, 0, 0}}},
+                                    1e-7);
+    scene.listenToContacts();
+    begin(scene, pair.gap);
+    using Kind = ContactEvent::Kind;
+    const std::vector<ContactEvent> expected{
+        {0, 1, -1, 0, Kind::BridgeForms}, {1, 2, -1, 0, Kind::BridgeForms}, {1, 2, -1, 0, Kind::TouchBegins}};
+    EXPECT_EQ(scene.heard, expected);
+    EXPECT_EQ(scene.contactEventCounts().bridgesFormed, 2u);
+    scene.step();
+    EXPECT_EQ(scene.contactEventCounts().bridgesFormed, 2u);
 }
 
 // A grain that is put somewhere else has not moved there: nothing is charged for the way.

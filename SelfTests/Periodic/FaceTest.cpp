@@ -6,6 +6,7 @@
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Periodic/ObliquePair.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
@@ -32,7 +33,8 @@ const Vec3D middle = Vec3D::Constant(0.5 * length);
 template <class S>
 class OnePair : public FewGrains<S> {
 public:
-    OnePair(const Vec3D& place, int periodicAxes) : FewGrains<S>(boxMaterial<S>(0), motions(place), step) {
+    OnePair(const Vec3D& place, int periodicAxes)
+        : FewGrains<S>(boxMaterial<S>(0), periodic::obliquePair(place, drift), step) {
         for (int axis = 0; axis < 3; ++axis)
             if ((periodicAxes >> axis & 1) != 0) this->setPeriodic(axis, 0, length);
     }
@@ -63,17 +65,6 @@ public:
     [[nodiscard]] bool bridgeAtTheEnd() const { return last.bridged; }
 
 private:
-    static std::vector<GrainMotion> motions(const Vec3D& place) {
-        const Vec3D normal = Vec3D(2, -3, 4).normalized(), sideways = Vec3D(0.3, 0.5, 0.2);
-        return {{.radius = r,
-                 .position = place - 1.01 * r * normal,
-                 .velocity = drift + 0.25 * normal + sideways,
-                 .spin = {90, 200, -70}},
-                {.radius = 0.8 * r,
-                 .position = place + 0.81 * r * normal,
-                 .velocity = drift - 0.25 * normal,
-                 .spin = {-20, 40, 30}}};
-    }
     ObservedContact last{};
 };
 

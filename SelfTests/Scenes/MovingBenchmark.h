@@ -11,7 +11,8 @@ namespace pendular::scenes {
 
 /// The scenes of the benchmark as values of a test, and their names as names of a test.
 inline auto benchmarkScenes() {
-    return testing::Values("bed", "wet-bed", "drum", "penetration", "gas", "polydisperse");
+    return testing::Values("bed", "wet-bed", "wet-walls", "sprayed-bed", "drum", "penetration", "gas",
+                           "polydisperse");
 }
 inline std::string benchmarkTestName(const testing::TestParamInfo<const char*>& info) {
     std::string name = info.param;

@@ -262,6 +262,10 @@ std::vector<Setter<Law>> settersOf() {
         add(
             "liquidDensity", [](L& l, double v) { l.setLiquidDensity(v); },
             [](const L& l) { return l.getLiquidDensity(); });
+    if constexpr (requires(L l) { l.setFilmContactGap(0.0); })
+        add(
+            "filmContactGap", [](L& l, double v) { l.setFilmContactGap(v); },
+            [](const L& l) { return l.filmContactGap; });
     if constexpr (requires(L l) { l.setFilmThickness(0.0); })
         add(
             "filmThickness", [](L& l, double v) { l.setFilmThickness(v); },

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "Kernel/Capillary/GaussLegendre.h"
+#include "Kernel/Math/GaussLegendre.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeYoungLaplace.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/Collision.h"

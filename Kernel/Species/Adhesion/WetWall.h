@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "Kernel/Species/Adhesion/Shared/ViscousLiquid.h"
 #include "Kernel/Species/Adhesion/Shared/WetLayer.h"
 #include "Kernel/Species/DomainLimit.h"
 
@@ -98,8 +99,17 @@ struct WetWallInteraction {
         r.rolling = sticking * (ofShift - T(2) * ofBoth + ofSpin);
         return r;
     }
+    /// The capillary number of a bridge where it is above the largest one that the range is made for; else 0.
     template <class Law>
-    void takeState(const Law& /*law*/, const WetWallInteraction& before) { wetted = before.wetted; }
+    [[nodiscard]] T numberAboveBound(const Law& law, T separation, T opening) const {
+        const T number = capillaryNumber(opening, viscosity, surfaceTension);
+        const MaskOf<T> isBridge = (separation > depth) & (wetted > T(0));
+        return select(isBridge & (number > T(law.largestCapillaryNumber)), number, T(0));
+    }
+    template <class Law>
+    void takeState(const Law& /*law*/, const WetWallInteraction& before) {
+        wetted = before.wetted;
+    }
     void checkGap(T /*separation*/, T /*roundOff*/) {}  // it remembers no gap
 
     /// m^3, of a bridge of the length x (m); none in the layer
@@ -111,7 +121,8 @@ private:
     /// Equations 36 and 37: where the bridge is longer than (1 + theta/2) (1 + sqrt(Ca)) V^(1/3); or its neck
     /// has closed, or it is as long as the law's range allows.
     MaskOf<T> hasRuptured(const BridgeMotion<T>& motion, T x) const {
-        const T factor = lengthFactor * (T(1) + rootOfCapillaryNumber(motion, viscosity, surfaceTension));
+        const T factor =
+            lengthFactor * (T(1) + sqrt(capillaryNumber(-motion.approach, viscosity, surfaceTension)));
         const MaskOf<T> isTooLong = x * x * x > factor * factor * factor * volumeAt(x);
         const MaskOf<T> isClosed = bridge.radii(x).neck < T(1e-3) * bridge.contactRadius;
         return isTooLong | isClosed | (x > T(0.98) * reach);

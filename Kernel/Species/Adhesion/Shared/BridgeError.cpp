@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Capillary/GaussLegendre.h"
+#include "Kernel/Math/GaussLegendre.h"
 
 namespace pendular {
 

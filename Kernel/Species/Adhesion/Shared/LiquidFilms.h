@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "Kernel/Species/Adhesion/Shared/LiquidBridge.h"
+#include "Kernel/Species/Adhesion/Shared/ViscousLiquid.h"
 #include "Kernel/Species/Adhesion/Shared/WetLayer.h"
 #include "Kernel/Species/JoinedName.h"
 
@@ -55,22 +56,28 @@ struct LiquidFilmsInteraction {
     template <class Law>
     [[nodiscard]] BridgeResistance<T> resist(const Law& /*law*/, const BridgeMotion<T>& motion) {
         const T h = motion.separation;
-        const T root = rootOfCapillaryNumber(motion, viscosity, surfaceTension);
+        const T root = sqrt(capillaryNumber(-motion.approach, viscosity, surfaceTension));
         length = min(max(bridge.range() * (T(1) + root), depth), T(0.98) * reach);
         wetted = select((h > depth) & ((h > length) | motion.forms | (wetted == T(0))), T(0), T(1));
         const T factor = T(6 * std::numbers::pi) * viscosity * radius;
         const T gap = max(h, roughness), apart = wetted * shareApart(motion);
         BridgeResistance<T> r;
         r.normal = apart * factor * radius / gap;
-        const T log = T(0.5) * naturalLogarithm(T(1) + cutOff / (gap * gap));
-        const T sticking = select(h < depth, apart, T(0)) * factor * log, k = motion.asymmetry;
-        r.sliding = sticking * (T(1.0 / 3) + T(0.2) * k * k);
-        r.coupling = sticking * T(0.4) * k;
-        r.rolling = sticking * T(0.8);
+        const T sticking = select(h < depth, apart, T(0)) * factor;
+        resistSlipAndRolling(r, sticking * logarithmOfGap(gap, cutOff), motion.asymmetry);
         return r;
     }
+    /// The capillary number of a bridge where it is above the largest one that the range is made for; else 0.
     template <class Law>
-    void takeState(const Law& /*law*/, const LiquidFilmsInteraction& before) { wetted = before.wetted, length = before.length; }
+    [[nodiscard]] T numberAboveBound(const Law& law, T separation, T opening) const {
+        const T number = capillaryNumber(opening, viscosity, surfaceTension);
+        const MaskOf<T> isBridge = (separation > depth) & (wetted > T(0));
+        return select(isBridge & (number > T(law.largestCapillaryNumber)), number, T(0));
+    }
+    template <class Law>
+    void takeState(const Law& /*law*/, const LiquidFilmsInteraction& before) {
+        wetted = before.wetted, length = before.length;
+    }
     void checkGap(T /*separation*/, T /*roundOff*/) {}  // it remembers no gap
 };
 
@@ -78,9 +85,7 @@ struct LiquidFilmsInteraction {
 /// meet at h = delta_1 + delta_2 (I), the surfaces touch (II), part (III), and draw a bridge until it
 /// ruptures (IV). In I, III and IV the liquid resists the approach by lubrication, 6 pi eta R*^2 / max(h,
 /// epsilon), in I and III also sliding and rolling, by the leading logarithm of lubrication theory for two
-/// spheres of any radii (Jeffrey and Onishi 1984, J. Fluid Mech. 139; Goldman, Cox and Brenner 1967, Chem.
-/// Eng. Sci. 22, at a wall): with L = ln(1 + V / (pi R* h^2)) / 2, kappa = (r2 - r1) / (r1 + r2) (1 at a
-/// wall) and 6 pi eta R* L, sliding 1/3 + kappa^2/5, coupling 2/5 kappa, rolling 4/5. The capillary force is
+/// spheres of any radii (resistSlipAndRolling), L = ln(1 + V / (pi R* h^2)) / 2. The capillary force is
 /// that of the law Bridge, with the volume of both films, 4 pi (r1^2 + r2^2) delta, or liquidBridgeVolume if
 /// that is less; in I and III its value at the surface of the films. The bridge ruptures at S_c (1 +
 /// sqrt(Ca)), Ca = eta v / gamma with the speed v of parting; beyond S_c its force falls linearly to zero

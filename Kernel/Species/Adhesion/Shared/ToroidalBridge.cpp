@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Capillary/GaussLegendre.h"
+#include "Kernel/Math/GaussLegendre.h"
 
 namespace pendular {
 

@@ -11,4 +11,12 @@ std::optional<std::string> objectionToOption(std::string_view law, std::string_v
     return fmt::format("{}: {} = {:g} is none of the whole numbers from 0 to {}.", law, field, value, last);
 }
 
+std::string refusalOfFilmContactGap(std::string_view law, double gap, double ruptureDistance) {
+    return fmt::format(
+        "{}: filmContactGap = {:.6g} m is not below the rupture distance of a bridge between two bodies of "
+        "this scene, {:.6g} m, so that it would rupture as soon as it forms; take a smaller gap or more "
+        "liquid.",
+        law, gap, ruptureDistance);
+}
+
 }  // namespace pendular

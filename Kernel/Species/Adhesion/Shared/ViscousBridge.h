@@ -11,7 +11,9 @@
 
 #include "Kernel/Species/Adhesion/Shared/LiquidBridge.h"
 #include "Kernel/Species/Adhesion/Shared/LubricationIntegral.h"
+#include "Kernel/Species/Adhesion/Shared/ViscousLiquid.h"
 #include "Kernel/Species/JoinedName.h"
+#include "Kernel/Species/LiquidRules.h"
 
 namespace pendular {
 
@@ -38,18 +40,24 @@ struct ViscousInteraction {
     T squaredReach;  // b^2 = V / (pi R*), m^2
     T offset;        // of the integral
     T lastGap;       // m, at the last step, or never
-    T charged;       // A up to which the speed of the bodies has paid
+    T charged;       // A up to which the speed of the bodies has paid; without liquid, where films have met:
+                     // the gap (m) from which on it will have to
 
     [[nodiscard]] T force(T separation) const { return capillary.force(separation); }
     [[nodiscard]] T range() const { return capillary.range(); }
-    /// S_c (1 + sqrt(Ca)) with Ca = eta v / gamma of the speed of opening (m/s) where the law says so: after
-    /// Pitois, Moucheront and Chateau, Eur. Phys. J. B 23 (2001) 79, who find that the length grows as
-    /// sqrt(v).
+    /// S_c (1 + sqrt(Ca)) with the capillary number of the speed of opening (m/s), where the law says so.
     template <class Law>
     [[nodiscard]] T range(const Law& law, T opening) const {
         if (!(law.dynamicRupture > 0)) return capillary.range();
-        const T number = max(T(law.viscosity / law.surfaceTension) * opening, T(0));
-        return capillary.range() * (T(1) + sqrt(min(number, T(law.largestCapillaryNumber))));
+        const T number = min(numberOf(law, opening), T(law.largestCapillaryNumber));
+        return capillary.range() * (T(1) + sqrt(number));
+    }
+    /// The capillary number where it is above the largest one that the range is made for; else 0.
+    template <class Law>
+    [[nodiscard]] T numberAboveBound(const Law& law, T separation, T opening) const {
+        if (!(law.dynamicRupture > 0)) return T(0);
+        const T number = numberOf(law, opening);
+        return select((separation > T(0)) & (number > T(law.largestCapillaryNumber)), number, T(0));
     }
     /// Beyond S_c fits go on, and the force of an exact law falls linearly to zero.
     template <class Law>
@@ -87,12 +95,24 @@ struct ViscousInteraction {
     /// Of a bridge that is prepared again, perhaps for another volume: what is still to be charged stays.
     template <class Law>
     void takeState(const Law& law, const ViscousInteraction& before) {
-        if (before.squaredReach == 0) return;  // there was no liquid: it is a new bridge
+        if (squaredReach == 0) return;   // there is no liquid
+        if (before.squaredReach == 0) {  // it is a new bridge
+            if (before.lastGap >= never) return;
+            lastGap = before.lastGap;  // of films that have met
+            charged = integralOf(law).at(before.charged, law.roughness);
+            return;
+        }
         lastGap = before.lastGap;
         charged = before.charged;
         if (lastGap >= never || (squaredReach == before.squaredReach && offset == before.offset)) return;
         charged +=
             integralOf(law).at(lastGap, law.roughness) - before.integralOf(law).at(lastGap, law.roughness);
+    }
+    /// Films have met, and liquid is about to come: the bridge will resist from the gap `start` (m) on, of
+    /// which the bodies have gone up to `gap` (m) in the last drift.
+    void meet(T gap, T start) {
+        lastGap = gap;
+        charged = start;
     }
     /// Between two steps; bodies that have been put somewhere else have not moved there.
     void checkGap(T separation, T roundOff) {
@@ -109,6 +129,11 @@ struct ViscousInteraction {
     }
 
 private:
+    template <class Law>
+    [[nodiscard]] static T numberOf(const Law& law, T opening) {
+        return capillaryNumber(opening, T(law.viscosity), T(law.surfaceTension));
+    }
+
     /// The gap scheme. The kick of a step is (6 pi eta R*^2 / m*) (A' - A_charged), A' being the integral at
     /// the gap that is reached in the share theta of the coming drift, with the speed w that the kick itself
     /// leaves:
@@ -120,6 +145,7 @@ private:
     /// resistance the factor 1 / (1 + x + x^2/2), of second order, that never changes the sign: creeping
     /// bridges keep to the balance of forces at any step. A is constant below a gap of 0, but goes on to fall
     /// in the step of a touch where the bodies creep (x > 1): else the rest of that step would be free.
+    /// A bridge that forms where films meet, within a drift, pays from that gap on.
     template <class Law>
     [[nodiscard]] T chargeGap(const Law& law, const BridgeMotion<T>& motion, const T& drag) {
         const bool isKept = law.viscousInContact > 0;
@@ -132,14 +158,22 @@ private:
         const T drift = select(begins, -motion.approach, (h - lastGap) / max(motion.step, T(1e-300)));  // m/s
         const T wanted = fma(kick * motion.inverseMass, motion.push, drift);                            // w*
         const MaskOf<T> staysClosed = touches & (fma(wanted, dt, h) < T(0));
-        if (!isKept && !any(!staysClosed)) {  // as all of a bed at rest: what follows comes to nothing
+        // The gap (m) at which the films of bridges that form have met in the last drift.
+        T met(0);
+        if constexpr (HasFilmContactGap<Law>)
+            met = min(T(law.filmContactGap), fma(max(motion.approach, T(0)), motion.step, h));
+        const MaskOf<T> meets = motion.forms & (met > max(open, T(0)));
+        // It touches, and has not paid yet for all of the way.
+        const MaskOf<T> owes = touches & (lastGap > contact) & (lastGap < T(never)) & (charged > T(0));
+        if (!isKept && !any((!staysClosed) | meets | owes)) {  // as all of a bed at rest: nothing follows
             charged = T(0);
             lastGap = h;
             return T(0);
         }
         const LubricationIntegral<T> integral = integralOf(law);
         const T atGap = integral.at(open, roughness), slope = integral.slope(open, roughness);
-        const T before = select(begins | touches, atGap, charged);
+        T before = select((begins | touches) & !owes, atGap, charged);
+        if (any(meets)) before = select(meets, integral.at(max(met, open), roughness), before);
         const T k = T(law.viscousNeighbours) * drag * motion.inverseMass;  // m/s
 
         const T x = k * dt * slope;
@@ -174,30 +208,23 @@ private:
         return (before - select(reverses, before + speed / own, paid)) * drag / kick;
     }
 
-    /// Pair: with L = ln(1 + b^2 / h_e^2) / 2, kappa = (r2 - r1) / (r1 + r2), slip u and W as in
-    /// BridgeResistance,
-    ///     F = -6 pi eta R* L ((1/3 + kappa^2/5) u + 2/5 kappa W),   m = -6 pi eta R* L (2/5 kappa u + 4/5
-    ///     W).
-    /// At a wall it is Goldman, Cox and Brenner (1967), Chem. Eng. Sci. 22, 637, without spin Jeffrey and
-    /// Onishi (1984), J. Fluid Mech. 139, 261. The liquid ends where the gap is sqrt(h^2 + b^2), as for the
-    /// approach. Popular: F = -6 pi eta R* (8/15 ln(R*/h_e) + 0.9588) u (Nase, Vargas, Abatan and McCarthy
-    /// (2001), Powder Technol. 116, 214), taken for 0 where it is negative.
+    /// Pair: resistSlipAndRolling(). Popular: F = -6 pi eta R* (8/15 ln(R*/h_e) + 0.9588) u (Nase, Vargas,
+    /// Abatan and McCarthy (2001), Powder Technol. 116, 214), taken for 0 where it is negative.
     template <class Law>
     void addTangential(const Law& law, const BridgeMotion<T>& motion, BridgeResistance<T>& found) const {
-        constexpr double ln2 = 0x1.62e42fefa39efp-1;
         const T scale = T(6 * std::numbers::pi * law.viscosity) * motion.effectiveRadius;  // kg/s
         const T gap = max(motion.separation, T(law.roughness));
         if (law.tangential() == TangentialLubrication::Popular) {
-            const T logarithm = T(ln2) * logarithm2(motion.effectiveRadius / gap);
+            const T logarithm = naturalLogarithm(motion.effectiveRadius / gap);
             found.sliding = scale * max(fma(T(8.0 / 15), logarithm, T(0.9588)), T(0));
             return;
         }
-        const T strength = scale * (T(0.5 * ln2) * logarithm2(T(1) + squaredReach / square(gap)));
-        found.sliding = strength * fma(T(0.2), square(motion.asymmetry), T(1.0 / 3));
-        found.coupling = strength * (T(0.4) * motion.asymmetry);
-        found.rolling = T(0.8) * strength;
+        resistSlipAndRolling(found, scale * logarithmOfGap(gap, squaredReach), motion.asymmetry);
     }
 };
+
+/// Why no bridge can form at this gap (m): it is not below the rupture distance (m).
+std::string refusalOfFilmContactGap(std::string_view law, double gap, double ruptureDistance);
 
 /// What is wrong with an option that is one of the whole numbers from 0, if so.
 std::optional<std::string> objectionToOption(std::string_view law, std::string_view field, double value,
@@ -212,13 +239,25 @@ struct ViscousNames {
     static constexpr std::string_view summary = JoinedName<Bridge::summary, resists>::value;
 };
 
+/// Where bridges form before a touch: below a gap, or where liquid moves at the films that there are.
+template <bool movesLiquid>
+struct FilmContactField {
+    double filmContactGap = 0;  // m
+};
+template <>
+struct FilmContactField<true> {
+    double formsAtFilmContact = 0;
+};
+
 /// Any bridge law with the viscous force of its liquid, which resists the approach and the parting of the
 /// bodies, their slip and their rolling while a bridge joins them: see LubricationIntegral and
 /// ViscousInteraction. The bridge is there from the touch on, as that of the law itself: the first approach
-/// is not damped. In contact nothing resists unless viscousInContact is set: it would make the restitution
+/// is not damped; or from the gap on at which the films of the bodies meet: filmContactGap, or where liquid
+/// moves the sum of the thicknesses f / (4 pi r^2) of the films that there are, if formsAtFilmContact is set.
+/// In contact nothing resists unless viscousInContact is set: it would make the restitution
 /// depend on the stiffness of the grains.
 template <class Bridge>
-struct ViscousBridge : Bridge {
+struct ViscousBridge : Bridge, FilmContactField<MovesLiquid<Bridge>> {
     static constexpr BridgeResists resists = BridgeResists::Rolling;
     static constexpr std::string_view name = ViscousNames<Bridge>::name;
     static constexpr std::string_view summary = ViscousNames<Bridge>::summary;
@@ -265,7 +304,10 @@ struct ViscousBridge : Bridge {
               "S_c",
               "Pitois et al. (2001)"},
              {"largestCapillaryNumber", &Law::largestCapillaryNumber, "", notNegative, Mixing::Largest,
-              "Ca above which bridges grow no longer, so that there is a bound for the search", own}});
+              "Ca above which bridges grow no longer, so that there is a bound for the search; counted where "
+              "it is exceeded",
+              own},
+             atFilms()});
         return joinedFields<Law>(Bridge::fields(), added);
     }
 
@@ -301,6 +343,12 @@ struct ViscousBridge : Bridge {
         setField(*this, &ViscousBridge::largestCapillaryNumber, value);
     }
     void setViscousNeighbours(double value) { setField(*this, &ViscousBridge::viscousNeighbours, value); }
+    void setFilmContactGap(double value) requires(!MovesLiquid<Bridge>) {
+        setField(*this, &ViscousBridge::filmContactGap, value);
+    }
+    void setFormsAtFilmContact(bool value) requires MovesLiquid<Bridge> {
+        this->formsAtFilmContact = value ? 1 : 0;
+    }
     [[nodiscard]] double getViscosity() const { return viscosity; }
     [[nodiscard]] double getRoughness() const { return roughness; }
 
@@ -322,6 +370,16 @@ struct ViscousBridge : Bridge {
     [[nodiscard]] Interaction<double> prepare(const Bodies& bodies,
                                               double volume) const requires MovesLiquid<Bridge> {
         return withLiquid(Bridge::prepare(bodies, volume), bodies, volume);
+    }
+    [[nodiscard]] LiquidRules liquidRules() const requires MovesLiquid<Bridge> {
+        LiquidRules rules = Bridge::liquidRules();
+        rules.atFilms = this->formsAtFilmContact > 0;
+        return rules;
+    }
+    /// m: bodies with films of this thickness (m, both together) form a bridge below this gap; never so far
+    /// apart that the largest bridge would rupture at once.
+    [[nodiscard]] double filmContact(const Bodies& bodies, double films) const requires MovesLiquid<Bridge> {
+        return std::min(films, Bridge::range(bodies));
     }
     /// m
     [[nodiscard]] double range(const Bodies& bodies) const {
@@ -349,10 +407,33 @@ struct ViscousBridge : Bridge {
         if (auto found = objectionToOption(name, "tangentialLubrication", tangentialLubrication, 2))
             return found;
         if (auto found = objectionToOption(name, "viscousScheme", viscousScheme, 2)) return found;
+        if constexpr (!MovesLiquid<Bridge>)
+            if (this->liquidBridgeVolume > 0 && this->filmContactGap >= Bridge::range(bodies))
+                return refusalOfFilmContactGap(name, this->filmContactGap, Bridge::range(bodies));
         return Bridge::objection(bodies);
     }
 
 private:
+    static constexpr Field<ViscousBridge> atFilms() {
+        if constexpr (MovesLiquid<Bridge>)
+            return {"formsAtFilmContact",
+                    &ViscousBridge::formsAtFilmContact,
+                    "",
+                    fromZeroTo(1),
+                    Mixing::Largest,
+                    "1: bridges form where the films of two bodies meet, f / (4 pi r^2) thick on a grain; 0: "
+                    "where the bodies touch",
+                    "this project"};
+        else
+            return {"filmContactGap",
+                    &ViscousBridge::filmContactGap,
+                    "m",
+                    notNegative,
+                    Mixing::Arithmetic,
+                    "gap below which bridges form, because films on the bodies meet; 0: where they touch",
+                    "this project"};
+    }
+
     static constexpr double contactsAroundAGrain = 12;  // equal spheres in the densest packing
 
     [[nodiscard]] Interaction<double> withLiquid(

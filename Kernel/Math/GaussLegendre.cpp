@@ -1,4 +1,4 @@
-#include "Kernel/Capillary/GaussLegendre.h"
+#include "Kernel/Math/GaussLegendre.h"
 
 #include <array>
 #include <cmath>

@@ -1,0 +1,105 @@
+#include "Kernel/Boundaries/FluxPlane.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "Kernel/InputError.h"
+#include "Kernel/State/StateArchive.h"
+#include "Kernel/Walls/RigidWall.h"
+
+namespace pendular {
+
+std::size_t FluxPlaneHandler::add(const Vec3D& normal, const Vec3D& point) {
+    if (hasBegun) throw InputError("Simulation: flux planes can only be added before the run begins.");
+    Plane plane;
+    plane.normal = checkedDirection("FluxPlane", "length of the normal", normal);
+    plane.offset = dot(plane.normal, checkedVector("FluxPlane", "point", point, "m"));
+    planes.push_back(plane);
+    return planes.size() - 1;
+}
+
+const FluxCount& FluxPlaneHandler::count(std::size_t number) const {
+    if (number >= planes.size())
+        throw InputError(fmt::format("There is no flux plane {}; the scene has {} (counted from 0).", number,
+                                     planes.size()));
+    return planes[number].count;
+}
+
+void FluxPlaneHandler::begin(const PeriodicBox& periodic) {
+    hasBegun = true;
+    const std::array<double, 3> periods{periodic.length.x, periodic.length.y, periodic.length.z};
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+        Plane& plane = planes[p];
+        const std::array<double, 3> normal{plane.normal.x, plane.normal.y, plane.normal.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (periods[k] == 0 || normal[k] == 0) continue;
+            if (std::abs(normal[k]) < 1)
+                throw InputError(
+                    fmt::format("flux plane {}: its normal is inclined to {}, along which the scene repeats "
+                                "itself; it must be along it or across it.",
+                                p, "xyz"[k]));
+            plane.period = periods[k];
+        }
+    }
+}
+
+/// The number of images, or of the one plane, that lie behind a point; changes by 1 at each.
+double FluxPlaneHandler::Plane::side(const Vector<double>& point) const {
+    const double distance = dot(normal, point) - offset;
+    return period > 0 ? std::floor(distance / period) : distance >= 0 ? 0 : -1;
+}
+
+void FluxPlaneHandler::beforeMotion(const ParticleStore& grains) {
+    for (Plane& plane : planes) {
+        plane.before = plane.count;
+        plane.sides.resize(grains.size());
+        for (std::size_t k = 0; k < grains.size(); ++k)
+            plane.sides[k] = plane.side(grains.translation[k].position);
+    }
+}
+
+void FluxPlaneHandler::afterMotion(ParticleHandler& particles) {
+    const ParticleStore& grains = particles.storeInStep();
+    for (Plane& plane : planes) {
+        crossings.clear();
+        for (std::size_t k = 0; k < grains.size(); ++k) {
+            const TranslationRecord& grain = grains.translation[k];
+            const double times = plane.side(grain.position) - plane.sides[k];
+            if (times != 0 && grain.radius > 0)
+                crossings.push_back({grains.identity[k], static_cast<std::uint32_t>(k), times});
+        }
+        // Places depend on the list of contacts, sums must not.
+        std::ranges::sort(crossings, {}, &Crossing::identity);
+        for (const Crossing& crossing : crossings) {
+            const double mass =
+                std::abs(crossing.times) *
+                particles.massOf(grains.translation[crossing.place].radius, grains.species[crossing.place]);
+            const auto number = static_cast<std::uint64_t>(std::abs(crossing.times));
+            (crossing.times > 0 ? plane.count.forwards : plane.count.backwards) += number;
+            (crossing.times > 0 ? plane.count.massForwards : plane.count.massBackwards) += mass;
+        }
+    }
+}
+
+void FluxPlaneHandler::takeBack() {
+    for (Plane& plane : planes) plane.count = plane.before;
+}
+
+void FluxPlaneHandler::visitState(StateArchive& archive) {
+    archive.same("count", planes.size());
+    for (std::size_t k = 0; k < planes.size(); ++k)
+        archive.group(std::to_string(k), [&] {
+            Plane& plane = planes[k];
+            archive.sameRecord<double>("normal", plane.normal);
+            archive.same("offset", plane.offset, "m");
+            archive.value("forwards", plane.count.forwards);
+            archive.value("backwards", plane.count.backwards);
+            archive.finite("massForwards", plane.count.massForwards);
+            archive.finite("massBackwards", plane.count.massBackwards);
+        });
+}
+
+}  // namespace pendular

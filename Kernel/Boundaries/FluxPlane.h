@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Particles/PeriodicBox.h"
+
+namespace pendular {
+
+class StateArchive;
+
+/// What has gone through a plane. Masses are those of solid spheres of the grains' densities.
+struct FluxCount {
+    std::uint64_t forwards = 0, backwards = 0;   // grains, with the plane's normal and against it
+    double massForwards = 0, massBackwards = 0;  // kg
+    [[nodiscard]] std::int64_t net() const {
+        return static_cast<std::int64_t>(forwards) - static_cast<std::int64_t>(backwards);
+    }
+    [[nodiscard]] double netMass() const { return massForwards - massBackwards; }
+};
+
+/// Planes that count the grains whose centres go through them. A grain counts +1 when its distance along the
+/// normal changes from below 0 to 0 or above in a step, and -1 the other way; one that goes to and fro nets
+/// 0 or 1. In a scene that repeats itself along the normal, the plane's images count, too; that a grain is
+/// brought back into the period is no crossing, nor is that a hook puts it elsewhere.
+class FluxPlaneHandler {
+public:
+    /// At set-up only. Returns the plane's number.
+    /// @param normal of any length; @param point on it, m
+    std::size_t add(const Vec3D& normal, const Vec3D& point);
+    [[nodiscard]] std::size_t getSize() const { return planes.size(); }
+    [[nodiscard]] bool isEmpty() const { return planes.empty(); }
+    /// Throws InputError if there is no such plane.
+    [[nodiscard]] const FluxCount& count(std::size_t plane) const;
+
+    // For the scene.
+
+    /// The run begins. Throws InputError for a plane that is inclined to a direction in which the scene
+    /// repeats itself: its images would be other planes.
+    void begin(const PeriodicBox& periodic);
+    /// Before the grains of a step move, and when they have.
+    void beforeMotion(const ParticleStore& grains);
+    void afterMotion(ParticleHandler& particles);
+    /// The step has failed: what it counted is taken back.
+    void takeBack();
+    void visitState(StateArchive& archive);
+
+private:
+    struct Plane {
+        Vector<double> normal{0, 0, 0};  // unit
+        double offset = 0;               // m
+        double period = 0;               // m; 0: the plane has no images
+        FluxCount count, before;         // and that before the motion
+        std::vector<double> sides;       // of each place, before the motion
+
+        [[nodiscard]] double side(const Vector<double>& point) const;
+    };
+    struct Crossing {
+        std::uint32_t identity, place;
+        double times;  // forwards
+    };
+
+    std::vector<Plane> planes;
+    std::vector<Crossing> crossings;
+    bool hasBegun = false;
+};
+
+}  // namespace pendular

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <concepts>
+#include <memory>
+#include <vector>
+
+#include "Kernel/Boundaries/GrainTally.h"
+#include "Kernel/Insertion/Region.h"
+#include "Kernel/Particles/ParticleHandler.h"
+
+namespace pendular {
+
+/// Where grains leave a scene: each one whose centre is in a region, or beyond a plane, at the end of a step
+/// is counted and removed; in a scene that repeats itself, each one of which an image is there. Grains that
+/// are held in place stay.
+class Outlet {
+public:
+    /// Those in a region go.
+    template <std::derived_from<Region> R>
+    void setRegion(const R& where) {
+        region = std::make_shared<const R>(where);
+    }
+    /// Those beyond a plane go: on the side to which its normal points.
+    /// @param normal of any length; @param point on it, m
+    void setPlane(const Vec3D& normal, const Vec3D& point);
+    /// Borders (m) between the classes of diameters by which grains are counted; one class without them.
+    void setSizeClasses(std::span<const double> diameters) { tally.setClasses(diameters); }
+
+private:
+    friend class OutletHandler;
+
+    [[nodiscard]] bool takes(const Vector<double>& point) const {
+        return region ? region->contains(fromRegion.wrap(point), 0) : dot(normal, point) > offset;
+    }
+
+    std::shared_ptr<const Region> region;  // none: a plane
+    PeriodicBox fromRegion;                // the scene's, from the lowest corner of the region
+    bool hasPlane = false;
+    Vector<double> normal{0, 0, 0};  // unit
+    double offset = 0;               // m
+    GrainTally tally;
+};
+
+/// The outlets of a scene. A grain goes through the first of them that takes it.
+class OutletHandler {
+public:
+    /// At set-up only. Returns the outlet's number. Throws InputError if it has no place.
+    std::size_t copyAndAddObject(const Outlet& outlet);
+    [[nodiscard]] std::size_t getSize() const { return outlets.size(); }
+    [[nodiscard]] bool isEmpty() const { return outlets.empty(); }
+    /// What has gone through an outlet. Throws InputError if there is none.
+    [[nodiscard]] const GrainTally& tally(std::size_t outlet) const;
+    /// Through all of them.
+    [[nodiscard]] std::uint64_t removedNumber() const;
+    [[nodiscard]] double removedMass() const;  // kg
+
+    // For the scene.
+
+    /// The run begins. Throws InputError for a region that is longer than the period, and for a plane across
+    /// which the scene repeats itself: all grains have images beyond it.
+    void begin(const PeriodicBox& periodic);
+    /// At the end of a step, in the order of identities. There are no rigid bodies.
+    void letOut(ParticleHandler& particles, int threads);
+    void visitState(StateArchive& archive);
+
+private:
+    struct Leaving {
+        std::uint32_t identity, outlet;
+    };
+
+    std::vector<Outlet> outlets;
+    std::vector<std::vector<Leaving>> found;  // by each thread
+    std::vector<Leaving> leaving;
+    bool hasBegun = false;
+};
+
+}  // namespace pendular

@@ -1,0 +1,266 @@
+#include "Kernel/Insertion/DenseStart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Insertion/WallGap.h"
+#include "Kernel/Parallel.h"
+
+namespace pendular {
+
+namespace {
+
+using Point = Vector<double>;
+
+constexpr std::uint32_t purposeOfPlaces = 0x1257000;
+constexpr std::size_t worthAThread = 4096;
+constexpr int mostIterations = 3000, patience = 300;
+
+/// Spheres that push each other apart. Those behind `count` are grains of the scene, which stay.
+class Relaxation {
+public:
+    Relaxation(std::span<const double> given, bool wholeGrains, const Region& within,
+               const ParticleStore& present, const WallHandler& wallHandler, const PeriodicBox& box,
+               std::uint64_t seed, int threadCount)
+        : count(given.size()),
+          hasMargin(wholeGrains),
+          region(within),
+          walls(wallHandler),
+          periodic(box),
+          threads(threadCount) {
+        double volume = 0;
+        for (const double radius : given) volume += sphereMass(radius, 1);
+        // Larger spheres than wanted, below the fraction at which they would jam.
+        const double fraction = volume / region.volume();
+        growth = std::cbrt(std::max(std::min(1.1 * fraction, 0.62), fraction * 1.01) / fraction);
+        placeAll(given, seed);
+        for (const TranslationRecord& grain : present.translation)
+            if (grain.radius > 0) spheres.push_back({grain.position, grain.radius, false});
+        sortInSpace();
+        shifts.resize(spheres.size(), Point{0, 0, 0});
+        steps.resize(spheres.size(), Point{0, 0, 0});
+        skin = 1.0 * growth * given.back();
+    }
+
+    DenseStart run() {
+        DenseStart made;
+        for (; made.iterations < mostIterations; ++made.iterations) {
+            list();
+            made.shrink = push();
+            if (made.shrink >= 1) break;
+            if (made.iterations % patience == patience - 1) growLess();
+            move();
+        }
+        made.shrink = std::min(made.shrink, 1.0);
+        made.centres.resize(count);
+        for (std::size_t k = 0; k < spheres.size(); ++k)
+            if (order[k] < count) made.centres[order[k]] = periodic.wrap(spheres[k].position);
+        return made;
+    }
+
+private:
+    struct Sphere {
+        Point position;  // m
+        double radius;   // m, as it pushes
+        bool moves;      // a grain of the scene does not
+    };
+
+    struct Pair {
+        std::uint32_t first, second;
+    };
+
+    void placeAll(std::span<const double> radii, std::uint64_t seed) {
+        // An additive recurrence covers space evenly (Roberts 2018: steps 1/g, 1/g^2, 1/g^3, g^4 = g + 1); a
+        // random displacement by up to half the mean distance takes its order away.
+        constexpr std::array<double, 3> steps{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+        const double spread = 1 / std::cbrt(static_cast<double>(radii.size()));
+        const CountedRandom random(seed);
+        std::uint64_t number = 0;
+        for (const double radius : radii) {
+            const double margin = hasMargin ? radius : 0;
+            Point place{};
+            for (int attempt = 0; attempt < 1000; ++attempt, ++number) {
+                std::array<double, 3> even;
+                for (std::uint32_t a = 0; a < 3; ++a) {
+                    const double at = static_cast<double>(number) * steps[a] +
+                                      spread * (random.uniform(number, purposeOfPlaces + a) - 0.5);
+                    even[a] = at - std::floor(at);
+                }
+                place = region.candidate(even, margin);
+                if (region.contains(place, 0)) break;
+            }
+            ++number;
+            spheres.push_back({place, growth * radius, true});
+        }
+    }
+
+    void sortInSpace() {
+        std::vector<TranslationRecord> records = asRecords();
+        double mean = 0;
+        for (const Sphere& sphere : spheres) mean += 2 * sphere.radius / static_cast<double>(spheres.size());
+        order = spatialOrder(records, mean, threads);
+        std::vector<Sphere> sorted;
+        sorted.reserve(spheres.size());
+        for (const std::uint32_t k : order) sorted.push_back(spheres[k]);
+        spheres.swap(sorted);
+    }
+
+    [[nodiscard]] std::vector<TranslationRecord> asRecords() const {
+        std::vector<TranslationRecord> records;
+        records.reserve(spheres.size());
+        for (const Sphere& sphere : spheres)
+            records.push_back({periodic.wrap(sphere.position), sphere.radius, {0, 0, 0}, 1});
+        return records;
+    }
+
+    /// Who may overlap whom while no sphere moves by more than half the skin.
+    void list() {
+        if (moved < 0.5 * skin) return;
+        moved = 0;
+        const std::vector<Pair> pairs = findPairs();
+        begins.assign(spheres.size() + 1, 0);
+        for (const Pair& pair : pairs) ++begins[pair.first + 1], ++begins[pair.second + 1];
+        std::partial_sum(begins.begin(), begins.end(), begins.begin());
+        partners.resize(begins.back());
+        std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+        for (const Pair& pair : pairs) {
+            partners[next[pair.first]++] = pair.second;
+            partners[next[pair.second]++] = pair.first;
+        }
+    }
+
+    /// In an order that depends on the spheres only.
+    std::vector<Pair> findPairs() {
+        const NeighbourSearch search(asRecords(), skin, periodic, threads);
+        border.resize(spheres.size());
+        std::vector<std::vector<Pair>> parts(static_cast<std::size_t>(threads));
+        inParts(
+            spheres.size(), threads,
+            [&](int part, std::size_t from, std::size_t to) {
+                std::vector<Pair>& own = parts[static_cast<std::size_t>(part)];
+                own.reserve(8 * (to - from));
+                for (std::size_t k = from; k < to; ++k) {
+                    const auto self = static_cast<std::uint32_t>(k);
+                    search.forEachPartner(self, [&](std::uint32_t other) { own.push_back({self, other}); });
+                    border[k] = spheres[k].moves && isNearBorder(spheres[k]);
+                }
+            },
+            worthAThread);
+        for (std::size_t part = 1; part < parts.size(); ++part)
+            parts[0].insert(parts[0].end(), parts[part].begin(), parts[part].end());
+        return std::move(parts[0]);
+    }
+
+    /// Borders and grains may leave less room than the region's volume says: then the spheres have jammed.
+    void growLess() {
+        const double before = std::exchange(growth, 1 + 0.5 * (growth - 1));
+        for (Sphere& sphere : spheres)
+            if (sphere.moves) sphere.radius *= growth / before;
+    }
+
+    [[nodiscard]] bool isNearBorder(const Sphere& sphere) const {
+        return !region.contains(sphere.position, hasMargin ? sphere.radius + skin : skin) ||
+               touchesWall(walls, periodic, sphere.position, sphere.radius + skin);
+    }
+
+    /// Each sphere's step, from the overlaps of all; returns by how much radii would have to be multiplied
+    /// for the wanted ones not to overlap.
+    double push() {
+        std::vector<double> least(static_cast<std::size_t>(threads), infinity);
+        inParts(
+            spheres.size(), threads,
+            [&](int part, std::size_t from, std::size_t to) {
+                double& own = least[static_cast<std::size_t>(part)];
+                for (std::size_t k = from; k < to; ++k)
+                    if (spheres[k].moves) own = std::min(own, pushOne(k));
+            },
+            worthAThread);
+        return growth * std::ranges::min(least);
+    }
+
+    double pushOne(std::size_t k) {
+        const Sphere self = spheres[k];
+        Point sum{0, 0, 0};
+        double least = infinity, contacts = 0;
+        for (std::uint32_t n = begins[k]; n < begins[k + 1]; ++n) {
+            const Sphere& other = spheres[partners[n]];
+            const Point apart = periodic.nearest(self.position - other.position);
+            // A grain of the scene has the size that it has.
+            const double touch = self.radius + other.radius;
+            const double squared = squaredNorm(apart);
+            if (squared >= touch * touch) continue;
+            const double distance = std::sqrt(squared);
+            const double share = other.moves ? distance / touch : (distance - other.radius) / self.radius;
+            least = std::min(least, share);
+            ++contacts;
+            if (distance > 0) sum += ((touch - distance) / distance) * apart;
+        }
+        if (border[k]) {
+            const double margin = hasMargin ? self.radius : 0;
+            const Point inwards = region.inwards(self.position, margin);
+            sum += 2 * inwards;  // a border gives way by nothing
+            if (const double outside = norm(inwards); outside > 0)
+                least = std::min(least, 1 - outside / self.radius);
+            forEachWallNear(walls, periodic, self.position, self.radius,
+                            [&](const WallPoint& point, std::size_t) {
+                                sum -= 2 * (self.radius - point.distance) * point.normal;
+                                least = std::min(least, point.distance / self.radius);
+                                ++contacts;
+                            });
+        }
+        // Each pair would be apart after one step of half its overlap; of many contacts each gets a part, and
+        // steps have inertia, by which slow modes go ten times as fast.
+        const double share = stepShare * usualContacts / std::max(usualContacts, contacts);
+        steps[k] = inertia * shifts[k] + share * sum;
+        const double longest = 0.2 * self.radius, length = norm(steps[k]);
+        if (length > longest) steps[k] *= longest / length;
+        return least;
+    }
+
+    void move() {
+        std::vector<double> farthest(static_cast<std::size_t>(threads), 0);
+        inParts(
+            spheres.size(), threads,
+            [&](int part, std::size_t from, std::size_t to) {
+                double& own = farthest[static_cast<std::size_t>(part)];
+                for (std::size_t k = from; k < to; ++k) {
+                    spheres[k].position += steps[k];
+                    shifts[k] = steps[k];
+                    own = std::max(own, squaredNorm(steps[k]));
+                }
+            },
+            worthAThread);
+        moved += std::sqrt(std::ranges::max(farthest));
+    }
+
+    static constexpr double stepShare = 0.4, usualContacts = 6, inertia = 0.9;
+
+    std::size_t count;
+    bool hasMargin;
+    const Region& region;
+    const WallHandler& walls;
+    const PeriodicBox& periodic;
+    int threads;
+    double growth = 1;        // of the radii, over the wanted ones
+    double skin = 0;          // m
+    double moved = infinity;  // m, since the list was made
+    std::vector<Sphere> spheres;
+    std::vector<std::uint32_t> order;  // of the spheres as they were given
+    std::vector<Point> shifts, steps;  // m, of the last iteration and of this one
+    std::vector<std::uint32_t> begins, partners;
+    std::vector<std::uint8_t> border;
+};
+
+}  // namespace
+
+DenseStart denseStart(std::span<const double> radii, bool margin, const Region& region,
+                      const ParticleStore& present, const WallHandler& walls, const PeriodicBox& periodic,
+                      std::uint64_t seed, int threads) {
+    if (radii.empty()) return {};
+    return Relaxation(radii, margin, region, present, walls, periodic, seed, threads).run();
+}
+
+}  // namespace pendular

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Kernel/Insertion/Insertion.h"
+
+namespace pendular {
+
+class StateArchive;
+
+/// What happens to the flow of an inlet while there is no room for its next grain.
+enum class NoRoom {
+    Later,  ///< it is made up for as soon as there is room
+    Lost    ///< it is lost; from then on the flow is as before
+};
+
+/// Grains that come into a region of a scene at a rate. What has come by a time t is the largest sum of whole
+/// grains that is not above the integral of the rate (less what was lost): the error never exceeds one grain,
+/// for any time step. Grain k of an inlet has a size that is a counted random number of (seed, k), and comes
+/// at a random place that is free. One that finds no room is kept and tried again in the next step; it is not
+/// drawn again, because that would favour small ones.
+class Inlet {
+public:
+    template <std::derived_from<Region> R>
+    void setRegion(const R& where) {
+        region = std::make_shared<const R>(where);
+    }
+    void setSizes(const SizeDistribution& distribution) { sizes = distribution; }
+    /// Species, velocity, spin and film of the grains. With a velocity the inlet is a stream: what passes the
+    /// region's area at that velocity may be dense up to a solid fraction of 0.25.
+    void setGrain(const SphericalParticle& grain) { like = grain; }
+    /// kg/s
+    void setMassFlow(double rate);
+    /// Grains a second.
+    void setNumberFlow(double rate);
+    /// s: grains come between these times; from 0 on without end, if this is not called.
+    void setTimes(double first, double last);
+    void setNoRoom(NoRoom what) { noRoom = what; }
+    /// Random places that a grain is tried at in a step; 100, if this is not called.
+    void setTries(std::uint32_t number);
+    void setSeed(std::uint64_t value) { seed = value; }
+    /// Whole grains are in the region; else only their centres. Whole grains, if this is not called.
+    void setWholeGrains(bool whole) { wholeGrains = whole; }
+
+    static constexpr double densestStream = 0.25;  // solid fraction
+
+private:
+    friend class InletHandler;
+
+    std::shared_ptr<const Region> region;
+    std::optional<SizeDistribution> sizes;
+    SphericalParticle like;
+    double massFlow = unset, numberFlow = unset;  // kg/s, 1/s
+    double first = 0, last = infinity;            // s
+    NoRoom noRoom = NoRoom::Later;
+    std::uint32_t tries = 100;
+    std::uint64_t seed = 1;
+    bool wholeGrains = true;
+};
+
+/// What has come through an inlet.
+struct InletCount {
+    std::uint64_t number = 0;
+    double mass = 0;     // kg
+    double lost = 0;     // of the flow, kg or grains: what would have come if there had been room
+    bool waits = false;  // the next grain finds no room
+};
+
+/// The inlets of a scene.
+class InletHandler {
+public:
+    /// At set-up only. Returns the inlet's number. Throws InputError if something of it is not set.
+    std::size_t copyAndAddObject(const Inlet& inlet);
+    [[nodiscard]] std::size_t getSize() const { return inlets.size(); }
+    [[nodiscard]] bool isEmpty() const { return inlets.empty(); }
+    /// Throws InputError if there is no such inlet.
+    [[nodiscard]] const InletCount& count(std::size_t inlet) const;
+
+    // For the scene.
+
+    /// Smallest and largest radius (m) of the grains to come, and their species.
+    struct Sizes {
+        double smallest, largest;
+        int species;
+    };
+    [[nodiscard]] std::vector<Sizes> sizes() const;
+    /// m^3, of the films of all grains that come until a time (s), by the mean of their sizes.
+    [[nodiscard]] double liquidBy(const ParticleHandler& particles, double time) const;
+    /// Throws InputError if wet grains are to come by a time (s), and no liquid can be counted any more:
+    /// before a step, so that none is half done.
+    void requireLiquid(const ParticleHandler& particles, double time) const;
+    /// The run begins. Throws InputError for what cannot work.
+    void begin(const InsertionScene& scene);
+    /// Grains that are due at a time (s) come. @param tell of what is to be said once
+    void letIn(const InsertionScene& scene, double time, const std::function<void(std::string)>& tell);
+    void visitState(StateArchive& archive);
+
+private:
+    struct Kept {
+        Inlet inlet;
+        std::shared_ptr<const Region> region;  // in this scene
+        InletCount count;
+        std::uint32_t attempts = 0;  // of places for the next grain
+        bool wasTold = false;        // that there was no room
+        double nextRadius = unset;   // m
+    };
+
+    void check(const InsertionScene& scene, std::size_t number) const;
+    void letInOf(const InsertionScene& scene, std::size_t number, double time,
+                 const std::function<void(std::string)>& tell);
+    static std::optional<Vector<double>> findRoom(const InsertionScene& scene, Kept& kept,
+                                                  const class SphereGrid& grid, double radius,
+                                                  std::uint32_t number);
+
+    std::vector<Kept> inlets;
+    bool hasBegun = false;
+};
+
+}  // namespace pendular

@@ -1,0 +1,214 @@
+#include "Kernel/Insertion/Insertion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Insertion/DenseStart.h"
+#include "Kernel/Insertion/SphereGrid.h"
+#include "Kernel/Insertion/WallGap.h"
+#include "Kernel/Sizes/SizeSample.h"
+
+namespace pendular {
+
+namespace {
+
+constexpr std::string_view owner = "insert()";
+constexpr std::uint32_t purposeOfPlaces = 0x1257010, purposeOfProbes = 0x1257020;
+constexpr double mostGrains = ParticleStore::largestIdentity;
+
+InputError tooManyError(double number) {
+    return InputError(fmt::format("{}: the amount is some {:.3g} grains; it must be at most {:g}.", owner,
+                                  number, mostGrains));
+}
+
+/// kg. @param mean of a grain; @param full of a region without voids
+double massOf(const Amount& amount, double mean, double full) {
+    switch (amount.kind()) {
+        case Amount::Kind::Mass:
+            return amount.value();
+        case Amount::Kind::SolidFraction:
+            return amount.value() * full;
+        default:
+            return amount.value() * mean;
+    }
+}
+
+std::size_t exactCount(const Amount& amount, double mean, double whole) {
+    const double number =
+        amount.kind() == Amount::Kind::Grains ? amount.value() : std::floor(whole / mean * (1 + 1e-12));
+    if (number > mostGrains) throw tooManyError(number);
+    if (number < 1)
+        throw InputError(
+            fmt::format("{}: the amount is {:.3g} of the mean grain; it must be one grain at least.", owner,
+                        whole / mean));
+    return static_cast<std::size_t>(number);
+}
+
+}  // namespace
+
+Amount Amount::grains(std::size_t number) {
+    checkValue(owner, "number of grains", static_cast<double>(number), "", {1, mostGrains});
+    return {Kind::Grains, static_cast<double>(number)};
+}
+Amount Amount::mass(double mass) {
+    checkValue(owner, "mass", mass, "kg", positive);
+    return {Kind::Mass, mass};
+}
+Amount Amount::solidFraction(double fraction) {
+    checkValue(owner, "solid fraction", fraction, "", {0, 1, false, false});
+    return {Kind::SolidFraction, fraction};
+}
+
+std::vector<double> radiiOf(const Amount& amount, const SizeDistribution& sizes, double density,
+                            double volume, const InsertOptions& options) {
+    const double mean = density * std::numbers::pi / 6 * sizes.moment(3);  // kg
+    const double whole = massOf(amount, mean, density * volume);
+    const std::size_t count = exactCount(amount, mean, whole);
+    if (options.sample == Sample::Exact) return exactRadii(sizes, count);
+    if (amount.kind() == Amount::Kind::Grains) {
+        std::vector<double> radii = randomRadii(sizes, count, options.seed);
+        std::sort(radii.rbegin(), radii.rend());
+        return radii;
+    }
+    std::vector<double> radii;
+    const CountedRandom random(options.seed);
+    for (double sum = 0;;) {
+        const double radius = sizes.drawRadius(random, radii.size());
+        if ((sum += sphereMass(radius, density)) > whole) break;
+        radii.push_back(radius);
+        if (static_cast<double>(radii.size()) > mostGrains) throw tooManyError(whole / mean);
+    }
+    std::sort(radii.rbegin(), radii.rend());
+    return radii;
+}
+
+void refuseWithoutRoom(std::string_view who, const Region& region, const WallHandler& walls,
+                       const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains) {
+    if (wholeGrains && !(largest <= region.largestSphere() * (1 + 1e-12)))
+        throw InputError(fmt::format(
+            "{}: the largest grain has a radius of {:.6g} m and does not fit the region; it must be "
+            "at most {:.6g} m.",
+            who, largest, region.largestSphere()));
+    constexpr std::uint32_t probes = 1000;
+    const CountedRandom random(1);
+    const double margin = wholeGrains ? smallest : 0;
+    std::size_t met = 0, inRegion = 0;
+    for (std::uint32_t k = 0; k < probes; ++k) {
+        const Vector<double> point = candidateOf(region, random, k, purposeOfProbes, 0, margin);
+        if (!region.contains(point, 0)) continue;
+        ++inRegion;
+        bool isFree = true;
+        forEachWallNear(walls, periodic, point, smallest, [&](const WallPoint&, std::size_t wall) {
+            isFree = false;
+            met = wall;
+        });
+        if (isFree) return;
+    }
+    if (inRegion == 0) return;  // a thin mesh: insertion itself will tell
+    throw InputError(
+        fmt::format("{}: the region lies behind wall {}, or in it: a grain of radius {:.6g} m has room at "
+                    "none of {} random "
+                    "points of the region.",
+                    who, met, smallest, inRegion));
+}
+
+namespace {
+
+/// One after the other; not a number where there is no room.
+std::vector<Vector<double>> placeOneByOne(const InsertionScene& scene, std::span<const double> radii,
+                                          const Region& region, const InsertOptions& options,
+                                          double& firstLeftOut) {
+    SphereGrid grid(scene.particles.store(), scene.periodic, region.bounds(), radii.front());
+    const CountedRandom random(options.seed);
+    const std::uint64_t first = scene.particles.store().nextIdentity();
+    std::vector<Vector<double>> centres(radii.size(), {unset, unset, unset});
+    // Where a large grain has found no room after all its tries, an equal one will not look as long.
+    double noRoomFor = infinity;
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+        const double radius = radii[k], margin = options.wholeGrains ? radius : 0;
+        const std::uint32_t tries = radius >= noRoomFor ? std::max(options.tries / 100, 1u) : options.tries;
+        for (std::uint32_t attempt = 0; attempt < tries; ++attempt) {
+            const Vector<double> centre =
+                candidateOf(region, random, first + k, purposeOfPlaces, attempt, margin);
+            if (!region.contains(centre, margin) ||
+                touchesWall(scene.walls, scene.periodic, centre, radius) || !grid.isFree(centre, radius))
+                continue;
+            grid.add(centre, radius);
+            centres[k] = scene.periodic.wrap(centre);
+            break;
+        }
+        if (!isSet(centres[k].x)) {
+            if (firstLeftOut == 0) firstLeftOut = radius;
+            noRoomFor = std::min(noRoomFor, radius);
+        }
+    }
+    return centres;
+}
+
+std::vector<Vector<double>> placeDensely(const InsertionScene& scene, std::span<const double> radii,
+                                         const Region& region, const InsertOptions& options,
+                                         double fraction) {
+    if (fraction > densestRandomStart)
+        throw InputError(
+            fmt::format("{}: the grains would have a solid fraction of {:.4g} of the region; a random start "
+                        "reaches {:g}.",
+                        owner, fraction, densestRandomStart));
+    DenseStart found = denseStart(radii, options.wholeGrains, region, scene.particles.store(), scene.walls,
+                                  scene.periodic, options.seed, scene.threads);
+    if (found.shrink < 1)
+        throw InputError(fmt::format(
+            "{}: a solid fraction of {:.4g} of the region was not reached among its walls and grains, only "
+            "{:.4g} "
+            "after {} iterations; take a smaller amount, or a larger region.",
+            owner, fraction, fraction * std::pow(std::max(found.shrink, 0.0), 3), found.iterations));
+    for (std::size_t k = 0; k < radii.size(); ++k)
+        if (!region.contains(found.centres[k], options.wholeGrains ? radii[k] * (1 - 1e-9) : 0))
+            throw InputError(fmt::format(
+                "{}: a grain of radius {:.6g} m was pushed out of the region; take a smaller amount.", owner,
+                radii[k]));
+    return std::move(found.centres);
+}
+
+}  // namespace
+
+Inserted insertGrains(const InsertionScene& scene, const SizeDistribution& sizes, const Region& given,
+                      const Amount& amount, const SphericalParticle& like, const InsertOptions& options) {
+    if (like.getSpeciesIndex() < 0)
+        throw InputError(
+            fmt::format("{}: the grain has no species; call setSpecies() with one of this scene.", owner));
+    const auto region = given.in(scene.periodic);
+    const double density = scene.particles.massOf(1, like.getSpeciesIndex()) / sphereMass(1, 1);
+    refuseWithoutRoom(owner, *region, scene.walls, scene.periodic, 0.5 * sizes.smallest(),
+                      0.5 * sizes.largest(), options.wholeGrains);
+    const std::vector<double> radii = radiiOf(amount, sizes, density, region->volume(), options);
+    Inserted result;
+    result.wanted = radii.size();
+    double mass = 0;  // kg
+    for (const double radius : radii) mass += sphereMass(radius, density);
+    const double full = density * region->volume();
+    result.wantedMass = amount.kind() == Amount::Kind::Grains ? mass : massOf(amount, 0, full);
+    if (radii.empty()) return result;
+    const double fraction = mass / full;
+    std::vector<Vector<double>> centres;
+    if (fraction <= looseFraction)
+        centres = placeOneByOne(scene, radii, *region, options, result.firstLeftOut);
+    else centres = placeDensely(scene, radii, *region, options, fraction);
+    scene.particles.reserve(scene.particles.store().size() + radii.size());
+    SphericalParticle grain = like;
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+        if (!isSet(centres[k].x)) continue;
+        grain.setRadius(radii[k]);
+        grain.setPosition(toEigen(centres[k]));
+        scene.particles.copyAndAddObject(grain);
+        ++result.number;
+        result.mass += sphereMass(radii[k], density);
+    }
+    result.solidFraction = result.mass / full;
+    return result;
+}
+
+}  // namespace pendular

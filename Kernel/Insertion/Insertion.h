@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "Kernel/Insertion/Region.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Sizes/SizeDistribution.h"
+
+namespace pendular {
+
+class WallHandler;
+
+/// How much is to be inserted.
+class Amount {
+public:
+    enum class Kind { Grains, Mass, SolidFraction };
+
+    static Amount grains(std::size_t number);
+    /// kg: as many whole grains as do not exceed it
+    static Amount mass(double mass);
+    /// Volume of the grains that are inserted over that of the region; those that are there do not count.
+    static Amount solidFraction(double fraction);
+
+    [[nodiscard]] Kind kind() const { return what; }
+    [[nodiscard]] double value() const { return much; }
+
+private:
+    Amount(Kind kind, double value) : what(kind), much(value) {}
+    Kind what;
+    double much;
+};
+
+/// How sizes are drawn: so that the sample has the distribution as exactly as its count allows
+/// (exactRadii()), or each by itself.
+enum class Sample { Exact, Random };
+
+struct InsertOptions {
+    Sample sample = Sample::Exact;
+    bool wholeGrains = true;  ///< in the region; else only their centres
+    std::uint64_t seed = 1;
+    std::uint32_t tries = 10000;  ///< random places for each grain, up to looseFraction
+};
+
+/// What was inserted.
+struct Inserted {
+    std::size_t number = 0, wanted = 0;
+    double mass = 0, wantedMass = 0;  // kg; wanted: the amount asked for
+    double solidFraction = 0;         // of the region
+    double firstLeftOut = 0;          // m, radius of the first grain that found no room; 0: all did
+};
+
+/// Up to this solid fraction grains are placed one after the other, at random points that are free, the
+/// largest first; above it by denseStart(). (Equal spheres placed so end at 0.384; at 0.2 a grain finds room
+/// after some 20 points.)
+inline constexpr double looseFraction = 0.2;
+
+/// Where grains may come.
+struct InsertionScene {
+    ParticleHandler& particles;
+    const WallHandler& walls;
+    const PeriodicBox& periodic;
+    int threads = 1;
+};
+
+/// Radii (m), the largest first; none where the first random grain is heavier than the amount. @param density
+/// kg/m^3; @param volume m^3, of the region. Throws InputError where the amount is less than the mean grain,
+/// or more than a scene can have.
+std::vector<double> radiiOf(const Amount& amount, const SizeDistribution& sizes, double density,
+                            double volume, const InsertOptions& options);
+
+/// Throws InputError where a sphere of the smaller radius (m) is behind a wall, or in it, at each of a
+/// thousand random points of a region, or one of the larger radius cannot be in it at all.
+void refuseWithoutRoom(std::string_view owner, const Region& region, const WallHandler& walls,
+                       const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains);
+
+/// Inserts grains that overlap nothing: no grain, no wall, none of their images. A grain that finds no room
+/// is left out, and all smaller ones are tried. Of an amount that is less than the first random grain none
+/// comes.
+///
+/// Throws InputError if the sizes do not fit the region, if it lies behind a wall, and if the solid fraction
+/// cannot be reached: with that which can.
+/// @param like species, velocity, spin and film of all of them
+Inserted insertGrains(const InsertionScene& scene, const SizeDistribution& sizes, const Region& region,
+                      const Amount& amount, const SphericalParticle& like, const InsertOptions& options);
+
+}  // namespace pendular

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "Kernel/Particles/PeriodicBox.h"
+
+namespace pendular {
+
+/// How the length of a periodic scene along an axis changes.
+struct AxisStrain {
+    double rate = 0;            // 1/s, of the logarithm of the length
+    bool isControlled = false;  // by a servo, so that the stress becomes the target
+    double stress = 0;          // Pa, compression positive, of the servo
+    double time = 0;            // s, of the servo
+    double largestRate = 0;     // 1/s, of the servo
+};
+
+/// Homogeneous strain of a periodic scene: images that follow each other along an axis move apart, or
+/// together, with the speed rate x length. In a step that speed u is constant. Where it changes, from one
+/// step to the next, all grains get the change of the flow, change of u/L x (place - middle), so that each of
+/// them and each of its images have the same motion against the flow, whichever of them the scene keeps: to
+/// round-off. (With a constant rate that is the acceleration rate^2 x (place - middle).) A grain that flies
+/// freely then loses its speed C against the flow as C x L = const.
+struct HomogeneousStrain {
+    std::array<AxisStrain, 3> axes{};
+    bool isSet = false;
+
+    /// Takes the rates for a step (s) to come. Returns by how much the speed of the images over the length
+    /// has changed (1/s).
+    Vector<double> begin(PeriodicBox& box, double step) const {
+        const Vector<double> before = box.strainRate;
+        // So that the length grows by exp(rate x step).
+        const auto speed = [step](const AxisStrain& axis) { return std::expm1(axis.rate * step) / step; };
+        box.strainRate = {speed(axes[0]), speed(axes[1]), speed(axes[2])};
+        return box.strainRate - before;
+    }
+    /// Where the images are after a step (s), about the same middle.
+    static void move(PeriodicBox& box, double step) {
+        const Vector<double> middle = box.middle();
+        const auto grow = [step](double& length, double& rate) {
+            const double factor = 1 + step * rate;
+            length *= factor;
+            rate /= factor;
+        };
+        grow(box.length.x, box.strainRate.x);
+        grow(box.length.y, box.strainRate.y);
+        grow(box.length.z, box.strainRate.z);
+        box.lowest = middle - 0.5 * box.length;
+    }
+};
+
+}  // namespace pendular
