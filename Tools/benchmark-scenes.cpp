@@ -176,7 +176,8 @@ int main(int argc, char** argv) {
         "Initial states are made by the program when they are first asked for, which takes minutes for "
         "large scenes, and kept in the folder of --states.");
     Options o;
-    app.add_option("--scene", o.choice.scene, "bed, wet-bed, wet-walls, sprayed-bed, drum, penetration, gas or polydisperse")
+    app.add_option("--scene", o.choice.scene,
+                   "bed, wet-bed, wet-walls, sprayed-bed, drum, penetration, gas or polydisperse")
         ->capture_default_str();
     app.add_option("--particles", o.choice.particles,
                    "number of grains, about; the scene's own if not given");
@@ -187,6 +188,9 @@ int main(int argc, char** argv) {
     app.add_option("--steps", o.steps, "steps that are timed")->capture_default_str();
     app.add_option("--warm", o.warm, "steps before those")->capture_default_str();
     app.add_option("--ratio", o.choice.ratio, "radius of large grains to that of small ones (polydisperse)")
+        ->capture_default_str();
+    app.add_option("--clumps", o.choice.clumps,
+                   "spheres that are joined to each rigid body (bed, wet-bed); 1: none")
         ->capture_default_str();
     app.add_option("--shear", o.choice.shear,
                    "speed along x over the height above the floor that the grains start with, 1/s (bed, "

@@ -15,6 +15,7 @@
 #include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/CoarseGraining/SceneState.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Output/BoxFields.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Simulation/Program.h"
 
@@ -30,7 +31,7 @@ struct Options {
     double from = -infinity, to = infinity;
     std::vector<double> box, periodic, sizes, plateau;
     std::size_t species = 0;
-    bool eachFrame = false;
+    bool eachFrame = false, withoutContacts = false, againstFlow = false;
     int threads = 1;
 };
 
@@ -56,20 +57,29 @@ std::vector<FrameFiles> framesOf(const Options& o) {
     return frames;
 }
 
-PeriodicBox periodicOf(const Options& o, const Vector<double>& lowest) {
-    PeriodicBox box{lowest, {0, 0, 0}};
-    if (o.periodic.empty()) return box;
+/// The periods that were given, or those of a frame.
+PeriodicBox periodicOf(const Options& o, const PolyData& frame) {
+    if (o.periodic.empty()) return boxOf(frame).value_or(PeriodicBox{});
     for (const double length : o.periodic) checkValue(program, "period", length, "m", notNegative);
+    PeriodicBox box;
     box.length = {o.periodic[0], o.periodic[1], o.periodic[2]};
     return box;
 }
 
-GrainState read(const FrameFiles& frame, const PeriodicBox& periodic) {
-    return stateOf(readPolyData(frame.grains),
-                   frame.contacts.empty() ? PolyData{} : readPolyData(frame.contacts), periodic);
+GrainState read(const FrameFiles& frame, const Options& o) {
+    const PolyData grains = readPolyData(frame.grains);
+    const bool hasContacts = !frame.contacts.empty() && !o.withoutContacts;
+    GrainState state =
+        stateOf(grains, hasContacts ? readPolyData(frame.contacts) : PolyData{}, periodicOf(o, grains));
+    if (o.againstFlow) takeFlowAway(state);
+    return state;
 }
 
-/// The box that was given, or the one around all grains of a state.
+FieldContent contentOf(const Options& o) {
+    return o.withoutContacts ? FieldContent::WithoutContacts : FieldContent::All;
+}
+
+/// The box that was given, or the one around all grains of a state, and the periods that its frame has.
 std::array<Vector<double>, 2> boxOf(const Options& o, const GrainState& state) {
     if (!o.box.empty())
         return {Vector<double>{o.box[0], o.box[2], o.box[4]}, Vector<double>{o.box[1], o.box[3], o.box[5]}};
@@ -81,6 +91,10 @@ std::array<Vector<double>, 2> boxOf(const Options& o, const GrainState& state) {
         high = {std::max(high.x, p.x + g.radius), std::max(high.y, p.y + g.radius),
                 std::max(high.z, p.z + g.radius)};
     }
+    if (!o.periodic.empty()) return {low, high};
+    const PeriodicBox& box = state.periodic;
+    for (double Vector<double>::*axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z})
+        if (box.length.*axis > 0) low.*axis = box.lowest.*axis, high.*axis = low.*axis + box.length.*axis;
     return {low, high};
 }
 
@@ -99,10 +113,9 @@ void printRows(const FieldSums& sums, double time) {
 }
 
 /// Fields of all frames together, or of each.
-void average(const Options& o, const std::vector<FrameFiles>& frames, const FieldGrid& grid,
-             const PeriodicBox& periodic) {
+void average(const Options& o, const std::vector<FrameFiles>& frames, const FieldGrid& grid) {
     FieldSums sums(grid, SmoothingKernel(kernelShapeNamed(o.kernel), grid.dimensions(), o.width, o.cutOff),
-                   groupsOf(o));
+                   groupsOf(o), contentOf(o));
     std::optional<ParaViewSeries> series;
     if (!o.image.empty()) series.emplace(o.image, -infinity, ".vti");
     else fmt::print("{}\n", headerOf(sums));
@@ -113,7 +126,7 @@ void average(const Options& o, const std::vector<FrameFiles>& frames, const Fiel
     };
     for (std::size_t k = 0; k < frames.size(); ++k) {
         if (o.eachFrame) sums.clear();
-        sums.add(read(frames[k], periodic), o.threads);
+        sums.add(read(frames[k], o), o.threads);
         if (o.eachFrame) finish(frames[k].time, k);
     }
     if (!o.eachFrame) finish(0.5 * (frames.front().time + frames.back().time), 0);
@@ -122,9 +135,9 @@ void average(const Options& o, const std::vector<FrameFiles>& frames, const Fiel
 /// The fields in the middle of the box over the width of the kernel, from all frames: where they hardly
 /// change there is a plateau.
 void printPlateau(const Options& o, const std::vector<FrameFiles>& frames, const Vector<double>& low,
-                  const Vector<double>& high, const PeriodicBox& periodic) {
+                  const Vector<double>& high) {
     std::vector<GrainState> states;
-    for (const FrameFiles& frame : frames) states.push_back(read(frame, periodic));
+    for (const FrameFiles& frame : frames) states.push_back(read(frame, o));
     checkValue(program, "smallest width", o.plateau[0], "m", positive);
     checkValue(program, "largest width", o.plateau[1], "m", {o.plateau[0], infinity, false, false});
     constexpr int widths = 41;
@@ -135,7 +148,7 @@ void printPlateau(const Options& o, const std::vector<FrameFiles>& frames, const
         FieldSums sums(point,
                        SmoothingKernel(kernelShapeNamed(o.kernel), point.dimensions(), width,
                                        o.cutOff > 0 ? o.cutOff / o.width * width : 0),
-                       groupsOf(o));
+                       groupsOf(o), contentOf(o));
         for (const GrainState& state : states) sums.add(state, o.threads);
         if (k == 0) fmt::print("width_m,{}\n", headerOf(sums));
         forEachRow(sums, 0.5 * (frames.front().time + frames.back().time),
@@ -150,15 +163,12 @@ int run(const Options& o) {
                                      program, o.from, o.to));
     if (o.plateau.empty() || o.cutOff > 0) checkValue(program, "width", o.width, "m", positive);
     const std::vector<FrameFiles> frames = framesOf(o);
-    const GrainState first = read(frames.front(), periodicOf(o, {0, 0, 0}));
+    const GrainState first = read(frames.front(), o);
     if (first.grains.empty() && o.box.empty())
         throw InputError(fmt::format("{}: the first frame has no grains; give a --box-m.", program));
     const auto [low, high] = boxOf(o, first);
-    const PeriodicBox periodic = periodicOf(o, low);
-    if (!o.plateau.empty()) printPlateau(o, frames, low, high, periodic);
-    else
-        average(o, frames, FieldGrid(o.coordinates, low, high, isSet(o.spacing) ? o.spacing : o.width),
-                periodic);
+    if (!o.plateau.empty()) printPlateau(o, frames, low, high);
+    else average(o, frames, FieldGrid(o.coordinates, low, high, isSet(o.spacing) ? o.spacing : o.width));
     return 0;
 }
 
@@ -183,10 +193,19 @@ int main(int argc, char** argv) {
     app.add_option("--box-m", o.box,
                    "x from, x to, y from, y to, z from, z to, m; that of the grains if not given")
         ->expected(6);
-    app.add_option("--periodic-m", o.periodic, "periods along x, y, z, m; 0: none")->expected(3);
+    app.add_option("--periodic-m", o.periodic,
+                   "periods along x, y, z, m; 0: none; those that the frames have, with shear and strain, if "
+                   "not given")
+        ->expected(3);
     app.add_option("--from-s", o.from, "first time of frames, s");
     app.add_option("--to-s", o.to, "last time of frames, s");
     app.add_flag("--each-frame", o.eachFrame, "fields of each frame, not the average over all");
+    app.add_flag(
+        "--without-contacts", o.withoutContacts,
+        "only fields of the grains themselves: no stress of contacts, traction, fabric, coordination "
+        "and liquid");
+    app.add_flag("--against-flow", o.againstFlow,
+                 "velocities against the flow of a shear or a strain that the frames know");
     app.add_option("--by-species", o.species, "fields of so many species as well, each for itself");
     app.add_option("--by-size-m", o.sizes, "fields of grains between these diameters (m) as well")
         ->expected(1, 100);

@@ -1,11 +1,11 @@
 /// Measures what a frame of a bed takes in each format of files: bytes, and time beside that of 1000 steps.
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <CLI/CLI.hpp>
 
 #include "Drivers/Shared/BenchmarkScenes.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
+#include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Output/MercuryOutput.h"
@@ -22,32 +22,6 @@ struct Options {
     std::string folder = "output-costs";
     int threads = 1;
 };
-
-/// Seconds of a processor that this program has taken so far: other programs lengthen the time on the clock,
-/// but not this one.
-double processorTime() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-template <class Function>
-double processorTimeOf(Function&& function) {
-    const double before = processorTime();
-    function();
-    return processorTime() - before;
-}
-
-/// s of a processor: the least of so many calls. What else runs on the machine can only add to it.
-template <class Function>
-double leastTimeOf(std::size_t calls, Function&& function) {
-    double least = infinity;
-    for (std::size_t k = 0; k < calls; ++k) least = std::min(least, processorTimeOf(function));
-    return least;
-}
 
 constexpr std::size_t framesTimed = 15, stepsTogether = 10;
 

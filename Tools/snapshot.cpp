@@ -1,19 +1,15 @@
 /// Draws the state of a run: shaded spheres, bridges, transparent walls, a legend. Rendered by POV-Ray,
 /// without a display.
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <cstdlib>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Field.h"
 #include "Tools/Snapshot/Compose.h"
+#include "Tools/Snapshot/Render.h"
 
 using namespace pendular;
 using namespace pendular::snapshot;
@@ -89,41 +85,6 @@ std::vector<std::filesystem::path> chosenFrames(const Options& o) {
         })->file};
 }
 
-/// Runs a program without a shell; returns its exit code, or 127 if there is no such program. What it says
-/// goes to a file.
-int runQuietly(std::vector<std::string> words, const std::string& log) {
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                     0644);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    pid_t child = 0;
-    const int problem = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    int status = 0;
-    if (problem != 0 || waitpid(child, &status, 0) != child) return 127;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
-/// Renders NAME.pov to NAME.png, and removes what is not needed any more.
-void render(const std::filesystem::path& scene, const std::filesystem::path& picture, const View& view) {
-    const std::string log = scene.string() + ".log";
-    const int code =
-        runQuietly({"povray", "+I" + scene.string(), "+O" + picture.string(), fmt::format("+W{}", view.width),
-                    fmt::format("+H{}", view.height), "+A0.1", "+AM2", "+R3", "-D", "+FN8", "-GA"},
-                   log);
-    if (code == 127)
-        throw InputError(fmt::format(
-            "POV-Ray is not installed (Debian package povray); the scene for it is in {}.", scene.string()));
-    if (code != 0)
-        throw InputError(fmt::format("POV-Ray failed on {}; what it said is in {}.", scene.string(), log));
-    std::filesystem::remove(log);
-    std::filesystem::remove(scene);
-}
-
 int run(const Options& o) {
     check(o);
     const std::vector<std::filesystem::path> files = chosenFrames(o);
@@ -150,12 +111,8 @@ int run(const Options& o) {
         if (o.all)
             target.replace_filename(
                 fmt::format("{}-{:04}{}", target.stem().string(), k, target.extension().string()));
-        std::filesystem::path scene = target;
-        WrittenBeside out(scene.replace_extension(".pov"));
-        out.write(PovScene(picture, camera).text());
-        out.close();
-        if (!o.sceneOnly) render(scene, target, o.view);
-        fmt::print("wrote {}\n", (o.sceneOnly ? scene : target).string());
+        const auto written = draw(picture, camera, target, o.view.width, o.view.height, o.sceneOnly);
+        fmt::print("wrote {}\n", written.string());
     }
     return 0;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "Kernel/Species/SpeciesInScene.h"

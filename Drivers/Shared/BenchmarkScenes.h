@@ -4,6 +4,7 @@
 
 #include "BuildFolders.h"
 #include "Drivers/Shared/DrumScene.h"
+#include "Drivers/Shared/JoinedGrains.h"
 #include "Drivers/Shared/PenetrationScene.h"
 #include "Drivers/Shared/SettledGrains.h"
 #include "Kernel/Species/Adhesion/WetWall.h"
@@ -17,6 +18,7 @@ struct BenchmarkChoice {
     std::size_t particles = 0;        // about; 0: the scene's own number
     std::string species;              // empty: the scene's own
     double ratio = 20;                // of the radii of a mixture, large to small
+    std::size_t clumps = 1;           // spheres that are joined to each body of a bed; 1: none
     double shear = 0;                 // 1/s, speed along x over height that a bed or a mixture starts with
     std::filesystem::path positions;  // of the grains; empty: made by the program
     std::filesystem::path walls;      // of the drum and the penetration, with their positions
@@ -30,9 +32,9 @@ struct BenchmarkChoice {
 inline constexpr double benchmarkStep = 5e-7;   // s
 inline constexpr double settlingSoftness = 30;  // divides the stiffness while a drum or a bed is filled
 
-/// The bed of Dosta et al. (2024) in the box of its peers' scripts; more grains are copies along x.
+/// More grains than the published bed has are copies along x.
 inline Settled publishedBed(const BenchmarkChoice& choice) {
-    const Settled one{{{-0.05, -0.03, -0.090243}, {0.05, 0.03, infinity}}, readGrainFile(choice.positions)};
+    const Settled one = publishedBedOf(choice.positions);
     return repeated(
         one, std::max<std::size_t>(1, (choice.particlesOr(1) + one.grains.size() / 2) / one.grains.size()));
 }
@@ -117,6 +119,10 @@ void withSceneOf(std::string_view speciesName, const BenchmarkChoice& choice, in
     if (choice.shear != 0)
         for (GrainReference grain : scene.particleHandler)
             grain.setVelocity({choice.shear * (grain.getPosition().z() - bed.box.lowest.z()), 0, 0});
+    if (choice.clumps > 1) {
+        joinNeighbours(scene, choice.clumps);
+        scene.acceptUnstableTimeStep();  // the same step for all: the limit counts with the worst body
+    }
     if (choice.scene == "sprayed-bed") addRain(scene, bed.box);
     bed = {};  // gives its memory back
     if (species->has("liquidBridgeVolumeMax"))
@@ -172,6 +178,9 @@ inline void check(const BenchmarkChoice& choice) {
         choice.scene == "bed" || choice.scene.starts_with("wet-") || choice.scene == "sprayed-bed";
     checkValue("benchmark-scenes", "ratio", choice.ratio, "", {1, 50});
     checkValue("benchmark-scenes", "shear", choice.shear, "1/s", {-1e4, 1e4});
+    checkValue("benchmark-scenes", "clumps", static_cast<double>(choice.clumps), "spheres", {1, 64});
+    if (choice.clumps > 1 && choice.scene != "bed" && choice.scene != "wet-bed")
+        throw InputError(fmt::format("benchmark-scenes: the scene {} takes no clumps.", choice.scene));
     if (choice.shear != 0 && !isBed && choice.scene != "polydisperse")
         throw InputError(fmt::format("benchmark-scenes: the scene {} takes no shear.", choice.scene));
     const bool hasMesh = choice.scene == "drum" || choice.scene == "penetration";

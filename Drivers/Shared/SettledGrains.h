@@ -22,6 +22,11 @@ struct Settled {
     std::vector<GrainRow> grains;
 };
 
+/// The bed of Dosta et al. (2024) from a file of rows radius x y z (m), in the box of its peers' scripts.
+inline Settled publishedBedOf(const std::filesystem::path& positions) {
+    return {{{-0.05, -0.03, -0.090243}, {0.05, 0.03, infinity}}, readGrainFile(positions)};
+}
+
 /// So many grains of one radius on a loose lattice, layer by layer from the floor of a box without lid, where
 /// they meet none of the grains that are there.
 inline std::vector<GrainRow> looseGrains(const Box& box, std::size_t count, double radius,

@@ -8,6 +8,7 @@ namespace {
 
 struct Options {
     double solidFraction = 0.58;
+    double inertialNumber = 0;  // 0: at the solid fraction
     std::size_t number = 1000;  // about
     double friction = 0.5, restitution = 0.7;
     double stiffness = 1e6;  // over density x diameter^3 x rate^2
@@ -32,12 +33,15 @@ public:
         setLeesEdwards(0, 1, rate);
         if (!isRestarted()) addGrains();
         setTimeStep(shortestContactTime() / 50);
+        // The time of the servo: some twice that in which sound passes the cell.
+        if (options.inertialNumber > 0) setTargetStress(1, pressure(), 500 * getTimeStep(), rate);
         setInterval(options.interval / rate, 100);
     }
     void writeRow(const Means& means) override {
         const double p = means.stress.trace() / 3, shear = -means.stress(0, 1);
-        // That of the grains as they were drawn.
-        const double solidFraction = getTotalMass() / density / std::pow(cells() * cell(), 3);
+        // That of the grains as they were drawn, in the cell as it is at the end of the row.
+        const Vector<double> length = getPeriodicBox().length;
+        const double solidFraction = getTotalMass() / density / (length.x * length.y * length.z);
         table.row(getTime(), rate * getTime(), solidFraction, p, shear, shear / p,
                   rate * diameter * std::sqrt(density / p), means.kinetic / (density * solidFraction),
                   means.contacts);
@@ -46,6 +50,10 @@ public:
 private:
     static constexpr double rate = 10;  // 1/s
 
+    /// Pa, along the gradient.
+    [[nodiscard]] double pressure() const {
+        return density * std::pow(rate * diameter / options.inertialNumber, 2);
+    }
     /// Of the face-centred lattice from which the grains start, along each axis.
     [[nodiscard]] int cells() const {
         return std::max(3, static_cast<int>(std::lround(std::cbrt(static_cast<double>(options.number) / 4))));
@@ -78,7 +86,17 @@ int main(int argc, char** argv) {
         .options = o.run,
         .files = "stress.csv",
         .numbers = {
-            {"solid-fraction", "", &o.solidFraction, {0.01, 0.63}, "volume of the grains over the cell's"},
+            {"solid-fraction",
+             "",
+             &o.solidFraction,
+             {0.01, 0.63},
+             "volume of the grains over the cell's, at the start of a run under a pressure"},
+            {"inertial-number",
+             "",
+             &o.inertialNumber,
+             {0, 1},
+             "rate x diameter x sqrt(density / pressure along the gradient), which is held; 0: the volume "
+             "is"},
             {"number", "", &o.number, {1, 1e8}, "number of grains, about"},
             {"friction", "", &o.friction, {0, 10}, "coefficient of friction of the grains"},
             {"restitution", "", &o.restitution, {0.01, 1}, "coefficient of restitution of the grains"},

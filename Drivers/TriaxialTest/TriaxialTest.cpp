@@ -29,8 +29,8 @@ public:
         for (int axis = 0; axis < 3; ++axis) setPeriodic(axis, 0, edge() * spacing);
         if (!isRestarted()) addGrains();
         setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 25));
-        // While z is strained, the stress along x and y is off by rate x stiffness x time of the servo.
-        for (int axis = 0; axis < 3; ++axis) setTargetStress(axis, pressure, 20 * getTimeStep(), 2 * rate());
+        // The time of the servo: some twice that in which sound passes the cell.
+        for (int axis = 0; axis < 3; ++axis) setTargetStress(axis, pressure, 250 * getTimeStep(), 2 * rate());
         setInterval(options.interval / rate(), 20);
         begin = getPeriodicBox().length;
     }

@@ -61,7 +61,8 @@ void FluxPlaneHandler::beforeMotion(const ParticleStore& grains) {
     }
 }
 
-void FluxPlaneHandler::afterMotion(ParticleHandler& particles) {
+void FluxPlaneHandler::afterMotion(ParticleHandler& particles,
+                                   const std::function<double(std::uint32_t)>& liquidOf) {
     const ParticleStore& grains = particles.storeInStep();
     for (Plane& plane : planes) {
         crossings.clear();
@@ -74,12 +75,16 @@ void FluxPlaneHandler::afterMotion(ParticleHandler& particles) {
         // Places depend on the list of contacts, sums must not.
         std::ranges::sort(crossings, {}, &Crossing::identity);
         for (const Crossing& crossing : crossings) {
-            const double mass =
-                std::abs(crossing.times) *
-                particles.massOf(grains.translation[crossing.place].radius, grains.species[crossing.place]);
-            const auto number = static_cast<std::uint64_t>(std::abs(crossing.times));
-            (crossing.times > 0 ? plane.count.forwards : plane.count.backwards) += number;
-            (crossing.times > 0 ? plane.count.massForwards : plane.count.massBackwards) += mass;
+            const TranslationRecord& grain = grains.translation[crossing.place];
+            const double times = std::abs(crossing.times);
+            const double mass = times * particles.massOf(grain.radius, grains.species[crossing.place]);
+            const double liquid = times * liquidOf(crossing.place);
+            FluxCount& count = plane.count;
+            const bool forwards = crossing.times > 0;
+            (forwards ? count.forwards : count.backwards) += static_cast<std::uint64_t>(times);
+            (forwards ? count.massForwards : count.massBackwards) += mass;
+            (forwards ? count.momentumForwards : count.momentumBackwards) += mass * grain.velocity;
+            (forwards ? count.liquidForwards : count.liquidBackwards) += liquid;
         }
     }
 }
@@ -99,6 +104,10 @@ void FluxPlaneHandler::visitState(StateArchive& archive) {
             archive.value("backwards", plane.count.backwards);
             archive.finite("massForwards", plane.count.massForwards);
             archive.finite("massBackwards", plane.count.massBackwards);
+            archive.finite("momentumForwards", plane.count.momentumForwards);
+            archive.finite("momentumBackwards", plane.count.momentumBackwards);
+            archive.finite("liquidForwards", plane.count.liquidForwards);
+            archive.finite("liquidBackwards", plane.count.liquidBackwards);
         });
 }
 

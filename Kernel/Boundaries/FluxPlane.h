@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "Kernel/Particles/ParticleHandler.h"
@@ -10,14 +11,19 @@ namespace pendular {
 
 class StateArchive;
 
-/// What has gone through a plane. Masses are those of solid spheres of the grains' densities.
+/// What has gone through a plane. Masses are those of solid spheres of the grains' densities; velocities are
+/// those with which grains moved in the step in which they went through it.
 struct FluxCount {
     std::uint64_t forwards = 0, backwards = 0;   // grains, with the plane's normal and against it
     double massForwards = 0, massBackwards = 0;  // kg
+    Vector<double> momentumForwards{0, 0, 0}, momentumBackwards{0, 0, 0};  // kg m/s
+    double liquidForwards = 0, liquidBackwards = 0;  // m^3, of films, and half of each bridge between grains
     [[nodiscard]] std::int64_t net() const {
         return static_cast<std::int64_t>(forwards) - static_cast<std::int64_t>(backwards);
     }
     [[nodiscard]] double netMass() const { return massForwards - massBackwards; }
+    [[nodiscard]] Vec3D netMomentum() const { return toEigen(momentumForwards - momentumBackwards); }
+    [[nodiscard]] double netLiquid() const { return liquidForwards - liquidBackwards; }
 };
 
 /// Planes that count the grains whose centres go through them. A grain counts +1 when its distance along the
@@ -41,7 +47,8 @@ public:
     void begin(const PeriodicBox& periodic);
     /// Before the grains of a step move, and when they have.
     void beforeMotion(const ParticleStore& grains);
-    void afterMotion(ParticleHandler& particles);
+    /// @param liquidOf the grain at a place, m^3
+    void afterMotion(ParticleHandler& particles, const std::function<double(std::uint32_t)>& liquidOf);
     /// The step has failed: what it counted is taken back.
     void takeBack();
     void visitState(StateArchive& archive);

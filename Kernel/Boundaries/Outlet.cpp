@@ -19,6 +19,17 @@ void Outlet::setPlane(const Vec3D& direction, const Vec3D& point) {
     hasPlane = true;
 }
 
+void Outlet::setLeastAge(double age) {
+    checkValue("Outlet", "least age", age, "s", notNegative);
+    leastAge = age;
+}
+
+void Outlet::setCondition(std::function<bool(const GrainReference&)> function) {
+    if (!function)
+        throw InputError("Outlet: the condition is an empty function; give one that can be called.");
+    condition = std::move(function);
+}
+
 std::size_t OutletHandler::copyAndAddObject(const Outlet& outlet) {
     if (hasBegun) throw InputError("Simulation: outlets can only be added before the run begins.");
     if (!outlet.region && !outlet.hasPlane)
@@ -29,8 +40,11 @@ std::size_t OutletHandler::copyAndAddObject(const Outlet& outlet) {
     return outlets.size() - 1;
 }
 
-void OutletHandler::begin(const PeriodicBox& periodic) {
+void OutletHandler::begin(const PeriodicBox& periodic, const ParticleStore& grains, double time) {
     hasBegun = true;
+    for (const Outlet& outlet : outlets) longestAge = std::max(longestAge, outlet.leastAge);
+    arrivals = {{time, grains.nextIdentity()}};
+    last = time;
     const std::array<double, 3> periods{periodic.length.x, periodic.length.y, periodic.length.z};
     for (std::size_t o = 0; o < outlets.size(); ++o) {
         Outlet& outlet = outlets[o];
@@ -69,8 +83,30 @@ double OutletHandler::removedMass() const {
     return sum;
 }
 
-void OutletHandler::letOut(ParticleHandler& particles, int threads) {
+/// What is new has come at the end of the step before, or after it.
+void OutletHandler::noteArrivals(std::uint32_t next, double time) {
+    if (next > arrivals.back().next) arrivals.push_back({last, next});
+    last = time;
+    // All but the last of those that every outlet takes for old enough.
+    const auto isYoung = [&](const Arrival& arrival) { return time - arrival.time < longestAge; };
+    const auto young = std::ranges::find_if(arrivals, isYoung);
+    if (young - arrivals.begin() > 1) arrivals.erase(arrivals.begin(), young - 1);
+}
+
+std::uint32_t OutletHandler::firstTooYoung(const Outlet& outlet, double time) const {
+    if (outlet.leastAge == 0) return ~std::uint32_t{0};
+    std::uint32_t first = 0;
+    // Times are sums of steps, up to round-off.
+    for (const Arrival& arrival : arrivals)
+        if (time - arrival.time >= outlet.leastAge * (1 - 1e-12)) first = arrival.next;
+    return first;
+}
+
+void OutletHandler::letOut(ParticleHandler& particles, double time, int threads) {
     const ParticleStore& grains = particles.storeInStep();
+    if (longestAge > 0) noteArrivals(grains.nextIdentity(), time);
+    std::vector<std::uint32_t> tooYoung;
+    for (const Outlet& outlet : outlets) tooYoung.push_back(firstTooYoung(outlet, time));
     found.resize(static_cast<std::size_t>(threads));
     for (auto& own : found) own.clear();
     inParts(
@@ -79,24 +115,42 @@ void OutletHandler::letOut(ParticleHandler& particles, int threads) {
             for (std::size_t k = begin; k < end; ++k)
                 for (std::uint32_t o = 0; o < outlets.size(); ++o) {
                     const TranslationRecord& grain = grains.translation[k];
-                    if (grain.radius == 0 || grain.inverseMass == 0 || !outlets[o].takes(grain.position))
+                    if (grain.radius == 0 || grain.inverseMass == 0 || grains.identity[k] >= tooYoung[o] ||
+                        !outlets[o].takes(grain.position))
                         continue;
                     found[static_cast<std::size_t>(part)].push_back({grains.identity[k], o});
-                    break;
+                    if (!outlets[o].condition) break;
                 }
         },
         16384);
     leaving.clear();
     for (const auto& own : found) leaving.insert(leaving.end(), own.begin(), own.end());
-    std::ranges::sort(leaving, {}, &Leaving::identity);
+    std::ranges::sort(leaving);
     for (const auto& [identity, outlet] : leaving) {
+        if (!particles.contains(identity)) continue;  // it has gone through an earlier one
         const GrainReference grain = particles.getObject(identity);
+        if (outlets[outlet].condition && !outlets[outlet].condition(grain)) continue;
         const int species = grain.getSpeciesIndex();
         const double radius = grain.getRadius();
         particles.removeObject(identity);
         outlets[outlet].tally.add(static_cast<std::size_t>(species), radius,
                                   particles.massOf(radius, species));
     }
+}
+
+void OutletHandler::visitArrivals(StateArchive& archive) {
+    std::vector<double> times;
+    std::vector<std::uint32_t> nexts;
+    for (const Arrival& arrival : arrivals) times.push_back(arrival.time), nexts.push_back(arrival.next);
+    archive.column<double>("times", times);
+    archive.column<std::uint32_t>("nexts", nexts);
+    archive.finite("last", last);
+    archive.requireFinite("times", times);
+    archive.require(times.size() == nexts.size() && !times.empty() && std::ranges::is_sorted(times) &&
+                        std::ranges::is_sorted(nexts),
+                    "times", "does not rise with the grains");
+    arrivals.clear();
+    for (std::size_t k = 0; k < times.size(); ++k) arrivals.push_back({times[k], nexts[k]});
 }
 
 void OutletHandler::visitState(StateArchive& archive) {
@@ -110,8 +164,12 @@ void OutletHandler::visitState(StateArchive& archive) {
                 archive.sameRecord<double>("normal", outlet.normal);
                 archive.same("offset", outlet.offset, "m");
             }
+            archive.same("leastAge", outlet.leastAge, "s");
+            archive.same("hasCondition", static_cast<bool>(outlet.condition), {},
+                         "a restart file cannot keep the function of setCondition(), so set it as it was");
             outlet.tally.visitState(archive);
         });
+    if (longestAge > 0) archive.group("arrivals", [&] { visitArrivals(archive); });
 }
 
 }  // namespace pendular

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,13 @@ public:
     void setPlane(const Vec3D& normal, const Vec3D& point);
     /// Borders (m) between the classes of diameters by which grains are counted; one class without them.
     void setSizeClasses(std::span<const double> diameters) { tally.setClasses(diameters); }
+    /// s: only those go that have been in the scene at least so long. What is there when the run begins came
+    /// then.
+    void setLeastAge(double age);
+    /// Only those go for which the function is true. It is asked in the order of identities, on one thread,
+    /// only for grains that would go without it. A restart file cannot keep a function: it keeps that there
+    /// is one, and a scene without it does not go on.
+    void setCondition(std::function<bool(const GrainReference&)> function);
 
 private:
     friend class OutletHandler;
@@ -38,6 +46,8 @@ private:
     bool hasPlane = false;
     Vector<double> normal{0, 0, 0};  // unit
     double offset = 0;               // m
+    double leastAge = 0;             // s
+    std::function<bool(const GrainReference&)> condition;
     GrainTally tally;
 };
 
@@ -58,17 +68,31 @@ public:
 
     /// The run begins. Throws InputError for a region that is longer than the period, and for a plane across
     /// which the scene repeats itself: all grains have images beyond it.
-    void begin(const PeriodicBox& periodic);
-    /// At the end of a step, in the order of identities. There are no rigid bodies.
-    void letOut(ParticleHandler& particles, int threads);
+    void begin(const PeriodicBox& periodic, const ParticleStore& grains, double time);
+    /// At the end of a step, at a time (s), in the order of identities. There are no rigid bodies.
+    void letOut(ParticleHandler& particles, double time, int threads);
     void visitState(StateArchive& archive);
 
 private:
     struct Leaving {
         std::uint32_t identity, outlet;
+        auto operator<=>(const Leaving&) const = default;
+    };
+    /// All grains whose identity is below `next` had come by a time. (Identities rise with the time.)
+    struct Arrival {
+        double time;  // s
+        std::uint32_t next;
     };
 
+    void noteArrivals(std::uint32_t next, double time);
+    /// Those that came later are too young for an outlet at a time (s).
+    [[nodiscard]] std::uint32_t firstTooYoung(const Outlet& outlet, double time) const;
+    void visitArrivals(StateArchive& archive);
+
     std::vector<Outlet> outlets;
+    std::vector<Arrival> arrivals;            // only where an outlet asks for an age
+    double longestAge = 0;                    // s, that one asks for
+    double last = 0;                          // s, of the last step
     std::vector<std::vector<Leaving>> found;  // by each thread
     std::vector<Leaving> leaving;
     bool hasBegun = false;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "Kernel/Output/FieldFile.h"
 #include "Kernel/Output/FieldName.h"
 #include "Kernel/Output/VtkDocument.h"
 
@@ -40,7 +41,22 @@ private:
 };
 
 template <class SumOf>
-void addFields(FieldMaker maker, SumOf&& sum) {
+void addContactFields(FieldMaker& maker, SumOf&& sum) {
+    maker.add("contact_stress_Pa", 9,
+              [&](std::size_t k, std::size_t part) { return sum(Sum::ContactStress + part, k); });
+    maker.add("adhesive_stress_Pa", 9,
+              [&](std::size_t k, std::size_t part) { return sum(Sum::AdhesiveStress + symmetric[part], k); });
+    maker.add("traction_N_per_m3", 3,
+              [&](std::size_t k, std::size_t part) { return sum(Sum::Traction + part, k); });
+    maker.add("fabric", 9,
+              [&](std::size_t k, std::size_t part) { return sum(Sum::Fabric + symmetric[part], k); });
+    maker.add("coordination", 1,
+              [&](std::size_t k, std::size_t) { return sum(Sum::Contacts, k) / sum(Sum::Number, k); });
+    maker.add("liquid_fraction", 1, [&](std::size_t k, std::size_t) { return sum(Sum::Liquid, k); });
+}
+
+template <class SumOf>
+void addFields(FieldMaker maker, bool withContacts, SumOf&& sum) {
     const auto kinetic = [&](std::size_t k, std::size_t part) {
         const double mass = sum(Sum::Mass, k);
         return sum(Sum::Flux + symmetric[part], k) -
@@ -58,17 +74,7 @@ void addFields(FieldMaker maker, SumOf&& sum) {
         return (kinetic(k, 0) + kinetic(k, 4) + kinetic(k, 8)) / (3 * sum(Sum::Mass, k));
     });
     maker.add("kinetic_stress_Pa", 9, kinetic);
-    maker.add("contact_stress_Pa", 9,
-              [&](std::size_t k, std::size_t part) { return sum(Sum::ContactStress + part, k); });
-    maker.add("adhesive_stress_Pa", 9,
-              [&](std::size_t k, std::size_t part) { return sum(Sum::AdhesiveStress + symmetric[part], k); });
-    maker.add("traction_N_per_m3", 3,
-              [&](std::size_t k, std::size_t part) { return sum(Sum::Traction + part, k); });
-    maker.add("fabric", 9,
-              [&](std::size_t k, std::size_t part) { return sum(Sum::Fabric + symmetric[part], k); });
-    maker.add("coordination", 1,
-              [&](std::size_t k, std::size_t) { return sum(Sum::Contacts, k) / sum(Sum::Number, k); });
-    maker.add("liquid_fraction", 1, [&](std::size_t k, std::size_t) { return sum(Sum::Liquid, k); });
+    if (withContacts) addContactFields(maker, sum);
 }
 
 }  // namespace
@@ -76,11 +82,11 @@ void addFields(FieldMaker maker, SumOf&& sum) {
 std::vector<PolyDataField> fieldsOf(const FieldSums& sums) {
     std::vector<PolyDataField> fields;
     const std::size_t count = sums.grid().size();
-    addFields(FieldMaker(count, "", fields),
+    addFields(FieldMaker(count, "", fields), sums.hasContacts(),
               [&](std::size_t sum, std::size_t k) { return sums.ofAll(sum, k); });
     const GrainGroups& groups = sums.groups();
     for (std::size_t group = 0; groups.count() > 1 && group < groups.count(); ++group)
-        addFields(FieldMaker(count, groups.nameOf(group) + "_", fields),
+        addFields(FieldMaker(count, groups.nameOf(group) + "_", fields), sums.hasContacts(),
                   [&](std::size_t sum, std::size_t k) { return sums.of(sum, group, k); });
     return fields;
 }
@@ -92,7 +98,8 @@ std::string headerOf(const FieldSums& sums) {
         if (grid.isResolved(axis)) header += fmt::format(",{}_m", grid.nameOf(axis));
     // Units of one point are as good as of all.
     FieldGrid onePoint("O", {0, 0, 0}, {1, 1, 1}, 1);
-    const FieldSums names(onePoint, SmoothingKernel(KernelShape::Gauss, 0, 1), sums.groups());
+    const FieldSums names(onePoint, SmoothingKernel(KernelShape::Gauss, 0, 1), sums.groups(),
+                          sums.hasContacts() ? FieldContent::All : FieldContent::WithoutContacts);
     for (const PolyDataField& field : fieldsOf(names)) {
         const std::size_t nameEnd = splitFieldName(field.name).quantity.size();
         const auto add = [&](const std::string& part) {
@@ -152,6 +159,24 @@ void writeImage(const std::filesystem::path& path, const FieldSums& sums, double
     document.addFields("PointData", fields);
     document.add("<CellData>\n</CellData>\n</Piece>\n");
     document.write(path);
+}
+
+void writeHdf5(const std::filesystem::path& path, const FieldSums& sums, double time, std::uint64_t step,
+               int threads) {
+    const FieldGrid& grid = sums.grid();
+    FieldFile file(path);
+    file.attribute("/", "time_s", time);
+    file.attribute("/", "step", static_cast<double>(step));
+    file.attribute("/", "kernel_width_m", sums.kernel().width());
+    file.attribute("/", "kernel_cut_off_m", sums.kernel().cutOff());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!grid.isResolved(axis)) continue;
+        std::vector<double> places;
+        for (std::size_t k = 0; k < grid.counts()[axis]; ++k) places.push_back(grid.at(axis, k));
+        file.column("points", {fmt::format("{}_m", grid.nameOf(axis)), 1, std::move(places)});
+    }
+    for (const PolyDataField& field : fieldsOf(sums)) file.column("fields", field, threads);
+    file.close();
 }
 
 }  // namespace pendular

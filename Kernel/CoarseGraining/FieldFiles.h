@@ -26,6 +26,12 @@ void forEachRow(const FieldSums& sums, double time, Use&& use);
 /// @param time s
 void writeImage(const std::filesystem::path& path, const FieldSums& sums, double time, int threads = 1);
 
+/// Writes a file of the HDF5 library: the fields in the group "fields", a row for each point, x the slowest;
+/// in "points" the places of the points along each resolved axis. Throws InputError if it cannot be written.
+/// @param time s; @param step after which the file is named
+void writeHdf5(const std::filesystem::path& path, const FieldSums& sums, double time, std::uint64_t step,
+               int threads = 1);
+
 // Implementation -------------------------------------------------------------------------------------------
 
 /// A row of the table, with the fields already made.

@@ -7,6 +7,7 @@
 
 #include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Output/Hdf5Series.h"
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Output/RunTable.h"
@@ -17,7 +18,8 @@ namespace pendular {
 ///   addOutput(FieldOutput(FieldGrid("XZ", lowest, highest, 1e-3), KernelShape::Gauss, 1e-3)
 ///                 .withInterval(1e-3).averagedOver(0.1));
 /// For up to one resolved direction NAME-FIELDS.csv with the rows of all averages, else NAME-FIELDS.pvd for
-/// ParaView; FIELDS is "coarse" unless another name is given.
+/// ParaView; after asHdf5() NAME-FIELDS.h5 for h5py and MATLAB. FIELDS is "coarse" unless another name is
+/// given.
 class FieldOutput {
 public:
     /// @param width m, of the kernel; @param cutOff m; see SmoothingKernel
@@ -39,9 +41,34 @@ public:
     }
     /// Fields of each group of grains as well.
     FieldOutput& withGroups(const GrainGroups& groups) {
-        return sums = FieldSums(sums.grid(), sums.kernel(), groups), *this;
+        return sums = FieldSums(sums.grid(), sums.kernel(), groups, content), *this;
     }
+    /// Only fields of the grains themselves: no stress of contacts, traction, fabric, coordination, liquid.
+    /// It costs a fifth or less.
+    FieldOutput& withoutContacts() {
+        content = FieldContent::WithoutContacts;
+        return sums = FieldSums(sums.grid(), sums.kernel(), sums.groups(), content), *this;
+    }
+    /// Velocities against the flow of setLeesEdwards(), or of a strain: then velocity is the deviation from
+    /// the flow, and the kinetic stress is free of it also where the gradient is averaged over.
+    FieldOutput& againstFlow() { return withFlow = false, *this; }
     FieldOutput& withName(const std::string& fields) { return ending = "-" + fields, *this; }
+    /// Files of the HDF5 library, for any coordinates: a list of averages, each with its fields.
+    FieldOutput& asHdf5() { return isHdf5 = true, *this; }
+
+    /// Throws InputError for coordinates that have no meaning in the scene, and for files that cannot be
+    /// written.
+    template <class Scene>
+    void prepare(const Scene& scene) const {
+        if (isHdf5) {
+            Hdf5Series::prepare();
+            if (ending == "-fields")
+                throw InputError(
+                    "FieldOutput: NAME-fields.h5 is the file of Hdf5Output; give it another name by "
+                    "withName().");
+        }
+        FieldSums::refuseMovingImages(sums.grid(), scene.getPeriodicBox());
+    }
 
     template <class Scene>
     void write(const Scene& scene) {
@@ -53,7 +80,8 @@ public:
             first = time;
             firstStep = scene.getNumberOfTimeSteps();
         }
-        takeState(scene, state);
+        takeState(scene, state, content);
+        if (!withFlow) takeFlowAway(state);
         sums.add(state, scene.getNumberOfThreads());
         last = time;
         if (window == 0) writeAverage(scene);
@@ -61,14 +89,14 @@ public:
     template <class Scene>
     void complete(const Scene& scene) {
         writeAverage(scene);
-        if (!isImage()) tableOf(scene).close();
+        if (isTable()) tableOf(scene).close();
     }
 
     template <class Scene>
     void visitState(StateArchive& archive, const Scene& scene) {
         const std::string entry = std::filesystem::path(nameOf(scene)).filename().string() + "-last-time";
         if (archive.isReading() && !archive.holds(entry)) {
-            if (!isImage()) tableOf(scene).goOnFrom(scene.getTime());
+            if (isTable()) tableOf(scene).goOnFrom(scene.getTime());
             keptUntil = scene.getTime();
             return;
         }
@@ -76,6 +104,7 @@ public:
         keptUntil = last;
         archive.group(std::filesystem::path(nameOf(scene)).filename().string(), [&] {
             std::uint64_t states = sums.states();
+            archive.same("withFlow", withFlow);
             archive.value("states", states);
             archive.value("first", first);
             archive.value("firstStep", firstStep);
@@ -86,12 +115,14 @@ public:
             // What was written at the end of that part is an average that goes on.
             if (states > 0) keptUntil = std::nextafter(first, -INFINITY);
         });
-        if (!isImage()) tableOf(scene).visitState(archive);
-        else if (archive.isReading()) ParaViewSeries::check(nameOf(scene));
+        if (isTable()) return tableOf(scene).visitState(archive);
+        if (!archive.isReading()) return;
+        if (isHdf5) Hdf5Series::check(nameOf(scene));
+        else ParaViewSeries::check(nameOf(scene));
     }
 
 private:
-    [[nodiscard]] bool isImage() const { return sums.grid().dimensions() > 1; }
+    [[nodiscard]] bool isTable() const { return !isHdf5 && sums.grid().dimensions() <= 1; }
     template <class Scene>
     [[nodiscard]] std::string nameOf(const Scene& scene) const {
         return scene.getName() + ending;
@@ -106,17 +137,24 @@ private:
     void writeAverage(const Scene& scene) {
         if (sums.states() == 0) return;
         const double time = 0.5 * (first + last);
-        if (isImage()) {
-            if (!series) series.emplace(nameOf(scene), scene.isRestarted() ? keptUntil : -INFINITY, ".vti");
+        const double kept = scene.isRestarted() ? keptUntil : -INFINITY;
+        if (isTable()) {
+            forEachRow(sums, time, [&](const std::string& row) { tableOf(scene).row(row); });
+        } else if (isHdf5) {
+            if (!frames) frames.emplace(nameOf(scene), kept);
+            writeHdf5(frames->fileOf(firstStep), sums, time, firstStep, scene.getNumberOfThreads());
+            frames->add(firstStep, time);
+        } else {
+            if (!series) series.emplace(nameOf(scene), kept, ".vti");
             writeImage(series->add("fields", time, firstStep), sums, time, scene.getNumberOfThreads());
             series->write();
-        } else {
-            forEachRow(sums, time, [&](const std::string& row) { tableOf(scene).row(row); });
         }
         sums.clear();
     }
 
     FieldSums sums;
+    FieldContent content = FieldContent::All;
+    bool withFlow = true, isHdf5 = false;
     GrainState state;
     OutputInterval times;
     double window = 0;                   // s
@@ -126,6 +164,7 @@ private:
     std::string ending = "-coarse";
     std::shared_ptr<RunTable> table;  // none until the run begins, so that copies made before share nothing
     std::optional<ParaViewSeries> series;
+    std::optional<Hdf5Series> frames;
 };
 
 }  // namespace pendular

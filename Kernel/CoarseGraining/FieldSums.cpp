@@ -72,8 +72,11 @@ std::uint32_t GrainGroups::of(const GrainState::Grain& grain) const {
                                       edges.begin());
 }
 
-FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups)
-    : points(std::move(grid)), weight(std::move(kernel)), kinds(std::move(groups)) {
+FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups, FieldContent content)
+    : points(std::move(grid)),
+      weight(std::move(kernel)),
+      kinds(std::move(groups)),
+      stored(content == FieldContent::All ? count : countWithoutContacts) {
     if (weight.dimensions() != points.dimensions())
         throw InputError(fmt::format("FieldSums: the kernel has {} dimensions, and the grid {}.",
                                      weight.dimensions(), points.dimensions()));
@@ -83,7 +86,7 @@ FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups)
     });
     blocks = (points.counts()[order[2]] + Pack::lanes - 1) / Pack::lanes;
     const std::size_t rows = points.counts()[order[0]] * points.counts()[order[1]];
-    sums.assign(kinds.count() * rows * blocks * count, Eight{});
+    sums.assign(kinds.count() * rows * blocks * stored, Eight{});
     for (std::size_t k = 0; k < 3; ++k) {
         perLength[k] = 1 / points.spacing(k);
         // Eight points can be taken from each one on.
@@ -120,7 +123,7 @@ double FieldSums::of(std::size_t sum, std::size_t group, std::size_t point) cons
     const std::size_t row = (group * n[order[0]] + k[order[0]]) * n[order[1]] + k[order[1]];
     const std::size_t inner = k[order[2]];
     const std::size_t block = row * blocks + inner / Pack::lanes;
-    const double total = sums[block * count + sum].points[inner % Pack::lanes];
+    const double total = sums[block * stored + sum].points[inner % Pack::lanes];
     return total / (static_cast<double>(std::max<std::size_t>(added, 1)) * points.measure(k[0]));
 }
 
@@ -130,38 +133,64 @@ double FieldSums::ofAll(std::size_t sum, std::size_t point) const {
     return total;
 }
 
-/// Calls use(shift) for each image of a body (m, from `low` to `high`) that the grid can see: resolved axes
-/// up to the cut-off beyond the box; others within it.
+/// Calls use(number) for each image along an axis of a body (m, from `low` to `high`) that the grid can see:
+/// along a resolved axis up to the cut-off beyond the box; else within it.
 template <class Use>
-void FieldSums::forImages(const GrainState& state, const Vector<double>& low, const Vector<double>& high,
-                          Use&& use) const {
-    const Place lows = partsOf(low), highs = partsOf(high), periods = partsOf(state.periodic.length);
-    std::array<double, 3> first{}, last{};
-    bool hasImages = false;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (points.isCylindrical() && axis < 2) continue;
-        const double reach = points.isResolved(axis) ? weight.cutOff() : 0;
-        const double from = points.low(axis) - reach, to = points.high(axis) + reach;
-        if (periods[axis] > 0) {
-            // Within a box that is no longer than a period: no image is in it.
-            if (lows[axis] >= from && highs[axis] < to && to - from <= periods[axis]) continue;
-            hasImages = true;
-            first[axis] = std::ceil((from - highs[axis]) / periods[axis]);
-            last[axis] = std::floor((to - lows[axis]) / periods[axis]);
-        } else if (highs[axis] < from || lows[axis] > to) {
-            return;
-        }
+void FieldSums::forImagesAlong(std::size_t axis, double period, double low, double high, Use&& use) const {
+    const bool isAround = points.isCylindrical() && axis < 2;
+    const double reach = points.isResolved(axis) ? weight.cutOff() : 0;
+    const double from = points.low(axis) - reach, to = points.high(axis) + reach;
+    if (isAround || period == 0) {
+        if (isAround || (high >= from && low <= to)) use(0.0);
+        return;
     }
-    if (!hasImages) return use(Vector<double>{0, 0, 0});
-    // What lies at the upper end of a box that is averaged over is its own image at the lower end.
-    const auto isRepeated = [&](std::size_t axis, double image) {
-        return periods[axis] > 0 && !points.isResolved(axis) && !(points.isCylindrical() && axis < 2) &&
-               lows[axis] + image * periods[axis] >= points.high(axis);
+    // Within a box that is no longer than a period: no other image is in it.
+    if (low >= from && high < to && to - from <= period) return use(0.0);
+    const double last = std::floor((to - low) / period);
+    for (double image = std::ceil((from - high) / period); image <= last; ++image) {
+        // What lies at the upper end of a box that is averaged over is its own image at the lower end.
+        if (!points.isResolved(axis) && low + image * period >= points.high(axis)) break;
+        use(image);
+    }
+}
+
+/// The same along all three axes: calls use(shift, velocity) with those (m, m/s) of each image.
+/// @param slid m, of images along the gradient of a shear, which has no period here
+template <class Use>
+void FieldSums::forImagesAlongAxes(const PeriodicBox& periodic, const Vector<double>& low,
+                                   const Vector<double>& high, const Vector<double>& slid, Use&& use) const {
+    const Vector<double>&length = periodic.length, &across = periodic.across;
+    const auto along = [&](std::size_t axis, double period, double gradient, double begin, double end,
+                           auto&& inner) {
+        forImagesAlong(axis, gradient > 0 ? 0 : period, begin, end,
+                       [&](double image) { inner(image * period); });
     };
-    for (double x = first[0]; x <= last[0] && !isRepeated(0, x); ++x)
-        for (double y = first[1]; y <= last[1] && !isRepeated(1, y); ++y)
-            for (double z = first[2]; z <= last[2] && !isRepeated(2, z); ++z)
-                use(Vector<double>{x * periods[0], y * periods[1], z * periods[2]});
+    const Vector<double> lows = low + slid, highs = high + slid;
+    along(0, length.x, across.x, lows.x, highs.x, [&](double x) {
+        along(1, length.y, across.y, lows.y, highs.y, [&](double y) {
+            along(2, length.z, across.z, lows.z, highs.z, [&](double z) {
+                const Vector<double>& rate = periodic.strainRate;
+                use(slid + Vector<double>{x, y, z}, Vector<double>{rate.x * x, rate.y * y, rate.z * z});
+            });
+        });
+    });
+}
+
+/// Calls use(shift, velocity) for each image of a body (m, from `low` to `high`) that the grid can see. In
+/// shear the images along the gradient come first, and have slid along the flow.
+template <class Use>
+void FieldSums::forImages(const PeriodicBox& periodic, const Vector<double>& low, const Vector<double>& high,
+                          Use&& use) const {
+    if (!periodic.isSheared()) return forImagesAlongAxes(periodic, low, high, {0, 0, 0}, use);
+    const Place gradient = partsOf(periodic.across);
+    const std::size_t axis = gradient[0] > 0 ? 0 : gradient[1] > 0 ? 1 : 2;
+    forImagesAlong(axis, partsOf(periodic.length)[axis], partsOf(low)[axis], partsOf(high)[axis],
+                   [&](double image) {
+                       const auto ofImage = [&](const Vector<double>& shift, const Vector<double>& velocity) {
+                           use(shift, velocity + image * periodic.imageVelocity);
+                       };
+                       forImagesAlongAxes(periodic, low, high, image * periodic.imageShift, ofImage);
+                   });
 }
 
 /// Each thread adds to its own grains, in the order of contacts.
@@ -193,36 +222,39 @@ void FieldSums::gatherContactsOfGrains(const GrainState& state, int threads) {
 
 void FieldSums::addGrain(const GrainState& state, std::size_t number, Items& items) const {
     const GrainState::Grain& grain = state.grains[number];
-    forImages(state, grain.position, grain.position, [&](const Vector<double>& shift) {
-        const Vector<double> position = grain.position + shift;
-        PointItem item{partsOf(position), kinds.of(grain), {}};
-        Vector<double> velocity = grain.velocity;
-        std::array<double, 8> own = ofGrains[number];
-        if (points.isCylindrical()) {
-            const RoundFrame frame(position.x - points.centre().x, position.y - points.centre().y);
-            item.at[0] = frame.r;
-            velocity = frame.turned(velocity);
-            // Fabric about the new axes: T' = Q T Q^T.
-            const auto& f = ofGrains[number];
-            const Vector<double> rows[] = {frame.turned({f[0], f[1], f[2]}), frame.turned({f[1], f[3], f[4]}),
-                                           frame.turned({f[2], f[4], f[5]})};
-            const Vector<double> a = frame.turned({rows[0].x, rows[1].x, rows[2].x}),
-                                 b = frame.turned({rows[0].y, rows[1].y, rows[2].y}),
-                                 c = frame.turned({rows[0].z, rows[1].z, rows[2].z});
-            own = {a.x, a.y, a.z, b.y, b.z, c.z, f[6], f[7]};
-        }
-        auto& values = item.values;
-        values[Number] = 1;
-        values[Volume] = sphereVolume(grain.radius);
-        values[Mass] = grain.mass;
-        values[Momentum] = grain.mass * velocity.x;
-        values[Momentum + 1] = grain.mass * velocity.y;
-        values[Momentum + 2] = grain.mass * velocity.z;
-        addSquare(grain.mass, velocity, values.data() + Flux);
-        std::copy(own.begin(), own.end(), values.begin() + Fabric);
-        values[Liquid] += grain.liquid;
-        items.grains.push_back(item);
-    });
+    forImages(state.periodic, grain.position, grain.position,
+              [&](const Vector<double>& shift, const Vector<double>& ofImage) {
+                  const Vector<double> position = grain.position + shift;
+                  PointItem item{partsOf(position), kinds.of(grain), {}};
+                  Vector<double> velocity = grain.velocity + ofImage;
+                  std::array<double, 8> own{};
+                  if (hasContacts()) own = ofGrains[number];
+                  if (points.isCylindrical()) {
+                      const RoundFrame frame(position.x - points.centre().x, position.y - points.centre().y);
+                      item.at[0] = frame.r;
+                      velocity = frame.turned(velocity);
+                      // Fabric about the new axes: T' = Q T Q^T.
+                      const std::array<double, 8> f = own;
+                      const Vector<double> rows[] = {frame.turned({f[0], f[1], f[2]}),
+                                                     frame.turned({f[1], f[3], f[4]}),
+                                                     frame.turned({f[2], f[4], f[5]})};
+                      const Vector<double> a = frame.turned({rows[0].x, rows[1].x, rows[2].x}),
+                                           b = frame.turned({rows[0].y, rows[1].y, rows[2].y}),
+                                           c = frame.turned({rows[0].z, rows[1].z, rows[2].z});
+                      own = {a.x, a.y, a.z, b.y, b.z, c.z, f[6], f[7]};
+                  }
+                  auto& values = item.values;
+                  values[Number] = 1;
+                  values[Volume] = sphereVolume(grain.radius);
+                  values[Mass] = grain.mass;
+                  values[Momentum] = grain.mass * velocity.x;
+                  values[Momentum + 1] = grain.mass * velocity.y;
+                  values[Momentum + 2] = grain.mass * velocity.z;
+                  addSquare(grain.mass, velocity, values.data() + Flux);
+                  std::copy(own.begin(), own.end(), values.begin() + Fabric);
+                  values[Liquid] += grain.liquid;
+                  items.grains.push_back(item);
+              });
 }
 
 /// A line from `end` + branch, where the force acts on the grain, back to `end`.
@@ -240,7 +272,7 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
     const Vector<double> other = end + branch;
     const Vector<double> low{std::min(end.x, other.x), std::min(end.y, other.y), std::min(end.z, other.z)},
         high{std::max(end.x, other.x), std::max(end.y, other.y), std::max(end.z, other.z)};
-    forImages(state, low, high, [&](const Vector<double>& shift) {
+    forImages(state.periodic, low, high, [&](const Vector<double>& shift, const Vector<double>&) {
         const Place from = partsOf(end + shift);
         // The part of the line within the box, in the directions that are averaged over.
         double begin = 0, stop = 1;
@@ -306,7 +338,7 @@ void FieldSums::addContact(const GrainState& state, const GrainState::Contact& c
     const Vector<double> end = first.position + contact.shift;
     if (contact.second == GrainState::Contact::wall) {
         addLine(state, end, -contact.shift, contact, group, items);
-        forImages(state, end, end, [&](const Vector<double>& shift) {
+        forImages(state.periodic, end, end, [&](const Vector<double>& shift, const Vector<double>&) {
             PointItem item{partsOf(end + shift), group, {}};
             Vector<double> force = contact.force;
             if (points.isCylindrical()) {
@@ -360,7 +392,7 @@ void FieldSums::overPoints(const Place& low, const Place& high, std::size_t firs
     for (std::size_t i = begin[0]; i < end[0]; ++i)
         for (std::size_t j = begin[1]; j < end[1]; ++j) {
             Eight* const row =
-                slab.sums + ((group * n[order[0]] + i) * n[order[1]] + j) * blocks * count + first;
+                slab.sums + ((group * n[order[0]] + i) * n[order[1]] + j) * blocks * stored + first;
             const auto weightsFrom = [&](std::size_t point) {
                 std::array<double, Pack::lanes> along;
                 std::copy_n(places[2].data() + point, Pack::lanes, along.data());
@@ -369,7 +401,7 @@ void FieldSums::overPoints(const Place& low, const Place& high, std::size_t firs
             const auto add = [&](std::size_t block, const Pack& weights) {
                 if (none(weights > 0.0)) return;
                 for (std::size_t k = 0; k < size; ++k) {
-                    double* const eight = row[block * count + k].points.data();
+                    double* const eight = row[block * stored + k].points.data();
                     fma(weights, Pack(values[k]), Pack::load(eight)).store(eight);
                 }
             };
@@ -464,12 +496,16 @@ void FieldSums::makeItems(const GrainState& state, std::size_t share, Items& of)
     const std::size_t grains = state.grains.size(), contacts = state.contacts.size();
     for (std::size_t k = grains * share / shares; k < grains * (share + 1) / shares; ++k)
         addGrain(state, k, of);
+    if (!hasContacts()) return;
     for (std::size_t k = contacts * share / shares; k < contacts * (share + 1) / shares; ++k)
         addContact(state, state.contacts[k], of);
 }
 
 void FieldSums::spread(const Items& of, const Slab& slab) const {
-    for (const PointItem& item : of.grains) spread<Number, 20>(item.at, item.group, item.values.data(), slab);
+    for (const PointItem& item : of.grains) {
+        if (hasContacts()) spread<Number, 20>(item.at, item.group, item.values.data(), slab);
+        else spread<Number, countWithoutContacts>(item.at, item.group, item.values.data(), slab);
+    }
     for (const PointItem& item : of.tractions)
         spread<Traction, 3>(item.at, item.group, item.values.data(), slab);
     for (const PointItem& item : of.nodes)
@@ -485,9 +521,18 @@ std::size_t FieldSums::slabLength() const {
     return dimensions == 3 ? points.counts()[order[0]] : dimensions == 2 ? points.counts()[order[1]] : blocks;
 }
 
+void FieldSums::refuseMovingImages(const FieldGrid& grid, const PeriodicBox& periodic) {
+    if (grid.isCylindrical() && periodic.imagesMove)
+        throw InputError(
+            "Fields around an axis (coordinates R or RZ) have no meaning where the images of a scene move "
+            "(setLeesEdwards(), setStrainRate(), setTargetStress()); take coordinates of X, Y and Z.");
+}
+
 void FieldSums::add(const GrainState& state, int threads) {
-    gatherContactsOfGrains(state, threads);
-    const bool isSmall = sums.size() <= fewSums;
+    refuseMovingImages(points, state.periodic);
+    if (hasContacts()) gatherContactsOfGrains(state, threads);
+    // By the points, so that fields of grains are the same bits with and without those of contacts.
+    const bool isSmall = sums.size() / stored * count <= fewSums;
     items.resize(isSmall ? static_cast<std::size_t>(std::max(threads, 1)) : shares);
     if (isSmall) {
         sumsOfShares.resize(shares);

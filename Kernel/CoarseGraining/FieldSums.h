@@ -42,7 +42,8 @@ private:
 ///   mass      sum m phi_i                contact stress  sum f b psi, psi the mean of phi over the branch
 ///   momentum  sum m v phi_i              traction        sum f phi(r - contact point), at walls
 ///   flux      sum m v v phi_i            fabric          sum n n (V_i phi_i + V_j phi_j), without walls
-/// Stress is positive in compression. A contact of two groups is divided at the contact point.
+/// Stress is positive in compression. A contact of two groups is divided at the contact point. Where the
+/// images of a scene move against each other (shear, strain) each has its own velocity.
 class FieldSums {
 public:
     /// What is summed, by its first place.
@@ -52,7 +53,7 @@ public:
         Mass = 2,
         Momentum = 3,         // 3
         Flux = 6,             // 6: xx xy xz yy yz zz
-        Fabric = 12,          // 6
+        Fabric = 12,          // 6; from here on only with contacts
         Contacts = 18,        // of a grain, touching
         Liquid = 19,          // of its film, and half of its bridges
         ContactStress = 20,   // 9: xx xy xz yx ... zz
@@ -60,12 +61,16 @@ public:
         Traction = 35,        // 3
         count = 38
     };
+    static constexpr std::size_t countWithoutContacts = Fabric;
 
     /// The kernel must have the dimensions of the grid.
-    FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups = GrainGroups::none());
+    FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups = GrainGroups::none(),
+              FieldContent content = FieldContent::All);
 
-    /// A state at one time; all have the same weight. The sums do not depend on the number of threads.
+    /// A state at one time; all have the same weight. The sums do not depend on the number of threads. Throws
+    /// InputError for coordinates around an axis where images move.
     void add(const GrainState& state, int threads = 1);
+    static void refuseMovingImages(const FieldGrid& grid, const PeriodicBox& periodic);
     [[nodiscard]] std::size_t states() const { return added; }
 
     /// The mean of a sum over the states, as a density, 1/m^3 times its unit: of a group, or of all.
@@ -76,6 +81,7 @@ public:
     [[nodiscard]] const FieldGrid& grid() const { return points; }
     [[nodiscard]] const SmoothingKernel& kernel() const { return weight; }
     [[nodiscard]] const GrainGroups& groups() const { return kinds; }
+    [[nodiscard]] bool hasContacts() const { return stored == count; }
     void clear();
     /// All numbers, for a restart file.
     [[nodiscard]] std::vector<double> numbers() const;
@@ -129,8 +135,13 @@ private:
     void spread(const Items& items, const Slab& slab) const;
     [[nodiscard]] std::size_t slabLength() const;
     template <class Use>
-    void forImages(const GrainState& state, const Vector<double>& low, const Vector<double>& high,
+    void forImages(const PeriodicBox& periodic, const Vector<double>& low, const Vector<double>& high,
                    Use&& use) const;
+    template <class Use>
+    void forImagesAlongAxes(const PeriodicBox& periodic, const Vector<double>& low,
+                            const Vector<double>& high, const Vector<double>& slid, Use&& use) const;
+    template <class Use>
+    void forImagesAlong(std::size_t axis, double period, double low, double high, Use&& use) const;
     template <std::size_t first, std::size_t size>
     void spread(const std::array<double, 3>& at, std::uint32_t group, const double* values,
                 const Slab& slab) const;
@@ -143,6 +154,7 @@ private:
     FieldGrid points;
     SmoothingKernel weight;
     GrainGroups kinds;
+    std::size_t stored;                           // sums of a point
     std::array<std::size_t, 3> order{0, 1, 2};    // of axes: the last one is stored in blocks of eight
     std::size_t blocks = 1;                       // of a row
     std::array<std::vector<double>, 3> places;    // m, of the points along each of `order`

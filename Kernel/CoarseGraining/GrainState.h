@@ -8,6 +8,9 @@
 
 namespace pendular {
 
+/// Whether fields are made of grains and contacts, or of grains alone.
+enum class FieldContent { All, WithoutContacts };
+
 /// What fields are made of: the grains and contacts of a scene at one time, from a run or from a file.
 struct GrainState {
     struct Grain {

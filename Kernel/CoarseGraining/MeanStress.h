@@ -14,7 +14,7 @@ namespace pendular {
 /// (at a wall, from its surface) to that of the first; over the volume. Source: Irving and Kirkwood (1950),
 /// J. Chem. Phys. 18, 817, its mean over a volume; the sum over contacts is that of Love and Weber. With
 /// friction it is symmetric only in the mean over time: the difference is the torque on grains whose turning
-/// changes.
+/// changes. The forces that hold rigid bodies together are not known: scenes with them are refused.
 struct MeanStress {
     Eigen::Matrix3d kinetic = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d contact = Eigen::Matrix3d::Zero();  // of bodies that touch, without bridges and adhesion
@@ -35,6 +35,8 @@ template <class Scene>
     };
     const PeriodicBox& box = scene.getPeriodicBox();
     const ParticleStore& grains = scene.particleHandler.store();
+    if (!grains.bodies.empty())
+        throw InputError("meanStress: the forces that hold rigid bodies together are in no stress.");
     const auto forEachFree = [&](auto&& use) {  // mass (kg), velocity against the flow (m/s)
         for (const std::uint32_t place : grains.place) {
             const TranslationRecord& grain = grains.translation[place];

@@ -36,18 +36,21 @@ inline void appendContacts(const ContactSystem& contacts, const ParticleStore& g
     });
 }
 
+/// Velocities from now on against the flow with which the images of a scene move, so that all images have the
+/// same.
+inline void takeFlowAway(GrainState& state) {
+    for (GrainState::Grain& grain : state.grains) grain.velocity -= state.periodic.flowAt(grain.position);
+    state.periodic.imageVelocity = state.periodic.strainRate = {0, 0, 0};
+}
+
 /// The grains and contacts of a scene, as of the last step: all contacts that have a force.
 /// @param state keeps its memory from one time to the next
 template <class Scene>
-void takeState(const Scene& scene, GrainState& state) {
+void takeState(const Scene& scene, GrainState& state, FieldContent content = FieldContent::All) {
     const ParticleStore& grains = scene.particleHandler.store();
     state.grains.clear(), state.contacts.clear();
     state.time = scene.getTime();
     state.periodic = scene.contacts().periodicBox();
-    if (state.periodic.imagesMove)
-        throw InputError(
-            "Fields of a scene whose images move (setLeesEdwards(), setStrainRate(), setTargetStress()) are "
-            "not offered; take meanStress() for the stress.");
     const GrainColumn* film = nullptr;
     for (const GrainColumn& column : grains.columns)
         if (column.name == "liquid_film") film = &column;
@@ -71,6 +74,7 @@ void takeState(const Scene& scene, GrainState& state) {
             }
         },
         1024);
+    if (content == FieldContent::WithoutContacts) return;
     // Each thread takes the contacts whose first body is one of its grains; put together they are in the
     // order of identities.
     std::vector<std::vector<GrainState::Contact>> ofOthers(static_cast<std::size_t>(std::max(threads, 1)));
@@ -86,9 +90,9 @@ void takeState(const Scene& scene, GrainState& state) {
 }
 
 template <class Scene>
-GrainState stateOf(const Scene& scene) {
+GrainState stateOf(const Scene& scene, FieldContent content = FieldContent::All) {
     GrainState state;
-    takeState(scene, state);
+    takeState(scene, state, content);
     return state;
 }
 

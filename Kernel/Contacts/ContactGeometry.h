@@ -30,6 +30,27 @@ struct ContactGeometry {
     T rotationResponse;        // 1/kg, R*^2 (1/I1 + 1/I2): of R* times the relative spin, to the torque / R*
 };
 
+/// How the relative velocity of eight contacts changes, by the accelerations of the last step.
+template <class T>
+struct ContactAcceleration {
+    Vector<T> velocity;        // m/s^2, of body 1 against body 2 (their centres)
+    Vector<T> spinLever;       // m/s^2, sum of angular acceleration x lever arm over the bodies
+    Vector<T> spinDifference;  // rad/s^2, of body 1 against body 2
+};
+
+/// Eight of a column of vectors.
+inline Vector<Pack> gatherVectors(const Vector<double>* column, const std::uint32_t* index) {
+    std::array<LaneColumn, 3> lanes;
+    for (std::size_t k = 0; k < Pack::lanes; ++k) {
+        const Vector<double>& from = column[index[k]];
+        lanes[0].lane[k] = from.x;
+        lanes[1].lane[k] = from.y;
+        lanes[2].lane[k] = from.z;
+    }
+    return {Pack::load(lanes[0].lane.data()), Pack::load(lanes[1].lane.data()),
+            Pack::load(lanes[2].lane.data())};
+}
+
 /// Asks for what the kernel reads of eight grains.
 template <class S>
 [[gnu::always_inline]] inline void prefetchGrains(const TranslationRecord* translation,
@@ -123,6 +144,20 @@ struct PairGeometry {
         return g;
     }
 
+    /// @param acceleration m/s^2, of the grains; @param overlap m
+    [[nodiscard, gnu::noinline]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
+                                                                         Pack overlap) const {
+        const auto angular = [&](const std::uint32_t* index) {
+            const auto [x, y, z] = loadRecords<3>(numbers(rotation) + 4, 8, index);
+            return Vector<Pack>{x, y, z};
+        };
+        const Vector<Pack> first = angular(block.first.data()), second = angular(block.second.data());
+        const Pack half = Pack(0.5) * overlap;
+        return {gatherVectors(acceleration, block.first.data()) -
+                    gatherVectors(acceleration, block.second.data()),
+                fma(radius1 - half, first, (radius2 - half) * second), first - second};
+    }
+
 private:
     template <class Record>
     static const double* numbers(const Record* records) {
@@ -194,6 +229,16 @@ struct WallGeometry {
             }
         }
         return g;
+    }
+
+    /// Those of the grains: walls are taken to keep their velocity for the step.
+    [[nodiscard, gnu::noinline]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
+                                                                         Pack overlap) const {
+        const auto [wx, wy, wz] =
+            loadRecords<3>(reinterpret_cast<const double*>(rotation) + 4, 8, block.first.data());
+        const Vector<Pack> angular{wx, wy, wz};
+        return {gatherVectors(acceleration, block.first.data()), fma(Pack(-0.5), overlap, radius) * angular,
+                angular};
     }
 
 private:

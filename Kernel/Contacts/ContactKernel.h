@@ -46,13 +46,15 @@ public:
     using Interaction = typename Adhesion::template Interaction<T>;
     static constexpr BridgeResists resists = bridgeResists<Adhesion>;
 
+    /// @param accelerations m/s^2, of the grains in the last step
     ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactTiming contactTiming,
-                  const OverlapWatch& watch, ContactStore& contactStore)
+                  const OverlapWatch& watch, ContactStore& contactStore, const Vector<double>* accelerations)
         : overlaps(watch),
           laws(preparedLaws),
           timeStep(step),
           implicitStep(contactTiming.implicitForces ? step : 0),
           timing(contactTiming),
+          acceleration(accelerations),
           store(contactStore),
           memory(contactStore.memory),
           ledger(!contactStore.memory.energies.empty()),
@@ -119,7 +121,13 @@ public:
             writeSamples(block, g, normal, adhesive, touching, bridged);
         Vector<Pack> tangential = zero, lastTorque = zero;
         if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
-        if constexpr (Friction::acts) tangential = computeFriction(block, g, last, touching, begins, normal);
+        if constexpr (Friction::acts) {
+            MovedSprings moved;
+            if (timing.springsInStep) [[unlikely]]
+                moved =
+                    moveSprings(g, geometry.accelerations(acceleration, normal.lever), begins, normal.timing);
+            tangential = computeFriction(block, g, last, touching, begins, normal, moved);
+        }
         if constexpr (resists >= BridgeResists::Sliding)
             tangential =
                 tangential + computeDrag(block, g, last, lastTorque, bridged, normal.resistance, tangential);
@@ -215,8 +223,28 @@ private:
         return part;
     }
 
+    /// The ways (m) of tangential springs that are at their place at the force, and so move for the time from
+    /// the last force (or from the start of the touch) with the velocity in the middle of that time: the
+    /// velocity that grains carry, less the acceleration for half the time. For springs without dashpots that
+    /// is velocity Verlet, which neither feeds nor damps them.
+    struct MovedSprings {
+        Vector<Pack> sliding, turning;
+    };
+    [[gnu::noinline]] MovedSprings moveSprings(const ContactGeometry<Pack>& g,
+                                               const ContactAcceleration<Pack>& a, Mask begins,
+                                               const SampleTiming<Pack>& sampled) const {
+        const Pack time = Pack(timeStep) * select(begins, sampled.before, Pack(1)), half = Pack(-0.5) * time;
+        const Vector<Pack> velocity =
+            fma(half, a.velocity, g.velocity) + cross(fma(half, a.spinLever, g.spinLever), g.normal);
+        MovedSprings moved{time * (velocity - dot(velocity, g.normal) * g.normal), zero};
+        if constexpr (HasContactTorque<Friction>)
+            moved.turning = (time * g.effectiveRadius) * fma(half, a.spinDifference, g.spinDifference);
+        return moved;
+    }
+
     Vector<Pack> computeFriction(std::size_t block, const ContactGeometry<Pack>& g, const LastForces& last,
-                                 Mask touching, Mask begins, const NormalPart& normal) {
+                                 Mask touching, Mask begins, const NormalPart& normal,
+                                 const MovedSprings& moved) {
         const Pack approach = dot(g.velocity, g.normal);
         const Vector<Pack> sideways = fma(-approach, g.normal, g.velocity);
         // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
@@ -224,14 +252,20 @@ private:
         const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
         const Vector<Pack> lever = fma(-response, last.leverless, g.spinLever);
         const double before = timing.timesTouches ? 0.5 : 1;  // steps for which the spring has still to move
-        const Slip<Pack> slip{.velocity = sideways + cross(lever, g.normal),
-                              .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
-                              .timeAfter = Pack(timeStep * (1 - before)),
-                              .response = response};
+        Slip<Pack> slip{.velocity = sideways + cross(lever, g.normal),
+                        .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
+                        .timeAfter = Pack(timeStep * (1 - before)),
+                        .response = response};
         auto history = memory.history.load<History>(block);
         history.turn({.normal = g.normal,
                       .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
                       .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
+        if constexpr (movesSprings<Friction, Pack>)
+            if (timing.springsInStep) [[unlikely]] {
+                slip.timeBefore = slip.timeAfter = Pack(0);
+                history.move(moved.sliding);
+                if constexpr (HasContactTorque<Friction>) history.moveRotation(moved.turning, g.normal);
+            }
         const SliderForce<Pack> force = sliderForce<Friction>(laws.friction, normal.contact,
                                                               max(normal.repulsion, Pack(0)), slip, history);
         if (ledger) [[unlikely]]
@@ -438,6 +472,7 @@ private:
     double timeStep;      // s
     double implicitStep;  // s: the time step, or 0
     ContactTiming timing;
+    const Vector<double>* acceleration;  // m/s^2
     ContactStore& store;
     ContactMemory& memory;
     const bool ledger, amongTorques;

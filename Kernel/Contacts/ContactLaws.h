@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,7 @@ struct ContactTask {
     ContactStore& store;
     const TranslationRecord* translation;
     const RotationRecord* rotation;
+    const Vector<double>* acceleration;  // m/s^2, of the last step
     const PeriodicBox& box;
     std::size_t bucket;       // its number
     std::size_t begin, end;   // blocks
@@ -90,6 +92,9 @@ public:
     [[nodiscard]] virtual std::optional<std::string> objection(int a, int b, const Bodies& bodies) const = 0;
     [[nodiscard]] virtual ContactStiffness stiffness(int a, int b, const Bodies& bodies,
                                                      double effectiveMass) const = 0;
+    /// The same at the overlaps that there are, for many contacts at a time.
+    virtual void stiffnesses(int a, int b, std::span<const PressedPair> contacts,
+                             std::span<ContactStiffness> found) const = 0;
     /// N/m, the slope of the normal law at an overlap (m).
     [[nodiscard]] virtual double normalStiffness(int a, int b, const Bodies& bodies,
                                                  double overlap) const = 0;

@@ -48,6 +48,7 @@ public:
         formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
         std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
         grains.reorder(formerPlace, threads);
+        grains.bodies.refresh(grains);
         if (reachOfFilms > 0) reachOfAll = std::max(reachOfAll, std::min(reachOfFilms, largestRange(grains)));
         findPairs(grains, old, pairsBefore);
         if (!keepsCells) found.reset();
@@ -163,7 +164,7 @@ private:
 
     void addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const {
         if (grains.translation[i].inverseMass == 0 && grains.translation[j].inverseMass == 0) return;
-        if (grains.bodies.areJoined(grains.identity[i], grains.identity[j])) return;
+        if (grains.bodies.areJoinedAt(i, j)) return;
         const std::size_t low = std::min(grains.species[i], grains.species[j]);
         const std::size_t high = std::max(grains.species[i], grains.species[j]);
         // The groups of pairs stand first, in the order of a triangle of species.

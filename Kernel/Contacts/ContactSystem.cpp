@@ -45,6 +45,13 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     return true;
 }
 
+void ContactSystem::listWithin(Grains& grains, double reach) {
+    if (!(reach > std::min(skin.width(), listBefore) - unlisted)) return;
+    listAgain(grains, true, reach);
+    for (const Bucket& bucket : contacts.buckets)
+        if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
+}
+
 double ContactSystem::renew(Grains& grains) {
     double stored = 0;
     forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
@@ -208,18 +215,35 @@ void ContactSystem::takeForceAway(Grains& grains, const Bucket& bucket, std::uin
     const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
     const std::size_t lane = contact % Pack::lanes, slot = contacts.slotOf(contact);
     const ContactMemory& memory = contacts.memory;
+    const auto torqueOn = [&](const TranslationRecord& grain, double sign) {
+        const ForceTorqueRecord& record = memory.records[slot];
+        Vector<double> torque = (grain.radius - record.halfOverlap) * record.leverless;
+        if (memory.getLayout().hasContactTorque) torque += sign * memory.torques[slot].torque;
+        return torque;
+    };
+    const auto takeFromBody = [&](std::uint32_t number, std::uint32_t place, double sign) {
+        RigidBody& body = grains.bodies[grains.bodies.find(number)];
+        const TranslationRecord& grain = grains.translation[place];
+        const Vector<double> force = sign * contacts.forceOf(contact);
+        body.acceleration -= (1 / body.mass) * force;
+        body.torque -= cross(periodic.nearest(grain.position - body.position), force);
+        if (memory.getLayout().hasTorque) body.torque -= torqueOn(grain, sign);
+    };
     const auto take = [&](std::uint32_t place, double sign) {
+        if (const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
+            body != RigidBodies::none)
+            takeFromBody(body, place, sign);
         if (!grains.isFree(place)) return;
         const TranslationRecord& grain = grains.translation[place];
         grains.acceleration[place] -= (sign * grain.inverseMass) * contacts.forceOf(contact);
         if (!memory.getLayout().hasTorque) return;
-        const ForceTorqueRecord& record = memory.records[slot];
-        Vector<double> torque = (grain.radius - record.halfOverlap) * record.leverless;
-        if (memory.getLayout().hasContactTorque) torque += sign * memory.torques[slot].torque;
+        const Vector<double> torque = torqueOn(grain, sign);
         grains.rotation[place].angularAcceleration -= grains.rotation[place].inverseInertia * torque;
     };
     take(block.first[lane], 1);
     if (bucket.wall < 0) take(block.second[lane], -1);
+    else if (Wall& wall = walls->getObject(static_cast<std::size_t>(bucket.wall)); wall.drive())
+        wall.loseForce(-contacts.forceOf(contact));
 }
 
 double ContactSystem::endContactsOf(Grains& grains, std::uint32_t place) {
@@ -363,6 +387,7 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
     const ContactTask task{contacts,
                            grains.translation.data(),
                            grains.rotation.data(),
+                           grains.acceleration.data(),
                            periodic,
                            number,
                            bucket.begin,
@@ -433,15 +458,17 @@ void ContactSystem::findWallPoints(const Grains& grains, const Bucket& bucket, d
                     [&](std::size_t block) { wake(block, bucket, grains); });
 }
 void ContactSystem::sumWallForces(const Grains& grains) {
-    for (std::size_t w = 0; w < walls->getSize(); ++w) {
-        Wall& wall = walls->getObject(w);
-        if (!wall.keepsForces()) continue;
-        const Vector<double> about = toVector(wall.getTorquePoint());
-        WallForceSum sum;
-        for (const Bucket& bucket : contacts.buckets)
-            if (bucket.wall == static_cast<int>(w)) addWallForces(contacts, bucket, grains, about, sum);
-        wall.setForce(sum.force.value(), sum.torque.value());
-    }
+    for (std::size_t w = 0; w < walls->getSize(); ++w)
+        if (walls->getObject(w).keepsForces()) sumForcesOn(grains, w);
+}
+
+void ContactSystem::sumForcesOn(const Grains& grains, std::size_t number) {
+    Wall& wall = walls->getObject(number);
+    const Vector<double> about = toVector(wall.getTorquePoint());
+    WallForceSum sum;
+    for (const Bucket& bucket : contacts.buckets)
+        if (bucket.wall == static_cast<int>(number)) addWallForces(contacts, bucket, grains, about, sum);
+    wall.setForce(sum.force.value(), sum.torque.value(), sum.touches);
 }
 
 }  // namespace pendular

@@ -64,6 +64,8 @@ public:
     /// Takes note of how far grains and walls have moved in a step (the farthest of each, m), and lists the
     /// contacts again where it is time; says whether it did.
     bool refresh(Grains& grains, double grainShift, double wallShift);
+    /// Sees to it that all bodies are listed whose surfaces are not farther apart than the reach (m).
+    void listWithin(Grains& grains, double reach);
     /// What contacts remember, by who they join: how they are listed is not kept. After prepare(); the
     /// species, the walls and the grains are visited by themselves, before.
     void visitState(StateArchive& archive, Grains& grains);
@@ -86,6 +88,9 @@ public:
     void computePairForces(const Grains& grains, double step, ContactTiming timing = {});
     /// The second half of it.
     void computeWallForces(const Grains& grains, double step, ContactTiming timing = {});
+
+    /// Gives a wall the sum of the forces of the last step.
+    void sumForcesOn(const Grains& grains, std::size_t wall);
 
     /// After the forces of a step (s) that ends at a time (s), in a scene in which liquid moves.
     void moveLiquid(Grains& grains, double time, double length);
@@ -141,9 +146,24 @@ public:
             if (bucket.wall >= 0) {
                 record.now.wallVelocity = contacts.wallPoints[b - contacts.firstWallBlock()].velocityAt(lane);
                 record.now.wallSpin = wallOf(bucket).angularVelocity();
+                if (const PlaneDrive* const driven = wallOf(bucket).drive()) {
+                    // The contact has seen a velocity of the step; work is done at the mean one.
+                    record.now.wallVelocity +=
+                        (driven->meanVelocity - driven->seenVelocity) * wallOf(bucket).drivenNormal();
+                    record.last.wallVelocity = record.now.wallVelocity;
+                }
             }
             function(bucket, contacts.blocks[b], lane, record);
         });
+    }
+
+    /// m^3, of the bridges of the grain at a place: half of each to another grain, all of one to a wall.
+    [[nodiscard]] double liquidAt(const Grains& grains, std::uint32_t place) const {
+        double sum = 0;
+        forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
+            sum += (bucket.wall >= 0 ? 1 : 0.5) * observe(grains, bucket, contact).bridgeVolume;
+        });
+        return sum;
     }
 
     /// A number of the driver's own that is kept of each contact from its first touch (or bridge) until it
@@ -190,7 +210,7 @@ private:
                           double reach = 0);
     double endContact(Grains& grains, std::uint32_t contact);
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
-    /// act in the first half of the next one. (Not those of rigid bodies.)
+    /// act in the first half of the next one. Those of rigid bodies alike.
     void takeForceAway(Grains& grains, const Bucket& bucket, std::uint32_t contact) const;
     [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;

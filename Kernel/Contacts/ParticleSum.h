@@ -49,6 +49,21 @@ template <bool hasTorque, bool hasContactTorque>
     }
 }
 
+/// The same, whatever is kept of a contact: N, and N m about the grain's centre.
+struct ContactSum {
+    Vector<double> force, torque;
+};
+inline ContactSum contactSum(const ContactStore& store, std::size_t grain, double radius) {
+    const auto vectors = [](const ForceAndTorque<true>& sum) {
+        return ContactSum{vectorOf(sum.force), vectorOf(sum.torque)};
+    };
+    const ContactLayout& layout = store.memory.getLayout();
+    if (!layout.hasTorque)
+        return {vectorOf(sumContacts<false, false>(store, grain, radius).force), {0, 0, 0}};
+    return vectors(layout.hasContactTorque ? sumContacts<true, true>(store, grain, radius)
+                                           : sumContacts<true, false>(store, grain, radius));
+}
+
 /// Asks for what sumContacts reads.
 template <bool hasTorque>
 [[gnu::always_inline]] inline void prefetchContacts(const ContactStore& store, std::size_t grain) {

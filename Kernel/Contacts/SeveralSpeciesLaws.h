@@ -37,6 +37,10 @@ public:
     [[nodiscard]] ContactStiffness stiffness(int a, int b, const Bodies& bodies, double mass) const override {
         return ofPair(a, b).stiffness(a, b, bodies, mass);
     }
+    void stiffnesses(int a, int b, std::span<const PressedPair> contacts,
+                     std::span<ContactStiffness> found) const override {
+        ofPair(a, b).stiffnesses(a, b, contacts, found);
+    }
     [[nodiscard]] double normalStiffness(int a, int b, const Bodies& bodies, double overlap) const override {
         return ofPair(a, b).normalStiffness(a, b, bodies, overlap);
     }

@@ -60,6 +60,11 @@ public:
     [[nodiscard]] ContactStiffness stiffness(int a, int b, const Bodies& bodies, double mass) const override {
         return contactStiffness(of(a, b), bodies, mass);
     }
+    void stiffnesses(int a, int b, std::span<const PressedPair> contacts,
+                     std::span<ContactStiffness> found) const override {
+        const StiffnessOf<typename S::Mixed> stiffness(of(a, b));
+        for (std::size_t k = 0; k < contacts.size(); ++k) found[k] = stiffness(contacts[k]);
+    }
     [[nodiscard]] double normalStiffness(int a, int b, const Bodies& bodies, double overlap) const override {
         using Normal = typename S::Mixed::Normal;
         const Contact<double> contact{overlap, bodies.effectiveRadius(), 1};  // no spring knows the mass
@@ -222,7 +227,7 @@ private:
         const double unlisted = task.unlisted;
         using Geometry = decltype(geometryOf(task.begin));
         ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing,
-                                task.overlaps->part(overlapLimit.largest), task.store);
+                                task.overlaps->part(overlapLimit.largest), task.store, task.acceleration);
         bool all = true;
         for (std::size_t b = task.begin, end = task.end; b < end; ++b)
             if (slots[b] != ContactStore::asleep || unlisted > gaps[b]) {

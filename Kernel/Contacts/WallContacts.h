@@ -58,6 +58,7 @@ inline void handOver(ContactStore& store, const ContactLaws& laws, const Bucket&
 /// The force and the torque of grains on a wall, summed exactly.
 struct WallForceSum {
     ExactVectorSum force, torque;
+    std::uint64_t touches = 0;  // contacts that act
 };
 
 /// Adds what the grains of a bucket do to its wall.
@@ -78,6 +79,7 @@ inline void addWallForces(const ContactStore& store, const Bucket& bucket, const
                      Vector<double>{n[0].lane[lane], n[1].lane[lane], n[2].lane[lane]};
         }
         const Vector<double>& force = store.forceOf(c);
+        ++sum.touches;
         sum.force.add(-force);
         sum.torque.add(-cross(point, force));
         if (memory.getLayout().hasContactTorque) sum.torque.add(-memory.torques[store.slotOf(c)].torque);

@@ -17,8 +17,9 @@ struct BodyMotion {
 /// What the laws of a contact say of its energy.
 struct ContactKind {
     bool isWall = false;
-    bool isPlastic = false;       // the normal law has a history
-    bool adhesionBreaks = false;  // else it is a function of the separation, which loses nothing
+    bool isPlastic = false;                  // the normal law has a history
+    bool adhesionBreaks = false;             // else it is a function of the separation, which loses nothing
+    Vector<double> pistonVelocity{0, 0, 0};  // m/s, of a wall whose kinetic energy is in the ledger
 };
 
 /// Adds to an account what one contact did in a step (s), and makes the present sample the last one.

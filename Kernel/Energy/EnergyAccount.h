@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Energy/BodyAccount.h"
 #include "Kernel/Energy/ContactAccount.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
@@ -12,21 +13,24 @@ namespace pendular {
 /// and torques alike. The work of each force of each contact is summed by the same formula, so that the
 /// account closes to round-off for any number of steps, and what elastic forces did but is not found as
 /// stored energy is told apart as the error of the time steps. Sums are made in the order of identities, by
-/// one thread.
+/// one thread. Rigid bodies: see BodyAccount.h.
 class EnergyAccount {
 public:
     using Grains = ParticleStore;
 
     /// Before the grains move by a step (s); without length at the start of a run.
-    void begin(const Grains& grains, const Vector<double>& gravity, double step, EnergyLedger& ledger) {
+    void begin(const Grains& grains, const ContactStore& contacts, const WallHandler& walls,
+               const Vector<double>& gravity, double step, EnergyLedger& ledger) {
         atBegin = ledger;
         potential = potentialEnergy(grains, gravity);
         if (step == 0) ledger.gravityBefore = gravity;
         if (step > 0)
-            ledger.driver +=
-                kineticEnergy(grains) - ledger.kinetic + (potential + ledger.carried - ledger.potential);
+            ledger.driver += kineticEnergy(grains) - ledger.kinetic +
+                             (energyOfPistons(walls) - ledger.pistons) +
+                             (potential + ledger.carried - ledger.potential);
         before.clear();
         for (const std::uint32_t place : grains.place) before.push_back(motionOf(grains, place));
+        bodies.begin(grains, contacts);
     }
 
     /// Where the step failed.
@@ -54,22 +58,32 @@ public:
         if (grain.inverseMass > 0) ledger.images += dot(velocity, then + 0.5 * velocity) / grain.inverseMass;
         then += velocity;
     }
+    /// The same of a rigid body; its grains are told one by one.
+    void changedImageOfBody(const Grains& grains, std::size_t body, const Vector<double>& velocity,
+                            EnergyLedger& ledger) {
+        ledger.images += bodies.changeVelocity(grains.bodies[body], body, velocity);
+    }
+    void changedImageOfMember(std::size_t number, const Vector<double>& velocity) {
+        before[number].velocity += velocity;
+    }
 
     /// At the end of the step.
-    void finish(const Grains& grains, ContactSystem& contacts, const Vector<double>& gravity, double step,
-                const Integrator& scheme, EnergyLedger& ledger) {
+    void finish(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
+                const Vector<double>& gravity, double step, const Integrator& scheme, EnergyLedger& ledger) {
         // Grains may have been sorted since the start of the step; the order of identities is the same.
         rank.resize(grains.size());
         std::uint32_t next = 0;
         for (const std::uint32_t place : grains.place) rank[place] = next++;
-        ledger.stepError -= workBesidesContacts(grains, gravity, step, scheme, ledger.gravityBefore);
+        ledger.stepError -=
+            workBesidesContacts(grains, contacts.store(), gravity, step, scheme, ledger.gravityBefore);
         const PeriodicBox& box = contacts.periodicBox();
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                  std::size_t lane, EnergyRecord& record) {
             const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
-            const ContactKind kind{
+            ContactKind kind{
                 .isWall = bucket.wall >= 0, .isPlastic = laws.isPlastic, .adhesionBreaks = laws.breaks};
+            if (kind.isWall) kind.pistonVelocity = pistonVelocity(walls, bucket.wall);
             const std::uint32_t first = block.first[lane], second = block.second[lane];
             BodyMotion other = kind.isWall ? BodyMotion{} : meanMotion(grains, second);
             if (!kind.isWall && box.imagesMove) {
@@ -83,6 +97,7 @@ public:
         account.migration = byLiquid.migration;
         account.evaporation = byLiquid.evaporation;
         takeOver(account, step > 0, ledger);  // overlaps at the start are there without work
+        takeInPistons(walls, gravity, step, scheme, ledger);
         ledger.kinetic = kineticEnergy(grains);
         ledger.potential = ledger.carried + potentialEnergy(grains, gravity);
         ledger.gravityBefore = gravity;
@@ -104,6 +119,39 @@ private:
         return motion;
     }
 
+    static double energyOfPistons(const WallHandler& walls) {
+        double sum = 0;  // J
+        for (std::size_t w = 0; w < walls.getSize(); ++w)
+            if (const PlaneDrive* const drive = std::as_const(walls.getObject(w)).drive())
+                sum += drive->kineticEnergy();
+        return sum;
+    }
+    /// m/s, the mean in the step; zero of other walls.
+    static Vector<double> pistonVelocity(const WallHandler& walls, int number) {
+        const Wall& wall = walls.getObject(static_cast<std::size_t>(number));
+        const PlaneDrive* const drive = wall.drive();
+        return drive && drive->isPiston() ? drive->meanVelocity * wall.drivenNormal()
+                                          : Vector<double>{0, 0, 0};
+    }
+    /// The kinetic energy of a piston changes as that of a grain; load and weight are the same at both ends
+    /// of a step.
+    static void takeInPistons(const WallHandler& walls, const Vector<double>& gravity, double step,
+                              const Integrator& scheme, EnergyLedger& ledger) {
+        for (std::size_t w = 0; w < walls.getSize(); ++w) {
+            const Wall& wall = walls.getObject(w);
+            const PlaneDrive* const drive = wall.drive();
+            if (!drive || !drive->isPiston() || drive->waits || step == 0) continue;
+            const double mass = drive->asked.mass;
+            ledger.loads +=
+                step * drive->meanVelocity * (mass * dot(gravity, wall.drivenNormal()) - drive->asked.load);
+            if (scheme.remembersEarlier())
+                ledger.stepError -= mass * drive->meanVelocity *
+                                    (drive->velocity - drive->startVelocity -
+                                     0.5 * step * (drive->earlier + drive->acceleration));
+        }
+        ledger.pistons = energyOfPistons(walls);
+    }
+
     BodyMotion meanMotion(const Grains& grains, std::size_t k) const {
         const Motion &then = before[rank[k]], now = motionOf(grains, k);
         return {0.5 * (then.velocity + now.velocity), 0.5 * (then.spin + now.spin),
@@ -112,12 +160,13 @@ private:
 
     /// J, of the field of gravity, and of what an integrator other than velocity Verlet adds to the mean of
     /// the two accelerations.
-    double workBesidesContacts(const Grains& grains, const Vector<double>& gravity, double step,
-                               const Integrator& scheme, const Vector<double>& gravityBefore) const {
+    double workBesidesContacts(const Grains& grains, const ContactStore& contacts,
+                               const Vector<double>& gravity, double step, const Integrator& scheme,
+                               const Vector<double>& gravityBefore) const {
         ExactSum sum;
         for (std::size_t k = 0; k < grains.size(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
-            if (grain.inverseMass == 0) continue;
+            if (!grains.isFree(k)) continue;
             const BodyMotion mean = meanMotion(grains, k);
             sum.add(0.5 * step / grain.inverseMass * dot(gravityBefore + gravity, mean.velocity));
             if (!scheme.remembersEarlier()) continue;
@@ -132,6 +181,10 @@ private:
                 sum.add(dot(turned, mean.spin) / grains.rotation[k].inverseInertia);
             }
         }
+        bodies.addGainBesidesContacts(grains, contacts, step, sum, [&](std::uint32_t place) {
+            const BodyMotion mean = meanMotion(grains, place);
+            return std::pair(mean.velocity, mean.spin);
+        });
         return sum.value();
     }
 
@@ -151,6 +204,7 @@ private:
 
     std::vector<Motion> before;       // in the order of identities
     std::vector<std::uint32_t> rank;  // of the grain at each place in that order
+    BodyAccount bodies;
     EnergyLedger atBegin;
     double potential = 0;  // J, at the places where the grains are
 };

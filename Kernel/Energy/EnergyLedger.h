@@ -18,6 +18,7 @@ struct EnergyLedger {
     double torsionElastic = 0;
     /// Net work done against the adhesions and bridges that act; negative in most contacts.
     double adhesive = 0;
+    double pistons = 0;  // kinetic, of walls with a mass
 
     // What has been lost since the start.
     double normalDashpots = 0;
@@ -34,6 +35,7 @@ struct EnergyLedger {
 
     // What the scene has been given since the start.
     double walls = 0;   // by walls that move, and by grains that are held and move
+    double loads = 0;   // by the loads and the weights of pistons
     double driver = 0;  // where a driver changes velocities, places or the gravity
     double images = 0;  // by images that move against each other: shear and strain of a periodic scene
     // By liquid: bridges whose volume changes while they last (ContactLiquid). A bridge forms without energy,
@@ -60,8 +62,8 @@ struct EnergyLedger {
                viscousBridges + stiffening;
     }
     /// Constant except for the error of the time steps.
-    [[nodiscard]] double total() const { return kinetic + potential + stored() + lost() - given(); }
-    [[nodiscard]] double given() const { return walls + driver + images + migration + evaporation; }
+    [[nodiscard]] double total() const { return kinetic + pistons + potential + stored() + lost() - given(); }
+    [[nodiscard]] double given() const { return walls + loads + driver + images + migration + evaporation; }
     /// Constant except for round-off.
     [[nodiscard]] double closed() const { return total() + stepError; }
     /// Net work done against adhesions and bridges: negative while they have given more than they took.
@@ -80,6 +82,7 @@ struct EnergyLedger {
                                      {"rolling_elastic", &L::rollingElastic},
                                      {"torsion_elastic", &L::torsionElastic},
                                      {"adhesive", &L::adhesive},
+                                     {"kinetic_of_pistons", &L::pistons},
                                      {"lost_in_normal_dashpots", &L::normalDashpots},
                                      {"lost_plastic", &L::plastic},
                                      {"lost_in_tangential_dashpots", &L::tangentialDashpots},
@@ -90,6 +93,7 @@ struct EnergyLedger {
                                      {"lost_in_viscous_bridges", &L::viscousBridges},
                                      {"lost_in_stiffening", &L::stiffening},
                                      {"given_by_walls", &L::walls},
+                                     {"given_by_loads", &L::loads},
                                      {"given_by_driver", &L::driver},
                                      {"given_by_images", &L::images},
                                      {"given_by_migration", &L::migration},

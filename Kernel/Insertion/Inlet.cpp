@@ -10,6 +10,7 @@
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/State/StateArchive.h"
+#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 
@@ -49,6 +50,15 @@ void Inlet::setTimes(double begin, double end) {
 void Inlet::setTries(std::uint32_t number) {
     checkValue(owner, "number of tries", number, "", {1, 1e9});
     tries = number;
+}
+
+void Inlet::setFollowsWall(std::size_t number) { wall = number; }
+void Inlet::setFollowsFill(const Vec3D& direction, double step, double most) {
+    const Vector<double> unit = checkedDirection(owner, "length of the direction of the fill", direction);
+    checkValue(owner, "step after the fill", step, "m", positive);
+    checkValue(owner, "way after the fill", most, "m", {step, 1e9 * step});
+    rise = step * unit;
+    mostRises = static_cast<std::uint32_t>(most / step * (1 + 1e-12));
 }
 
 std::size_t InletHandler::copyAndAddObject(const Inlet& inlet) {
@@ -102,11 +112,39 @@ void InletHandler::requireLiquid(const ParticleHandler& particles, double time) 
     }
 }
 
+namespace {
+
+/// Throws InputError if there is no such wall, or one that has no motion of its own.
+const RigidWall& wallOf(const WallHandler& walls, std::size_t inlet, std::size_t wall) {
+    const auto* const body = wall < walls.getSize() && !walls.isRemoved(wall)
+                                 ? dynamic_cast<const RigidWall*>(&walls.getObject(wall))
+                                 : nullptr;
+    if (!body)
+        throw InputError(fmt::format(
+            "inlet {}: the wall {} that it follows is no wall of this scene; it has {} (counted from 0).",
+            inlet, wall, walls.getSize()));
+    return *body;
+}
+
+}  // namespace
+
+Vector<double> InletHandler::shiftOf(const InsertionScene& scene, const Kept& kept, std::size_t number) {
+    Vector<double> shift = static_cast<double>(kept.rises) * kept.inlet.rise;
+    if (const auto wall = kept.inlet.wall)
+        shift +=
+            wallOf(scene.walls, number, *wall).getPose().place(kept.onWall) - kept.region->bounds().middle();
+    return shift;
+}
+
 void InletHandler::begin(const InsertionScene& scene) {
     hasBegun = true;
     for (std::size_t k = 0; k < inlets.size(); ++k) {
-        inlets[k].region = inlets[k].inlet.region->in(scene.periodic);
+        Kept& kept = inlets[k];
+        kept.region = kept.inlet.region->in(scene.periodic);
         check(scene, k);
+        if (kept.inlet.wall)
+            kept.onWall =
+                wallOf(scene.walls, k, *kept.inlet.wall).getPose().placeBack(kept.region->bounds().middle());
     }
 }
 
@@ -161,10 +199,18 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
         // Before its next step the run ends with a sentence: requireLiquid().
         const double film = inlet.like.getLiquidVolume();
         if (film > 0 && scene.particles.films().objectionToMore(film)) return;
-        if (!grid)
-            grid.emplace(scene.particles.storeInStep(), scene.periodic, kept.region->bounds(),
-                         0.5 * inlet.sizes->largest());
+        if (!grid) {
+            const Vector<double> shift = shiftOf(scene, kept, number);
+            const Box bounds = kept.region->bounds();
+            grid.emplace(scene.particles.storeInStep(), scene.periodic,
+                         Box{bounds.lowest + shift, bounds.highest + shift}, 0.5 * inlet.sizes->largest());
+        }
         const auto centre = findRoom(scene, kept, *grid, radius, static_cast<std::uint32_t>(number));
+        if (!centre && kept.rises < inlet.mostRises) {
+            count.risen = ++kept.rises * norm(inlet.rise);
+            grid.reset();
+            continue;
+        }
         count.waits = !centre;
         if (!centre) {
             if (!std::exchange(kept.wasTold, true))
@@ -195,10 +241,12 @@ std::optional<Vector<double>> InletHandler::findRoom(const InsertionScene& scene
     const Inlet& inlet = kept.inlet;
     const CountedRandom random(inlet.seed);
     const double margin = inlet.wholeGrains ? radius : 0;
+    const Vector<double> shift = shiftOf(scene, kept, number);
     for (std::uint32_t k = 0; k < inlet.tries; ++k) {
-        const Vector<double> centre = candidateOf(*kept.region, random, kept.count.number,
-                                                  purposeOfPlaces + 3 * number, kept.attempts++, margin);
-        if (kept.region->contains(centre, margin) &&
+        const Vector<double> inRegion = candidateOf(*kept.region, random, kept.count.number,
+                                                    purposeOfPlaces + 3 * number, kept.attempts++, margin);
+        const Vector<double> centre = inRegion + shift;
+        if (kept.region->contains(inRegion, margin) &&
             !touchesWall(scene.walls, scene.periodic, centre, radius) && grid.isFree(centre, radius))
             return scene.periodic.wrap(centre);
     }
@@ -225,6 +273,13 @@ void InletHandler::visitState(StateArchive& archive) {
             archive.same("tries", inlet.tries);
             archive.same("seed", inlet.seed);
             archive.same("wholeGrains", inlet.wholeGrains);
+            archive.same("followsWall", inlet.wall ? static_cast<std::int32_t>(*inlet.wall) : -1);
+            archive.sameRecord<double>("rise", inlet.rise);
+            archive.same("mostRises", inlet.mostRises);
+            archive.value("rises", kept.rises);
+            archive.require(kept.rises <= inlet.mostRises, "rises", "is more than there can be");
+            kept.count.risen = kept.rises * norm(inlet.rise);
+            archive.finite("onWall", kept.onWall);
             archive.value("number", kept.count.number);
             archive.finite("mass", kept.count.mass);
             archive.finite("lostFlow", kept.count.lost);

@@ -46,6 +46,13 @@ public:
     void setSeed(std::uint64_t value) { seed = value; }
     /// Whole grains are in the region; else only their centres. Whole grains, if this is not called.
     void setWholeGrains(bool whole) { wholeGrains = whole; }
+    /// The region goes along with a wall, without turning: its middle stays where it is on the wall, as a
+    /// body. @param wall its number in wallHandler
+    void setFollowsWall(std::size_t wall);
+    /// The region follows the height to which it fills: whenever a grain finds no room in it, it moves by a
+    /// step (m) along a direction, by at most so much (m) in all. Only what finds no room then is made up for
+    /// later, or lost.
+    void setFollowsFill(const Vec3D& direction, double step, double most);
 
     static constexpr double densestStream = 0.25;  // solid fraction
 
@@ -61,6 +68,9 @@ private:
     std::uint32_t tries = 100;
     std::uint64_t seed = 1;
     bool wholeGrains = true;
+    std::optional<std::uint64_t> wall;  // that the region follows
+    Vector<double> rise{0, 0, 0};       // m, one step after the fill
+    std::uint32_t mostRises = 0;
 };
 
 /// What has come through an inlet.
@@ -69,6 +79,7 @@ struct InletCount {
     double mass = 0;     // kg
     double lost = 0;     // of the flow, kg or grains: what would have come if there had been room
     bool waits = false;  // the next grain finds no room
+    double risen = 0;    // m, by which the region has followed the fill
 };
 
 /// The inlets of a scene.
@@ -108,7 +119,13 @@ private:
         std::uint32_t attempts = 0;  // of places for the next grain
         bool wasTold = false;        // that there was no room
         double nextRadius = unset;   // m
+        std::uint32_t rises = 0;
+        Vector<double> onWall{0, 0, 0};  // m, the middle of the region in the frame of the wall
     };
+
+    /// m, by which the region of an inlet has moved.
+    [[nodiscard]] static Vector<double> shiftOf(const InsertionScene& scene, const Kept& kept,
+                                                std::size_t number);
 
     void check(const InsertionScene& scene, std::size_t number) const;
     void letInOf(const InsertionScene& scene, std::size_t number, double time,

@@ -21,5 +21,11 @@ typedef double Four __attribute__((vector_size(32), may_alias));
 }
 [[gnu::always_inline]] inline Four fourOf(const Vector<double>& v) { return Four{v.x, v.y, v.z, 0}; }
 [[gnu::always_inline]] inline Vector<double> vectorOf(Four a) { return {a[0], a[1], a[2]}; }
+/// The vector product; lane 3 is of no meaning.
+[[gnu::always_inline]] inline Four crossFour(Four a, Four b) {
+    const auto next = [](Four v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); };
+    const Four turned = a * next(b) - next(a) * b;
+    return next(turned);
+}
 
 }  // namespace pendular

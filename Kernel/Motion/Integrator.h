@@ -38,6 +38,20 @@ inline constexpr Integrator predictedVelocityVerlet{.name = "PredictedVelocityVe
                                                     .earlier = 0,
                                                     .contacts = {true, true}};
 
+/// The same with tangential springs that move to the force with the velocity in the middle of the step. The
+/// default keeps them half a step ahead by the velocities v + h a, which feeds springs without dashpots; it
+/// takes this one by itself where they lack them (lacksDashpots() in StabilityLimit.h). Also for longer
+/// steps: it stands what its springs allow. Costs the loads of accelerations in each contact.
+inline constexpr Integrator springsInStep{.name = "SpringsInStep",
+                                          .position0 = 0.5,
+                                          .position1 = 0,
+                                          .velocity0 = 1,
+                                          .velocity1 = 0,
+                                          .corrector = 0.5,
+                                          .now = 1,
+                                          .earlier = 0,
+                                          .contacts = {.springsInStep = true}};
+
 /// As in other codes: contacts see the velocity in the middle of the step, which is first order in a dashpot.
 inline constexpr Integrator velocityVerlet{.name = "VelocityVerlet",
                                            .position0 = 0.5,
@@ -62,6 +76,7 @@ inline constexpr Integrator adamsMoulton{.name = "AdamsMoulton",
                                          .earlier = 1,
                                          .contacts = {false, true}};
 
+/// But springsInStep, which is the default where it matters.
 inline constexpr std::array all{predictedVelocityVerlet, velocityVerlet, adamsMoulton};
 
 }  // namespace integrators

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/Particles/RigidBodies.h"
 #include "Kernel/Species/Stiffness.h"
 #include "Kernel/Species/TimeStepAdvice.h"
 
@@ -51,15 +52,21 @@ struct SignChange {
 /// The largest step (s) for turning motions with the given squared frequency (1/s^2) against tangential
 /// springs that are kept half a step ahead, by predicted velocities. In the default scheme what lacks to the
 /// right ones feeds an oscillation by a share (h w)^4 / 8 a step, and a dashpot takes h w^2 g / (2 k): the
-/// step must be so short that the latter is more or, where there is next to none, that 400 steps feed it less
-/// than tenfold, h w < 0.463; 0.42 is taken, 4.7-fold, and with the margin it is 2.8-fold. It is fed at any
-/// step, though: such beds have no stable one. The third-order scheme stands h w < 1.15, where two complex
-/// roots leave the unit circle.
+/// step must be so short that the latter is more. A bed that lacks dashpots has no stable step; its springs
+/// are moved otherwise (see lacksDashpots). The third-order scheme stands h w < 1.15, where two complex roots
+/// leave the unit circle.
 /// @param relaxation g / k (s) of the least damped spring
 inline double springsAheadLimit(double squaredFrequency, double relaxation, const Integrator& integrator) {
     const double frequency = std::sqrt(squaredFrequency);
     if (!integrator.contacts.implicitForces) return 1.15 / frequency;
     return std::max(0.42 / frequency, std::cbrt(4 * relaxation / squaredFrequency));
+}
+
+/// Whether springs lack the dashpots to stop what the default scheme feeds them at h w = 0.42, 2.8-fold in
+/// 400 steps at the stability limit: a damping ratio w g / (2 k) of the turning motion below 0.42^3 / 8 =
+/// 0.0093. In such a bed the springs of the default are those of integrators::springsInStep.
+inline bool lacksDashpots(double squaredFrequency, double relaxation) {
+    return std::sqrt(squaredFrequency) * relaxation < 0.25 * 0.42 * 0.42 * 0.42;
 }
 
 /// What makes grains turn against each other: 5/2 k_t / m* (of a solid sphere, 5/2 / m at its rim) if
@@ -78,13 +85,24 @@ inline SpringAndDashpot turningAmong(const Neighbours& met, const ContactStiffne
 template <class Mixed>
 double stepsToDouble(const Mixed& laws, const Bodies& bodies, double effectiveMass,
                      const Integrator& integrator, std::size_t contacts, double step) {
-    if (!integrator.contacts.implicitForces || contacts == 1) return infinity;
+    const ContactTiming& timing = integrator.contacts;
+    if (!timing.implicitForces || timing.springsInStep || contacts == 1) return infinity;
     const ContactStiffness contact = contactStiffness(laws, bodies, effectiveMass);
     const double squared =
         step * step * turningAmong(Neighbours(contacts), contact, bodies, effectiveMass).spring;
     const double fed =
         squared * squared / 8 - 0.5 * squared * contact.shortestRelaxation() / step;  // share a step
     return fed > 0 ? std::numbers::ln2 / fed : infinity;
+}
+
+/// Whether the friction of grains with so many contacts lacks dashpots in the default scheme; see above.
+template <class Mixed>
+bool lacksDashpots(const Mixed& laws, const Bodies& bodies, double effectiveMass,
+                   const Integrator& integrator, std::size_t contacts) {
+    if (!integrator.contacts.implicitForces || contacts == 1) return false;
+    const ContactStiffness contact = contactStiffness(laws, bodies, effectiveMass);
+    const double squared = turningAmong(Neighbours(contacts), contact, bodies, effectiveMass).spring;
+    return squared > 0 && lacksDashpots(squared, contact.shortestRelaxation());
 }
 
 /// The time step (s) above which grains with so many contacts, at the largest sound overlap, are no longer
@@ -96,24 +114,39 @@ double stepsToDouble(const Mixed& laws, const Bodies& bodies, double effectiveMa
 /// count in the same way. Of those that the integrator makes implicit, that of the pair is free; a single
 /// contact has no others, and its tangential springs are implicit too: only its normal spring counts. (A pair
 /// stands 2 / omega, but from sqrt(2) / omega on, a slow opening may be taken for the end of the touch.)
+///
+/// Grains of rigid bodies are moved by more contacts than their own, those of all grains of the body, and by
+/// their arms: as if they had a share of the mass. Their dashpots follow from the mass of the body, which is
+/// more than a free sphere's, and are not those of a pair alone: none of them is taken as implicit.
 /// @param effectiveMass kg, m1 m2 / (m1 + m2)
+/// @param ofPistons over their masses: n contacts of a piston, the mass M, share it, so that by the same
+/// inequality each counts for its grain with k (1/m + n/M), n k / M more than at a wall that is held
 template <class Mixed>
 double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveMass,
                       const Integrator& integrator = integrators::predictedVelocityVerlet,
-                      std::size_t contacts = contactsInDensestBed) {
+                      std::size_t contacts = contactsInDensestBed, const BodyResponse& response = {},
+                      const SpringAndDashpot& ofPistons = {}) {
     const Neighbours met(contacts);
-    const ContactStiffness contact = contactStiffness(laws, bodies, effectiveMass);
-    const double centre = 1 / effectiveMass;  // 1/kg
-    SpringAndDashpot shift = centre * (met.along * contact.normal + met.across * contact.sliding);
-    const SpringAndDashpot spin = turningAmong(met, contact, bodies, effectiveMass);
+    const ContactStiffness contact = contactStiffness(laws, bodies, response.damping * effectiveMass);
+    const double moved = response.inertia * effectiveMass, centre = 1 / moved;  // kg, 1/kg
+    SpringAndDashpot shift = centre * (met.along * contact.normal + met.across * contact.sliding) + ofPistons;
+    const SpringAndDashpot spin = turningAmong(met, contact, bodies, moved);
 
     const SignChange signChange(integrator);
     if (!integrator.contacts.timesTouches)
         return stabilityMargin * std::min(signChange.limit(shift), signChange.limit(spin));
     const bool isImplicit = integrator.contacts.implicitForces;
-    if (isImplicit && contacts == 1)
-        return stabilityMargin * std::sqrt(0.5) * signChange.limit({centre * contact.normal.spring, 0});
-    if (isImplicit) shift.dashpot -= centre * contact.normal.dashpot;
+    const bool isOfPair = isImplicit && !response.isOfBodies();
+    if (isOfPair && contacts == 1) {
+        double squared = contact.normal.spring;
+        if (integrator.contacts.springsInStep)  // those of friction are explicit
+            squared = std::max(squared, fastestOfPair(contact, bodies));
+        return stabilityMargin * std::sqrt(0.5) *
+               signChange.limit({centre * squared + ofPistons.spring, ofPistons.dashpot});
+    }
+    if (isOfPair) shift.dashpot -= centre * contact.normal.dashpot;
+    if (integrator.contacts.springsInStep)
+        return stabilityMargin * std::min(signChange.limit(shift), signChange.limit(spin));
     return stabilityMargin *
            std::min({signChange.limit(shift), signChange.limit({0, spin.dashpot}),
                      springsAheadLimit(spin.spring, contact.shortestRelaxation(), integrator)});

@@ -91,14 +91,21 @@ private:
     static double largestOfAll(const Grains& grains, int threads, const Integrator& scheme,
                                const Function& function) {
         std::vector<double> largest(static_cast<std::size_t>(threads), 0);
+        // Grains of rigid bodies are moved with these.
+        const bool hasBodies = !grains.bodies.empty();
+        const std::vector<std::uint32_t>& own = grains.bodies.ownPlaces();
         const auto ofAll = [&]<bool remembers>() {
             inParts(
-                grains.size(), threads,
+                hasBodies ? own.size() : grains.size(), threads,
                 [&](int part, std::size_t first, std::size_t end) {
-                    const Function own = function;
+                    const Function ofOne = function;
                     double most = 0;
-                    for (std::size_t k = first; k < end; ++k)
-                        most = std::max(most, own.template operator()<remembers>(k));
+                    if (hasBodies)
+                        for (std::size_t k = first; k < end; ++k)
+                            most = std::max(most, ofOne.template operator()<remembers>(own[k]));
+                    else
+                        for (std::size_t k = first; k < end; ++k)
+                            most = std::max(most, ofOne.template operator()<remembers>(k));
                     largest[static_cast<std::size_t>(part)] = most;
                 },
                 grainsWorthAThread);
@@ -201,17 +208,20 @@ auto withLoops(bool hasSpin, bool hasContactTorque, bool imagesMove, Function&& 
 
 double TimeIntegration::begin(ParticleStore& grains, double step, int threads, const Integrator& scheme,
                               const PeriodicBox& box) {
+    grains.bodies.refresh(grains);
     return withLoops(grains.hasSpin, false, box.imagesMove,
                      [&]<class L>() { return L::begin(grains, step, threads, scheme, box); });
 }
 void TimeIntegration::finish(ParticleStore& grains, const ContactStore& store, const Vector<double>& gravity,
                              double step, int threads, const Integrator& scheme) {
+    grains.bodies.refresh(grains);
     withLoops(grains.hasSpin, store.memory.getLayout().hasContactTorque, false,
               [&]<class L>() { L::finish(grains, store, gravity, step, threads, scheme); });
 }
 double TimeIntegration::finishAndBegin(ParticleStore& grains, const ContactStore& store,
                                        const Vector<double>& gravity, double step, double nextStep,
                                        int threads, const Integrator& scheme, const PeriodicBox& box) {
+    grains.bodies.refresh(grains);
     return withLoops(
         grains.hasSpin, store.memory.getLayout().hasContactTorque, box.imagesMove, [&]<class L>() {
             return L::finishAndBegin(grains, store, gravity, step, nextStep, threads, scheme, box);

@@ -7,7 +7,8 @@
 
 namespace pendular {
 
-/// The two parts of a step around the forces. Between them grains carry the velocities that contacts see.
+/// The two parts of a step around the forces, for all grains but those of rigid bodies. Between them grains
+/// carry the velocities that contacts see.
 struct TimeIntegration {
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
     /// if one is not a number.

@@ -70,16 +70,21 @@ struct OutletRows {
 };
 using OutletFile = GrainFlowFile<OutletRows>;
 
-/// NAME-flux.csv: what has gone through each flux plane since the start, both ways.
+/// NAME-flux.csv: what has gone through each flux plane since the start, both ways; the momentum is that
+/// forwards less that backwards.
 struct FluxRows {
     static constexpr const char *name = "FluxFile", *ending = "-flux.csv",
                                 *header =
-                                    "time_s,plane,forwards,backwards,mass_forwards_kg,mass_backwards_kg";
+                                    "time_s,plane,forwards,backwards,mass_forwards_kg,mass_backwards_kg,"
+                                    "momentum_x_kg_m_per_s,momentum_y_kg_m_per_s,momentum_z_kg_m_per_s,"
+                                    "liquid_forwards_m3,liquid_backwards_m3";
     template <class Scene, class Row>
     static void write(const Scene& scene, Row&& row) {
         for (std::size_t k = 0; k < scene.fluxPlaneHandler.getSize(); ++k) {
             const FluxCount& count = scene.fluxPlaneHandler.count(k);
-            row(k, count.forwards, count.backwards, count.massForwards, count.massBackwards);
+            const Vec3D momentum = count.netMomentum();
+            row(k, count.forwards, count.backwards, count.massForwards, count.massBackwards, momentum.x(),
+                momentum.y(), momentum.z(), count.liquidForwards, count.liquidBackwards);
         }
     }
 };

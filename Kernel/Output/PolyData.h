@@ -36,6 +36,7 @@ struct PolyData {
     std::vector<std::int32_t> corners;  // of the cells one after another: places in `points`
     std::vector<std::int32_t> ends;     // of each cell in `corners`
     std::vector<PolyDataField> pointFields, cellFields;
+    std::vector<PolyDataField> wholeFields;  // numbers of the whole, a few
 
     /// The field of this name, or nothing.
     [[nodiscard]] const PolyDataField* pointField(std::string_view name) const {
@@ -43,6 +44,9 @@ struct PolyData {
     }
     [[nodiscard]] const PolyDataField* cellField(std::string_view name) const {
         return find(cellFields, name);
+    }
+    [[nodiscard]] const PolyDataField* wholeField(std::string_view name) const {
+        return find(wholeFields, name);
     }
 
 private:

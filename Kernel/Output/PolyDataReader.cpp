@@ -87,7 +87,7 @@ private:
         if (tag.name == "VTKFile") checkForm(tag);
         else if (tag.name == "Piece") takeCounts(tag);
         else if (tag.name == "DataArray") takeArray(tag);
-        else section = tag.name;
+        else if (tag.name != "/DataArray") section = tag.name;
     }
     /// As many points, cells and values as the file says, in whatever order it says it.
     void requireWhole() const {
@@ -125,7 +125,8 @@ private:
     void takeArray(const Tag& tag) {
         const std::string_view name = valueOf(tag, "Name");
         if (section == "FieldData") {
-            if (name == "TimeValue" && !parseNumber(tag.behind, result.time))
+            if (name != "TimeValue") takeWhole(name, tag.behind);
+            else if (!parseNumber(tag.behind, result.time))
                 throw std::runtime_error("has a TimeValue that is no number");
         } else if (section == "PointData") {
             result.pointFields.push_back(field(tag, points));
@@ -140,6 +141,19 @@ private:
             if (cells > 0 && name == "connectivity") connectivity = tag;
             if (cells > 0 && name == "offsets") takeCells(tag);
         }
+    }
+    void takeWhole(std::string_view name, std::string_view text) {
+        std::vector<double> numbers;
+        while (!text.empty()) {
+            const std::size_t end = std::min(text.find(' '), text.size());
+            double number = 0;
+            if (!parseNumber(text.substr(0, end), number))
+                throw std::runtime_error(
+                    fmt::format("has a field '{}' that is no row of numbers", shown(name)));
+            numbers.push_back(number);
+            text.remove_prefix(std::min(end + 1, text.size()));
+        }
+        result.wholeFields.push_back({std::string(name), 1, std::move(numbers)});
     }
     void takeCells(const Tag& offsets) {
         result.ends = numbers<std::int32_t>(offsets, cells);

@@ -24,7 +24,7 @@ void addCells(VtkDocument& document, const PolyData& data) {
 void writePolyData(const std::filesystem::path& path, const PolyData& data, int threads) {
     static_assert(sizeof(Vector<double>) == 3 * sizeof(double));
     const auto countOf = [&](PolyData::Cells kind) { return data.kind == kind ? data.ends.size() : 0; };
-    VtkDocument document("PolyData", data.time, "", threads);
+    VtkDocument document("PolyData", data.time, "", threads, data.wholeFields);
     document.add(fmt::format(
         "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
         "NumberOfPolys=\"{}\">\n",

@@ -10,6 +10,7 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Output/BoxFields.h"
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Particles/SphericalParticle.h"
 
@@ -41,7 +42,7 @@ inline void requireDistinctNames(const std::vector<PolyDataField>& fields, std::
 }
 
 /// The grains as points: radius, mass, velocity, spin, force (of contacts and weight), species, whether they
-/// are held in place (fixed), identity.
+/// are held in place (fixed), identity; with rigid bodies the number of each grain's, or -1.
 /// @tparam Real of the fields; positions are doubles
 template <std::floating_point Real = float>
 PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
@@ -77,6 +78,13 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
     if (grains.hasSpin) data.pointFields.push_back({"spin_rad_per_s", 3, std::move(spin)});
     data.pointFields.push_back({"force_N", 3, std::move(force)});
     data.pointFields.push_back({"species", 1, std::move(species)});
+    if (!grains.bodies.empty()) {
+        std::vector<std::int32_t> body;  // its number, or -1
+        for (const std::int32_t grain : identity)
+            body.push_back(
+                static_cast<std::int32_t>(grains.bodies.bodyOf(static_cast<std::uint32_t>(grain))));
+        data.pointFields.push_back({"body", 1, std::move(body)});
+    }
     data.pointFields.push_back({"fixed", 1, std::move(fixed)});
     data.pointFields.push_back({"identity", 1, std::move(identity)});
     for (const GrainColumn& column : grains.columns) {
@@ -251,6 +259,7 @@ private:
         if (stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
         if (contacts)
             frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws(), contactPoints);
+        frame.grains.wholeFields = boxFields(scene.contacts().periodicBox());
         requireDistinctNames(frame.grains.pointFields, "grains");
         if (frame.contacts) requireDistinctNames(frame.contacts->cellFields, "contacts");
         if (scene.wallHandler.getSize() > 0) {

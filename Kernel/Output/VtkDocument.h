@@ -19,9 +19,10 @@ namespace pendular {
 /// formats, "XML file formats".
 class VtkDocument {
 public:
-    /// @param type "PolyData"; @param time s
+    /// @param type "PolyData"; @param time s; @param whole fields of the whole
     /// @param threadCount that compress; the file does not depend on it
-    VtkDocument(std::string_view type, double time, std::string_view attributes, int threadCount)
+    VtkDocument(std::string_view type, double time, std::string_view attributes, int threadCount,
+                const std::vector<PolyDataField>& whole = {})
         : threads(threadCount), kind(type) {
         xml = fmt::format(
             "<?xml version=\"1.0\"?>\n"
@@ -29,9 +30,19 @@ public:
             "compressor=\"vtkZLibDataCompressor\">\n"
             "<{0}{2}>\n"
             "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-            "format=\"ascii\">{3}</DataArray>\n</FieldData>\n",
+            "format=\"ascii\">{3}</DataArray>\n",
             type, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", attributes,
             time);
+        for (const PolyDataField& field : whole) {
+            xml += fmt::format(
+                "<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"{}\" NumberOfComponents=\"{}\" "
+                "format=\"ascii\">",
+                field.name, field.size() / field.components, field.components);
+            for (std::size_t k = 0; k < field.size(); ++k)
+                xml += fmt::format("{}{}", k ? " " : "", field.at(k));
+            xml += "</DataArray>\n";
+        }
+        xml += "</FieldData>\n";
     }
 
     void add(std::string_view text) { xml += text; }

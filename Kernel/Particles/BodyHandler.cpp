@@ -102,25 +102,6 @@ void refuseOverlaps(const std::vector<Sphere>& spheres, std::span<const std::uin
         }
 }
 
-/// The principal moments and axes of an inertia tensor; throws InputError where no body has it.
-std::pair<Vec3D, Eigen::Quaterniond> principalAxes(const Eigen::Matrix3d& inertia) {
-    const double size = inertia.cwiseAbs().maxCoeff();
-    constexpr double roundOff = 1e-9;  // of what a user computes
-    if (!inertia.allFinite() || (inertia - inertia.transpose()).cwiseAbs().maxCoeff() > roundOff * size)
-        throw InputError("The inertia of a rigid body must be a finite symmetric matrix (kg m^2).");
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
-    const Vec3D moments = solver.eigenvalues();  // they grow
-    if (!(moments[0] > 0) || moments[0] + moments[1] < (1 - roundOff) * moments[2])
-        throw InputError(
-            fmt::format("The principal moments of inertia of a rigid body are {:.6g}, {:.6g}, {:.6g} kg m^2; "
-                        "they must be "
-                        "positive, and the largest at most the sum of the others.",
-                        moments[0], moments[1], moments[2]));
-    Eigen::Matrix3d axes = solver.eigenvectors();
-    if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
-    return {moments, Eigen::Quaterniond(axes).normalized()};
-}
-
 }  // namespace
 
 std::size_t BodyReference::at() const {
@@ -161,26 +142,75 @@ BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
     const BodyMass own = mass.value_or(BodyMass{sums.mass, sums.centre, sums.inertia});
     checkValue("rigid body", "mass", own.mass, "kg", positive);
     for (const double part : own.centre) checkValue("rigid body", "centre", part, "m", anyFinite);
-    const auto [moments, axes] = principalAxes(own.inertia);
-    const Vec3D spin = sums.inertia.ldlt().solve(sums.angularMomentum);
+    // A single sphere moves on as it is, bit for bit.
+    const bool isSphere = spheres.size() == 1 && !mass;
+    const PrincipalAxes principal =
+        isSphere ? PrincipalAxes{Vec3D::Constant(spheres[0].inertia()), Eigen::Quaterniond::Identity()}
+                 : principalAxes(own.inertia);
+    const Vec3D spin = isSphere ? spheres[0].spin : Vec3D(sums.inertia.ldlt().solve(sums.angularMomentum));
     RigidBody body{.mass = own.mass,
-                   .inertia = toVector(moments),
-                   .position = toVector(own.centre),
+                   .inertia = toVector(principal.moments),
+                   .position = toVector(isSphere ? spheres[0].position : own.centre),
                    .velocity = toVector(sums.velocity + spin.cross(own.centre - sums.centre)),
                    .acceleration = toVector(sums.acceleration),
                    .torque = toVector(sums.torque),
-                   .orientation = {axes.w(), toVector(axes.vec())},
+                   .orientation = {principal.axes.w(), toVector(principal.axes.vec())},
                    .largestFreeMass = sums.largest};
     body.setSpin(toVector(spin));
+    std::vector<Vec3D> positions;
+    for (const Sphere& sphere : spheres) positions.push_back(sphere.position);
+    return add(body, identities, positions, isSphere);
+}
+
+/// A single sphere is left as it is.
+BodyReference BodyHandler::add(RigidBody body, std::span<const std::uint32_t> identities,
+                               std::span<const Vec3D> positions, bool isSphere) {
     std::vector<BodyMember> members;
-    for (std::size_t k = 0; k < spheres.size(); ++k)
-        members.push_back(
-            {identities[k], body.orientation.turnBack(toVector(spheres[k].position) - body.position)});
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        members.push_back({identities[k], body.orientation.turnBack(toVector(positions[k]) - body.position)});
     ParticleStore& grains = particles.store();
     const std::uint32_t number = grains.bodies.add(body, members);
-    grains.bodies.place(grains, grains.bodies.size() - 1);
+    if (!isSphere) grains.bodies.place(grains, grains.bodies.size() - 1);
     particles.noteJoined(identities);
     return {grains, number};
+}
+
+BodyReference BodyHandler::copyAndAddObject(const Clump& clump) {
+    if (clump.getSpeciesIndex() < 0)
+        throw InputError("Clump: species is not set; call setSpecies() with a species of this scene.");
+    const double density = particles.massOf(1, clump.getSpeciesIndex()) / sphereMass(1, 1);
+    std::vector<std::uint32_t> identities;
+    for (const SphericalParticle& sphere : clump.getSpheres())
+        identities.push_back(particles.copyAndAddObject(sphere).getId());
+    if (clump.getTemplate().isSphere()) return join(identities);
+    BodyMass own = clump.getTemplate().massOf(density, clump.getScale());
+    const Eigen::Matrix3d turn = clump.getOrientation().toRotationMatrix();
+    own.centre = clump.getPosition();
+    own.inertia = turn * own.inertia * turn.transpose();
+    own.inertia = 0.5 * (own.inertia + own.inertia.transpose()).eval();
+    BodyReference body = join(identities, own);
+    body.setVelocity(clump.getVelocity());
+    body.setAngularVelocity(clump.getAngularVelocity());
+    return body;
+}
+
+void BodyHandler::refuseTooWide() const {
+    if (!periodic.any()) return;
+    double shortest = infinity;  // m
+    for (const double length : {periodic.length.x, periodic.length.y, periodic.length.z})
+        if (length > 0) shortest = std::min(shortest, length);
+    const ParticleStore& grains = particles.store();
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k)
+        for (const BodyMember& member : grains.bodies.membersOf(k)) {
+            const double width =
+                2 * (norm(member.arm) + grains.translation[grains.place[member.grain]].radius);
+            if (width > 0.5 * shortest)
+                throw InputError(fmt::format(
+                    "rigid body {} reaches {:.6g} m from its centre, so it is {:.6g} m wide when it turns; "
+                    "in a "
+                    "scene that repeats itself after {:.6g} m a body must not be wider than half of that.",
+                    grains.bodies.numberOf(k), 0.5 * width, width, shortest));
+        }
 }
 
 void BodyHandler::removeObject(std::size_t number) {

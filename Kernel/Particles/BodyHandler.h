@@ -4,17 +4,11 @@
 #include <optional>
 #include <span>
 
+#include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
-
-/// The mass of a rigid body, where it is not that of its spheres: overlapping ones would count twice.
-struct BodyMass {
-    double mass;              // kg
-    Vec3D centre;             // m, of mass, in space as the grains are now
-    Eigen::Matrix3d inertia;  // kg m^2, about the centre of mass
-};
 
 /// A rigid body of a scene, found by its number: valid until it is removed; then every call throws
 /// InputError.
@@ -64,11 +58,19 @@ public:
     /// if it has their mass. That is so if none is given. In a periodic scene the nearest images are joined.
     /// Throws InputError for grains that are held, or in a body already; that overlap without a given mass;
     /// or for a mass or an inertia that no body can have.
+    /// @param mass its centre is in space, as the grains are now
     BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass = {});
     BodyReference join(std::initializer_list<std::uint32_t> identities,
                        const std::optional<BodyMass>& mass = {}) {
         return join(std::span(identities.begin(), identities.size()), mass);
     }
+    /// Adds the spheres of a clump and joins them: a body with the mass of its template. Its spheres follow
+    /// each other in the order of the template; they take no notice of other grains (insert() does). Throws
+    /// InputError as copyAndAddObject() of grains does.
+    BodyReference copyAndAddObject(const Clump& clump);
+    /// Throws InputError if a body is wider than half the period of a scene, so that it could meet itself, or
+    /// another one twice.
+    void refuseTooWide() const;
     /// Removes a body and all its grains.
     void removeObject(std::size_t number);
 
@@ -79,6 +81,9 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> bodyOf(std::uint32_t grain) const;
 
 private:
+    BodyReference add(RigidBody body, std::span<const std::uint32_t> identities,
+                      std::span<const Vec3D> positions, bool isSphere);
+
     ParticleHandler& particles;
     const PeriodicBox& periodic;
 };

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "Kernel/Math/Servo.h"
 #include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
@@ -14,6 +15,8 @@ struct AxisStrain {
     double stress = 0;          // Pa, compression positive, of the servo
     double time = 0;            // s, of the servo
     double largestRate = 0;     // 1/s, of the servo
+    Servo servo{};
+    double oneWay = 0;  // strain by the servo since the sign of its rate changed
 };
 
 /// Homogeneous strain of a periodic scene: images that follow each other along an axis move apart, or

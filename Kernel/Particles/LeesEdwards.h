@@ -2,28 +2,59 @@
 
 #include <cmath>
 
+#include "Kernel/Math/Servo.h"
 #include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
 
 /// Shear without walls: the images of a periodic scene along the gradient move along the flow with the speed
 /// rate x length, so that a flow whose velocity grows by the rate with each metre goes on for ever. Source:
-/// Lees and Edwards (1972), J. Phys. C 5, 1921.
+/// Lees and Edwards (1972), J. Phys. C 5, 1921. In a step that speed is constant. Where it changes, because
+/// the rate or the length does, all grains get the change of the flow, as in HomogeneousStrain.
 struct LeesEdwards {
     int flow = 0, gradient = 1;  // axes
     double rate = 0;             // 1/s, of the velocity along the flow over the place along the gradient
     bool isSet = false;
 
-    /// Where the images are at a time (s). It depends on the time alone, not on the steps to it.
-    void move(PeriodicBox& box, double time) const {
+    bool isControlled = false;  // by a servo, so that the shear stress becomes the target
+    double stress = 0;          // Pa, of the servo, against the flow
+    double time = 0;            // s, of the servo
+    double largestRate = 0;     // 1/s, of the servo
+    Servo servo{};
+    double atLargest = 0;  // strain, for which the servo has asked for its largest rate
+
+    double speed = 0;   // m/s, of the images in this step
+    double began = 0;   // s, since when they have it
+    double offset = 0;  // m, how far they had slid then
+
+    /// At the start of a run.
+    LeesEdwards& settle(const PeriodicBox& box) {
+        speed = rate * box.length.*axes[gradient];
+        return *this;
+    }
+
+    /// Takes the rate for a step to come, which begins at a time (s). Returns by how much the speed of the
+    /// images has changed (m/s).
+    double begin(const PeriodicBox& box, double now) {
+        const double before = speed;
+        settle(box);
+        if (speed == before) return 0;
+        offset = box.imageShift.*axes[flow];
+        began = now;
+        return speed - before;
+    }
+
+    /// Where the images are at a time (s). While the speed lasts, it depends on the time alone, not on the
+    /// steps to it.
+    void move(PeriodicBox& box, double now) const {
         if (!isSet) return;
         const double width = box.length.*axes[gradient], period = box.length.*axes[flow];
-        const double slid = std::fmod(rate * width * time, period);
+        const double slid = std::fmod(offset + speed * (now - began), period);
         box.imagesMove = true;
         box.across.*axes[gradient] = 1 / width;
         box.imageShift.*axes[gradient] = width;
         box.imageShift.*axes[flow] = slid < 0 ? slid + period : slid;
-        box.imageVelocity.*axes[flow] = rate * width;
+        box.imageVelocity.*axes[flow] = speed;
     }
 
     static constexpr double Vector<double>::*axes[] = {&Vector<double>::x, &Vector<double>::y,

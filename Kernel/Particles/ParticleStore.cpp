@@ -34,6 +34,7 @@ std::uint32_t ParticleStore::add(const TranslationRecord& grain, const Vector<do
     const std::uint32_t number = next++;
     const std::uint32_t at = freePlace();
     place.set(number, at);
+    bodies.forgetPlaces();
     translation[at] = grain;
     acceleration[at] = {0, 0, 0};
     species[at] = speciesIndex;
@@ -78,6 +79,7 @@ void ParticleStore::reorder(const std::vector<std::uint32_t>& order, int threads
     if (!earlier.empty()) permute(earlier, order, threads);
     for (GrainColumn& column : columns) permute(column.values, order, threads);
     for (std::size_t k = 0; k < identity.size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
+    bodies.forgetPlaces();
 }
 
 void ParticleStore::visitState(StateArchive& archive) {

@@ -18,8 +18,11 @@ std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember
     bodies.push_back(body);
     numbers.push_back(next);
     members.insert(members.end(), grains.begin(), grains.end());
+    turned.resize(members.size());
+    forgetPlaces();
     begins.push_back(static_cast<std::uint32_t>(members.size()));
     for (const BodyMember& member : grains) bodyOfGrain[member.grain] = next;
+    turnArms(size() - 1);
     return next++;
 }
 
@@ -27,33 +30,65 @@ void RigidBodies::remove(std::size_t at) {
     const auto first = members.begin() + begins[at], end = members.begin() + begins[at + 1];
     const auto count = static_cast<std::uint32_t>(end - first);
     for (auto member = first; member != end; ++member) bodyOfGrain.erase(member->grain);
+    turned.erase(turned.begin() + begins[at], turned.begin() + begins[at + 1]);
     members.erase(first, end);
+    forgetPlaces();
     begins.erase(begins.begin() + static_cast<std::ptrdiff_t>(at));
     for (std::size_t k = at; k < begins.size(); ++k) begins[k] -= count;
     bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(at));
     numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-void RigidBodies::place(ParticleStore& grains) const {
+void RigidBodies::turnArms(std::size_t at) {
+    const Axes axes(bodies[at].orientation);
+    for (std::size_t m = begins[at]; m < begins[at + 1]; ++m) turned[m].arm = axes.turn(members[m].arm);
+}
+
+void RigidBodies::place(ParticleStore& grains) {
     for (std::size_t k = 0; k < size(); ++k) place(grains, k);
 }
-void RigidBodies::place(ParticleStore& grains, std::size_t at) const {
+void RigidBodies::place(ParticleStore& grains, std::size_t at) {
     const RigidBody& body = bodies[at];
     const Vector<double> spin = body.spin();
-    for (const BodyMember& member : membersOf(at)) {
-        const std::uint32_t place = grains.place[member.grain];
-        const Vector<double> arm = body.orientation.turn(member.arm);
+    turnArms(at);
+    for (std::size_t m = begins[at]; m < begins[at + 1]; ++m) {
+        const std::uint32_t place = grains.place[members[m].grain];
+        const Vector<double>& arm = turned[m].arm;
         TranslationRecord& grain = grains.translation[place];
         grain.inverseMass = 1 / body.mass;
         grain.position = body.position + arm;
-        grain.velocity = body.velocity + cross(spin, arm);
+        grain.velocity = body.velocity + vectorOf(crossFour(fourOf(spin), fourOf(arm)));
         grains.acceleration[place] = body.acceleration;
         if (!grains.hasSpin) continue;
         RotationRecord& turning = grains.rotation[place];
         turning.spin = spin;
         turning.angularAcceleration = {0, 0, 0};
         turning.inverseInertia = 2.5 / (body.mass * grain.radius * grain.radius);
+        if (isSphere(at)) turning.angularAcceleration = turning.inverseInertia * body.torque;
     }
+}
+
+bool RigidBodies::isSphere(std::size_t at) const {
+    const Vector<double>& inertia = bodies[at].inertia;
+    return begins[at + 1] == begins[at] + 1 && members[begins[at]].arm == Vector<double>{0, 0, 0} &&
+           inertia.x == inertia.y && inertia.y == inertia.z;
+}
+
+void RigidBodies::refresh(const ParticleStore& grains) {
+    if (placesAreKnown || (empty() && bodyAt.empty())) return;
+    bodyAt.assign(grains.size(), none);
+    places.resize(members.size());
+    for (std::size_t k = 0; k < size(); ++k)
+        for (std::size_t m = begins[k]; m < begins[k + 1]; ++m) {
+            places[m] = grains.place[members[m].grain];
+            bodyAt[places[m]] = static_cast<std::uint32_t>(k);
+        }
+    order.clear(), spheresOnly.clear(), own.clear();
+    for (std::uint32_t k = 0; k < size(); ++k) (isSphere(k) ? spheresOnly : order).push_back(k);
+    std::ranges::sort(order, {}, [&](std::uint32_t k) { return places[begins[k]]; });
+    for (std::uint32_t at = 0; at < grains.size(); ++at)
+        if (bodyAt[at] == none || isSphere(bodyAt[at])) own.push_back(at);
+    placesAreKnown = true;
 }
 
 namespace {
@@ -70,16 +105,21 @@ double responseOfTurning(const Vector<double>& arm, const Vector<double>& inerti
 
 }  // namespace
 
-double RigidBodies::stepFactor() const {
-    double smallest = 1;
+BodyResponse RigidBodies::response(const ParticleStore& grains) const {
+    BodyResponse most;
     for (std::size_t k = 0; k < size(); ++k) {
         const RigidBody& body = bodies[k];
-        double response = 0;  // 1/kg
-        for (const BodyMember& member : membersOf(k))
+        double response = 0, largest = 0, smallest = infinity;  // 1/kg; m
+        for (const BodyMember& member : membersOf(k)) {
             response += 1 / body.mass + responseOfTurning(member.arm, body.inertia);
-        smallest = std::min(smallest, 1 / (response * body.largestFreeMass));
+            const double radius = grains.translation[grains.place[member.grain]].radius;
+            largest = std::max(largest, radius), smallest = std::min(smallest, radius);
+        }
+        const double ratio = smallest / largest;
+        most.inertia = std::min(most.inertia, 1 / (response * body.largestFreeMass));
+        most.damping = std::max(most.damping, body.mass / (ratio * ratio * ratio * body.largestFreeMass));
     }
-    return std::sqrt(smallest);
+    return most;
 }
 
 void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains) {
@@ -102,6 +142,9 @@ void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains)
     for (std::size_t k = 0; k < arms.size(); ++k) members.push_back({grainsOf[k], arms[k]});
     requireWhole(archive, grains);
     bodyOfGrain.clear();
+    turned.resize(members.size());
+    forgetPlaces();
+    for (std::size_t k = 0; k < size(); ++k) turnArms(k);
     for (std::size_t k = 0; k < size(); ++k)
         for (const BodyMember& member : membersOf(k)) {
             archive.require(!bodyOfGrain.contains(member.grain), "grains", "has a grain in two bodies");

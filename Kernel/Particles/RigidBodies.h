@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "Kernel/Math/Four.h"
 #include "Kernel/Math/Quaternion.h"
 #include "Kernel/State/StateArchive.h"
 
@@ -12,8 +13,9 @@ namespace pendular {
 
 class ParticleStore;
 
-/// A rigid body made of grains: one mass, one motion.
-struct RigidBody {
+/// A rigid body made of grains: one mass, one motion. Three cache lines, of which eight bodies are read and
+/// transposed at once.
+struct alignas(64) RigidBody {
     double mass = 0;                          // kg
     Vector<double> inertia{0, 0, 0};          // kg m^2, about the principal axes
     Vector<double> position{0, 0, 0};         // m, of the centre of mass
@@ -25,9 +27,11 @@ struct RigidBody {
     double largestFreeMass = 0;               // kg, of its largest grain, were that a free sphere
 
     /// rad/s
-    [[nodiscard]] Vector<double> spin() const {
-        const Vector<double> l = orientation.turnBack(angularMomentum);
-        return orientation.turn({l.x / inertia.x, l.y / inertia.y, l.z / inertia.z});
+    [[nodiscard]] Vector<double> spin() const { return spinOf(Axes(orientation), inertia, angularMomentum); }
+    template <Number T>
+    static Vector<T> spinOf(const Axes<T>& axes, const Vector<T>& inertia, const Vector<T>& momentum) {
+        const Vector<T> l = axes.turnBack(momentum);
+        return axes.turn({l.x / inertia.x, l.y / inertia.y, l.z / inertia.z});
     }
     void setSpin(const Vector<double>& spin) {
         const Vector<double> w = orientation.turnBack(spin);
@@ -36,11 +40,25 @@ struct RigidBody {
     /// J, of the turning
     [[nodiscard]] double rotationalEnergy() const { return 0.5 * dot(spin(), angularMomentum); }
 };
+static_assert(sizeof(RigidBody) == 24 * sizeof(double));
 
 /// A grain of a rigid body.
 struct BodyMember {
     std::uint32_t grain;  // identity
     Vector<double> arm;   // m, from the centre of mass, in the principal axes
+};
+
+/// The arm of a grain as its body is turned, in a register's alignment.
+struct alignas(32) TurnedArm {
+    Vector<double> arm{0, 0, 0};  // m
+    double unused = 0;
+};
+
+/// What bodies do to the stability limit of a scene of free spheres.
+struct BodyResponse {
+    double inertia = 1;  // a contact moves its grains as if they had this share of a free sphere's mass
+    double damping = 1;  // dashpots that follow from the mass are made for so many times it
+    [[nodiscard]] bool isOfBodies() const { return inertia != 1 || damping != 1; }
 };
 
 /// The rigid bodies of a scene. Their grains are in the store like all others, with the mass of their body,
@@ -63,8 +81,17 @@ public:
     [[nodiscard]] std::uint32_t numberOf(std::size_t at) const { return numbers[at]; }
     /// The number of the body that a grain is part of, or `none`.
     [[nodiscard]] std::uint32_t bodyOf(std::uint32_t grain) const {
+        if (empty()) return none;
         const auto found = bodyOfGrain.find(grain);
         return found == bodyOfGrain.end() ? none : found->second;
+    }
+    /// Of the grain at a place: where its body is, or `none`.
+    [[nodiscard]] std::uint32_t at(std::uint32_t place) const {
+        return place < bodyAt.size() ? bodyAt[place] : none;
+    }
+    /// The same as areJoined(), by places.
+    [[nodiscard]] bool areJoinedAt(std::uint32_t a, std::uint32_t b) const {
+        return !empty() && at(a) != none && at(a) == at(b);
     }
     [[nodiscard]] bool contains(std::uint32_t grain) const { return !empty() && bodyOf(grain) != none; }
     /// Whether two grains are of one body: then they do not touch each other.
@@ -79,24 +106,47 @@ public:
 
     /// Gives the grains of all bodies, or of one, the mass, the places and the velocities that they have in
     /// it.
-    void place(ParticleStore& grains) const;
-    void place(ParticleStore& grains, std::size_t at) const;
+    void place(ParticleStore& grains);
+    void place(ParticleStore& grains, std::size_t at);
 
-    /// By how much (at most 1) the stability limit of a scene of free spheres is to be multiplied. All
-    /// contacts of a body may act at once: with n grains, n contact stiffnesses act on its approach (1/M
-    /// each) and on its turning (the response of each grain's arm), as on a mass 1 / (n/M + sum of these) a
-    /// grain, which is compared with the free sphere that its largest grain would be.
-    [[nodiscard]] double stepFactor() const;
+    /// Of the body that moves most easily. All contacts of a body may act at once: with n grains, n contact
+    /// stiffnesses act on its approach (1/M each) and on its turning (the response of each grain's arm), as
+    /// on a mass 1 / (n/M + sum of these) a grain, which is compared with the free sphere that its largest
+    /// grain would be. Dashpots are made for the mass of the body.
+    [[nodiscard]] BodyResponse response(const ParticleStore& grains) const;
+
+    /// Finds the grains where they are now: after each change of places, before the calls below.
+    void refresh(const ParticleStore& grains);
+    void forgetPlaces() { placesAreKnown = false; }
+    /// Where bodies are, those behind each other whose first grains are in the store; without those that
+    /// move as their only grain.
+    [[nodiscard]] const std::vector<std::uint32_t>& inSpace() const { return order; }
+    /// Bodies of one grain, of the inertia of a sphere, about its centre: they move as it does, bit for bit.
+    [[nodiscard]] const std::vector<std::uint32_t>& spheres() const { return spheresOnly; }
+    /// The places of all grains that move by themselves, or are held, or are the sphere of a body.
+    [[nodiscard]] const std::vector<std::uint32_t>& ownPlaces() const { return own; }
+    [[nodiscard]] std::uint32_t begin(std::size_t at) const { return begins[at]; }
+    [[nodiscard]] std::uint32_t end(std::size_t at) const { return begins[at + 1]; }
+    /// By the number of a member, from begin() to end() of its body.
+    [[nodiscard]] const BodyMember& member(std::size_t number) const { return members[number]; }
+    [[nodiscard]] std::uint32_t placeOf(std::size_t number) const { return places[number]; }
+    [[nodiscard]] TurnedArm& turnedArm(std::size_t number) { return turned[number]; }
+    [[nodiscard]] const TurnedArm& turnedArm(std::size_t number) const { return turned[number]; }
 
     void visitState(StateArchive& archive, const ParticleStore& grains);
 
 private:
     void requireWhole(const StateArchive& archive, const ParticleStore& grains) const;
+    void turnArms(std::size_t at);
+    [[nodiscard]] bool isSphere(std::size_t at) const;
 
     std::vector<RigidBody> bodies;
     std::vector<std::uint32_t> numbers;  // of each; they grow
     std::vector<std::uint32_t> begins{0};
     std::vector<BodyMember> members;
+    std::vector<TurnedArm> turned;  // of each member
+    bool placesAreKnown = false;
+    std::vector<std::uint32_t> places, bodyAt, order, spheresOnly, own;
     std::unordered_map<std::uint32_t, std::uint32_t> bodyOfGrain;
     std::uint32_t next = 0;
 };

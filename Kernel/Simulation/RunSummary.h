@@ -85,12 +85,19 @@ private:
         rows.add("steps", scene.getNumberOfTimeSteps());
         if (scene.getFirstStep() > 0) rows.add("restarted after steps", scene.getFirstStep());
         rows.addNumber("time step", scene.getTimeStep(), "s");
+        if (const AdaptiveStep& adaptive = scene.adaptiveTimeStep(); adaptive.hasChosen()) {
+            rows.add("time step chosen anew", adaptive.choiceCount());
+            rows.addNumber("smallest time step", adaptive.smallestStep(), "s");
+            rows.addNumber("largest time step", adaptive.largestStep(), "s");
+        }
         rows.addNumber(
             "stability limit",
             sceneStabilityLimit(scene.laws(), sizes(scene), scene.wallHandler, scene.getIntegrator()), "s");
         if (scene.acceptsUnstableTimeStep()) rows.add("step above the stability limit", "accepted");
         rows.add("threads", scene.getNumberOfThreads());
         rows.add("grains", scene.particleHandler.getSize());
+        if (const std::size_t bodies = scene.bodyHandler.getSize(); bodies > 0)
+            rows.add("rigid bodies", bodies);
         rows.add("walls", scene.wallHandler.getSize());
         const Vec3D g = scene.getGravity();
         rows.add("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");

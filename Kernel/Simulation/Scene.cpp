@@ -63,6 +63,7 @@ void Scene::setGravity(const Vec3D& acceleration) {
         throw;
     }
     particleHandler.setGravity(gravity);
+    adaptive.chooseAnew();
     gravityChanged |= hasBegun();
 }
 
@@ -74,6 +75,7 @@ void Scene::setPeriodic(int axis, double lowest, double highest) {
     periodic.length.*LeesEdwards::axes[axis] = highest - lowest;
     lowestAtSetUp = periodic.lowest;
     lengthAtSetUp = periodic.length;
+    shear.settle(periodic);
     shear.move(periodic, getTime());
 }
 
@@ -92,8 +94,45 @@ void Scene::setLeesEdwards(int flow, int gradient, double rate) {
                             "setPeriodic() for the flow and the gradient first.",
                             axis));
     periodic = {periodic.lowest, periodic.length};
-    shear = {flow, gradient, rate, true};
+    periodic.imagesMove = strain.isSet;
+    shear = {};
+    shear.flow = flow;
+    shear.gradient = gradient;
+    shear.rate = rate;
+    shear.isSet = true;
+    shear.settle(periodic);
     shear.move(periodic, getTime());
+    shearAtSetUp = shear;
+}
+
+void Scene::setShearRate(double rate) {
+    if (!shear.isSet)
+        throw InputError(
+            "Simulation: shear rate: the scene was not set up to be sheared; call setLeesEdwards() at set-up "
+            "(a rate of 0 will do).");
+    checkValue("Simulation", "shear rate", rate, "1/s", anyFinite);
+    if (!hasBegun()) return setLeesEdwards(shear.flow, shear.gradient, rate);
+    shear.rate = rate;
+    shear.isControlled = false;
+}
+
+void Scene::setTargetShearStress(double stress, double time, double largestRate) {
+    if (!shear.isSet)
+        throw InputError(
+            "Simulation: target shear stress: the scene was not set up to be sheared; call setLeesEdwards() "
+            "at set-up (a rate of 0 will do).");
+    checkValue("Simulation", "target shear stress", stress, "Pa", anyFinite);
+    checkValue("Simulation", "time of the target shear stress", time, "s", positive);
+    if (!isSet(largestRate)) largestRate = 1 / time;
+    checkValue("Simulation", "largest shear rate", largestRate, "1/s", positive);
+    shear.isControlled = true;
+    shear.stress = stress;
+    shear.time = time;
+    shear.largestRate = largestRate;
+    shear.servo = {.speed = shear.rate};
+    shear.atLargest = 0;
+    if (hasBegun()) refuseForMovingImages();
+    else shearAtSetUp = shear;
 }
 
 AxisStrain& Scene::axisToStrain(int axis, std::string_view what) {
@@ -129,7 +168,7 @@ void Scene::setTargetStress(int axis, double stress, double time, double largest
     checkValue("Simulation", "time of the target stress", time, "s", positive);
     if (!isSet(largestRate)) largestRate = 0.1 / time;
     checkValue("Simulation", "largest strain rate", largestRate, "1/s", positive);
-    setStrain(axis, {rate, true, stress, time, largestRate});
+    setStrain(axis, {rate, true, stress, time, largestRate, {.speed = rate}});
 }
 
 double Scene::getStrainRate(int axis) const {
@@ -145,7 +184,7 @@ void Scene::setNumberOfThreads(int count) {
 
 double Scene::stabilityLimit() {
     mixChangedLaws();
-    return sceneStabilityLimit(laws(), grainSizes(particleHandler.store()), wallHandler, integrator);
+    return sceneStabilityLimit(laws(), grainSizes(particleHandler.store()), wallHandler, scheme());
 }
 
 double Scene::stabilityLimit(std::span<const SphericalParticle> toCome) {
@@ -156,7 +195,7 @@ double Scene::stabilityLimit(std::span<const SphericalParticle> toCome) {
         grains.add({{0, 0, 0}, grain.getRadius(), {0, 0, 0}, grain.isFixed() ? 0 : 1 / mass}, {0, 0, 0},
                    static_cast<std::uint16_t>(grain.getSpeciesIndex()));
     }
-    return sceneStabilityLimit(laws(), grainSizes(grains), wallHandler, integrator);
+    return sceneStabilityLimit(laws(), grainSizes(grains), wallHandler, scheme());
 }
 
 double Scene::shortestContactTime() {
@@ -196,7 +235,10 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
     if (hasBegun() && periodic.imagesMove)
         throw InputError(
             "insert(): in a run in shear or strain grains cannot be inserted; insert them at set-up.");
-    const Inserted made = insertGrains(insertionScene(), sizes, region, amount, like, options);
+    return tellOf(insertGrains(insertionScene(), sizes, region, amount, like, options));
+}
+
+Inserted Scene::tellOf(const Inserted& made) {
     if (made.number == made.wanted && made.wanted > 0) return made;
     const auto [what, advice] = whyLess(made);
     if (!hasBegun()) throw InputError(fmt::format("{}; {}.", what, advice));
@@ -204,10 +246,19 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
     return made;
 }
 
+Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
+                       const Clump& like, const InsertOptions& options) {
+    if (hasBegun() && periodic.imagesMove)
+        throw InputError(
+            "insert(): in a run in shear or strain clumps cannot be inserted; insert them at set-up.");
+    const Inserted made = insertClumps(insertionScene(), bodyHandler, sizes, region, amount, like, options);
+    return tellOf(made);
+}
+
 void Scene::letOutAndIn(double time) {
     if (outletHandler.isEmpty() && inletHandler.isEmpty()) return;
     try {
-        if (!outletHandler.isEmpty()) outletHandler.letOut(particleHandler, threads);
+        if (!outletHandler.isEmpty()) outletHandler.letOut(particleHandler, time, threads);
         if (!inletHandler.isEmpty())
             inletHandler.letIn(insertionScene(), time, [this](const std::string& sentence) {
                 logger(LogLevel::Warn, "{}", sentence);
@@ -272,19 +323,29 @@ void Scene::setUp() {
 
 void Scene::advanceByStep(bool another) {
     takeOverChanges();
+    if (adaptive.isDue()) chooseTimeStep();
     emitDroplets();
     serveStress();
+    checkTouchesOfPistons();
     boxAtStep = periodic;
+    planeMotion.forget();
     try {
         advance(getTimeStep(), another);
     } catch (const RunError&) {
         Motion::takeBack(particleHandler.store(), getTimeStep(), integrator);
-        if (!particleHandler.store().bodies.empty()) bodyMotion.takeBack(particleHandler.store());
+        if (!particleHandler.store().bodies.empty())
+            RigidBodyMotion::takeBack(particleHandler.store(), getTimeStep(), integrator);
+        planeMotion.takeBack(wallHandler);
         wallHandler.moveTo(getTime());
         periodic = boxAtStep;
-        if (strain.isSet)
-            for (TranslationRecord& grain : particleHandler.storeInStep().translation)
-                grain.velocity -= periodic.strainAt(grain.position, strainChange);
+        if (strain.isSet || shear.isSet) {
+            ParticleStore& grains = particleHandler.storeInStep();
+            for (TranslationRecord& grain : grains.translation)
+                grain.velocity -= changeOfFlow(grain.position);
+            for (std::size_t k = 0; k < grains.bodies.size(); ++k)
+                grains.bodies[k].velocity -= changeOfFlow(grains.bodies[k].position);
+            grains.bodies.place(grains);
+        }
         contactSystem.setPeriodicBox(periodic);
         if (ledgerKept) account.takeBack(ledger);
         fluxPlaneHandler.takeBack();
@@ -300,9 +361,17 @@ void Scene::tellEvents() {
 void Scene::check() {
     refuseForBodies(particleHandler.store().bodies);
     GrainSizes sizes = grainSizes(particleHandler.store());
-    checkScene(laws(), sizes, wallHandler, unstableAccepted ? 0 : getTimeStep(), integrator);
+    const bool checksStep = !unstableAccepted && !adaptive.hasChosen();
+    checkScene(laws(), sizes, wallHandler, checksStep ? getTimeStep() : 0, scheme());
+    springsInStep =
+        !sizes.hasBodies && schemeOfScene(laws(), sizes, wallHandler, scheme()).contacts.springsInStep;
+    if (adaptive.isSet()) {
+        refuseForAdaptiveStep();
+        springsInStep |= integrator.contacts.implicitForces && laws().layout.hasTorque;
+    }
     largestReach = checkPeriodicLengths(laws(), sizes, wallHandler, periodic);
     refuseForMovingImages();
+    refuseForDrivenPlanes();
     checkedStep = getTimeStep();
     wallHandler.changesAreKnown();
     const double smallest = sizes.smallest();
@@ -313,9 +382,8 @@ void Scene::check() {
 
 void Scene::refuseForBodies(const RigidBodies& bodies) const {
     if (bodies.empty()) return;
-    if (ledgerKept)
-        throw InputError("Simulation: the energy ledger does not know rigid bodies; leave it out.");
-    if (integrator.remembersEarlier())
+    bodyHandler.refuseTooWide();
+    if (integrator.remembersEarlier() || integrator.contacts.springsInStep)
         throw InputError(
             fmt::format("Simulation: the integrator {} does not move rigid bodies; take "
                         "integrators::predictedVelocityVerlet or velocityVerlet.",
@@ -326,10 +394,12 @@ void Scene::refuseForBodies(const RigidBodies& bodies) const {
 
 void Scene::refuseForMovingImages() const {
     if (!periodic.imagesMove) return;
-    if (shear.isSet && strain.isSet)
-        throw InputError(
-            "Simulation: a scene cannot have both shear (setLeesEdwards()) and strain (setStrainRate(), "
-            "setTargetStress()); take one of them.");
+    const AxisStrain& alongFlow = strain.axes[static_cast<std::size_t>(shear.flow)];
+    if (shear.isSet && (alongFlow.rate != 0 || alongFlow.isControlled))
+        throw InputError(fmt::format(
+            "Simulation: in shear (setLeesEdwards()) along axis {} the length along this axis stays; strain "
+            "(setStrainRate(), setTargetStress()) the others.",
+            shear.flow));
     const auto refuse = [this](std::string_view what) {
         throw InputError(fmt::format(
             "Simulation: in {} there can be no {}.",
@@ -338,23 +408,72 @@ void Scene::refuseForMovingImages() const {
     if (wallHandler.getSize() > 0) refuse("walls");
     if (strain.isSet && gravity != Vector<double>{0, 0, 0}) refuse("gravity");
     if (shear.isSet && gravity.*LeesEdwards::axes[shear.gradient] != 0) refuse("gravity along the gradient");
-    if (!particleHandler.store().bodies.empty()) refuse("rigid bodies");
     if (!sprayHandler.isEmpty()) refuse("sprays");
     if (!inletHandler.isEmpty()) refuse("inlets");
     if (!outletHandler.isEmpty()) refuse("outlets");
     if (!fluxPlaneHandler.isEmpty()) refuse("flux planes");
-    for (const AxisStrain& axis : strain.axes) {
-        if (!axis.isControlled) continue;
-        if (getTimeStep() >= 2 * axis.time)
+    const auto checkServo = [this](double time, std::string_view what) {
+        if (!particleHandler.store().bodies.empty())
+            throw InputError(fmt::format(
+                "Simulation: target {}: the forces that hold rigid bodies together are in no stress "
+                "yet; give the scene a rate instead.",
+                what));
+        if (getTimeStep() >= 2 * time)
             throw InputError(
-                fmt::format("Simulation: time of the target stress = {:.6g} s; it must be more than half a "
+                fmt::format("Simulation: time of the target {} = {:.6g} s; it must be more than half a "
                             "time step of {:.6g} s, or the stress would ring ever more.",
-                            axis.time, getTimeStep()));
+                            what, time, getTimeStep()));
         for (const double length : {periodic.length.x, periodic.length.y, periodic.length.z})
             if (!(length > 0))
-                throw InputError(
-                    "Simulation: target stress: the scene does not repeat itself along all three axes, so "
-                    "its stress is not known; call setPeriodic() for all of them.");
+                throw InputError(fmt::format(
+                    "Simulation: target {}: the scene does not repeat itself along all three axes, so its "
+                    "stress is not known; call setPeriodic() for all of them.",
+                    what));
+    };
+    for (const AxisStrain& axis : strain.axes)
+        if (axis.isControlled) checkServo(axis.time, "stress");
+    if (shear.isControlled) checkServo(shear.time, "shear stress");
+}
+
+void Scene::refuseForDrivenPlanes() const {
+    for (std::size_t w = 0; w < wallHandler.getSize(); ++w) {
+        const Wall& wall = wallHandler.getObject(w);
+        const PlaneDrive* const drive = wall.drive();
+        if (!drive) continue;
+        if (drive->isServo() && getTimeStep() >= 2 * drive->asked.time)
+            throw InputError(fmt::format(
+                "wall {}: time of the target force = {:.6g} s; it must be more than half a time step of "
+                "{:.6g} s, or the force would ring ever more.",
+                w, drive->asked.time, getTimeStep()));
+        if (particleHandler.getSize() == 0 && inletHandler.isEmpty())
+            throw InputError(
+                fmt::format("wall {}: a piston or a target force needs grains, and there are none and no "
+                            "inlet that brings "
+                            "any; call setPiston() or setTargetForce() in the run, when they are there.",
+                            w));
+    }
+}
+
+void Scene::sumForcesOnNewDrives() {
+    for (std::size_t w = 0; w < wallHandler.getSize(); ++w)
+        if (const PlaneDrive* const drive = wallHandler.getObject(w).drive(); drive && drive->steps == 0)
+            contactSystem.sumForcesOn(particleHandler.store(), w);
+}
+
+PlaneMotion::Step Scene::planeStep(double length) const {
+    return {getTime(), length, gravity, integrator, smallestRadius, !inletHandler.isEmpty()};
+}
+
+void Scene::checkTouchesOfPistons() {
+    for (std::size_t w = 0; w < wallHandler.getSize(); ++w) {
+        PlaneDrive* const drive = wallHandler.getObject(w).drive();
+        if (!drive || !drive->isPiston() || drive->touches <= drive->mostTouches) continue;
+        drive->mostTouches = drive->touches;
+        try {
+            checkPistons(laws(), checkedSizes, wallHandler, unstableAccepted ? 0 : getTimeStep(), integrator);
+        } catch (const InputError& refusal) {
+            throw RunError(fmt::format("At time {:.6g} s {}", getTime(), refusal.what()));
+        }
     }
 }
 
@@ -372,6 +491,7 @@ void Scene::takeOverChanges() {
         if (!newLaws && !changedWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges())
             return;
         const GrainChanges changes = particleHandler.takeChanges();
+        adaptive.chooseAnew();
         if (newLaws) {
             ContactLayout asked = laws().layout;
             asked.named = contactSystem.columns().size();
@@ -385,6 +505,7 @@ void Scene::takeOverChanges() {
             speciesChanged = true;
         }
         const bool newBodies = changedWalls || !changes.placed.empty() || !changes.altered.empty();
+        if (changedWalls) sumForcesOnNewDrives();
         if (newLaws || newBodies || getTimeStep() != checkedStep || isNewToChecks(changes.added)) check();
         ParticleStore& grains = particleHandler.store();
         const bool isRenewed = newLaws || newBodies;
@@ -434,8 +555,9 @@ void Scene::prepare() {
     if (films.areKept()) keepOutput({.write = [this] { requireLiquid(); }});
     setHasBegun();
     sprayHandler.close();
+    if (!isRestarted()) shear.settle(periodic);
     shear.move(periodic, getTime());
-    outletHandler.begin(periodic);
+    outletHandler.begin(periodic, particleHandler.store(), getTime());
     fluxPlaneHandler.begin(periodic);
     inletHandler.begin(insertionScene());
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept,
@@ -554,14 +676,14 @@ void Scene::requireLiquid() const {
 }
 
 void Scene::warnOfFedSprings() const {
-    const double fewest = fewestStepsToDouble(laws(), checkedSizes, wallHandler, integrator, getTimeStep());
+    const double fewest = fewestStepsToDouble(laws(), checkedSizes, wallHandler, scheme(), getTimeStep());
     if (fewest > 1e7) return;
     const std::string time = fewest < 1 ? "less than one step" : fmt::format("some {:.0f} steps", fewest);
     logger(
         LogLevel::Warn,
         "{}: its springs have too weak dashpots for a time step of {:.3g} s, at which motions of grains at "
-        "rest may double in {}; give it a larger dissipation, or take a smaller step or "
-        "integrators::velocityVerlet.",
+        "rest may double in {}; give it a larger dissipation, or take a smaller step, "
+        "integrators::springsInStep or velocityVerlet.",
         laws().friction, getTimeStep(), time);
 }
 
@@ -588,6 +710,8 @@ void Scene::visitScene(StateArchive& archive) {
     archive.group("walls", [&] { wallHandler.visitState(archive); });
     visitSteps(archive);
     archive.same("integrator", integrator.name);
+    archive.value("springsInStep", springsInStep);
+    archive.group("adaptiveStep", [&] { adaptive.visitState(archive); });
     archive.same("ledgerKept", ledgerKept, {},
                  "the energy ledger is kept from the start of a run to its end or not at all, so give "
                  "--energy-interval-s (or keepEnergyLedger()) as it was: above 0 where the file has 1, 0 "
@@ -609,9 +733,11 @@ void Scene::visitSurroundings(StateArchive& archive) {
     archive.value("gravityChanged", gravityChanged);
     if (gravityChanged) archive.finite("gravity", gravity);
     particleHandler.setGravity(gravity);
-    archive.same("shearRate", shear.rate, "1/s");
+    archive.same("shearRate", shearAtSetUp.rate, "1/s");
     archive.same("shearFlow", shear.flow);
     archive.same("shearGradient", shear.gradient);
+    archive.same("shearIsSet", shear.isSet);
+    if (shear.isSet) archive.group("shear", [&] { visitShear(archive); });
     for (std::size_t k = 0; k < 3; ++k) {
         if (!gravityChanged)
             archive.group("gravity", [&] { archive.same(axes[k], gravity.*along[k], "m/s^2"); });
@@ -619,6 +745,22 @@ void Scene::visitSurroundings(StateArchive& archive) {
         archive.group("periodicLength", [&] { archive.same(axes[k], lengthAtSetUp.*along[k], "m"); });
     }
     archive.group("strain", [&] { visitStrain(archive); });
+}
+
+void Scene::visitShear(StateArchive& archive) {
+    archive.same("firstStress", shearAtSetUp.stress, "Pa");
+    archive.same("firstTime", shearAtSetUp.time, "s");
+    archive.same("firstLargestRate", shearAtSetUp.largestRate, "1/s");
+    archive.value("isControlled", shear.isControlled);
+    archive.finite("rate", shear.rate);
+    archive.finite("stress", shear.stress);
+    archive.finite("time", shear.time);
+    archive.finite("largestRate", shear.largestRate);
+    shear.servo.visitState(archive);
+    archive.finite("atLargest", shear.atLargest);
+    archive.finite("speed", shear.speed);
+    archive.finite("began", shear.began);
+    archive.finite("offset", shear.offset);
 }
 
 /// Rates and targets are set up as they were; what the run has made of them comes from the file.
@@ -638,6 +780,8 @@ void Scene::visitStrain(StateArchive& archive) {
             archive.finite("stress", now.stress);
             archive.finite("time", now.time);
             archive.finite("largestRate", now.largestRate);
+            now.servo.visitState(archive);
+            archive.finite("oneWay", now.oneWay);
         });
     archive.finite("lowest", periodic.lowest);
     archive.finite("length", periodic.length);
@@ -657,23 +801,30 @@ void Scene::writeLastState(const std::filesystem::path& grains, const std::files
 /// The first half of a step's motion, and what was left of the last step.
 double Scene::move(ParticleStore& grains, double length) {
     double farthest = 0;  // m^2
+    const bool hasBodies = !grains.bodies.empty();
     if (particleHandler.takeUnfinishedStep()) {
         enter(StepTimes::Part::Sum);
         farthest = Motion::finishAndBegin(grains, contactSystem.store(), gravity, leftLength, length, threads,
                                           integrator, periodic);
+        if (hasBodies)
+            farthest = std::max(
+                farthest, RigidBodyMotion::finishAndBegin(grains, contactSystem.store(), gravity, leftLength,
+                                                          length, threads, integrator, periodic));
     } else {
         enter(StepTimes::Part::Motion);
         farthest = Motion::begin(grains, length, threads, integrator, periodic);
+        if (hasBodies)
+            farthest =
+                std::max(farthest, RigidBodyMotion::begin(grains, length, threads, integrator, periodic));
     }
-    if (!grains.bodies.empty()) farthest = std::max(farthest, bodyMotion.begin(grains, length, integrator));
     if (!periodic.imagesMove) return std::sqrt(farthest);
     // The flow carries all grains, and those that are near each other apart at this rate; the skin of a list
     // is at most the smallest radius.
     const Vector<double> rates = periodic.strainRate;
     const double rate =
         std::max({std::abs(shear.rate), std::abs(rates.x), std::abs(rates.y), std::abs(rates.z)});
-    shear.move(periodic, getTime() + length);
     if (strain.isSet) HomogeneousStrain::move(periodic, length);
+    shear.move(periodic, getTime() + length);
     contactSystem.setPeriodicBox(periodic);
     if (const auto objection = objectionToLengths(periodic, largestReach))
         throw RunError(fmt::format("At time {:.6g} s the {}", getTime(), *objection));
@@ -683,27 +834,34 @@ double Scene::move(ParticleStore& grains, double length) {
 
 void Scene::finishLeftStep() {
     const StepTimes::Part before = enter(StepTimes::Part::Sum);
-    Motion::finish(particleHandler.storeInStep(), contactSystem.store(), gravity, leftLength, threads,
-                   integrator);
+    ParticleStore& grains = particleHandler.storeInStep();
+    Motion::finish(grains, contactSystem.store(), gravity, leftLength, threads, integrator);
+    if (!grains.bodies.empty())
+        RigidBodyMotion::finish(grains, contactSystem.store(), gravity, leftLength, threads, integrator);
     enter(before);
 }
 
 void Scene::advance(double length, bool another) {
     ParticleStore& grains = particleHandler.storeInStep();
-    intoLedger([&] { account.begin(grains, gravity, length, ledger); });
+    intoLedger([&] { account.begin(grains, contactSystem.store(), wallHandler, gravity, length, ledger); });
     if (!fluxPlaneHandler.isEmpty()) fluxPlaneHandler.beforeMotion(grains);
     beginStrain(grains, length);
     const double grainShift = move(grains, length);
-    if (!fluxPlaneHandler.isEmpty()) fluxPlaneHandler.afterMotion(particleHandler);
+    if (!fluxPlaneHandler.isEmpty())
+        fluxPlaneHandler.afterMotion(particleHandler, [&](std::uint32_t place) {
+            return particleHandler.films().of(grains, place) + contactSystem.liquidAt(grains, place);
+        });
     refuseRunaway(grainShift);
+    if (length > 0) planeMotion.begin(wallHandler, contactSystem, grains, planeStep(length));
     const double wallShift = wallHandler.moveTo(getTime() + length);
+    adaptive.moved(grainShift, wallShift, length);
     enter(StepTimes::Part::Search);
     intoLedger([&] { account.moved(grains, gravity, ledger); });
     bringBack(grains);
     contactSystem.refresh(grains, grainShift, wallShift);
     lookForDeepOverlaps(grains, 2 * grainShift);
     enter(StepTimes::Part::Contacts);
-    ContactTiming timing = integrator.contacts;
+    ContactTiming timing = scheme().contacts;
     timing.comingStep = getTimeStep();
     contactSystem.computePairForces(grains, length, timing);
     enter(StepTimes::Part::Walls);
@@ -712,16 +870,15 @@ void Scene::advance(double length, bool another) {
         enter(StepTimes::Part::Liquid);
         contactSystem.moveLiquid(grains, getTime() + length, length);
     }
+    if (length > 0) PlaneMotion::finish(wallHandler, planeStep(length));
     enter(StepTimes::Part::Sum);
     leftLength = length;
     particleHandler.leaveStepUnfinished();
-    if (!another || ledgerKept || !grains.bodies.empty() || !sprayHandler.isEmpty() || liquidDensity > 0 ||
-        strain.isSet)
+    if (!another || ledgerKept || !sprayHandler.isEmpty() || liquidDensity > 0 || strain.isSet)
         particleHandler.finishStep();
-    if (!grains.bodies.empty())
-        RigidBodyMotion::finish(grains, contactSystem.store(), gravity, length, integrator);
     enter(StepTimes::Part::Other);
-    intoLedger([&] { account.finish(grains, contactSystem, gravity, length, integrator, ledger); });
+    intoLedger(
+        [&] { account.finish(grains, contactSystem, wallHandler, gravity, length, integrator, ledger); });
     if (!sprayHandler.isEmpty()) flyDroplets(grains, length, grainShift);
     if (liquidDensity > 0) weighFilms(grains);
     enter(StepTimes::Part::Other);
@@ -732,19 +889,40 @@ void Scene::changeVelocities(ParticleStore& grains, Function&& changeAt) {
     std::size_t number = 0;
     for (const std::uint32_t place : grains.place) {
         TranslationRecord& grain = grains.translation[place];
-        if (const Vector<double> change = changeAt(grain.position); squaredNorm(change) > 0) {
+        // A rigid body goes over as a whole, when its centre does.
+        const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
+        const Vector<double> at =
+            body == RigidBodies::none ? grain.position : grains.bodies[grains.bodies.find(body)].position;
+        if (const Vector<double> change = changeAt(at); squaredNorm(change) > 0) {
             grain.velocity += change;
-            intoLedger([&] { account.changedImage(grains, place, number, change, ledger); });
+            intoLedger([&] {
+                if (body == RigidBodies::none) account.changedImage(grains, place, number, change, ledger);
+                else account.changedImageOfMember(number, change);
+            });
         }
         ++number;
     }
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k)
+        if (const Vector<double> change = changeAt(grains.bodies[k].position); squaredNorm(change) > 0) {
+            grains.bodies[k].velocity += change;
+            intoLedger([&] { account.changedImageOfBody(grains, k, change, ledger); });
+        }
 }
 
 void Scene::beginStrain(ParticleStore& grains, double length) {
-    if (!strain.isSet || length == 0) return;
-    strainChange = strain.begin(periodic, length);
-    changeVelocities(grains,
-                     [&](const Vector<double>& place) { return periodic.strainAt(place, strainChange); });
+    if (length == 0) return;
+    shearChange = {0, 0, 0};
+    if (shear.isSet) shearChange.*LeesEdwards::axes[shear.flow] = shear.begin(periodic, getTime());
+    if (strain.isSet) strainChange = strain.begin(periodic, length);
+    if (!strain.isSet && shearChange == Vector<double>{0, 0, 0}) return;
+    particleHandler.finishStep();
+    changeVelocities(grains, [&](const Vector<double>& place) { return changeOfFlow(place); });
+}
+
+Vector<double> Scene::changeOfFlow(const Vector<double>& place) const {
+    const Vector<double> byStrain = periodic.strainAt(place, strainChange);
+    if (!shear.isSet) return byStrain;
+    return byStrain + dot(periodic.across, place - periodic.middle()) * shearChange;
 }
 
 void Scene::serveStress() {
@@ -753,18 +931,19 @@ void Scene::serveStress() {
     for (const AxisStrain& axis : strain.axes)
         if (axis.isControlled)
             shortest = std::min(shortest, axis.time), lowest = std::min(lowest, axis.stress);
+    if (shear.isControlled) shortest = std::min(shortest, shear.time);
     if (shortest == infinity) return;
     constexpr double looksInTime = 100;
     const auto interval =
         std::max<std::size_t>(static_cast<std::size_t>(shortest / getTimeStep() / looksInTime), 1);
     if (getNumberOfTimeSteps() % interval != 0) return;
-    const DiagonalStress now = diagonalStress(contactSystem, particleHandler.store(), strain);
+    const DiagonalStress now = diagonalStress(contactSystem, particleHandler.store(), strain, shear);
     if (now.touches == 0 && lowest < 0)
         throw RunError(fmt::format(
             "At time {:.6g} s no two grains touch, and the target stress of {:.6g} Pa is a tension: grains "
             "that are apart cannot bear it; take a higher one, or grains that stick together.",
             getTime(), lowest));
-    controlStress(strain, now);
+    controlStress(strain, shear, now, static_cast<double>(interval) * getTimeStep(), getTime());
 }
 
 void Scene::bringBack(ParticleStore& grains) {

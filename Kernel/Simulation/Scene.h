@@ -7,17 +7,21 @@
 #include "Kernel/Boundaries/SprayHandler.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/EnergyAccount.h"
+#include "Kernel/Insertion/ClumpInsertion.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/Motion/PlaneMotion.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Output/OutputForm.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/HomogeneousStrain.h"
 #include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Simulation/AdaptiveStep.h"
 #include "Kernel/Simulation/DomainBox.h"
 #include "Kernel/Simulation/Run.h"
 #include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/StabilityAdvice.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -53,6 +57,12 @@ public:
     /// @param like species, velocity, spin and film of all of them; sizes and places come from this
     Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                     const SphericalParticle& like, const InsertOptions& options = {});
+
+    /// The same with clumps, each turned at random: a size is the diameter of a sphere of a clump's volume,
+    /// so that the template is scaled to it. For loose starts, up to a solid fraction of 0.2 or as far as
+    /// clumps find room. A clump of one sphere is one too.
+    Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
+                    const Clump& like, const InsertOptions& options = {});
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
     /// it has a function prepare(*this), that is called at once, and again when the scene is set up;
@@ -94,10 +104,21 @@ public:
     void setStrainRate(int axis, double rate);
     /// The same by a servo, so that the mean stress along the axis (Pa, compression positive; 0 is a target
     /// too) becomes the target: the rate is the difference over the stiffness of the contacts and the time
-    /// (s), at most the largest rate (1/s), 0.1 / time if it is not given. The time must be more than half a
-    /// step; take at least twice the time in which sound passes the scene. The stress is looked at 100 times
-    /// in it, or at each step.
+    /// (s), and what it takes to follow grains that flow or creep (Kernel/Math/Servo.h), at most the largest
+    /// rate (1/s), 0.1 / time if it is not given. The time must be more than half a step; take at least twice
+    /// the time in which sound passes the scene. The stress is looked at 100 times in it, or at each step.
+    /// A run in which the servo has strained the scene by a factor of e^3 in one direction ends.
     void setTargetStress(int axis, double stress, double time, double largestRate = unset);
+    /// In a run, of a scene that was set up with setLeesEdwards(): it holds from the next step on, and all
+    /// grains get the change of the flow.
+    void setShearRate(double rate);
+    /// The same by a servo, as setTargetStress(), so that the shear stress (Pa, against the flow: positive
+    /// for a positive rate) becomes the target. A run that stays at the largest rate over a strain of 20
+    /// ends.
+    /// @param largestRate 1/s, 1 / time if it is not given
+    void setTargetShearStress(double stress, double time, double largestRate = unset);
+    /// 1/s, in the last step.
+    [[nodiscard]] double getShearRate() const { return shear.rate; }
     /// 1/s, of the logarithm of the length along an axis, in the last step.
     [[nodiscard]] double getStrainRate(int axis) const;
     /// m/s, of the flow of setLeesEdwards() at a place (m); it is at rest in the middle of the box.
@@ -203,6 +224,19 @@ public:
     [[nodiscard]] double stabilityLimit();
     /// The same for a scene to which grains of these sizes and species will come.
     [[nodiscard]] double stabilityLimit(std::span<const SphericalParticle> toCome);
+    /// The step (s) up to which the contacts that there are now are stable, with their overlaps, neighbours
+    /// and directions, friction that sticks, and the spins (ContactBounds); infinite where none acts. It says
+    /// nothing of contacts to come: take a share of it, or setAdaptiveTimeStep(). After initialise().
+    [[nodiscard]] double stableStepOfContacts();
+    /// Which assumption of stabilityLimit() binds, and what is there instead. After initialise().
+    [[nodiscard]] StabilityAdvice stabilityAdvice();
+    /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1) of what they and those
+    /// that may come stand, at most the largest step (s). Unless that is given, it is 0.9 over the highest
+    /// frequency of two grains (shortestContactTime() 0.9 / pi), which keeps bulk figures to 1 %. The run
+    /// begins with setTimeStep(). At set-up; not with moving images (shear, strain), rigid bodies or
+    /// integrators that remember a step.
+    void setAdaptiveTimeStep(double share, double largestStep = unset);
+    [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const { return adaptive; }
     [[nodiscard]] const Integrator& getIntegrator() const { return integrator; }
     /// Half a period (s) of the fastest oscillation of two grains: about the shortest time of a contact, for
     /// steps that are as accurate as is wanted (the README of Kernel/Motion says which).
@@ -237,8 +271,17 @@ private:
     [[nodiscard]] GrainSizes grainSizes(const ParticleStore& grains) const;
     /// At the end of a step (s), grains go and come.
     void letOutAndIn(double time);
+    /// At set-up throws, in a run warns, where not all has found room.
+    Inserted tellOf(const Inserted& made);
     void refuseForBodies(const RigidBodies& bodies) const;
     void refuseForMovingImages() const;
+    /// Planes that are moved by forces.
+    void refuseForDrivenPlanes() const;
+    /// Of walls whose forces were not kept before.
+    void sumForcesOnNewDrives();
+    [[nodiscard]] PlaneMotion::Step planeStep(double length) const;
+    /// More grains touch a piston than its mass was checked for.
+    void checkTouchesOfPistons();
     AxisStrain& axisToStrain(int axis, std::string_view what);
     void setStrain(int axis, const AxisStrain& how);
     /// Where a target of the stress is set, takes the rates for the step to come. Throws RunError where the
@@ -246,7 +289,10 @@ private:
     void serveStress();
     /// The grains go along with the strain of a step (s) to come.
     void beginStrain(ParticleStore& grains, double length);
+    /// m/s, by which the flow at a place (m) changes with the start of the step.
+    [[nodiscard]] Vector<double> changeOfFlow(const Vector<double>& place) const;
     void visitStrain(StateArchive& archive);
+    void visitShear(StateArchive& archive);
     /// Whether the checks must be made again for grains that were added.
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
     void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
@@ -254,6 +300,13 @@ private:
     void bookEnded(double stored);
 
     void warnOfFedSprings() const;
+    void refuseBoundForBodies(std::string_view call) const;
+    void refuseForAdaptiveStep() const;
+    /// The step (s) from now on, where a new one is due.
+    void chooseTimeStep();
+    [[nodiscard]] Integrator scheme() const {
+        return springsInStep ? integrators::springsInStep : integrator;
+    }
 
     /// The films of the grains begin to be counted.
     void beginLiquid();
@@ -300,15 +353,16 @@ private:
 
     ContactLaws* contactLaws = nullptr;
     ContactSystem contactSystem;
-    RigidBodyMotion bodyMotion;
+    PlaneMotion planeMotion;
     EnergyLedger ledger;
     EnergyAccount account;
     PeriodicBox periodic;
     PeriodicBox boxAtStep;                                          // before the step
     Vector<double> lowestAtSetUp{0, 0, 0}, lengthAtSetUp{0, 0, 0};  // m
-    LeesEdwards shear;
+    LeesEdwards shear, shearAtSetUp;
     HomogeneousStrain strain, strainAtSetUp;
     Vector<double> strainChange{0, 0, 0};  // 1/s, with which the step began
+    Vector<double> shearChange{0, 0, 0};   // m/s, of the image along the gradient
     double largestReach = 0;               // m, of two centres that act on each other
     Vector<double> gravity{0, 0, 0};
     Integrator integrator = integrators::predictedVelocityVerlet;
@@ -325,7 +379,10 @@ private:
     double gapOfFirstBridges = 0;  // m
     double approachUnseen = 0;     // m, of two grains since deep overlaps were looked for
     int threads = 1;
+    AdaptiveStep adaptive;
+    ContactBounds bounds;
     bool unstableAccepted = false;
+    bool springsInStep = false;  // as integrators::springsInStep: the friction lacks dashpots
     bool ledgerKept = false;
     bool noRoomWasTold = false;  // of insert() in the run
 };

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,18 +47,28 @@ struct SizeRange {
 struct GrainSizes {
     std::size_t count = 0;  // of grains
     std::vector<SizeRange> all, free;
-    double stepFactor = 1;  // of the stability limit, because of rigid bodies
+    BodyResponse response;  // of rigid bodies, which the stability limit counts with
+    bool hasBodies = false;
+    Vector<double> lowest{infinity, infinity, infinity};  // m, of the box around all grains
+    Vector<double> highest{-infinity, -infinity, -infinity};
 
     GrainSizes() = default;
     GrainSizes(const ParticleStore& grains, std::size_t speciesCount)
         : count(grains.count()),
           all(speciesCount),
           free(speciesCount),
-          stepFactor(grains.bodies.stepFactor()) {
+          response(grains.bodies.response(grains)),
+          hasBodies(!grains.bodies.empty()) {
         for (std::size_t k = 0; k < grains.size(); ++k) {
             if (grains.isGap(k)) continue;
             const TranslationRecord& grain = grains.translation[k];
             all[grains.species[k]].add(grain.radius);
+            const Vector<double>& at = grain.position;
+            const double r = grain.radius;
+            lowest = {std::min(lowest.x, at.x - r), std::min(lowest.y, at.y - r),
+                      std::min(lowest.z, at.z - r)};
+            highest = {std::max(highest.x, at.x + r), std::max(highest.y, at.y + r),
+                       std::max(highest.z, at.z + r)};
             if (grain.inverseMass > 0) free[grains.species[k]].add(grain.radius);
         }
     }
@@ -66,6 +77,17 @@ struct GrainSizes {
         double radius = infinity;
         for (const SizeRange& range : all) radius = std::min(radius, range.smallest);
         return radius;
+    }
+    /// The grains that a plane can touch, at most: a hexagonal layer of the smallest ones over the shadow of
+    /// the box around all.
+    [[nodiscard]] double fullLayer(const Vector<double>& normal) const {
+        if (!(smallest() < infinity)) return 0;
+        const Vector<double> side = highest - lowest;
+        if (!(side.x > 0)) return 0;  // none yet
+        const double shadow = side.y * side.z * std::abs(normal.x) + side.x * side.z * std::abs(normal.y) +
+                              side.x * side.y * std::abs(normal.z);
+        const double inLayer = shadow / (2 * std::numbers::sqrt3 * smallest() * smallest());
+        return std::clamp(inLayer, 1.0, static_cast<double>(count));
     }
     /// Whether a grain of this radius (m) is between others of its species.
     [[nodiscard]] bool hold(std::size_t species, double radius, bool isFree) const {
@@ -113,16 +135,93 @@ inline std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
     return std::clamp<std::size_t>(grains + 3 * walls.getSize(), 2, contactsInDensestBed + 1) - 1;
 }
 
+/// Of a piston: n (k, c) / M for the n contacts that it can have, or has; zero of other walls.
+inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    const PlaneDrive* const drive = wall.drive();
+    if (!drive || !drive->isPiston()) return {};
+    SpringAndDashpot stiffest;
+    for (std::size_t s = 0; s < grains.free.size(); ++s) {
+        if (grains.free[s].empty()) continue;
+        for (const double radius : {grains.free[s].smallest, grains.free[s].largest})
+            stiffest = larger(stiffest, species
+                                            .stiffness(static_cast<int>(s), wall.species, {radius, infinity},
+                                                       sphereMass(radius, species.density(s)))
+                                            .normal);
+    }
+    const double touches =
+        std::max(grains.fullLayer(wall.drivenNormal()), static_cast<double>(drive->touches));
+    return (touches / drive->asked.mass) * stiffest;
+}
+
+/// The sum of these rows of all walls: a grain may touch several.
+inline SpringAndDashpot pistonRows(const ContactLaws& species, const GrainSizes& grains,
+                                   const WallHandler& walls) {
+    SpringAndDashpot sum;
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        sum = sum + pistonRow(species, grains, walls.getObject(w));
+    return sum;
+}
+
+/// What a scene makes of the default integrator: springsInStep where the friction of one of its pairs lacks
+/// dashpots. (Not with rigid bodies, whose grains keep no accelerations.) Others stay what they are.
+inline Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains,
+                                const WallHandler& walls, const Integrator& integrator) {
+    if (!species.layout.hasTorque || grains.hasBodies ||
+        !(integrator == integrators::predictedVelocityVerlet))
+        return integrator;
+    bool lacks = false;
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+        lacks = lacks || lacksDashpots(laws, bodies, mass, integrator, mostContacts(grains.count, walls));
+    });
+    return lacks ? integrators::springsInStep : integrator;
+}
+
 /// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains.
+/// @param ofPistons pistonRows()
 inline double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains,
-                                  const WallHandler& walls,
-                                  const Integrator& integrator = integrators::predictedVelocityVerlet) {
+                                  const WallHandler& walls, const Integrator& asked,
+                                  const SpringAndDashpot& ofPistons) {
+    const Integrator integrator = schemeOfScene(species, grains, walls, asked);
     const std::size_t contacts = mostContacts(grains.count, walls);
     double limit = infinity;
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
-        limit = std::min(limit, stabilityLimit(laws, bodies, mass, integrator, contacts));
+        limit = std::min(
+            limit, stabilityLimit(laws, bodies, mass, integrator, contacts, grains.response, ofPistons));
     });
-    return grains.stepFactor * limit;
+    return limit;
+}
+inline double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains,
+                                  const WallHandler& walls,
+                                  const Integrator& integrator = integrators::predictedVelocityVerlet) {
+    return sceneStabilityLimit(species, grains, walls, integrator, pistonRows(species, grains, walls));
+}
+
+/// Throws InputError if a piston is so light that the time step (s), which the grains bear, is above the
+/// stability limit.
+inline void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                         double timeStep, const Integrator& integrator) {
+    const SpringAndDashpot rows = pistonRows(species, grains, walls);
+    const auto limitOf = [&](double share) {
+        return sceneStabilityLimit(species, grains, walls, integrator, share * rows);
+    };
+    if (timeStep <= limitOf(1) || timeStep > limitOf(0)) return;
+    double share = 1, tooMuch = 1;  // of the rows, that the step bears
+    for (int halving = 0; halving < 50 && timeStep > limitOf(share); ++halving) tooMuch = share, share *= 0.5;
+    for (int k = 0; k < 40; ++k) {
+        const double middle = 0.5 * (share + tooMuch);
+        (timeStep > limitOf(middle) ? tooMuch : share) = middle;
+    }
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        const Wall& wall = walls.getObject(w);
+        if (!wall.drive() || !wall.drive()->isPiston()) continue;
+        throw InputError(fmt::format(
+            "wall {}: mass of the piston = {:.6g} kg is too light for a time step of {:.6g} s with up to "
+            "{:.0f} contacts on it; it must be at least {:.6g} kg, or the step at most {:.6g} s, unless "
+            "acceptUnstableTimeStep() is called.",
+            w, wall.drive()->asked.mass, timeStep,
+            std::max(grains.fullLayer(wall.drivenNormal()), static_cast<double>(wall.drive()->touches)),
+            1.001 * wall.drive()->asked.mass / share, limitOf(1)));
+    }
 }
 
 /// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without
@@ -150,6 +249,7 @@ inline void checkScene(const ContactLaws& species, const GrainSizes& grains, con
             if (const auto objection = laws.objection(bodies)) throw InputError(*objection);
         },
         Pairs::OfGrains);
+    checkPistons(species, grains, walls, timeStep, integrator);
     const double limit = sceneStabilityLimit(species, grains, walls, integrator);
     if (timeStep > limit)
         throw InputError(

@@ -1,16 +1,28 @@
 #include "Kernel/Simulation/StressServo.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "Kernel/RunError.h"
 
 namespace pendular {
 namespace {
 
 std::array<double, 3> partsOf(const Vector<double>& v) { return {v.x, v.y, v.z}; }
 
-/// Pa, of the velocities against the flow and the mean of all.
-std::array<double, 3> kineticStress(const ParticleStore& grains, const PeriodicBox& box, double volume) {
-    double mass = 0;
-    std::array<double, 3> momentum{}, twiceEnergy{}, stress{};
+/// Pa, of the velocities against the flow and the mean of all: along each axis, and between the two axes of a
+/// shear.
+struct KineticStress {
+    std::array<double, 3> along{};
+    double across = 0;
+};
+KineticStress kineticStress(const ParticleStore& grains, const PeriodicBox& box, const LeesEdwards& shear,
+                            double volume) {
+    const auto f = static_cast<std::size_t>(shear.flow), g = static_cast<std::size_t>(shear.gradient);
+    double mass = 0, mixed = 0;
+    std::array<double, 3> momentum{}, twiceEnergy{};
+    KineticStress stress;
     for (const std::uint32_t place : grains.place) {
         const TranslationRecord& grain = grains.translation[place];
         if (grain.inverseMass == 0) continue;
@@ -20,20 +32,27 @@ std::array<double, 3> kineticStress(const ParticleStore& grains, const PeriodicB
             momentum[a] += velocity[a] / grain.inverseMass;
             twiceEnergy[a] += velocity[a] * velocity[a] / grain.inverseMass;
         }
+        mixed += velocity[f] * velocity[g] / grain.inverseMass;
     }
     if (mass == 0) return stress;
     for (std::size_t a = 0; a < 3; ++a)
-        stress[a] = std::max(0.0, twiceEnergy[a] - momentum[a] * momentum[a] / mass) / volume;
+        stress.along[a] = std::max(0.0, twiceEnergy[a] - momentum[a] * momentum[a] / mass) / volume;
+    stress.across = (mixed - momentum[f] * momentum[g] / mass) / volume;
     return stress;
 }
 
 }  // namespace
 
 DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore& grains,
-                              const HomogeneousStrain& strain) {
+                              const HomogeneousStrain& strain, const LeesEdwards& shear) {
     const PeriodicBox& box = contacts.periodicBox();
     const double volume = box.length.x * box.length.y * box.length.z;
-    DiagonalStress found{.stress = kineticStress(grains, box, volume)};
+    const auto f = static_cast<std::size_t>(shear.flow), g = static_cast<std::size_t>(shear.gradient);
+    const KineticStress kinetic = kineticStress(grains, box, shear, volume);
+    DiagonalStress found;
+    found.stress = kinetic.along;
+    found.shear = -kinetic.across;
+    found.shearStiffness = kinetic.along[g];
     const auto controlled =
         std::count_if(strain.axes.begin(), strain.axes.end(), [](auto& axis) { return axis.isControlled; });
     for (std::size_t a = 0; a < 3; ++a)
@@ -56,21 +75,55 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
             found.stress[a] -= force[a] * shift[a] / volume;
             found.stiffness[a] += spring * shift[a] * shift[a] * share / volume;
         }
+        found.shear += force[f] * shift[g] / volume;
+        found.shearStiffness +=
+            spring * shift[f] * shift[f] * shift[g] * shift[g] / (distance * distance * volume);
         ++found.touches;
     });
     return found;
 }
 
-void controlStress(HomogeneousStrain& strain, const DiagonalStress& now) {
+namespace {
+
+void refuseEndlessStrain(const HomogeneousStrain& strain, const LeesEdwards& shear, double now) {
+    constexpr double largestStrain = 3, largestShear = 20;
+    constexpr std::array<char, 3> names{'x', 'y', 'z'};
+    for (std::size_t a = 0; a < 3; ++a)
+        if (std::abs(strain.axes[a].oneWay) > largestStrain)
+            throw RunError(fmt::format(
+                "At time {:.6g} s the servo of the stress along {} has {} the scene by a factor of e^3, and "
+                "the target of {:.6g} Pa is not reached: the grains cannot bear it; take another target.",
+                now, names[a], strain.axes[a].oneWay > 0 ? "stretched" : "squeezed", strain.axes[a].stress));
+    if (shear.atLargest > largestShear)
+        throw RunError(fmt::format(
+            "At time {:.6g} s the servo of the shear stress has sheared the scene by {} at its largest rate "
+            "of {:.6g} 1/s, and the target of {:.6g} Pa is not reached: the grains cannot bear it; take a "
+            "lower target, or a larger rate.",
+            now, largestShear, shear.largestRate, shear.stress));
+}
+
+}  // namespace
+
+void controlStress(HomogeneousStrain& strain, LeesEdwards& shear, const DiagonalStress& stress,
+                   double interval, double now) {
     for (std::size_t a = 0; a < 3; ++a) {
         AxisStrain& axis = strain.axes[a];
         if (!axis.isControlled) continue;
-        const double excess = now.stress[a] - axis.stress;
-        // Without contacts and motion there is no stiffness: then as fast as is allowed.
-        const double most = axis.largestRate * axis.time * now.stiffness[a];
-        axis.rate = std::abs(excess) < most ? excess / (axis.time * now.stiffness[a])
-                                            : std::copysign(excess == 0 ? 0 : axis.largestRate, excess);
+        axis.oneWay += interval * axis.servo.speed;
+        axis.servo.look(stress.stress[a], axis.stress, stress.stiffness[a], interval, axis.time,
+                        servoDriftTimes * axis.time, axis.largestRate);
+        axis.rate = axis.servo.speed;
+        if (axis.oneWay * axis.rate <= 0) axis.oneWay = 0;
     }
+    if (shear.isControlled) {
+        shear.atLargest += interval * std::abs(shear.servo.speed);
+        // A larger rate makes the stress larger: both with the sign of a value that a speed makes smaller.
+        shear.servo.look(-stress.shear, -shear.stress, stress.shearStiffness, interval, shear.time,
+                         servoDriftTimes * shear.time, shear.largestRate);
+        shear.rate = shear.servo.speed;
+        if (std::abs(shear.rate) < shear.largestRate) shear.atLargest = 0;
+    }
+    refuseEndlessStrain(strain, shear, now);
 }
 
 }  // namespace pendular

@@ -2,6 +2,7 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/HomogeneousStrain.h"
+#include "Kernel/Particles/LeesEdwards.h"
 
 namespace pendular {
 
@@ -9,6 +10,8 @@ namespace pendular {
 struct DiagonalStress {
     std::array<double, 3> stress{};     // Pa, compression positive, that of meanStress()
     std::array<double, 3> stiffness{};  // Pa, of it against the logarithms of all controlled lengths together
+    double shear = 0;                   // Pa, against the flow of a shear
+    double shearStiffness = 0;          // Pa, of it against the strain
     std::size_t touches = 0;            // contacts that act
 };
 
@@ -16,14 +19,17 @@ struct DiagonalStress {
 /// K_a = (1/V) sum k b^2 n_a^2 (sum of n_b^2 over the controlled axes b), and of the kinetic part s_a,
 /// (2 + number of controlled axes) s_a: of free grains C x L is constant. For one axis K_a is
 /// (1/V) sum k b^2 n_a^4; for all three it is the sum of a row of the stiffnesses C_ab, so that no
-/// combination of lengths is stiffer against its servo.
+/// combination of lengths is stiffer against its servo. In shear it is G = (1/V) sum k b^2 n_f^2 n_g^2, with
+/// the axes of the flow and of the gradient, and of the kinetic part s_gg.
 [[nodiscard]] DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore& grains,
-                                            const HomogeneousStrain& strain);
+                                            const HomogeneousStrain& strain, const LeesEdwards& shear = {});
 
-/// Sets the rate of each controlled axis: (stress - target) / (K time), at most the largest. Source: the law
-/// of a wall that is moved by its force, v = (F - F*) / (K time), with the stiffness of the contacts for a
-/// gain that nobody needs to guess; stable for steps below 2 x time, and without overshoot for steps up to
-/// time.
-void controlStress(HomogeneousStrain& strain, const DiagonalStress& now);
+/// Sets the rates of the controlled axes, and of a controlled shear, by their servos (Kernel/Math/Servo.h).
+/// The law is that of a wall that is moved by its force, with the stiffness of the contacts for a gain that
+/// nobody needs to guess; stable for steps below 2 x time, and without overshoot for steps up to time. Throws
+/// RunError where the grains cannot bear the stress.
+/// @param interval s, since this was called last; @param now s
+void controlStress(HomogeneousStrain& strain, LeesEdwards& shear, const DiagonalStress& stress,
+                   double interval, double now);
 
 }  // namespace pendular

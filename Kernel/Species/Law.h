@@ -160,6 +160,19 @@ concept FrictionHistory = requires(History history, const History& kept, const F
     history.turn(rotation);
 };
 
+/// Whether the springs of a friction law can be moved from outside (ContactTiming::springsInStep): sliding by
+/// move(way), and, of laws with a torque of their own, rolling and torsion by moveRotation(way, normal).
+/// Those of others stay half a step ahead.
+template <class Law, class T>
+concept movesSprings = requires(typename Law::template History<T> history, const Vector<T>& way) {
+    history.move(way);
+}
+&&(
+    !requires { requires Law::hasContactTorque; } ||
+    requires(typename Law::template History<T> history, const Vector<T>& way) {
+        history.moveRotation(way, way);
+    });
+
 template <class Law, class T>
 concept HasFrictionForce = requires(const typename Law::Prepared p, const Contact<T>& contact, T normalForce,
                                     const Slip<T>& slip, typename Law::template History<T> history) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "Kernel/Math/Scalar.h"
+#include "Kernel/Species/Bodies.h"
 
 namespace pendular {
 
@@ -33,6 +34,13 @@ struct ContactStiffness {
     [[nodiscard]] double shortestRelaxation() const {
         return std::min({sliding.relaxation(), rolling.relaxation(), torsion.relaxation()});
     }
+};
+
+/// Two bodies that overlap.
+struct PressedPair {
+    Bodies bodies;
+    double effectiveMass;  // kg, m1 m2 / (m1 + m2)
+    double overlap;        // m, greater than 0
 };
 
 }  // namespace pendular

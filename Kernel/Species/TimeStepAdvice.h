@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/Stiffness.h"
 #include "Kernel/Species/Normal/Shared/ContactTime.h"
 #include "Kernel/Species/Species.h"
+#include "Kernel/Species/Stiffness.h"
 
 namespace pendular {
 
@@ -21,36 +21,47 @@ inline double rayleighTime(double radius, double shearModulus, double poissonRat
 /// with it.
 inline constexpr double largestSoundOverlap = 0.05;
 
-/// The stiffness of two bodies at the largest sound overlap, whose friction sticks. Laws of friction and
-/// torque are asked for their force: a dashpot answers a speed, a spring the way; one without a coefficient
-/// of friction has neither. An attraction that changes with the overlap (JKR's neck) adds its slope.
-/// @param effectiveMass kg, m1 m2 / (m1 + m2)
+/// The stiffness of two bodies at an overlap, whose friction sticks. Laws of friction and torque are asked
+/// for their force: a dashpot answers a speed, a spring the way; one without a coefficient of friction has
+/// neither. An attraction that changes with the overlap (JKR's neck) adds its slope, and a bridge that
+/// resists motion the largest that it can.
 template <class Mixed>
-ContactStiffness contactStiffness(const Mixed& laws, const Bodies& bodies, double effectiveMass) {
+class StiffnessOf {
+public:
     using Normal = typename Mixed::Normal;
     using Friction = typename Mixed::Friction;
     using Adhesion = typename Mixed::Adhesion;
-    const Contact<double> contact{largestSoundOverlap * std::min(bodies.radius1, bodies.radius2),
-                                  bodies.effectiveRadius(), effectiveMass};
-    const auto& normal = static_cast<const Normal&>(laws);
-    const auto prepared = normal.prepare();
-    typename NormalHistoryOf<Normal>::template type<double> history{};
-    ContactStiffness found;
-    found.normal = {Normal::stiffness(prepared, contact),
-                    normalForce<Normal>(prepared, contact, history).damping};
-    if constexpr (requires { requires Adhesion::readsOverlap; }) {
-        const auto interaction = static_cast<const Adhesion&>(laws).prepare(bodies);
-        const double shift = 1e-4 * contact.overlap;
-        found.normal.spring +=
-            (interaction.force(shift - contact.overlap) - interaction.force(-shift - contact.overlap)) /
-            (2 * shift);
+
+    explicit StiffnessOf(const Mixed& mixed)
+        : laws(mixed),
+          normal(static_cast<const Normal&>(mixed).prepare()),
+          friction(static_cast<const Friction&>(mixed).prepare(static_cast<const Normal&>(mixed))) {}
+
+    ContactStiffness operator()(const PressedPair& pair) const {
+        const Contact<double> contact{pair.overlap, pair.bodies.effectiveRadius(), pair.effectiveMass};
+        typename NormalHistoryOf<Normal>::template type<double> history{};
+        ContactStiffness found;
+        found.normal = {Normal::stiffness(normal, contact),
+                        normalForce<Normal>(normal, contact, history).damping};
+        addAdhesion(pair, found);
+        if constexpr (Friction::acts) addFriction(contact, found);
+        addBridge(pair, found);
+        return found;
     }
-    BridgeResistance<double> bridge;
-    if constexpr (bridgeResists<Adhesion> != BridgeResists::Nothing)
-        bridge = static_cast<const Adhesion&>(laws).largestResistance(bodies);
-    if constexpr (Friction::acts) {
+
+private:
+    void addAdhesion([[maybe_unused]] const PressedPair& pair,
+                     [[maybe_unused]] ContactStiffness& found) const {
+        if constexpr (requires { requires Adhesion::readsOverlap; }) {
+            const auto interaction = static_cast<const Adhesion&>(laws).prepare(pair.bodies);
+            const double shift = 1e-4 * pair.overlap;
+            found.normal.spring +=
+                (interaction.force(shift - pair.overlap) - interaction.force(-shift - pair.overlap)) /
+                (2 * shift);
+        }
+    }
+    void addFriction(const Contact<double>& contact, ContactStiffness& found) const {
         constexpr double sticking = 1e100;  // N
-        const auto friction = static_cast<const Friction&>(laws).prepare(normal);
         const auto ask = [](auto&& force) {
             const double dashpot = norm(force(0.0)), both = norm(force(1.0));
             return SpringAndDashpot{both - dashpot, dashpot};
@@ -72,10 +83,27 @@ ContactStiffness contactStiffness(const Mixed& laws, const Bodies& bodies, doubl
             found.torsion = turning(along);
         }
     }
-    found.normal.dashpot += bridge.normal;
-    found.sliding.dashpot += bridge.sliding + std::abs(bridge.coupling);
-    found.rolling.dashpot += bridge.rolling + std::abs(bridge.coupling);
-    return found;
+    void addBridge([[maybe_unused]] const PressedPair& pair, [[maybe_unused]] ContactStiffness& found) const {
+        if constexpr (bridgeResists<Adhesion> != BridgeResists::Nothing) {
+            const BridgeResistance<double> bridge =
+                static_cast<const Adhesion&>(laws).largestResistance(pair.bodies);
+            found.normal.dashpot += bridge.normal;
+            found.sliding.dashpot += bridge.sliding + std::abs(bridge.coupling);
+            found.rolling.dashpot += bridge.rolling + std::abs(bridge.coupling);
+        }
+    }
+
+    const Mixed& laws;
+    typename Normal::Prepared normal;
+    typename Friction::Prepared friction;
+};
+
+/// The same at the largest sound overlap.
+/// @param effectiveMass kg, m1 m2 / (m1 + m2)
+template <class Mixed>
+ContactStiffness contactStiffness(const Mixed& laws, const Bodies& bodies, double effectiveMass) {
+    return StiffnessOf<Mixed>(laws)(
+        {bodies, effectiveMass, largestSoundOverlap * std::min(bodies.radius1, bodies.radius2)});
 }
 
 /// The square of R* over the smaller radius: 1/4 of equal grains, 1 at a wall. It is at most this share of
@@ -85,16 +113,22 @@ inline double squaredLeverOfRotation(const Bodies& bodies) {
     return lever * lever;
 }
 
+/// The stiffest spring (N/m) of friction against a motion of two grains: 7/2 k_t of sliding, 5/2 with the
+/// lever of rotation of rolling and torsion.
+inline double fastestOfPair(const ContactStiffness& contact, const Bodies& bodies) {
+    const double turn = 2.5 * squaredLeverOfRotation(bodies);
+    return std::max(
+        {3.5 * contact.sliding.spring, turn * contact.rolling.spring, turn * contact.torsion.spring});
+}
+
 /// Half a period (s) of the fastest oscillation of a pair at the largest sound overlap, without damping: the
 /// time that a touch lasts, pi / omega, or less where sliding (7/2 k_t / m*) or rolling is stiffer.
 /// @param effectiveMass kg, m1 m2 / (m1 + m2)
 template <class Mixed>
 double halfPeriod(const Mixed& laws, const Bodies& bodies, double effectiveMass) {
     const ContactStiffness contact = contactStiffness(laws, bodies, effectiveMass);
-    const double turn = 2.5 * squaredLeverOfRotation(bodies);
-    const double stiffest = std::max({contact.normal.spring, 3.5 * contact.sliding.spring,
-                                      turn * contact.rolling.spring, turn * contact.torsion.spring});
-    return std::numbers::pi * std::sqrt(effectiveMass / stiffest);
+    return std::numbers::pi *
+           std::sqrt(effectiveMass / std::max(contact.normal.spring, fastestOfPair(contact, bodies)));
 }
 
 }  // namespace pendular

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "Kernel/Walls/RigidWall.h"
 
 namespace pendular {
@@ -14,7 +16,30 @@ public:
         takePlace();
     }
 
+    // By these the plane moves along its normal by the forces on it, in the run and with the velocity along
+    // its normal that it has; setVelocity() and its like end that. Both may be called again in a run. The
+    // forces on the wall are kept.
+
+    /// A piston: a body of this mass (kg) that the grains push away, and a load (N; a pressure times its
+    /// area) and its weight push on.
+    void setPiston(double mass, double load);
+    /// A servo: it has the speed (the force of the grains - the target, N) / (stiffness of its contacts x
+    /// time) and what it takes to follow a bed that moves, at most the largest speed (m/s):
+    /// Kernel/Math/Servo.h. The time (s) must be more than half a step; take at least twice the time in which
+    /// sound passes the bed. The force is looked at 100 times in it, or at each step.
+    void setTargetForce(double force, double time, double largestSpeed);
+
+    using RigidWall::drive;
+    [[nodiscard]] PlaneDrive* drive() override { return driven ? &*driven : nullptr; }
+    /// m/s, positive away from the grains; 0 unless it is moved by forces.
+    [[nodiscard]] double getDrivenVelocity() const { return driven ? driven->velocity : 0; }
+    /// m
+    [[nodiscard]] Vector<double> pointOnPlane() const { return getPose().place(offset * normal); }
+    [[nodiscard]] Vector<double> drivenNormal() const override { return getPose().turn(normal); }
+    void visitState(StateArchive& archive) override;
+
 protected:
+    void endDrive() override { driven.reset(); }
     void listInBody(const Vector<double>& centre, double reach,
                     std::vector<std::uint32_t>& parts) const override {
         if (gap(centre) < reach) parts.push_back(0);
@@ -44,10 +69,13 @@ protected:
     }
 
 private:
+    void setDrive(const PlaneDriveSettings& asked);
     [[nodiscard]] double gap(const Vector<double>& centre) const { return offset - dot(normal, centre); }
 
     Vector<double> normal{0, 0, -1};
     double offset = 0;  // m
+    std::optional<PlaneDrive> driven;
+    PlaneDriveSettings atSetUp;
 };
 
 }  // namespace pendular

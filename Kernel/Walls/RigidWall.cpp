@@ -65,8 +65,13 @@ void RigidWall::takePlace() {
 }
 
 void RigidWall::beginSteadyMotion() {
+    if (drive()) {
+        steady = {velocity.linear, {0, 0, 0}, pose.shift};
+        endDrive();
+    } else if (isInRun() && !followsFunction) {
+        steady = velocityAt(now);
+    }
     if (isInRun()) {
-        if (!followsFunction) steady = velocityAt(now);
         began = now;
         origin = pose;
     }
@@ -93,12 +98,38 @@ void RigidWall::setAngularVelocity(const Vec3D& spin, const Vec3D& point) {
 void RigidWall::setMotion(std::function<Eigen::Isometry3d(double)> poseOfTime) {
     if (!poseOfTime) throw InputError("Wall: the function of the motion is empty.");
     motion = std::move(poseOfTime);
+    endDrive();
     followsFunction = true;
     steady = {};
     atRest = false;
     const double time = isInRun() ? now : 0;
     origin = isInRun() ? displacementAt(time).inverse().after(pose) : Pose();
     placeAt(time);
+}
+
+Vector<double> RigidWall::beginDrive() {
+    if (norm(velocity.spin) > 0)
+        throw InputError(
+            "Wall: it turns, so that it cannot be moved by forces along its normal; stop it first.");
+    const Vector<double> linear = velocity.linear;
+    followsFunction = false;
+    atRest = false;
+    steady = {};
+    shifted = 0;
+    return linear;
+}
+
+void RigidWall::goOn(const Vector<double>& shift) {
+    pose.shift += shift;
+    shifted = norm(shift);
+}
+
+void RigidWall::showVelocity(const Vector<double>& linear) { velocity = {linear, {0, 0, 0}, pose.shift}; }
+
+void RigidWall::takeBack(const Pose& before, const Vector<double>& linear) {
+    pose = before;
+    shifted = 0;
+    showVelocity(linear);
 }
 
 void RigidWall::setSurfaceVelocity(const Vec3D& value) {
@@ -198,7 +229,7 @@ void RigidWall::requireSameMotion(const StateArchive& archive) const {
 }
 
 void RigidWall::join(double time) {
-    if (!atRest) {
+    if (!atRest && !drive()) {
         began = time;
         if (followsFunction) origin = displacementAt(time).inverse().after(pose);
         placeAt(time);
@@ -208,6 +239,7 @@ void RigidWall::join(double time) {
 
 double RigidWall::moveTo(double time) {
     now = time;
+    if (drive()) return shifted;
     return atRest ? 0 : placeAt(time);
 }
 

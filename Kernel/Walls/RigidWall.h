@@ -44,6 +44,12 @@ public:
     [[nodiscard]] const Pose& getPose() const { return pose; }
 
     double moveTo(double time) final;
+    /// A wall that is moved by forces goes on by a shift (m); the next moveTo() tells of it.
+    void goOn(const Vector<double>& shift);
+    /// What contacts see of such a wall, m/s.
+    void showVelocity(const Vector<double>& linear);
+    /// Back to where such a wall was.
+    void takeBack(const Pose& before, const Vector<double>& linear);
     /// The wall is added to a run at this time (s): its motion begins now.
     void join(double time);
     void visitState(StateArchive& archive) override;
@@ -69,9 +75,15 @@ protected:
                                                const Vector<double>& to) const = 0;
     [[nodiscard]] virtual SurfaceExtent extent() const = 0;
     [[nodiscard]] virtual WallSurface surfaceInBody(const SceneSphere& /*around*/) const { return {}; }
+    /// Its motion is given now, instead of following from forces.
+    virtual void endDrive() {}
+    /// It is moved by forces from now on, from where it is. Returns its velocity (m/s). Throws InputError if
+    /// it turns.
+    Vector<double> beginDrive();
     /// The name and the numbers of the shape, by StateArchive::same().
     virtual void visitShape(StateArchive& /*archive*/) const {}
 
+    [[nodiscard]] bool isInRun() const { return !std::isnan(now); }
     /// The shape has been given. Throws InputError in a run, where the wall would jump.
     void takePlace();
 
@@ -84,10 +96,10 @@ private:
     [[nodiscard]] Eigen::Isometry3d askedPose(double time) const;
     [[nodiscard]] RigidVelocity askedVelocity(double time) const;
     void requireSameMotion(const StateArchive& archive) const;
-    [[nodiscard]] bool isInRun() const { return !std::isnan(now); }
     void beginSteadyMotion();
     double placeAt(double time);
 
+    double shifted = 0;  // m, by goOn()
     bool atRest = true;
     double now = unset;    // s, of the last moveTo(); not a number before the run
     double began = 0;      // s, when the steady motion was set

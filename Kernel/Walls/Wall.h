@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Walls/PlaneDrive.h"
 #include "Kernel/Walls/WallSurface.h"
 
 namespace pendular {
@@ -70,6 +71,13 @@ public:
     /// rad/s, with which the surface turns against the grains.
     [[nodiscard]] virtual Vector<double> angularVelocity() const { return {0, 0, 0}; }
 
+    /// How it is moved by the forces on it; null unless it is.
+    [[nodiscard]] virtual PlaneDrive* drive() { return nullptr; }
+    [[nodiscard]] const PlaneDrive* drive() const { return const_cast<Wall*>(this)->drive(); }
+
+    /// Unit, away from the grains, of a wall that is moved by forces.
+    [[nodiscard]] virtual Vector<double> drivenNormal() const { return {0, 0, 0}; }
+
     /// The wall as polygons, for pictures; a shape that gives none is not seen.
     [[nodiscard]] virtual WallSurface surface(const SceneSphere& /*around*/) const { return {}; }
 
@@ -79,15 +87,20 @@ public:
         forcesKept = keep;
         kept = {.about = toVector(about)};
     }
-    [[nodiscard]] bool keepsForces() const { return forcesKept; }
-    /// N, of all grains on the wall at the end of the last step; zero unless keepForces() was called.
+    [[nodiscard]] bool keepsForces() const { return forcesKept || drive() != nullptr; }
+    /// N, of all grains on the wall at the end of the last step; zero unless keepForces() was called or it is
+    /// moved by forces.
     [[nodiscard]] Vec3D getForce() const { return toEigen(kept.force); }
     /// N m, about the point given to keepForces().
     [[nodiscard]] Vec3D getTorque() const { return toEigen(kept.torque); }
     [[nodiscard]] Vec3D getTorquePoint() const { return toEigen(kept.about); }
-    void setForce(const Vector<double>& force, const Vector<double>& torque) {
+    /// @param touches contacts that act
+    void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches) {
         kept = {force, torque, kept.about};
+        if (PlaneDrive* const driven = drive()) driven->touches = touches;
     }
+    /// A contact has ended between two steps: its force (N) on the wall acts no longer.
+    void loseForce(const Vector<double>& force) { kept.force -= force; }
 
     /// What a run has changed, and what must be as it was when the run began.
     virtual void visitState(StateArchive& archive) {

@@ -67,16 +67,22 @@ public:
     void callBeforeRemoval(std::function<void(int)> function) { beforeRemoval = std::move(function); }
     /// Walls from this number on were added since changesAreKnown().
     [[nodiscard]] std::size_t firstNewWall() const { return knownWalls; }
-    /// Whether walls were added or removed, or have got another species, since changesAreKnown().
+    /// Whether walls were added or removed, have got another species, or are moved by other forces, since
+    /// changesAreKnown().
     [[nodiscard]] bool hasChanges() const {
         return changes != knownChanges ||
+               std::ranges::any_of(
+                   walls, [](const auto& wall) { return wall->drive() && !wall->drive()->isChecked; }) ||
                !std::ranges::equal(walls, knownSpecies, {}, [](const auto& wall) { return wall->species; });
     }
     void changesAreKnown() {
         knownChanges = changes;
         knownWalls = walls.size();
         knownSpecies.clear();
-        for (const auto& wall : walls) knownSpecies.push_back(wall->species);
+        for (const auto& wall : walls) {
+            knownSpecies.push_back(wall->species);
+            if (PlaneDrive* const drive = wall->drive()) drive->isChecked = true;
+        }
     }
 
     /// Moves all walls to where they are at a time (s); returns how far (m) any of their points can have

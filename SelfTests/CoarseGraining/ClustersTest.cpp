@@ -47,7 +47,7 @@ std::vector<std::size_t> firstOfClusters(const Points& points, const PeriodicBox
 
 TEST(Clusters, areThoseOfAllPairs) {
     PeriodicBox open, periodic{{0, 0, 0}, {4, 5, 3}}, sheared = periodic, one{{0, 0, 0}, {4, 0, 0}};
-    LeesEdwards{0, 1, 0.5, true}.move(sheared, 1.3);
+    LeesEdwards{0, 1, 0.5, true}.settle(sheared).move(sheared, 1.3);
     std::uint64_t seed = 0;
     for (const PeriodicBox& box : {open, periodic, sheared, one}) {
         const Points points = randomPoints(400, {4, 5, 3}, ++seed);
@@ -72,7 +72,7 @@ TEST(Clusters, areThoseOfAllPairs) {
 /// through a face has no end.
 TEST(Clusters, knowTheirSizeThroughFacesAndWhetherTheyEnd) {
     PeriodicBox box{{0, 0, 0}, {4, 4, 4}};
-    LeesEdwards{0, 1, 0.5, true}.move(box, 0.7);
+    LeesEdwards{0, 1, 0.5, true}.settle(box).move(box, 0.7);
     for (const Vector<double>& along :
          {Vector<double>{0.5, 0, 0}, Vector<double>{0, 0.5, 0}, Vector<double>{0, 0, 0.5}}) {
         Points points;

@@ -3,10 +3,12 @@
 
 #include <cmath>
 
+#include "BuildFolders.h"
 #include "Kernel/CoarseGraining/FieldOutput.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/CsvRows.h"
+#include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular {
@@ -165,6 +167,8 @@ TEST(HeavyFieldOutput, goesOnAfterAnyStop) {
         run.addOutput(profile(10 * step, 40 * step));
         run.addOutput(plane(10 * step, 40 * step));
         run.addOutput(plane(20 * step, 0).withName("each"));
+        run.addOutput(plane(10 * step, 40 * step).withName("listed").asHdf5());
+        run.addOutput(profile(10 * step, 40 * step).withName("grains").withoutContacts());
         run.solve();
     };
     runTo("whole", 120);
@@ -182,6 +186,85 @@ TEST(HeavyFieldOutput, goesOnAfterAnyStop) {
             files[k] += entry.path().extension() == ".vti";
     EXPECT_EQ(files[0], files[1]);
     EXPECT_EQ(files[0], 4u + 7u);  // 0 to 30, 40 to 70, 80 to 110, 120; and every 20
+}
+
+// What h5py finds are the numbers of the table, with their shapes and units.
+TEST(FieldOutput, isReadByH5py) {
+    const std::string python = "/usr/bin/python3";
+    if (support::isMissing(support::run(python + " -c 'import h5py'").exitCode == 0, "python3-h5py"))
+        GTEST_SKIP() << support::without("python3-h5py", "that h5py reads the HDF5 files of fields");
+    const TestFolder folder;
+    const double step = 0x1p-17;
+    {
+        KeptRun run(folder.path(), 100);
+        run.addOutput(profile(10 * step, 50 * step));
+        run.addOutput(profile(10 * step, 50 * step).withName("listed").asHdf5());
+        run.solve();
+    }
+    const auto rows = rowsOf(contentOf(folder.path() / "run-coarse.csv"));
+    const std::string script = (folders::source / "SelfTests/Output/read_fields.py").string();
+    const auto result =
+        support::run(python + " " + script + " " + (folder.path() / "run-listed.h5").string());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    std::istringstream lines(result.output);
+    std::size_t frames = 0, compared = 0;
+    for (std::string line, numbers; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string path, unit, type, packed;
+        words >> path;
+        if (path == "frame") {
+            double time = 0;
+            words >> unit >> time;
+            EXPECT_EQ(time, std::stod(rows[16 * frames++].at("time_s")));
+            continue;
+        }
+        std::size_t rank = 0, points = 0;
+        words >> unit >> type >> packed >> rank >> points;
+        EXPECT_EQ(points, 16u) << path;
+        std::getline(lines, numbers);
+        std::istringstream values(numbers);
+        const std::string name = path.substr(path.find('/') + 1);
+        const std::string column = name == "velocity_m_per_s" ? "velocity_z_m_per_s" : name;
+        if (column != name) {
+            EXPECT_EQ(unit, "m/s");
+        }
+        if (!rows[0].contains(column)) continue;  // a tensor
+        for (std::size_t k = 0; k < points; ++k) {
+            std::string number;
+            for (int part = 0; part < (column == name ? 1 : 3); ++part) values >> number;
+            const std::string& expected = rows[16 * (frames - 1) + k].at(column);
+            if (expected.empty()) EXPECT_EQ(number, "nan");
+            else EXPECT_EQ(std::stod(number), std::stod(expected)) << path;
+            ++compared;
+        }
+    }
+    EXPECT_EQ(frames, 3u);
+    EXPECT_GE(compared, 3 * 16 * 8u);
+    KeptRun other(folder.path() / "other", 1);
+    EXPECT_TRUE(isOneSentence(
+        refusal([&] { other.addOutput(profile(step, 0).withName("fields").asHdf5()), other.solve(); })));
+}
+
+// Fields of grains alone are the same bits as those beside fields of contacts.
+TEST(FieldOutput, withoutContactsHasTheOtherFieldsOnly) {
+    const TestFolder folder;
+    const double step = 0x1p-17;
+    {
+        KeptRun run(folder.path(), 100);
+        run.addOutput(profile(10 * step, 50 * step));
+        run.addOutput(profile(10 * step, 50 * step).withName("grains").withoutContacts());
+        run.solve();
+    }
+    const auto all = rowsOf(contentOf(folder.path() / "run-coarse.csv")),
+               grains = rowsOf(contentOf(folder.path() / "run-grains.csv"));
+    ASSERT_EQ(all.size(), grains.size());
+    EXPECT_TRUE(grains[0].contains("kinetic_stress_zz_Pa"));
+    for (const std::string name : {"contact_stress_zz_Pa", "coordination", "fabric_xx", "liquid_fraction"}) {
+        EXPECT_TRUE(all[0].contains(name)) << name;
+        EXPECT_FALSE(grains[0].contains(name)) << name;
+    }
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (const auto& [column, text] : grains[k]) EXPECT_EQ(text, all[k].at(column)) << column;
 }
 
 TEST(FieldOutput, refusesInOneSentence) {

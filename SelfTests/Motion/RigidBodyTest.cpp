@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Motion/FreeTurn.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
@@ -248,7 +249,8 @@ template <class S>
 struct BoxOfBodies : SettlingBox<S> {
     explicit BoxOfBodies(int threads = 1) : SettlingBox<S>(4) {
         this->setNumberOfThreads(threads);
-        this->setTimeStep(0x1p-19);  // grains far apart are joined: their arms make the limit short
+        this->setTimeStep(0x1p-19);
+        this->acceptUnstableTimeStep();  // grains far apart are joined: their arms make the limit short
     }
 
     void setupInitialConditions() override {
@@ -411,8 +413,8 @@ TEST(RigidBody, refusesWhatCannotBeJoined) {
         contains(changed([&] { scene.particleHandler.removeObject(1); }), "bodyHandler.removeObject()"));
     EXPECT_TRUE(contains(changed([&] { static_cast<void>(scene.bodyHandler.getObject(1)); }),
                          "no rigid body 1; the scene has 1"));
-    scene.keepEnergyLedger();
-    EXPECT_TRUE(contains(changed([&] { scene.initialise(); }), "does not know rigid bodies"));
+    scene.setIntegrator(integrators::adamsMoulton);
+    EXPECT_TRUE(contains(changed([&] { scene.initialise(); }), "does not move rigid bodies"));
 }
 
 }  // namespace

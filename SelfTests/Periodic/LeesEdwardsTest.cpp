@@ -37,7 +37,7 @@ using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 /// The box of the tables: 4 x 3 x 2 m, 0.5 /s, flow along x, gradient along y.
 PeriodicBox boxOfTables(double time) {
     PeriodicBox box{{0, 0, 0}, {4, 3, 2}};
-    LeesEdwards{0, 1, 0.5, true}.move(box, time);
+    LeesEdwards{0, 1, 0.5, true}.settle(box).move(box, time);
     return box;
 }
 
@@ -89,7 +89,7 @@ TEST(LeesEdwards, searchFindsThePairsOfBruteForce) {
             for (const double time : {0.0, 0.7, 123.4}) {
                 if (flow == gradient) continue;
                 PeriodicBox box{{-1, 2, 0.5}, {5, 6, 4}};
-                LeesEdwards{flow, gradient, time > 1 ? -0.3 : 0.4, true}.move(box, time);
+                LeesEdwards{flow, gradient, time > 1 ? -0.3 : 0.4, true}.settle(box).move(box, time);
                 std::vector<TranslationRecord> grains;
                 for (int k = 0; k < 300; ++k) {
                     const Vec3D place = Vec3D(1.5, 5, 2.5) + Vec3D(random.inCube(4));

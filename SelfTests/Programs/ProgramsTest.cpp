@@ -255,6 +255,10 @@ TEST(Programs, refuseWhatIsNoNumberOfGrains) {
     expectOneSentence(run(costs + " --particles 0"), "number of grains = 0");
     expectOneSentence(run(costs + " --particles 1000000000000"),
                       "number of grains = 1000000000000 is out of range");
+    const std::string fields = tools + "/field-costs";
+    expectOneSentence(run(fields + " --particles 0"), "number of grains = 0");
+    expectOneSentence(run(fields + " --strain nan"), "strain");
+    expectOneSentence(run(fields + " --samples 0"), "samples");
 }
 
 TEST(UserDefinedLaw, runs) {

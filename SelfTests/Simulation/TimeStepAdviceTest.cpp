@@ -141,7 +141,9 @@ TEST(TimeStepAdvice, hertzianLimitLiesBelowTheTrueOneOfAPair) {
 TEST(TimeStepAdvice, tangentialSpringsOfASingleContactHaveNoLimitOfTheirOwn) {
     // A stiff tangential spring makes rolling to and fro the stiffest motion: w^2 = k_t (1/m + r^2/I) = 7/2
     // k_t/m. Of two bodies it is integrated by the trapezoidal rule, which has no limit of its own: the
-    // advice is that for a bed.
+    // advice is that for a bed. Without dashpots the springs of a scene with a wall, which may touch a grain
+    // at three places, move in the step: that stands 2 / w, and the advice is 0.378 / (w sqrt(20 / 3.5)),
+    // 1/12.6 of it.
     const double modulus = 1e7, shearModulus = 1e7;
     using S = Species<HertzianViscoelastic, Mindlin>;
     for (double restitution : {1.0, 0.5, 0.1}) {
@@ -158,8 +160,10 @@ TEST(TimeStepAdvice, tangentialSpringsOfASingleContactHaveNoLimitOfTheirOwn) {
                     1, 1e-14);
         const double force = 4.0 / 3.0 * modulus * std::sqrt(radius) * std::pow(0.049 * radius, 1.5);
         const GrainMotion slip{.velocity = {1e-6, 0, 0}, .spin = {0, -1e-3, 0}};
-        for (double share : {0.1, 0.3, 1.0, 4.0, 16.0, 50.0})
+        for (double share : {0.1, 0.3, 1.0, 4.0, 12.0, 16.0, 50.0}) {
+            if (restitution == 1 && share > 12.6) continue;
             EXPECT_FALSE(grows(species, force, slip, share * advice)) << restitution << ' ' << share;
+        }
     }
 }
 

@@ -46,6 +46,9 @@ struct ProfileSprings {
     void turn(const FrameRotation<T>& r) {
         for (auto& spring : each) spring.turn(r);
     }
+    void move(const Vector<T>& shift) {
+        for (auto& spring : each) spring.move(shift);
+    }
 
     /// The springs of a contact whose radius has become a: the parts of the profile stay where they are in
     /// the material, and the bounds move over them (first order, upwind). Where the radius grows, what comes

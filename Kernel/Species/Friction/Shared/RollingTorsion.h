@@ -19,6 +19,12 @@ struct RollingTorsionSpring {
     T torsion;                    // m
 
     void turn(const FrameRotation<T>& rotation) { rolling.turn(rotation); }
+    /// @param shift m, of R* times the relative turn; @param normal unit
+    void move(const Vector<T>& shift, const Vector<T>& normal) {
+        const T about = dot(shift, normal);
+        rolling.move(shift - about * normal);
+        torsion = torsion + about;
+    }
 };
 
 /// Their forces: the torque on body 1 over R*.
@@ -152,6 +158,8 @@ struct FrictionSprings {
         sliding.turn(r);
         rotation.turn(r);
     }
+    void move(const Vector<T>& shift) { sliding.move(shift); }
+    void moveRotation(const Vector<T>& shift, const Vector<T>& normal) { rotation.move(shift, normal); }
 };
 
 }  // namespace pendular

@@ -10,6 +10,8 @@ struct TangentialSpring {
     Vector<T> displacement;  // m, of body 1 against body 2, tangential, half a step ahead of the force
 
     [[nodiscard]] const Vector<T>& slidingSpring() const { return displacement; }
+    /// @param shift m, of body 1 against body 2, tangential
+    void move(const Vector<T>& shift) { displacement += shift; }
     /// Turns the spring with the contact, its length unchanged to fourth order in the angles. With a = s.n,
     /// the turn of n by normalShift takes s to s - a (n - normalShift/2), which is tangential again; the
     /// twist follows. (Projection and rescaling, as is common, costs a square root and a division more.)

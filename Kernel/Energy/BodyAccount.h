@@ -1,0 +1,73 @@
+#pragma once
+
+#include <vector>
+
+#include "Kernel/Contacts/ParticleSum.h"
+#include "Kernel/Math/ExactSum.h"
+#include "Kernel/Particles/ParticleStore.h"
+
+namespace pendular {
+
+/// What rigid bodies add to the account of a step h: their kinetic energies are those of the bodies, while
+/// the work of each contact is counted with the mean velocities of the grains that it joins. What the two
+/// differ by is the work of the field and the error of the turn, which is of third order in h: the end of an
+/// arm goes on a curve, and its mean velocity is not the mean of two.
+class BodyAccount {
+public:
+    /// Before the grains move. The contacts are those of the last step.
+    void begin(const ParticleStore& grains, const ContactStore& contacts) {
+        before.clear(), loads.clear();
+        for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+            const RigidBody& body = grains.bodies[k];
+            before.push_back({body.velocity, body.rotationalEnergy()});
+            for (const BodyMember& member : grains.bodies.membersOf(k))
+                loads.push_back(sumOf(grains, contacts, member));
+        }
+    }
+
+    /// J, that the change of a body's velocity gives it.
+    double changeVelocity(const RigidBody& body, std::size_t number, const Vector<double>& change) {
+        Vector<double>& then = before[number].velocity;
+        const double given = body.mass * dot(change, then + 0.5 * change);
+        then += change;
+        return given;
+    }
+
+    /// At the end of the step: what the bodies have gained (J), less the work of their contacts.
+    /// @param meanOf (place of a grain) gives its mean velocity and spin in the step
+    template <class MeanOf>
+    void addGainBesidesContacts(const ParticleStore& grains, const ContactStore& contacts, double step,
+                                ExactSum& sum, MeanOf&& meanOf) const {
+        std::size_t number = 0;
+        for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+            const RigidBody& body = grains.bodies[k];
+            const Vector<double>& then = before[k].velocity;
+            sum.add(0.5 * body.mass * dot(body.velocity - then, body.velocity + then));
+            sum.add(body.rotationalEnergy() - before[k].turning);
+            for (const BodyMember& member : grains.bodies.membersOf(k)) {
+                const ContactSum &last = loads[number++], now = sumOf(grains, contacts, member);
+                const auto [velocity, spin] = meanOf(grains.place[member.grain]);
+                sum.add(-0.5 * step * dot(last.force + now.force, velocity));
+                sum.add(-0.5 * step * dot(last.torque + now.torque, spin));
+            }
+        }
+    }
+
+private:
+    struct Before {
+        Vector<double> velocity;  // m/s
+        double turning;           // J
+    };
+
+    static ContactSum sumOf(const ParticleStore& grains, const ContactStore& contacts,
+                            const BodyMember& member) {
+        const std::uint32_t place = grains.place[member.grain];
+        if (place >= contacts.sides.grainCount()) return {{0, 0, 0}, {0, 0, 0}};  // it came after the list
+        return contactSum(contacts, place, grains.translation[place].radius);
+    }
+
+    std::vector<Before> before;     // in the order of bodies
+    std::vector<ContactSum> loads;  // of each grain of them
+};
+
+}  // namespace pendular

@@ -1,0 +1,274 @@
+#include "Kernel/Motion/ContactBound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "Kernel/Motion/StabilityLimit.h"
+
+namespace pendular {
+namespace {
+
+/// Contacts that barely touch are taken for this overlap, of the smaller radius: the slope of a law is asked
+/// at none at all.
+constexpr double smallestOverlap = 1e-6;
+
+/// To the nearest multiple of the unit, a power of two, for values below 2^51 units: exact in sums of a few
+/// thousand.
+double inUnits(double value, double unit) {
+    constexpr double rounds = 0x1.8p52;
+    return (value + rounds * unit) - rounds * unit;
+}
+/// 2^-40 of the power of two above the value.
+double unitOf(double largest) { return largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 39) : 0; }
+
+struct Terms {
+    double along, across;  // of n n and of 1 - n n
+};
+void add(std::array<double, 6>& to, const Terms& t, const Vector<double>& n, double unit) {
+    const double difference = t.along - t.across;
+    const std::array<double, 6> parts{t.across + difference * n.x * n.x,
+                                      t.across + difference * n.y * n.y,
+                                      t.across + difference * n.z * n.z,
+                                      difference * n.x * n.y,
+                                      difference * n.x * n.z,
+                                      difference * n.y * n.z};
+    for (std::size_t k = 0; k < 6; ++k) to[k] += inUnits(parts[k], unit);
+}
+
+}  // namespace
+
+/// Newton's method from above on the characteristic polynomial, which is convex there: it comes down to the
+/// largest root and not below it. It begins at the bound of Wolkowicz and Styan (1980), Linear Algebra Appl.
+/// 29, 471: mean + sqrt(2) standard deviations of the eigenvalues.
+double largestEigenvalue(const std::array<double, 6>& m, bool exact) {
+    const auto [xx, yy, zz, xy, xz, yz] = m;
+    const double off = xy * xy + xz * xz + yz * yz;
+    const double mean = (xx + yy + zz) / 3;
+    const double a = xx - mean, b = yy - mean, c = zz - mean;
+    const double p = (a * a + b * b + c * c + 2 * off) / 6;  // of 2 standard deviations^2 over 3
+    const double half = 0.5 * (a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz));
+    if (!(p > 0)) return mean;
+    // t^3 - 3 p t - 2 half = 0 for t = eigenvalue - mean
+    double t = 2 * std::sqrt(p);
+    for (int k = 0; exact && k < 30; ++k) {
+        const double slope = 3 * (t * t - p), value = t * (t * t - 3 * p) - 2 * half;
+        if (!(slope > 0) || !(value > 0)) break;
+        const double next = t - value / slope;
+        const bool isNear = !(next < t * (1 - 1e-7));
+        t = std::min(t, next);
+        if (isNear) break;
+    }
+    return mean + t;
+}
+
+ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandler& walls,
+                                 const ParticleStore& grains, const Integrator& integrator,
+                                 const ContactOutlook& outlook) {
+    ContactBound found;
+    terms.clear();
+    std::vector<std::size_t> ends;
+    for (const Bucket& bucket : contacts.store().buckets) {
+        take(contacts, walls, grains, bucket, outlook);
+        ends.push_back(terms.size());
+    }
+    summarise(found);
+    const double approach = std::max(outlook.approach, found.fastestApproach);
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < ends.size(); begin = ends[k++])
+        press(contacts.laws(), contacts.store().buckets[k], std::span(terms).subspan(begin, ends[k] - begin),
+              outlook, approach);
+    blocks.assign(grains.size(), {});
+    chooseWeights(grains);
+    for (const Term& term : terms) {
+        addTo(grains, term, term.first, term.second);
+        if (term.second != none) addTo(grains, term, term.second, term.first);
+    }
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        if (blocks[k].contacts == 0) continue;
+        // Most grains are seen not to bind before their eigenvalues are found.
+        if (stepOf(blocks[k], integrator, false) > found.step) continue;
+        const double step = stepOf(blocks[k], integrator, true);
+        if (step > found.step || (step == found.step && grains.identity[k] > found.grain)) continue;
+        found.step = step;
+        found.grain = grains.identity[k];
+        found.contactsOfGrain = blocks[k].contacts;
+        found.overlapOfGrain = blocks[k].overlap;
+    }
+    return found;
+}
+
+/// Of each grain its load, and the units of the sums.
+void ContactBounds::chooseWeights(const ParticleStore& grains) {
+    const auto forBoth = [](const Term& term, auto&& function) {
+        function(term.first);
+        if (term.second != none) function(term.second);
+    };
+    const auto stiffest = [](const ContactStiffness& s, auto part) {
+        return std::max({s.normal.*part, s.sliding.*part, s.rolling.*part, s.torsion.*part});
+    };
+    const auto springOf = [&](const Term& term, std::uint32_t place) {
+        return stiffest(term.stiffness, &SpringAndDashpot::spring) * grains.translation[place].inverseMass;
+    };
+    double largest = 0, dashpot = 0;
+    for (const Term& term : terms)
+        forBoth(term, [&](std::uint32_t place) { largest = std::max(largest, springOf(term, place)); });
+    springUnit = unitOf(largest);
+    for (const Term& term : terms)
+        forBoth(term, [&](std::uint32_t place) {
+            blocks[place].load += inUnits(springOf(term, place), springUnit);
+        });
+    largest = 0;
+    for (const OfGrain& block : blocks) largest = std::max(largest, block.load);
+    // An entry is at most 5/2 (1 + t) k/m, with t k/m at most the load of the other grain.
+    springUnit = unitOf(8 * largest);
+    for (const Term& term : terms) {
+        const std::uint32_t other = term.second;
+        const double share =
+            term.second == none ? 1 : 1 + std::max(weight(term.first, other), weight(other, term.first));
+        forBoth(term, [&](std::uint32_t place) {
+            dashpot = std::max(dashpot, share * stiffest(term.stiffness, &SpringAndDashpot::dashpot) *
+                                            grains.translation[place].inverseMass);
+        });
+    }
+    dashpotUnit = unitOf(4 * dashpot);
+}
+
+/// The contacts of a bucket that act, or are within reach.
+void ContactBounds::take(const ContactSystem& contacts, const WallHandler& walls, const ParticleStore& grains,
+                         const Bucket& bucket, const ContactOutlook& outlook) {
+    const ContactStore& store = contacts.store();
+    const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
+    const PeriodicBox& box = contacts.periodicBox();
+    for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
+        const std::size_t b = c / Pack::lanes, lane = c % Pack::lanes;
+        if (!ContactStore::bitOf(store.states[b].listed, c)) continue;
+        const std::uint32_t first = store.blocks[b].first[lane], second = store.blocks[b].second[lane];
+        const TranslationRecord& one = grains.translation[first];
+        Term term{first, none, {}, {}, {}, 0, 0, one.radius, false};
+        Bodies& bodies = term.pair.bodies;
+        bodies.radius1 = one.radius;
+        double inverseMass = one.inverseMass;
+        if (bucket.wall < 0) {
+            const TranslationRecord& two = grains.translation[second];
+            const Vector<double> apart = two.position - one.position, shift = box.nearest(apart);
+            const double distance = norm(shift);
+            term.second = second;
+            term.normal = (1 / distance) * shift;
+            term.gap = distance - (one.radius + two.radius);
+            Vector<double> velocity = one.velocity - two.velocity;
+            if (box.imagesMove) velocity += box.velocityBetweenImages(apart, shift);
+            term.approach = dot(velocity, term.normal);
+            inverseMass += two.inverseMass;
+            term.smallerRadius = std::min(one.radius, two.radius);
+            bodies.radius2 = two.radius;
+        } else {
+            WallPoint point;
+            walls.getObject(static_cast<std::size_t>(bucket.wall))
+                .findPoints(one.position, one.radius + outlook.reach, {&second, 1}, {&point, 1});
+            term.gap = point.distance - one.radius;
+            term.normal = point.normal;
+            term.approach = dot(one.velocity - point.velocity, term.normal);
+        }
+        if (!(inverseMass > 0)) continue;
+        term.drags = ContactStore::bitOf(store.states[b].bridged, c) ||
+                     (laws.resistsMotion &&
+                      term.gap < outlook.reach + laws.range(bucket.species1, bucket.species2, bodies));
+        if (!(term.gap < outlook.reach) && !(term.gap < 0) && !term.drags) continue;
+        term.pair.effectiveMass = 1 / inverseMass;
+        terms.push_back(term);
+    }
+}
+
+void ContactBounds::summarise(ContactBound& found) const {
+    for (const Term& term : terms) {
+        found.fastestApproach = std::max(found.fastestApproach, term.approach);
+        if (!(term.gap < 0)) continue;
+        const double overlap = -term.gap / term.smallerRadius;
+        ++found.touching;
+        found.largestOverlap = std::max(found.largestOverlap, overlap);
+        found.meanOverlap += overlap;
+    }
+    if (found.touching > 0) found.meanOverlap /= static_cast<double>(found.touching);
+}
+
+/// The stiffness of the contacts of a bucket at the overlaps that they have, or may come to. What a pair does
+/// by itself it may do; what others do to it is taken up to the largest sound overlap.
+void ContactBounds::press(const ContactLaws& laws, const Bucket& bucket, std::span<Term> ofBucket,
+                          const ContactOutlook& outlook, double approach) {
+    std::vector<PressedPair> pairs;
+    for (Term& term : ofBucket) {
+        const double own = std::max(term.approach, 0.0) * outlook.time - term.gap,
+                     sound = largestSoundOverlap * term.smallerRadius;
+        double overlap = std::max(own, std::min(own + approach * outlook.time, sound));
+        if (overlap > 0) overlap = std::max(overlap, outlook.leastOverlap * term.smallerRadius);
+        term.gap = -overlap;
+        term.pair.overlap = std::max(overlap, smallestOverlap * term.smallerRadius);
+        pairs.push_back(term.pair);
+    }
+    std::vector<ContactStiffness> stiffness(pairs.size());
+    laws.ofPair(bucket.species1, bucket.species2)
+        .stiffnesses(bucket.species1, bucket.species2, pairs, stiffness);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        ContactStiffness& s = ofBucket[k].stiffness = stiffness[k];
+        if (!outlook.sticking) s.sliding = s.rolling = s.torsion = {};
+        if (ofBucket[k].gap < 0) continue;
+        for (SpringAndDashpot* part : {&s.normal, &s.sliding, &s.rolling, &s.torsion})
+            part->spring = ofBucket[k].drags ? part->spring : 0;
+    }
+}
+
+void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::uint32_t place,
+                          std::uint32_t other) {
+    const TranslationRecord& grain = grains.translation[place];
+    if (grain.inverseMass == 0) return;
+    OfGrain& block = blocks[place];
+    const ContactStiffness& s = term.stiffness;
+    const bool isShared = other != none && grains.translation[other].inverseMass > 0;
+    const double share = isShared ? 1 + weight(place, other) : 1, over = share * grain.inverseMass;
+    if (!(term.gap < 0) && !term.drags) return;
+    ++block.contacts;
+    block.overlap = std::max(block.overlap, term.pair.overlap / term.smallerRadius);
+    block.ownDashpot = std::min(block.ownDashpot, s.normal.dashpot / term.pair.effectiveMass);
+    add(block.spring.shift, {over * s.normal.spring, over * s.sliding.spring}, term.normal, springUnit);
+    add(block.dashpot.shift, {over * s.normal.dashpot, over * s.sliding.dashpot}, term.normal, dashpotUnit);
+    if (!grains.hasSpin) return;
+    block.relaxation = std::min(block.relaxation, s.shortestRelaxation());
+    const double ownInertia = grains.rotation[place].inverseInertia;                     // 1/(kg m^2)
+    const double lever2 = grain.radius * grain.radius * ownInertia / grain.inverseMass;  // 5/2 of a sphere
+    const double arm = term.pair.bodies.effectiveRadius(),
+                 turn =
+                     arm * arm * (ownInertia + (other == none ? 0 : grains.rotation[other].inverseInertia));
+    const double rim = over * lever2, cross = over * std::sqrt(lever2);
+    add(block.spring.spin, {turn * s.torsion.spring, rim * s.sliding.spring + turn * s.rolling.spring},
+        term.normal, springUnit);
+    add(block.dashpot.spin, {turn * s.torsion.dashpot, rim * s.sliding.dashpot + turn * s.rolling.dashpot},
+        term.normal, dashpotUnit);
+    const double sign = place == term.first ? 1 : -1;  // the normal points away from the grain
+    const auto couple = [&](Vector<double>& to, double size, double unit) {
+        to += Vector<double>{inUnits(sign * size * term.normal.x, unit),
+                             inUnits(sign * size * term.normal.y, unit),
+                             inUnits(sign * size * term.normal.z, unit)};
+    };
+    couple(block.spring.coupling, cross * s.sliding.spring, springUnit);
+    couple(block.dashpot.coupling, cross * s.sliding.dashpot, dashpotUnit);
+}
+
+double ContactBounds::stepOf(const OfGrain& grain, const Integrator& integrator, bool exact) {
+    const auto largest = [exact](const Block& block) {
+        const double shift = largestEigenvalue(block.shift, exact),
+                     spin = largestEigenvalue(block.spin, exact), between = norm(block.coupling);
+        return 0.5 * (shift + spin + std::hypot(shift - spin, 2 * between));
+    };
+    const SignChange signChange(integrator);
+    SpringAndDashpot mode{largest(grain.spring), largest(grain.dashpot)};
+    if (!integrator.contacts.timesTouches) return signChange.limit(mode);
+    if (integrator.contacts.implicitForces) mode.dashpot = std::max(mode.dashpot - grain.ownDashpot, 0.0);
+    double step = signChange.limit(mode);
+    if (integrator.contacts.springsInStep) return step;
+    const double spin = largestEigenvalue(grain.spring.spin, exact);
+    if (spin > 0) step = std::min(step, springsAheadLimit(spin, grain.relaxation, integrator));
+    return step;
+}
+
+}  // namespace pendular

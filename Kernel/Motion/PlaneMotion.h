@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/Integrator.h"
+#include "Kernel/Walls/WallHandler.h"
+
+namespace pendular {
+
+/// Moves the planes that are moved by the forces on them (InfiniteWall::setPiston(), setTargetForce()), in
+/// the two parts of a step around the forces. A piston is integrated like a grain, with the sum of the
+/// contact forces that the wall keeps, which is exact: no bit depends on the order of contacts.
+class PlaneMotion {
+public:
+    /// What moves them besides contacts.
+    struct Step {
+        double time;             // s, at its start
+        double length;           // s
+        Vector<double> gravity;  // m/s^2
+        const Integrator& scheme;
+        double smallestRadius;  // m, of the grains
+        bool bringsGrains;      // the scene has inlets
+    };
+
+    /// A step is about to begin: there is nothing to be taken back.
+    void forget() { before.clear(); }
+    /// Before walls move. Throws RunError where a plane cannot go on.
+    void begin(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
+               const Step& step);
+    /// When the forces are known.
+    static void finish(const WallHandler& walls, const Step& step);
+    /// Undoes begin.
+    void takeBack(const WallHandler& walls) const;
+
+private:
+    struct Before {
+        std::size_t wall;
+        PlaneDrive drive;
+        Pose pose;
+        Vector<double> velocity;  // m/s
+    };
+    std::vector<Before> before;
+};
+
+/// N/m, of the normal springs of all contacts with a wall, exactly summed.
+[[nodiscard]] double wallStiffness(const ContactSystem& contacts, const ParticleStore& grains, int wall);
+
+}  // namespace pendular

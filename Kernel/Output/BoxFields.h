@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "Kernel/Output/PolyData.h"
+#include "Kernel/Particles/PeriodicBox.h"
+
+namespace pendular {
+
+/// How a scene repeats itself, as fields of a frame: the box, and, where images move, how. None where it does
+/// not.
+std::vector<PolyDataField> boxFields(const PeriodicBox& box);
+
+/// The same from a frame; none where it has no box. Throws InputError where the box is not whole.
+std::optional<PeriodicBox> boxOf(const PolyData& frame);
+
+}  // namespace pendular

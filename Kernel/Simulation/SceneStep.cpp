@@ -1,0 +1,100 @@
+#include <numbers>
+
+#include "Kernel/Simulation/Scene.h"
+
+// What a scene says of its time step, and how it chooses one.
+
+namespace pendular {
+
+double Scene::stableStepOfContacts() {
+    requireBegun("stableStepOfContacts()");
+    refuseBoundForBodies("stableStepOfContacts()");
+    return bounds.find(contactSystem, wallHandler, particleHandler.store(), scheme()).step;
+}
+
+StabilityAdvice Scene::stabilityAdvice() {
+    requireBegun("stabilityAdvice()");
+    refuseBoundForBodies("stabilityAdvice()");
+    const ParticleStore& grains = particleHandler.store();
+    const auto find = [&](const ContactOutlook& outlook) {
+        return bounds.find(contactSystem, wallHandler, grains, scheme(), outlook);
+    };
+    const ContactBound now = find({}), pressed = find({.leastOverlap = largestSoundOverlap}),
+                       smooth = find({.sticking = false});
+    const double limit = stabilityLimit();
+    std::size_t sides = 0, free = 0;
+    contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (contactSystem.store().touches(contact)) sides += bucket.wall < 0 ? 2 : 1;
+    });
+    for (const std::uint32_t at : grains.place) free += grains.isFree(at) ? 1 : 0;
+    return {
+        .limit = limit,
+        .step = now.step,
+        .byOverlap = now.step / pressed.step,
+        .byNeighbours = pressed.step / limit,
+        .byFriction = smooth.step / now.step,
+        .largestOverlap = now.largestOverlap,
+        .meanOverlap = now.meanOverlap,
+        .contactsOfGrain = static_cast<double>(sides) / static_cast<double>(std::max<std::size_t>(free, 1)),
+        .slidingShare = slidingShare(contactSystem, grains),
+        .grain = now.grain,
+        .species = now.step < infinity ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
+        .contactsOfThis = now.contactsOfGrain,
+        .overlapOfThis = now.overlapOfGrain};
+}
+
+void Scene::refuseBoundForBodies(std::string_view call) const {
+    if (!particleHandler.store().bodies.empty())
+        throw InputError(
+            fmt::format("Simulation: {} does not know rigid bodies; take stabilityLimit().", call));
+}
+
+void Scene::setAdaptiveTimeStep(double share, double largestStep) {
+    requireSetUp("adaptive time step");
+    checkValue("Simulation", "share of the adaptive time step", share, "", {0, 1, false, true});
+    if (isSet(largestStep))
+        checkValue("Simulation", "largest adaptive time step", largestStep, "s", positive);
+    adaptive.set(share, isSet(largestStep) ? largestStep : 0);
+}
+
+void Scene::refuseForAdaptiveStep() const {
+    refuseBoundForBodies("the adaptive time step");
+    if (periodic.imagesMove)
+        throw InputError(
+            "Simulation: the adaptive time step does not know shear (setLeesEdwards()) and strain "
+            "(setStrainRate(), setTargetStress()); leave setAdaptiveTimeStep() out.");
+    for (std::size_t w = 0; w < wallHandler.getSize(); ++w)
+        if (wallHandler.getObject(w).drive())
+            throw InputError(fmt::format(
+                "wall {}: the adaptive time step does not know walls that forces move (setPiston(), "
+                "setTargetForce()); leave setAdaptiveTimeStep() out.",
+                w));
+    if (integrator.remembersEarlier())
+        throw InputError(
+            fmt::format("Simulation: the integrator {} needs steps of one length; leave "
+                        "setAdaptiveTimeStep() out, or take integrators::predictedVelocityVerlet or "
+                        "velocityVerlet.",
+                        integrator.name));
+}
+
+void Scene::chooseTimeStep() {
+    particleHandler.finishStep();
+    ParticleStore& grains = particleHandler.storeInStep();
+    const StepTimes::Part before = enter(StepTimes::Part::Search);
+    const GrainSizes sizes = grainSizes(grains);
+    const double most = 0.9 / std::numbers::pi * shortestHalfPeriod(laws(), sizes, wallHandler);
+    const double step = getTimeStep();
+    const AdaptiveStep::Outlook outlook =
+        adaptive.lookAhead(grains, step, most, norm(gravity), sizes.smallest());
+    ContactBound bound;
+    if (!outlook.isFar) {
+        contactSystem.listWithin(grains, outlook.contacts.reach);
+        bound = bounds.find(contactSystem, wallHandler, grains, scheme(), outlook.contacts);
+    }
+    const double limit = outlook.isFar ? sceneStabilityLimit(laws(), sizes, wallHandler, scheme()) : infinity;
+    setTimeStep(adaptive.choose(step, most, outlook, bound, limit));
+    checkedStep = getTimeStep();
+    enter(before);
+}
+
+}  // namespace pendular

@@ -1,0 +1,49 @@
+#include "Kernel/Walls/InfiniteWall.h"
+
+namespace pendular {
+
+void InfiniteWall::setDrive(const PlaneDriveSettings& asked) {
+    const double velocity = driven ? driven->velocity : dot(beginDrive(), drivenNormal());
+    if (!driven || driven->asked.kind != asked.kind) {
+        driven = PlaneDrive{};
+        driven->velocity = driven->servo.speed = velocity;
+    }
+    driven->asked = asked;
+    driven->mostTouches = 0;
+    driven->isChecked = false;
+    driven->servo.beginAnew();
+    if (!isInRun()) atSetUp = asked;
+}
+
+void InfiniteWall::setPiston(double mass, double load) {
+    checkValue("InfiniteWall", "mass of the piston", mass, "kg", positive);
+    checkValue("InfiniteWall", "load of the piston", load, "N", anyFinite);
+    setDrive({.kind = PlaneDriveSettings::Kind::Piston, .load = load, .mass = mass});
+}
+
+void InfiniteWall::setTargetForce(double force, double time, double largestSpeed) {
+    checkValue("InfiniteWall", "target force", force, "N", notNegative);
+    checkValue("InfiniteWall", "time of the target force", time, "s", positive);
+    checkValue("InfiniteWall", "largest speed", largestSpeed, "m/s", positive);
+    setDrive(
+        {.kind = PlaneDriveSettings::Kind::Servo, .load = force, .time = time, .largestSpeed = largestSpeed});
+}
+
+void InfiniteWall::visitState(StateArchive& archive) {
+    RigidWall::visitState(archive);
+    archive.group("drive", [&] {
+        archive.same("firstKind", static_cast<std::uint32_t>(atSetUp.kind));
+        archive.same("firstLoad", atSetUp.load, "N");
+        archive.same("firstMass", atSetUp.mass, "kg");
+        archive.same("firstTime", atSetUp.time, "s");
+        archive.same("firstLargestSpeed", atSetUp.largestSpeed, "m/s");
+        bool isDriven = driven.has_value();
+        archive.value("isDriven", isDriven);
+        if (archive.isReading() && !isDriven) driven.reset();
+        if (!isDriven) return;
+        if (!driven) driven.emplace();
+        driven->visitState(archive);
+    });
+}
+
+}  // namespace pendular

@@ -1,0 +1,226 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "Kernel/Math/Random.h"
+#include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Support/Refusal.h"
+#include "Tools/AccuracyVersusCost/CriticalStep.h"
+
+// The step that the contacts of a scene stand, against the eigenvalues of their whole stiffness matrix and
+// against runs.
+
+namespace pendular {
+namespace {
+
+TEST(LargestEigenvalue, isThatOfEigenFromAbove) {
+    UniformRandom random(1);
+    for (int n = 0; n < 1000; ++n) {
+        Eigen::Matrix3d m;
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k <= i; ++k) m(i, k) = m(k, i) = random.uniform(-1, 1);
+        const Eigen::Matrix3d given = m * m.transpose();
+        const double exact = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(given).eigenvalues()[2];
+        const double found =
+            largestEigenvalue({given(0, 0), given(1, 1), given(2, 2), given(0, 1), given(0, 2), given(1, 2)});
+        EXPECT_GE(found, exact * (1 - 1e-12));
+        EXPECT_LE(found,
+                  exact * (1 + 1e-6));  // it stops at steps of 1e-7, which halve the rest at a double root
+    }
+    EXPECT_DOUBLE_EQ(largestEigenvalue({2, 2, 2, 0, 0, 0}), 2);
+    EXPECT_NEAR(largestEigenvalue({3, 3, 1, 0, 0, 0}), 3, 3e-6);
+    EXPECT_NEAR(largestEigenvalue({3, 1, 1, 0, 0, 0}), 3, 1e-12);
+}
+
+constexpr double density = 2500, normalSpring = 1000, slidingSpring = 700;  // kg/m^3, N/m
+
+using Linear = Species<LinearViscoelastic, SlidingFriction>;
+Linear linear() {
+    Linear species;
+    species.setDensity(density);
+    species.setStiffness(normalSpring);
+    species.setSlidingStiffness(slidingSpring);
+    species.setSlidingFrictionCoefficient(0.5);
+    return species;
+}
+
+/// Grains of 1 mm to `ratio` mm on a floor, each overlapping one before by 1 to 4 %, and no other by more
+/// than 5 %.
+std::vector<scenes::GrainMotion> cluster(int count, double ratio, std::uint64_t seed) {
+    UniformRandom random(seed);
+    std::vector<scenes::GrainMotion> grains{{.radius = 1e-3, .position = {0, 0, 0.97e-3}}};
+    while (static_cast<int>(grains.size()) < count) {
+        const double radius = 1e-3 * std::pow(ratio, random.uniform(0, 1));
+        const auto& partner = grains[static_cast<std::size_t>(
+            random.uniform(0, static_cast<double>(grains.size()) * (1 - 1e-9)))];
+        const Vec3D direction(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        const double overlap = random.uniform(0.01, 0.04) * std::min(radius, partner.radius);
+        const Vec3D place = partner.position + (radius + partner.radius - overlap) * direction.normalized();
+        bool fits = place.z() > 0.96 * radius;
+        for (const auto& other : grains)
+            fits = fits && (place - other.position).norm() >
+                               radius + other.radius - 0.049 * std::min(radius, other.radius);
+        if (fits) grains.push_back({.radius = radius, .position = place});
+    }
+    return grains;
+}
+
+/// 1/s^2, of the stiffness matrix of all contacts of grains on the plane z = 0 over masses and moments of
+/// inertia, 6 rows a grain: shift and spin.
+template <class Springs>
+double largestSquaredFrequency(const std::vector<scenes::GrainMotion>& grains, const Springs& springs) {
+    const auto size = static_cast<Eigen::Index>(6 * grains.size());
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
+    Eigen::VectorXd inverseRoot(size);  // of mass or moment of inertia
+    const auto mass = [&](double r) { return sphereMass(r, density); };
+    const auto add = [&](std::size_t i, std::size_t j, const Vec3D& n, double overlap, double smallest,
+                         double effectiveRadius) {
+        static_cast<void>(smallest);
+        Eigen::MatrixXd slip = Eigen::MatrixXd::Zero(3, size);  // from motion
+        const auto side = [&](std::size_t k, double sign, const Vec3D& outward) {
+            const auto at = static_cast<Eigen::Index>(6 * k);
+            slip.block<3, 3>(0, at) += sign * Eigen::Matrix3d::Identity();
+            const Vec3D arm = (grains[k].radius - 0.5 * overlap) * outward;
+            Eigen::Matrix3d turn;  // w x arm
+            turn << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+            slip.block<3, 3>(0, at + 3) += sign * turn;
+        };
+        side(i, 1, n);
+        if (j < grains.size()) side(j, -1, -n);
+        const auto [normal, tangential] = springs(overlap, effectiveRadius);
+        const Eigen::Matrix3d k =
+            normal * n * n.transpose() + tangential * (Eigen::Matrix3d::Identity() - n * n.transpose());
+        stiffness += slip.transpose() * k * slip;
+    };
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const double r = grains[i].radius, m = mass(r);
+        for (int k = 0; k < 3; ++k) {
+            inverseRoot[static_cast<Eigen::Index>(6 * i) + k] = 1 / std::sqrt(m);
+            inverseRoot[static_cast<Eigen::Index>(6 * i) + k + 3] = 1 / std::sqrt(0.4 * m * r * r);
+        }
+        if (grains[i].position.z() < r) add(i, grains.size(), {0, 0, -1}, r - grains[i].position.z(), r, r);
+        for (std::size_t j = i + 1; j < grains.size(); ++j) {
+            const Vec3D apart = grains[j].position - grains[i].position;
+            const double overlap = r + grains[j].radius - apart.norm();
+            if (overlap > 0)
+                add(i, j, apart.normalized(), overlap, std::min(r, grains[j].radius),
+                    r * grains[j].radius / (r + grains[j].radius));
+        }
+    }
+    const Eigen::MatrixXd scaled = inverseRoot.asDiagonal() * stiffness * inverseRoot.asDiagonal();
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues().maxCoeff();
+}
+
+template <class S>
+double stableStep(const S& species, const std::vector<scenes::GrainMotion>& grains) {
+    scenes::FewGrains<S> scene(species, grains, 1e-9, {{{0, 0, -1}, {0, 0, 0}}});
+    scene.setIntegrator(integrators::springsInStep);
+    scene.setQuiet();
+    scene.initialise();
+    return scene.stableStepOfContacts();
+}
+
+// Velocity Verlet stands 2 / w. The bound shares each contact between its grains by their loads: of clusters
+// of equal grains it is within 1.3 of the exact step, and within 1.5 where sizes differ by up to ten.
+TEST(ContactBound, isBelowTheExactStepOfClustersAndNear) {
+    for (const auto& [ratio, within] : {std::pair{1.0, 1.3}, std::pair{2.0, 1.4}, std::pair{10.0, 1.5}})
+        for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+            const auto grains = cluster(25, ratio, seed);
+            const double exact = 2 / std::sqrt(largestSquaredFrequency(grains, [](double, double) {
+                                     return std::pair{normalSpring, slidingSpring};
+                                 }));
+            const double bound = stableStep(linear(), grains);
+            EXPECT_LE(bound, exact) << ratio << " " << seed;
+            EXPECT_GE(bound, exact / within) << ratio << " " << seed;
+        }
+}
+
+// k_n = 2 E* sqrt(R* d) and k_t = 2/3 8 G* sqrt(R* d), at the overlap of each contact.
+TEST(ContactBound, hasTheStiffnessOfEachOverlap) {
+    using Hertz = Species<HertzianViscoelastic, Mindlin>;
+    constexpr double modulus = 1e7, shear = 4e6;  // Pa, of a contact
+    Hertz species;
+    species.setDensity(density);
+    species.setEffectiveElasticModulus(modulus);
+    species.setDissipation(0);
+    species.setEffectiveShearModulus(shear);
+    species.setSlidingFrictionCoefficient(0.5);
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        const auto grains = cluster(25, 2, seed);
+        const double exact = 2 / std::sqrt(largestSquaredFrequency(grains, [](double overlap, double radius) {
+                                 const double a = std::sqrt(radius * overlap);
+                                 return std::pair{2 * modulus * a, 2.0 / 3 * 8 * shear * a};
+                             }));
+        const double bound = stableStep(species, grains);
+        EXPECT_LE(bound, exact) << seed;
+        EXPECT_GE(bound, exact / 1.4) << seed;
+    }
+}
+
+// In the crystal the bound is exact where each motion has a spring of one kind: layers that shift, 8 k / m
+// without friction; and all bounds are below what is measured, with dashpots too.
+template <class S>
+void expectStable(const RestingGrains& scene, double zeta, double friction, double within) {
+    const S species = criticalMaterial::make<S>({zeta, friction}, scene.bodies(), scene.effectiveMass());
+    const Integrator& scheme = integrators::springsInStep;
+    DisturbedGrains<S> resting(species, scene, 1e-9, scheme);
+    resting.initialise();
+    const double bound = resting.stableStepOfContacts();
+    EXPECT_FALSE(DisturbedGrains<S>(species, scene, 0.95 * bound, scheme).grows())
+        << scene.name << " " << zeta << " " << friction;
+    if (within == 0) return;
+    EXPECT_TRUE(DisturbedGrains<S>(species, scene, within * bound, scheme).grows())
+        << scene.name << " " << zeta << " " << friction;
+}
+
+TEST(ContactBound, isStableInRunsAndNearTheCriticalStep) {
+    using Smooth = Species<LinearViscoelastic, NoFriction, ReversibleAdhesive>;
+    using Rough = Species<LinearViscoelastic, SlidingFriction, ReversibleAdhesive>;
+    using Hertz = Species<HertzianViscoelastic, Mindlin, ReversibleAdhesive>;
+    expectStable<Smooth>(resting::crystal(), 0, 1, 1.05);
+    for (const double zeta : {0.0, 0.1, 0.6}) {
+        for (const RestingGrains& scene : {resting::onWall(), resting::pair()}) {
+            expectStable<Rough>(scene, zeta, 1, 0);
+            expectStable<Hertz>(scene, zeta, 1, 0);
+        }
+        expectStable<Rough>(resting::crystal(), zeta, 1, 1.3);
+        expectStable<Hertz>(resting::crystal(), zeta, 1, 1.3);
+        expectStable<Rough>(resting::crystal(), zeta, 10, 1.3);
+    }
+    expectStable<Rough>(resting::between(), 0, 1, 0);
+    expectStable<Rough>(resting::covered(), 0, 1, 0);
+}
+
+TEST(ContactBound, advisesWhatBinds) {
+    using Hertz = Species<HertzianViscoelastic, Mindlin>;
+    Hertz species;
+    species.setDensity(density);
+    species.setEffectiveElasticModulus(1e7);
+    species.setDissipation(0);
+    species.setEffectiveShearModulus(4e6);
+    species.setSlidingFrictionCoefficient(0.5);
+    constexpr double overlap = 5e-7;  // m, 0.05 % of the radius
+    scenes::FewGrains<Hertz> scene(species, {{.radius = 1e-3, .position = {0, 0, 1e-3 - overlap}}}, 1e-9,
+                                   {{{0, 0, -1}, {0, 0, 0}}});
+    scene.setQuiet();
+    EXPECT_TRUE(support::isOneSentence(support::refusal([&] { return scene.stabilityAdvice(); })));
+    scene.initialise();
+    const StabilityAdvice advice = scene.stabilityAdvice();
+    EXPECT_NEAR(advice.largestOverlap, overlap / 1e-3, 1e-12);
+    // Hertz's stiffness grows with the root of the overlap, the frequency with its fourth root.
+    EXPECT_NEAR(advice.byOverlap, std::pow(0.05 / 5e-4, 0.25), 1e-6);
+    EXPECT_NEAR(advice.byOverlap * advice.byNeighbours, advice.step / advice.limit, 1e-9);
+    EXPECT_EQ(advice.contactsOfGrain, 1);
+    EXPECT_EQ(advice.contactsOfThis, 1u);
+    EXPECT_TRUE(support::contains(advice.text(), "supposes overlaps of 5 %"));
+}
+
+}  // namespace
+}  // namespace pendular

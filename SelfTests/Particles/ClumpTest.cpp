@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
+
+// Clumps: templates of spheres, scaled and turned copies of them, and where they come.
+
+namespace pendular {
+namespace {
+
+using scenes::FewGrains;
+using support::contains;
+using Smooth = Species<LinearViscoelastic>;
+
+constexpr double density = 2500;  // kg/m^3
+
+Smooth material() {
+    Smooth s;
+    s.setDensity(density);
+    s.setStiffness(1000);
+    return s;
+}
+/// Two spheres whose centres are a radius apart.
+std::vector<Ball> dimer(double r) { return {{{0, 0, -0.5 * r}, r}, {{0, 0, 0.5 * r}, r}}; }
+
+// A cap of height 3/2 R has pi h^2 (R - h/3) = 9/8 pi R^3; two of them are the dimer. Its moments for R = 1
+// and density 1 are closed forms, which an independent table has too.
+TEST(Clump, copyHasTheMassOfTheUnionScaledAndTurned) {
+    constexpr double r = 1e-3, scale = 1.7;
+    FewGrains<Smooth> scene(material(), {}, 1e-6);
+    Clump clump{ClumpTemplate(dimer(r))};
+    clump.setSpecies(scene.speciesHandler.getObject(0));
+    clump.setScale(scale);
+    clump.setPosition({0.1, 0.2, 0.3});
+    clump.setOrientation({std::sqrt(0.5), 0, std::sqrt(0.5), 0});  // its axis along x
+    clump.setVelocity({1, 2, 3});
+    clump.setAngularVelocity({0, 0, 10});
+    const BodyReference body = scene.bodyHandler.copyAndAddObject(clump);
+    const double size = scale * r;
+    EXPECT_NEAR(body.getMass() / (density * 2 * 9.0 / 8 * std::numbers::pi * size * size * size), 1, 1e-12);
+    const double unit = density * std::pow(size, 5);
+    EXPECT_NEAR(body.getInertia()[0] / (3.004147975 * unit), 1, 1e-9);
+    EXPECT_NEAR(body.getInertia()[2] / (5.21308030955 * unit), 1, 1e-11);
+    EXPECT_NEAR((body.getPosition() - Vec3D(0.1, 0.2, 0.3)).norm(), 0, 1e-16);
+    EXPECT_NEAR((body.getVelocity() - Vec3D(1, 2, 3)).norm(), 0, 1e-15);
+    EXPECT_NEAR((body.getAngularVelocity() - Vec3D(0, 0, 10)).norm(), 0, 1e-13);
+    EXPECT_NEAR((scene.motion(1).position - Vec3D(0.1 + 0.5 * size, 0.2, 0.3)).norm(), 0, 1e-15);
+    EXPECT_NEAR((scene.motion(1).velocity - Vec3D(1, 2 + 10 * 0.5 * size, 3)).norm(), 0, 1e-14);
+    EXPECT_EQ(scene.motion(0).radius, size);
+}
+
+TEST(Clump, hasTheMassThatIsGivenOrThatOfAnotherSolid) {
+    constexpr double r = 1e-3;
+    const BodyMass given{2e-5, {0, 0, 0.1 * r}, 1e-11 * Eigen::Matrix3d::Identity()};
+    const ClumpTemplate heavy(dimer(r), given);
+    const BodyMass copy = heavy.massOf(density, 2);
+    EXPECT_DOUBLE_EQ(copy.mass, 8 * given.mass);
+    EXPECT_DOUBLE_EQ(copy.inertia(1, 1), 32e-11);
+    EXPECT_NEAR(heavy.getSpheres()[0].centre.z(), -0.6 * r, 1e-18);
+    EXPECT_NEAR(heavy.getReach(), 1.6 * r, 1e-18);
+    MassProperties solid{1e-9, {0, 0, 0}, 1e-15 * Eigen::Matrix3d::Identity(), 0};
+    EXPECT_DOUBLE_EQ(ClumpTemplate(dimer(r), solid).massOf(density, 1).mass, density * 1e-9);
+    EXPECT_DOUBLE_EQ(ClumpTemplate(dimer(r), solid).getDiameter(), std::cbrt(6 / std::numbers::pi * 1e-9));
+
+    const auto refused = [&](auto&& mass) {
+        const std::string text = support::refusal([&] { ClumpTemplate(dimer(r), mass); });
+        EXPECT_TRUE(support::isOneSentence(text));
+        return text;
+    };
+    BodyMass wrong = given;
+    wrong.inertia = Vec3D(1, 1, 2.1).asDiagonal();
+    EXPECT_TRUE(contains(refused(wrong), "at most the sum of the others"));
+    wrong.inertia = Vec3D(-1, 1, 1).asDiagonal();
+    EXPECT_TRUE(contains(refused(wrong), "must be positive"));
+    wrong.mass = 0;
+    EXPECT_TRUE(contains(refused(wrong), "mass = 0 kg"));
+    solid.volume = -1;
+    EXPECT_TRUE(contains(refused(solid), "volume = -1 m^3"));
+}
+
+TEST(Clump, comesFromAFileOfSpheres) {
+    const support::TestFolder folder;
+    const auto write = [&](const std::string& text) {
+        std::ofstream(folder.path() / "spheres.csv") << text;
+        return folder.path() / "spheres.csv";
+    };
+    const ClumpTemplate shape = ClumpTemplate::fromFile(write("x,y,z,radius\n0,0,-0.5,1\n0,0,0.5,1\n"), 1e-3);
+    EXPECT_NEAR(shape.getVolume() / (7.06858347058e-9), 1, 1e-11);
+    const auto refused = [&](const std::string& text) {
+        return support::refusal([&] { ClumpTemplate::fromFile(write(text)); });
+    };
+    EXPECT_TRUE(contains(refused("0 0 0\n"), "line 1: 3 numbers"));
+    EXPECT_TRUE(contains(refused("0 0 0 1\n0 0 0 -1\n"), "line 2: the radius is not positive"));
+    EXPECT_TRUE(contains(refused("# none\n"), "has no spheres"));
+}
+
+TEST(Clump, refusesABodyThatIsWiderThanHalfThePeriod) {
+    constexpr double r = 1e-3;
+    const auto refused = [&](double length) {
+        FewGrains<Smooth> scene(material(), {}, 1e-6);
+        scene.setPeriodic(1, 0, length);
+        Clump clump{ClumpTemplate(dimer(r))};
+        clump.setSpecies(scene.speciesHandler.getObject(0));
+        scene.bodyHandler.copyAndAddObject(clump);
+        return support::refusal([&] { scene.initialise(); });
+    };
+    EXPECT_TRUE(contains(refused(5.9 * r), "rigid body 0 reaches 0.0015 m from its centre"));
+    EXPECT_EQ(refused(6.1 * r), "");
+    FewGrains<Smooth> scene(material(), {}, 1e-6);
+    Clump clump{ClumpTemplate(dimer(r))};
+    EXPECT_TRUE(
+        contains(support::refusal([&] { scene.bodyHandler.copyAndAddObject(clump); }), "species is not set"));
+}
+
+/// Whether a sphere of one body overlaps another body's, in a periodic scene.
+template <class Scene>
+int overlaps(Scene& scene) {
+    int found = 0;
+    const auto count = static_cast<std::uint32_t>(scene.particleHandler.getSize());
+    for (std::uint32_t a = 0; a < count; ++a)
+        for (std::uint32_t b = 0; b < a; ++b) {
+            if (scene.bodyHandler.bodyOf(a) == scene.bodyHandler.bodyOf(b)) continue;
+            const auto p = scene.motion(a), q = scene.motion(b);
+            const auto d = scene.getPeriodicBox().nearest(toVector(p.position) - toVector(q.position));
+            found += norm(d) < p.radius + q.radius ? 1 : 0;
+        }
+    return found;
+}
+
+TEST(Clump, isInsertedWithoutOverlapInTheSizesOfADistribution) {
+    constexpr double r = 1e-3, edge = 0.03;
+    FewGrains<Smooth> scene(material(), {{.radius = 2e-3, .position = {0.015, 0.015, 0.015}}}, 1e-6,
+                            {{{0, 0, -1}, {0, 0, 0}}, {{0, 0, 1}, {0, 0, edge}}});
+    scene.setPeriodic(0, 0, edge);
+    scene.setPeriodic(1, 0, edge);
+    Clump clump{ClumpTemplate(dimer(r))};
+    clump.setSpecies(scene.speciesHandler.getObject(0));
+    const Inserted made = scene.insert(evenSizes(1.6e-3, 2.4e-3), BoxRegion({0, 0, 0}, {edge, edge, edge}),
+                                       Amount::solidFraction(0.1), clump);
+    EXPECT_EQ(made.number, made.wanted);
+    EXPECT_EQ(scene.bodyHandler.getSize(), made.number);
+    EXPECT_EQ(overlaps(scene), 0);
+    double mass = 0, smallest = 1, largest = 0;  // kg; m, of a sphere of the volume
+    for (std::size_t k = 0; k < scene.bodyHandler.getSize(); ++k) {
+        const double own = scene.bodyHandler.getObject(k).getMass();
+        const double diameter = std::cbrt(6 * own / (density * std::numbers::pi));
+        smallest = std::min(smallest, diameter), largest = std::max(largest, diameter);
+        mass += own;
+    }
+    EXPECT_NEAR(mass / made.mass, 1, 1e-10);
+    EXPECT_NEAR(mass / (0.1 * density * edge * edge * edge), 1, 0.01);
+    EXPECT_GE(smallest, 1.6e-3 * (1 - 1e-10));
+    EXPECT_LT(smallest, 1.65e-3);
+    EXPECT_GT(largest, 2.35e-3);
+    for (std::uint32_t k = 1; k < scene.particleHandler.getSize(); ++k) {
+        EXPECT_GE(scene.motion(k).position.z(), scene.motion(k).radius * (1 - 1e-9));
+        EXPECT_LE(scene.motion(k).position.z(), edge - scene.motion(k).radius * (1 - 1e-9));
+    }
+    EXPECT_TRUE(contains(support::refusal([&] {
+                             scene.insert(evenSizes(1.6e-3, 2.4e-3), BoxRegion({0, 0, 0}, {edge, edge, edge}),
+                                          Amount::solidFraction(0.3), clump);
+                         }),
+                         "clumps at a solid fraction of 0.3"));
+}
+
+// Of even turns each component of a turned axis has the mean 0 and the mean square 1/3, and no two are
+// correlated: of N draws within five standard errors, sqrt((1/5 - 1/9) / N) of the squares.
+TEST(Clump, isTurnedEvenly) {
+    const CountedRandom random(7);
+    constexpr int draws = 20000;
+    Vec3D mean = Vec3D::Zero();
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (std::uint32_t k = 0; k < draws; ++k) {
+        const Eigen::Quaterniond q =
+            evenTurn(random.uniform(k, 1), random.uniform(k, 2), random.uniform(k, 3));
+        EXPECT_NEAR(q.norm(), 1, 1e-15);
+        const Vec3D axis = q * Vec3D(0.6, 0, 0.8);
+        mean += axis / draws, sum += axis * axis.transpose() / draws;
+    }
+    EXPECT_LT(mean.cwiseAbs().maxCoeff(), 5 * std::sqrt(1.0 / 3 / draws));
+    EXPECT_LT((sum - Eigen::Matrix3d::Identity() / 3).cwiseAbs().maxCoeff(),
+              5 * std::sqrt((1.0 / 5 - 1.0 / 9) / draws));
+}
+
+}  // namespace
+}  // namespace pendular

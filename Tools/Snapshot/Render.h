@@ -1,0 +1,68 @@
+#pragma once
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Kernel/Files/WrittenBeside.h"
+#include "Kernel/InputError.h"
+#include "Tools/Snapshot/PovScene.h"
+
+namespace pendular::snapshot {
+
+/// Runs a program without a shell; returns its exit code, or 127 if there is no such program. What it says
+/// goes to a file.
+inline int runQuietly(std::vector<std::string> words, const std::string& log) {
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0644);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    pid_t child = 0;
+    const int problem = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    int status = 0;
+    if (problem != 0 || waitpid(child, &status, 0) != child) return 127;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+/// Renders NAME.pov to NAME.png, and removes what is not needed any more.
+inline void render(const std::filesystem::path& scene, const std::filesystem::path& picture, int width,
+                   int height) {
+    const std::string log = scene.string() + ".log";
+    const int code =
+        runQuietly({"povray", "+I" + scene.string(), "+O" + picture.string(), fmt::format("+W{}", width),
+                    fmt::format("+H{}", height), "+A0.1", "+AM2", "+R3", "-D", "+FN8", "-GA"},
+                   log);
+    if (code == 127)
+        throw InputError(fmt::format(
+            "POV-Ray is not installed (Debian package povray); the scene for it is in {}.", scene.string()));
+    if (code != 0)
+        throw InputError(fmt::format("POV-Ray failed on {}; what it said is in {}.", scene.string(), log));
+    std::filesystem::remove(log);
+    std::filesystem::remove(scene);
+}
+
+/// Writes what POV-Ray reads beside a picture, and renders it unless only that is wanted; returns the file
+/// that there is then.
+inline std::filesystem::path draw(const Picture& picture, const Camera& camera,
+                                  const std::filesystem::path& target, int width, int height,
+                                  bool sceneOnly) {
+    std::filesystem::path scene = target;
+    WrittenBeside out(scene.replace_extension(".pov"));
+    out.write(PovScene(picture, camera).text());
+    out.close();
+    if (!sceneOnly) render(scene, target, width, height);
+    return sceneOnly ? scene : target;
+}
+
+}  // namespace pendular::snapshot
