@@ -92,7 +92,7 @@ public:
         const Mask begins = maskFromBits(timeStep > 0 && timing.timesTouches ? 0xff : 0) & touching &
                             !maskFromBits(state.touching);
 
-        Pack adhesive = 0;
+        Pack adhesive = 0, range = 0;  // N; m, of an attraction that jumps at its end
         Mask bridged = touching & !touching;
         if constexpr (Adhesion::acts) {
             const auto interaction = memory.interaction.load<Interaction>(block);
@@ -104,6 +104,7 @@ public:
             } else {
                 bridged = joined & (separation < interaction.range());
                 adhesive = select(bridged, interaction.force(separation), Pack(0));
+                if constexpr (JumpsAtEnds<Adhesion>) range = interaction.range();
             }
             if constexpr (HasLargestCapillaryNumber<Adhesion>) {
                 const Pack number =
@@ -113,7 +114,9 @@ public:
             }
         }
         const LastForces last = loadLastForces(block);
-        const NormalPart normal = computeNormal(block, state, g, last, touching, bridged, begins, adhesive);
+        const NormalPart normal =
+            computeNormal(block, state, g, last, touching, bridged, begins, adhesive, range);
+        if constexpr (JumpsAtEnds<Adhesion>) adhesive = normal.adhesive;
         Pack normalForce = normal.repulsion - adhesive;
         if constexpr (resists != BridgeResists::Nothing)
             normalForce = normalForce + select(bridged, normal.viscous, Pack(0));
@@ -136,6 +139,7 @@ public:
         state.touching = bits(touching);
         state.bridged = bits(bridged);
         state.closing = bits(normal.closing);
+        if constexpr (JumpsAtEnds<Adhesion>) state.closing |= bits(normal.snaps & !touching);
         return true;
     }
 
@@ -152,20 +156,23 @@ private:
         Pack damping;    // kg/s
         Pack approach;   // m/s, at the sample
         Pack viscous;    // N, repulsion of a bridge that resists
+        Pack adhesive;   // N, of an attraction that jumps at its ends: its mean over the time of the sample
         BridgeResistance<Pack> resistance;
         Pack lever;  // m, of the overlap: half of it, each body's lever arm is shorter than its radius
         Contact<Pack> contact;
         SampleTiming<Pack> timing;
-        Mask closing;
+        Mask closing;  // the touch ends in the step that comes
+        Mask snaps;    // the neck does, of an attraction that jumps at its ends
     };
 
     /// The normal force with the approach speed at the end of the step. Grains carry the predicted velocity v
     /// + a dt, with the acceleration a of the last step; here it gets the change of this contact's own force,
     /// (F - F_last) dt / (2 m*), in which the dashpot is implicit. For two grains that makes the step exactly
     /// the trapezoidal rule.
+    /// @param range m, of an attraction that jumps at its end
     NormalPart computeNormal(std::size_t block, const BlockState& state, const ContactGeometry<Pack>& g,
                              const LastForces& last, Mask touching, [[maybe_unused]] Mask bridged,
-                             Mask begins, Pack adhesive) {
+                             Mask begins, Pack adhesive, [[maybe_unused]] Pack range) {
         NormalPart part;
         part.contact = {max(g.overlap, Pack(0)), g.effectiveRadius, g.effectiveMass};
         part.lever = part.contact.overlap;
@@ -203,10 +210,28 @@ private:
         const Pack nextOverlap = fma(Pack(0.5), acceleration, g.overlap + approachInStep);
         part.closing = touching & (part.approach < Pack(0)) & (nextOverlap <= Pack(0)) &
                        maskFromBits(timing.timesTouches ? 0xff : 0);
+        const auto sinceBegin = [&] {
+            return select(predicted > Pack(0), min(g.overlap / (predicted * timeStep), Pack(1)), Pack(1));
+        };
+        if constexpr (JumpsAtEnds<Adhesion>) {
+            const Pack left = g.overlap + range;
+            part.snaps = bridged & (part.approach < Pack(0)) &
+                         (fma(Pack(0.5), acceleration, left + approachInStep) <= Pack(0)) &
+                         maskFromBits(timing.timesTouches ? 0xff : 0);
+            SampleTiming<Pack> neck{Pack(0.5), Pack(0.5)};
+            const Mask forms = begins & !maskFromBits(state.bridged);
+            if (any(forms)) neck.before = select(forms, sinceBegin(), neck.before);
+            if (any(part.snaps)) {
+                const Mask covered = part.snaps & maskFromBits(state.closing & ~state.touching);
+                neck.before = select(covered, Pack(0), neck.before);
+                neck.after = select(part.snaps, timeToEnd(left, approachInStep, acceleration), neck.after);
+            }
+            part.adhesive = adhesive * (neck.before + neck.after);
+            known = -part.adhesive;
+            part.approach = approachWith(part.damping);
+        }
         if (any(begins | part.closing)) {
-            const Pack sinceBegin =
-                select(predicted > Pack(0), min(g.overlap / (predicted * timeStep), Pack(1)), Pack(1));
-            part.timing.before = select(begins, sinceBegin, Pack(0.5));
+            part.timing.before = select(begins, sinceBegin(), Pack(0.5));
             part.timing.after =
                 select(part.closing, timeToEnd(g.overlap, approachInStep, acceleration), Pack(0.5));
             const Mask covered =

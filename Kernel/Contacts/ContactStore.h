@@ -70,7 +70,7 @@ struct BlockState {
     std::uint8_t listed = 0;    // lanes that hold a contact
     std::uint8_t touching = 0;  // the bodies overlapped at the last step
     std::uint8_t bridged = 0;   // a bridge joins them
-    std::uint8_t closing = 0;   // the last step took itself for the last one of the touch
+    std::uint8_t closing = 0;   // the last step took itself for the last one of the touch, or of the neck
 
     friend bool operator==(const BlockState&, const BlockState&) = default;
 };

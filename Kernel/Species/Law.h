@@ -327,6 +327,14 @@ concept HasFilmContactGap = !MovesLiquid<Law> && requires(const Law law) {
     { law.filmContactGap } -> std::convertible_to<double>;
 };
 
+/// An attraction that begins and ends at full size, at the touch and at its range: `jumpsAtEnds`. Its first and
+/// last samples stand for the time since its start and to its end.
+template <class Law>
+concept JumpsAtEnds = requires {
+    requires Law::jumpsAtEnds;
+    requires Law::formsAtContact;
+};
+
 /// The separation (m) that an adhesion law is given at an overlap (m): 0 in contact, or negative for a law
 /// that says `readsOverlap`.
 template <class Law, class T>

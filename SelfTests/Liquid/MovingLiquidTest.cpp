@@ -11,6 +11,7 @@
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Restart/ChildRun.h"
+#include "SelfTests/Support/AtRunTime.h"
 #include "SelfTests/Support/PlainLiquid.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -19,6 +20,7 @@ namespace pendular {
 namespace {
 
 using scenes::HookedGrains;
+using support::atRunTime;
 using support::TestFolder;
 
 using Migrating = Species<LinearViscoelastic, NoFriction, LiquidMigrationWillett>;
@@ -477,8 +479,8 @@ TEST(MovingLiquid, passesFromFaceToFaceOfAMesh) {
 
 template <class Law>
 void setLiquid(Law& law) {
-    law.setContactAngle(0.2);
-    law.setSurfaceTension(0.07);
+    law.setContactAngle(atRunTime(0.2));
+    law.setSurfaceTension(atRunTime(0.07));
 }
 
 TEST(MovingLiquid, aBridgeHasTheForceOfItsLawAtItsVolume) {
@@ -487,13 +489,14 @@ TEST(MovingLiquid, aBridgeHasTheForceOfItsLawAtItsVolume) {
         LiquidMigration<Law> moving;
         Law still;
         setLiquid(moving), setLiquid(still);
-        moving.setLiquidBridgeVolumeMax(1e-10);
-        const Bodies bodies{0.8e-3, 1.2e-3};
+        moving.setLiquidBridgeVolumeMax(atRunTime(1e-10));
+        const Bodies bodies{atRunTime(0.8e-3), atRunTime(1.2e-3)};
         EXPECT_EQ(moving.objection(bodies), std::nullopt) << *moving.objection(bodies);
-        still.setLiquidBridgeVolume(1e-10);
+        still.setLiquidBridgeVolume(atRunTime(1e-10));
         EXPECT_EQ(moving.range(bodies), still.range(bodies));
         EXPECT_EQ(moving.prepare(bodies).range(), 0);
-        for (const double volume : {1e-10, 1e-11, 1e-13}) {
+        for (const double known : {1e-10, 1e-11, 1e-13}) {
+            const double volume = atRunTime(known);
             still.setLiquidBridgeVolume(volume);
             const auto own = moving.prepare(bodies, volume), law = still.prepare(bodies);
             EXPECT_EQ(own.range(), law.range());

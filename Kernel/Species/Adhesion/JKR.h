@@ -64,6 +64,7 @@ struct JKR {
     static constexpr bool acts = true;
     static constexpr bool formsAtContact = true;
     static constexpr bool readsOverlap = true;
+    static constexpr bool jumpsAtEnds = true;  // by 8/9 of the pull-off force at the touch, 5/9 at the snap
     static constexpr double largestOverlap = 0.1;  // of the effective radius, as in Hertz's theory
 
     double workOfAdhesion = unset;   // w, J/m^2
