@@ -1,12 +1,14 @@
 #include "Kernel/Insertion/DenseStart.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Insertion/WallGap.h"
+#include "Kernel/Math/Pack.h"
 #include "Kernel/Parallel.h"
 
 namespace pendular {
@@ -38,7 +40,7 @@ public:
         growth = std::cbrt(std::max(std::min(1.1 * fraction, 0.62), fraction * 1.01) / fraction);
         placeAll(given, seed);
         for (const TranslationRecord& grain : present.translation)
-            if (grain.radius > 0) spheres.push_back({grain.position, grain.radius, false});
+            if (grain.radius > 0) spheres.push_back({grain.position, -grain.radius});
         sortInSpace();
         shifts.resize(spheres.size(), Point{0, 0, 0});
         steps.resize(spheres.size(), Point{0, 0, 0});
@@ -62,10 +64,13 @@ public:
     }
 
 private:
-    struct Sphere {
+    /// Four numbers, so that eight of them are loaded at once.
+    struct alignas(32) Sphere {
         Point position;  // m
-        double radius;   // m, as it pushes
-        bool moves;      // a grain of the scene does not
+        double size;     // m, the radius with which it pushes; negative for a grain of the scene, which stays
+
+        [[nodiscard]] bool moves() const { return size > 0; }
+        [[nodiscard]] double radius() const { return std::abs(size); }
     };
 
     struct Pair {
@@ -93,14 +98,15 @@ private:
                 if (region.contains(place, 0)) break;
             }
             ++number;
-            spheres.push_back({place, growth * radius, true});
+            spheres.push_back({place, growth * radius});
         }
     }
 
     void sortInSpace() {
         std::vector<TranslationRecord> records = asRecords();
         double mean = 0;
-        for (const Sphere& sphere : spheres) mean += 2 * sphere.radius / static_cast<double>(spheres.size());
+        for (const Sphere& sphere : spheres)
+            mean += 2 * sphere.radius() / static_cast<double>(spheres.size());
         order = spatialOrder(records, mean, threads);
         std::vector<Sphere> sorted;
         sorted.reserve(spheres.size());
@@ -112,7 +118,7 @@ private:
         std::vector<TranslationRecord> records;
         records.reserve(spheres.size());
         for (const Sphere& sphere : spheres)
-            records.push_back({periodic.wrap(sphere.position), sphere.radius, {0, 0, 0}, 1});
+            records.push_back({periodic.wrap(sphere.position), sphere.radius(), {0, 0, 0}, 1});
         return records;
     }
 
@@ -120,16 +126,24 @@ private:
     void list() {
         if (moved < 0.5 * skin) return;
         moved = 0;
+        listed.clear();
+        for (const Sphere& sphere : spheres) listed.push_back(sphere.position);
         const std::vector<Pair> pairs = findPairs();
         begins.assign(spheres.size() + 1, 0);
         for (const Pair& pair : pairs) ++begins[pair.first + 1], ++begins[pair.second + 1];
         std::partial_sum(begins.begin(), begins.end(), begins.begin());
-        partners.resize(begins.back());
+        partners.assign(begins.back() + Pack::lanes, 0);
         std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
         for (const Pair& pair : pairs) {
             partners[next[pair.first]++] = pair.second;
             partners[next[pair.second]++] = pair.first;
         }
+    }
+
+    /// The lanes of the eight partners from `n` on that are before `end`.
+    static Mask listedFrom(std::uint32_t n, std::uint32_t end) {
+        const std::uint32_t left = std::min<std::uint32_t>(end - n, Pack::lanes);
+        return maskFromBits(static_cast<std::uint8_t>((1U << left) - 1));
     }
 
     /// In an order that depends on the spheres only.
@@ -145,7 +159,7 @@ private:
                 for (std::size_t k = from; k < to; ++k) {
                     const auto self = static_cast<std::uint32_t>(k);
                     search.forEachPartner(self, [&](std::uint32_t other) { own.push_back({self, other}); });
-                    border[k] = spheres[k].moves && isNearBorder(spheres[k]);
+                    border[k] = spheres[k].moves() && isNearBorder(spheres[k]);
                 }
             },
             worthAThread);
@@ -158,12 +172,12 @@ private:
     void growLess() {
         const double before = std::exchange(growth, 1 + 0.5 * (growth - 1));
         for (Sphere& sphere : spheres)
-            if (sphere.moves) sphere.radius *= growth / before;
+            if (sphere.moves()) sphere.size *= growth / before;
     }
 
     [[nodiscard]] bool isNearBorder(const Sphere& sphere) const {
-        return !region.contains(sphere.position, hasMargin ? sphere.radius + skin : skin) ||
-               touchesWall(walls, periodic, sphere.position, sphere.radius + skin);
+        return !region.contains(sphere.position, hasMargin ? sphere.size + skin : skin) ||
+               touchesWall(walls, periodic, sphere.position, sphere.size + skin);
     }
 
     /// Each sphere's step, from the overlaps of all; returns by how much radii would have to be multiplied
@@ -175,47 +189,69 @@ private:
             [&](int part, std::size_t from, std::size_t to) {
                 double& own = least[static_cast<std::size_t>(part)];
                 for (std::size_t k = from; k < to; ++k)
-                    if (spheres[k].moves) own = std::min(own, pushOne(k));
+                    if (spheres[k].moves()) own = std::min(own, pushOne(k));
             },
             worthAThread);
         return growth * std::ranges::min(least);
     }
 
-    double pushOne(std::size_t k) {
-        const Sphere self = spheres[k];
-        Point sum{0, 0, 0};
-        double least = infinity, contacts = 0;
-        for (std::uint32_t n = begins[k]; n < begins[k + 1]; ++n) {
-            const Sphere& other = spheres[partners[n]];
-            const Point apart = periodic.nearest(self.position - other.position);
+    /// What its neighbours do to a sphere.
+    struct Push {
+        Point way{0, 0, 0};       // m, the sum of overlaps
+        double least = infinity;  // radii would have to be multiplied by this
+        int contacts = 0;
+    };
+
+    /// Eight partners at a time.
+    [[nodiscard]] Push pushOfPartners(std::size_t k) const {
+        const Sphere& self = spheres[k];
+        const Pack size(self.size);
+        Vector<Pack> sum{Pack(0), Pack(0), Pack(0)};
+        Pack least(infinity);
+        Push push;
+        for (std::uint32_t n = begins[k]; n < begins[k + 1]; n += Pack::lanes) {
+            const auto [x, y, z, sizes] = loadRecords<4>(&spheres[0].position.x, 4, &partners[n]);
+            const Vector<Pack> apart =
+                periodic.nearest(Vector<Pack>{self.position.x - x, self.position.y - y, self.position.z - z});
+            const Pack radii = abs(sizes), touch = size + radii, squared = squaredNorm(apart);
+            const Mask overlap = squared < touch * touch & listedFrom(n, begins[k + 1]);
+            if (none(overlap)) continue;
+            const Pack distance = sqrt(squared);
             // A grain of the scene has the size that it has.
-            const double touch = self.radius + other.radius;
-            const double squared = squaredNorm(apart);
-            if (squared >= touch * touch) continue;
-            const double distance = std::sqrt(squared);
-            const double share = other.moves ? distance / touch : (distance - other.radius) / self.radius;
-            least = std::min(least, share);
-            ++contacts;
-            if (distance > 0) sum += ((touch - distance) / distance) * apart;
+            const Pack share = select(sizes > Pack(0), distance / touch, (distance - radii) / size);
+            least = select(overlap, min(least, share), least);
+            push.contacts += std::popcount(bits(overlap));
+            const Pack part = select(overlap & (distance > Pack(0)), touch / distance - Pack(1), Pack(0));
+            sum += part * apart;
         }
+        for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
+            push.way += Point{sum.x[lane], sum.y[lane], sum.z[lane]};
+            push.least = std::min(push.least, least[lane]);
+        }
+        return push;
+    }
+
+    double pushOne(std::size_t k) {
+        const Sphere& self = spheres[k];
+        auto [sum, least, contacts] = pushOfPartners(k);
         if (border[k]) {
-            const double margin = hasMargin ? self.radius : 0;
+            const double margin = hasMargin ? self.size : 0;
             const Point inwards = region.inwards(self.position, margin);
             sum += 2 * inwards;  // a border gives way by nothing
             if (const double outside = norm(inwards); outside > 0)
-                least = std::min(least, 1 - outside / self.radius);
-            forEachWallNear(walls, periodic, self.position, self.radius,
+                least = std::min(least, 1 - outside / self.size);
+            forEachWallNear(walls, periodic, self.position, self.size,
                             [&](const WallPoint& point, std::size_t) {
-                                sum -= 2 * (self.radius - point.distance) * point.normal;
-                                least = std::min(least, point.distance / self.radius);
+                                sum -= 2 * (self.size - point.distance) * point.normal;
+                                least = std::min(least, point.distance / self.size);
                                 ++contacts;
                             });
         }
         // Each pair would be apart after one step of half its overlap; of many contacts each gets a part, and
         // steps have inertia, by which slow modes go ten times as fast.
-        const double share = stepShare * usualContacts / std::max(usualContacts, contacts);
+        const double share = stepShare * usualContacts / std::max<double>(usualContacts, contacts);
         steps[k] = inertia * shifts[k] + share * sum;
-        const double longest = 0.2 * self.radius, length = norm(steps[k]);
+        const double longest = 0.2 * self.size, length = norm(steps[k]);
         if (length > longest) steps[k] *= longest / length;
         return least;
     }
@@ -229,11 +265,11 @@ private:
                 for (std::size_t k = from; k < to; ++k) {
                     spheres[k].position += steps[k];
                     shifts[k] = steps[k];
-                    own = std::max(own, squaredNorm(steps[k]));
+                    own = std::max(own, squaredNorm(spheres[k].position - listed[k]));
                 }
             },
             worthAThread);
-        moved += std::sqrt(std::ranges::max(farthest));
+        moved = std::sqrt(std::ranges::max(farthest));
     }
 
     static constexpr double stepShare = 0.4, usualContacts = 6, inertia = 0.9;
@@ -246,10 +282,11 @@ private:
     int threads;
     double growth = 1;        // of the radii, over the wanted ones
     double skin = 0;          // m
-    double moved = infinity;  // m, since the list was made
+    double moved = infinity;  // m, the longest way of a sphere since the list was made
     std::vector<Sphere> spheres;
     std::vector<std::uint32_t> order;  // of the spheres as they were given
     std::vector<Point> shifts, steps;  // m, of the last iteration and of this one
+    std::vector<Point> listed;         // m, where spheres were when the list was made
     std::vector<std::uint32_t> begins, partners;
     std::vector<std::uint8_t> border;
 };
