@@ -59,7 +59,13 @@ std::vector<FrameFiles> framesOf(const Options& o) {
 
 /// The periods that were given, or those of a frame.
 PeriodicBox periodicOf(const Options& o, const PolyData& frame) {
-    if (o.periodic.empty()) return boxOf(frame).value_or(PeriodicBox{});
+    const PeriodicBox own = boxOf(frame).value_or(PeriodicBox{});
+    if (o.periodic.empty()) return own;
+    if (own.imagesMove)
+        throw InputError(
+            fmt::format("{}: the frames have periods whose images move, and --periodic-m would put them to "
+                        "rest; leave it out.",
+                        program));
     for (const double length : o.periodic) checkValue(program, "period", length, "m", notNegative);
     PeriodicBox box;
     box.length = {o.periodic[0], o.periodic[1], o.periodic[2]};
@@ -71,7 +77,11 @@ GrainState read(const FrameFiles& frame, const Options& o) {
     const bool hasContacts = !frame.contacts.empty() && !o.withoutContacts;
     GrainState state =
         stateOf(grains, hasContacts ? readPolyData(frame.contacts) : PolyData{}, periodicOf(o, grains));
-    if (o.againstFlow) takeFlowAway(state);
+    if (!o.againstFlow) return state;
+    if (!state.periodic.imagesMove)
+        throw InputError(fmt::format(
+            "{}: the frames know of no flow (shear or strain); leave --against-flow out.", program));
+    takeFlowAway(state);
     return state;
 }
 

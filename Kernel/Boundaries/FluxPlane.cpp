@@ -46,32 +46,32 @@ void FluxPlaneHandler::begin(const PeriodicBox& periodic) {
     }
 }
 
-/// The number of images, or of the one plane, that lie behind a point; changes by 1 at each.
-double FluxPlaneHandler::Plane::side(const Vector<double>& point) const {
-    const double distance = dot(normal, point) - offset;
-    return period > 0 ? std::floor(distance / period) : distance >= 0 ? 0 : -1;
-}
-
 void FluxPlaneHandler::beforeMotion(const ParticleStore& grains) {
-    for (Plane& plane : planes) {
-        plane.before = plane.count;
-        plane.sides.resize(grains.size());
-        for (std::size_t k = 0; k < grains.size(); ++k)
-            plane.sides[k] = plane.side(grains.translation[k].position);
-    }
+    for (Plane& plane : planes) plane.before = plane.count;
+    from.resize(grains.size());
+    for (std::size_t k = 0; k < grains.size(); ++k) from[k] = grains.translation[k].position;
 }
 
-void FluxPlaneHandler::afterMotion(ParticleHandler& particles,
+void FluxPlaneHandler::afterMotion(ParticleHandler& particles, double step,
                                    const std::function<double(std::uint32_t)>& liquidOf) {
     const ParticleStore& grains = particles.storeInStep();
     for (Plane& plane : planes) {
         crossings.clear();
-        for (std::size_t k = 0; k < grains.size(); ++k) {
-            const TranslationRecord& grain = grains.translation[k];
-            const double times = plane.side(grain.position) - plane.sides[k];
-            if (times != 0 && grain.radius > 0)
-                crossings.push_back({grains.identity[k], static_cast<std::uint32_t>(k), times});
-        }
+        const Vector<double> normal = plane.normal;
+        const double offset = plane.offset, period = plane.period;
+        // The number of images of the plane, or of the one plane, that lie behind a grain changes by 1 at
+        // each.
+        const auto collect = [&](auto&& imagesBehind) {
+            for (std::size_t k = 0; k < grains.size(); ++k) {
+                const TranslationRecord& grain = grains.translation[k];
+                const double times = imagesBehind(dot(normal, grain.position) - offset) -
+                                     imagesBehind(dot(normal, from[k]) - offset);
+                if (times != 0 && grain.radius > 0)
+                    crossings.push_back({grains.identity[k], static_cast<std::uint32_t>(k), times});
+            }
+        };
+        if (period > 0) collect([=](double distance) { return std::floor(distance / period); });
+        else collect([](double distance) { return distance >= 0 ? 1.0 : 0.0; });
         // Places depend on the list of contacts, sums must not.
         std::ranges::sort(crossings, {}, &Crossing::identity);
         for (const Crossing& crossing : crossings) {
@@ -79,11 +79,14 @@ void FluxPlaneHandler::afterMotion(ParticleHandler& particles,
             const double times = std::abs(crossing.times);
             const double mass = times * particles.massOf(grain.radius, grains.species[crossing.place]);
             const double liquid = times * liquidOf(crossing.place);
+            // Not the grain's own velocity, which is the one that contacts are to see: with most integrators
+            // that of the end of the step. A way errs by 1e-16 of its place.
+            const Vector<double> velocity = (1 / step) * (grain.position - from[crossing.place]);
             FluxCount& count = plane.count;
             const bool forwards = crossing.times > 0;
             (forwards ? count.forwards : count.backwards) += static_cast<std::uint64_t>(times);
             (forwards ? count.massForwards : count.massBackwards) += mass;
-            (forwards ? count.momentumForwards : count.momentumBackwards) += mass * grain.velocity;
+            (forwards ? count.momentumForwards : count.momentumBackwards) += mass * velocity;
             (forwards ? count.liquidForwards : count.liquidBackwards) += liquid;
         }
     }

@@ -12,12 +12,13 @@ namespace pendular {
 class StateArchive;
 
 /// What has gone through a plane. Masses are those of solid spheres of the grains' densities; velocities are
-/// those with which grains moved in the step in which they went through it.
+/// those with which grains moved in the step in which they went through it: way over time.
 struct FluxCount {
     std::uint64_t forwards = 0, backwards = 0;   // grains, with the plane's normal and against it
     double massForwards = 0, massBackwards = 0;  // kg
     Vector<double> momentumForwards{0, 0, 0}, momentumBackwards{0, 0, 0};  // kg m/s
-    double liquidForwards = 0, liquidBackwards = 0;  // m^3, of films, and half of each bridge between grains
+    // m^3, of films, half of each bridge between grains, and all of each one to a wall
+    double liquidForwards = 0, liquidBackwards = 0;
     [[nodiscard]] std::int64_t net() const {
         return static_cast<std::int64_t>(forwards) - static_cast<std::int64_t>(backwards);
     }
@@ -47,8 +48,9 @@ public:
     void begin(const PeriodicBox& periodic);
     /// Before the grains of a step move, and when they have.
     void beforeMotion(const ParticleStore& grains);
-    /// @param liquidOf the grain at a place, m^3
-    void afterMotion(ParticleHandler& particles, const std::function<double(std::uint32_t)>& liquidOf);
+    /// @param step s; @param liquidOf the grain at a place, m^3
+    void afterMotion(ParticleHandler& particles, double step,
+                     const std::function<double(std::uint32_t)>& liquidOf);
     /// The step has failed: what it counted is taken back.
     void takeBack();
     void visitState(StateArchive& archive);
@@ -59,9 +61,6 @@ private:
         double offset = 0;               // m
         double period = 0;               // m; 0: the plane has no images
         FluxCount count, before;         // and that before the motion
-        std::vector<double> sides;       // of each place, before the motion
-
-        [[nodiscard]] double side(const Vector<double>& point) const;
     };
     struct Crossing {
         std::uint32_t identity, place;
@@ -69,6 +68,7 @@ private:
     };
 
     std::vector<Plane> planes;
+    std::vector<Vector<double>> from;  // m, of the grain at each place, before the motion
     std::vector<Crossing> crossings;
     bool hasBegun = false;
 };

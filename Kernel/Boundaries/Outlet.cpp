@@ -88,18 +88,20 @@ void OutletHandler::noteArrivals(std::uint32_t next, double time) {
     if (next > arrivals.back().next) arrivals.push_back({last, next});
     last = time;
     // All but the last of those that every outlet takes for old enough.
-    const auto isYoung = [&](const Arrival& arrival) { return time - arrival.time < longestAge; };
-    const auto young = std::ranges::find_if(arrivals, isYoung);
+    const auto young = firstYoung(longestAge, time);
     if (young - arrivals.begin() > 1) arrivals.erase(arrivals.begin(), young - 1);
+}
+
+std::vector<OutletHandler::Arrival>::const_iterator OutletHandler::firstYoung(double age, double time) const {
+    // Times rise. They are sums of steps, up to round-off.
+    return std::ranges::partition_point(
+        arrivals, [&](const Arrival& arrival) { return time - arrival.time >= age * (1 - 1e-12); });
 }
 
 std::uint32_t OutletHandler::firstTooYoung(const Outlet& outlet, double time) const {
     if (outlet.leastAge == 0) return ~std::uint32_t{0};
-    std::uint32_t first = 0;
-    // Times are sums of steps, up to round-off.
-    for (const Arrival& arrival : arrivals)
-        if (time - arrival.time >= outlet.leastAge * (1 - 1e-12)) first = arrival.next;
-    return first;
+    const auto young = firstYoung(outlet.leastAge, time);
+    return young == arrivals.begin() ? 0 : (young - 1)->next;
 }
 
 void OutletHandler::letOut(ParticleHandler& particles, double time, int threads) {

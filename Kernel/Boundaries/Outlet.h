@@ -85,6 +85,8 @@ private:
     };
 
     void noteArrivals(std::uint32_t next, double time);
+    /// The first arrival that is not so old (s) yet at a time (s).
+    [[nodiscard]] std::vector<Arrival>::const_iterator firstYoung(double age, double time) const;
     /// Those that came later are too young for an outlet at a time (s).
     [[nodiscard]] std::uint32_t firstTooYoung(const Outlet& outlet, double time) const;
     void visitArrivals(StateArchive& archive);

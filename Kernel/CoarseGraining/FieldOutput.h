@@ -7,10 +7,11 @@
 
 #include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Output/Hdf5Series.h"
+#include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Output/RunTable.h"
+#include "Kernel/State/RestartFile.h"
 
 namespace pendular {
 
@@ -50,7 +51,8 @@ public:
         return sums = FieldSums(sums.grid(), sums.kernel(), sums.groups(), content), *this;
     }
     /// Velocities against the flow of setLeesEdwards(), or of a strain: then velocity is the deviation from
-    /// the flow, and the kinetic stress is free of it also where the gradient is averaged over.
+    /// the flow, and the kinetic stress is free of it also where the gradient is averaged over. A scene
+    /// whose images do not move refuses it.
     FieldOutput& againstFlow() { return withFlow = false, *this; }
     FieldOutput& withName(const std::string& fields) { return ending = "-" + fields, *this; }
     /// Files of the HDF5 library, for any coordinates: a list of averages, each with its fields.
@@ -62,12 +64,13 @@ public:
     void prepare(const Scene& scene) const {
         if (isHdf5) {
             Hdf5Series::prepare();
-            if (ending == "-fields")
-                throw InputError(
-                    "FieldOutput: NAME-fields.h5 is the file of Hdf5Output; give it another name by "
-                    "withName().");
+            refuseFileOfOthers(scene.getName());
         }
         FieldSums::refuseMovingImages(sums.grid(), scene.getPeriodicBox());
+        if (!withFlow && !scene.getPeriodicBox().imagesMove)
+            throw InputError(
+                "FieldOutput: againstFlow() needs a flow, and the images of this scene do not move "
+                "(setLeesEdwards(), setStrainRate(), setTargetStress()); leave it out.");
     }
 
     template <class Scene>
@@ -122,6 +125,15 @@ public:
     }
 
 private:
+    void refuseFileOfOthers(const std::string& name) const {
+        const std::filesystem::path own = Hdf5Series::indexOf(name + ending);
+        const std::string_view owner = own == Hdf5Frames::indexOf(name) ? "of Hdf5Output"
+                                       : own == restartFileOf(name)     ? "from which a run goes on"
+                                                                        : "";
+        if (!owner.empty())
+            throw InputError(fmt::format(
+                "FieldOutput: NAME{}.h5 is the file {}; give it another name by withName().", ending, owner));
+    }
     [[nodiscard]] bool isTable() const { return !isHdf5 && sums.grid().dimensions() <= 1; }
     template <class Scene>
     [[nodiscard]] std::string nameOf(const Scene& scene) const {

@@ -118,6 +118,10 @@ void FieldSums::clear() {
 }
 
 double FieldSums::of(std::size_t sum, std::size_t group, std::size_t point) const {
+    if (sum >= stored)
+        throw InputError(fmt::format(
+            "FieldSums: sum {} is not there; it must be below {}{}.", sum, stored,
+            hasContacts() ? "" : ", because sums of contacts were left out (FieldContent::WithoutContacts)"));
     const auto& n = points.counts();
     const std::array<std::size_t, 3> k{point / (n[1] * n[2]), point / n[2] % n[1], point % n[2]};
     const std::size_t row = (group * n[order[0]] + k[order[0]]) * n[order[1]] + k[order[1]];
@@ -169,8 +173,10 @@ void FieldSums::forImagesAlongAxes(const PeriodicBox& periodic, const Vector<dou
     along(0, length.x, across.x, lows.x, highs.x, [&](double x) {
         along(1, length.y, across.y, lows.y, highs.y, [&](double y) {
             along(2, length.z, across.z, lows.z, highs.z, [&](double z) {
+                // The rate along the flow of a shear is 0, so what has slid changes nothing.
                 const Vector<double>& rate = periodic.strainRate;
-                use(slid + Vector<double>{x, y, z}, Vector<double>{rate.x * x, rate.y * y, rate.z * z});
+                const Vector<double> shift = slid + Vector<double>{x, y, z};
+                use(shift, Vector<double>{rate.x * shift.x, rate.y * shift.y, rate.z * shift.z});
             });
         });
     });

@@ -74,6 +74,7 @@ public:
     [[nodiscard]] std::size_t states() const { return added; }
 
     /// The mean of a sum over the states, as a density, 1/m^3 times its unit: of a group, or of all.
+    /// Throws InputError for a sum of contacts that were left out.
     /// @param point of the grid, x the slowest
     [[nodiscard]] double of(std::size_t sum, std::size_t group, std::size_t point) const;
     [[nodiscard]] double ofAll(std::size_t sum, std::size_t point) const;

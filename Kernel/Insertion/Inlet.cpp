@@ -56,7 +56,8 @@ void Inlet::setFollowsWall(std::size_t number) { wall = number; }
 void Inlet::setFollowsFill(const Vec3D& direction, double step, double most) {
     const Vector<double> unit = checkedDirection(owner, "length of the direction of the fill", direction);
     checkValue(owner, "step after the fill", step, "m", positive);
-    checkValue(owner, "way after the fill", most, "m", {step, 1e9 * step});
+    // All steps may be tried in one time step.
+    checkValue(owner, "way after the fill", most, "m", {step, 1e4 * step});
     rise = step * unit;
     mostRises = static_cast<std::uint32_t>(most / step * (1 + 1e-12));
 }
@@ -136,11 +137,13 @@ Vector<double> InletHandler::shiftOf(const InsertionScene& scene, const Kept& ke
     return shift;
 }
 
-void InletHandler::begin(const InsertionScene& scene) {
+void InletHandler::begin(const InsertionScene& scene, bool isRestarted) {
     hasBegun = true;
     for (std::size_t k = 0; k < inlets.size(); ++k) {
         Kept& kept = inlets[k];
         kept.region = kept.inlet.region->in(scene.periodic);
+        // On a restart walls and regions have moved, and the region's way is not known yet.
+        if (!isRestarted) checkRoom(scene, k);
         check(scene, k);
         if (kept.inlet.wall)
             kept.onWall =
@@ -148,11 +151,23 @@ void InletHandler::begin(const InsertionScene& scene) {
     }
 }
 
+void InletHandler::checkRoom(const InsertionScene& scene, std::size_t number) const {
+    const Inlet& inlet = inlets[number].inlet;
+    const auto checkAt = [&](const std::string& who, const Vector<double>& way) {
+        refuseWithoutRoom(who, *inlets[number].region, scene.walls, scene.periodic,
+                          0.5 * inlet.sizes->smallest(), 0.5 * inlet.sizes->largest(), inlet.wholeGrains,
+                          way);
+    };
+    checkAt(fmt::format("inlet {}", number), {0, 0, 0});
+    if (inlet.mostRises == 0) return;
+    const Vector<double> way = static_cast<double>(inlet.mostRises) * inlet.rise;
+    checkAt(fmt::format("inlet {}, at the end of its way of {:.6g} m after the fill", number, norm(way)),
+            way);
+}
+
 void InletHandler::check(const InsertionScene& scene, std::size_t number) const {
     const Inlet& inlet = inlets[number].inlet;
     const Region& region = *inlets[number].region;
-    refuseWithoutRoom(fmt::format("inlet {}", number), region, scene.walls, scene.periodic,
-                      0.5 * inlet.sizes->smallest(), 0.5 * inlet.sizes->largest(), inlet.wholeGrains);
     if (inlet.like.getLiquidVolume() > 0 && !scene.particles.films().areKept())
         throw InputError(fmt::format(
             "inlet {}: the liquid volume of its grains = {:.6g} m^3, but no species of this scene "

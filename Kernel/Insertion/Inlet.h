@@ -50,8 +50,9 @@ public:
     /// body. @param wall its number in wallHandler
     void setFollowsWall(std::size_t wall);
     /// The region follows the height to which it fills: whenever a grain finds no room in it, it moves by a
-    /// step (m) along a direction, by at most so much (m) in all. Only what finds no room then is made up for
-    /// later, or lost.
+    /// step (m) along a direction, by at most so much (m; up to 1e4 steps) in all. Only what finds no room
+    /// then is made up for later, or lost. It never comes back: not where the bed sinks, and not where a wall
+    /// had come into its way. At set-up walls must leave room at the end of the way and on it.
     void setFollowsFill(const Vec3D& direction, double step, double most);
 
     static constexpr double densestStream = 0.25;  // solid fraction
@@ -105,8 +106,9 @@ public:
     /// Throws InputError if wet grains are to come by a time (s), and no liquid can be counted any more:
     /// before a step, so that none is half done.
     void requireLiquid(const ParticleHandler& particles, double time) const;
-    /// The run begins. Throws InputError for what cannot work.
-    void begin(const InsertionScene& scene);
+    /// The run begins, or goes on. Throws InputError for what cannot work; room is looked for only where it
+    /// begins, because walls move.
+    void begin(const InsertionScene& scene, bool isRestarted);
     /// Grains that are due at a time (s) come. @param tell of what is to be said once
     void letIn(const InsertionScene& scene, double time, const std::function<void(std::string)>& tell);
     void visitState(StateArchive& archive);
@@ -127,6 +129,7 @@ private:
     [[nodiscard]] static Vector<double> shiftOf(const InsertionScene& scene, const Kept& kept,
                                                 std::size_t number);
 
+    void checkRoom(const InsertionScene& scene, std::size_t number) const;
     void check(const InsertionScene& scene, std::size_t number) const;
     void letInOf(const InsertionScene& scene, std::size_t number, double time,
                  const std::function<void(std::string)>& tell);

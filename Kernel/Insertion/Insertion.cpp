@@ -87,7 +87,8 @@ std::vector<double> radiiOf(const Amount& amount, const SizeDistribution& sizes,
 }
 
 void refuseWithoutRoom(std::string_view who, const Region& region, const WallHandler& walls,
-                       const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains) {
+                       const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains,
+                       const Vector<double>& way) {
     if (wholeGrains && !(largest <= region.largestSphere() * (1 + 1e-12)))
         throw InputError(fmt::format(
             "{}: the largest grain has a radius of {:.6g} m and does not fit the region; it must be "
@@ -102,10 +103,15 @@ void refuseWithoutRoom(std::string_view who, const Region& region, const WallHan
         if (!region.contains(point, 0)) continue;
         ++inRegion;
         bool isFree = true;
-        forEachWallNear(walls, periodic, point, smallest, [&](const WallPoint&, std::size_t wall) {
+        const auto meet = [&](std::size_t wall) {
             isFree = false;
             met = wall;
-        });
+        };
+        forEachWallNear(walls, periodic, point + way, smallest,
+                        [&](const WallPoint&, std::size_t wall) { meet(wall); });
+        if (way != Vector<double>{0, 0, 0})
+            for (std::size_t w = 0; w < walls.getSize(); ++w)
+                if (walls.getObject(w).isCrossed(point, point + way)) meet(w);
         if (isFree) return;
     }
     if (inRegion == 0) return;  // a thin mesh: insertion itself will tell

@@ -71,8 +71,10 @@ std::vector<double> radiiOf(const Amount& amount, const SizeDistribution& sizes,
 
 /// Throws InputError where a sphere of the smaller radius (m) is behind a wall, or in it, at each of a
 /// thousand random points of a region, or one of the larger radius cannot be in it at all.
+/// @param way m, by which the region has gone: straight, so that there must be no wall across it either
 void refuseWithoutRoom(std::string_view owner, const Region& region, const WallHandler& walls,
-                       const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains);
+                       const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains,
+                       const Vector<double>& way = {0, 0, 0});
 
 /// Inserts grains that overlap nothing: no grain, no wall, none of their images. A grain that finds no room
 /// is left out, and all smaller ones are tried. Of an amount that is less than the first random grain none

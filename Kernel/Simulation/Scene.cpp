@@ -559,7 +559,7 @@ void Scene::prepare() {
     shear.move(periodic, getTime());
     outletHandler.begin(periodic, particleHandler.store(), getTime());
     fluxPlaneHandler.begin(periodic);
-    inletHandler.begin(insertionScene());
+    inletHandler.begin(insertionScene(), isRestarted());
     contactSystem.prepare(laws(), wallHandler, periodic, SkinChoice::byCost(smallestRadius), ledgerKept,
                           films.areKept() ? &films : nullptr);
     if (isQuiet()) return;
@@ -848,7 +848,7 @@ void Scene::advance(double length, bool another) {
     beginStrain(grains, length);
     const double grainShift = move(grains, length);
     if (!fluxPlaneHandler.isEmpty())
-        fluxPlaneHandler.afterMotion(particleHandler, [&](std::uint32_t place) {
+        fluxPlaneHandler.afterMotion(particleHandler, length, [&](std::uint32_t place) {
             return particleHandler.films().of(grains, place) + contactSystem.liquidAt(grains, place);
         });
     refuseRunaway(grainShift);

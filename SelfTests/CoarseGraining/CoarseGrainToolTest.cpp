@@ -97,6 +97,8 @@ TEST(CoarseGrainTool, refusesInOneSentence) {
         {tool + "--width-m 1e-3 --box-m 0 1 0 1 1 0", "highest z"},
         {tool + "--width-m 1e-3 --box-m 0 1 0 1 0", "--box-m"},
         {tool + "--width-m 1e-3 --periodic-m 0 nan 0", "period"},
+        {tool + "--width-m 1e-3 --against-flow", "know of no flow"},
+        {tool + "--width-m 1e-3 --periodic-m 0.02 0 0 --against-flow", "know of no flow"},
         {tool + "--width-m 1e-3 --from-s 7", "no frame of grains from 7 s"},
         {tool + "--width-m 1e-3 --from-s 1 --to-s 0", "must be in order"},
         {tool + "--width-m 1e-3 --from-s nan", "must be in order"},

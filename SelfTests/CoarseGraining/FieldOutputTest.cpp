@@ -240,9 +240,19 @@ TEST(FieldOutput, isReadByH5py) {
     }
     EXPECT_EQ(frames, 3u);
     EXPECT_GE(compared, 3 * 16 * 8u);
-    KeptRun other(folder.path() / "other", 1);
-    EXPECT_TRUE(isOneSentence(
-        refusal([&] { other.addOutput(profile(step, 0).withName("fields").asHdf5()), other.solve(); })));
+}
+
+TEST(FieldOutput, takesNoFileOfOthers) {
+    if (!Hdf5File::isAvailable())
+        GTEST_SKIP() << "This build has no HDF5 library: names of its files are NOT tested.";
+    const TestFolder folder;
+    const double step = 0x1p-17;
+    for (const std::string name : {"fields", "restart"}) {
+        KeptRun run(folder.path(), 1);
+        const std::string sentence =
+            refusal([&] { run.addOutput(profile(step, 0).withName(name).asHdf5()), run.solve(); });
+        EXPECT_TRUE(isOneSentence(sentence) && contains(sentence, "NAME-" + name + ".h5")) << sentence;
+    }
 }
 
 // Fields of grains alone are the same bits as those beside fields of contacts.
@@ -272,6 +282,11 @@ TEST(FieldOutput, refusesInOneSentence) {
     EXPECT_TRUE(isOneSentence(refusal([] { profile(std::nan(""), 0); })));
     EXPECT_TRUE(isOneSentence(refusal([] { profile(1, -1); })));
     EXPECT_TRUE(isOneSentence(refusal([] { profile(1, std::nan("")); })));
+    const TestFolder folder;
+    KeptRun atRest(folder.path(), 1);
+    const std::string sentence =
+        refusal([&] { atRest.addOutput(profile(0x1p-17, 0).againstFlow()), atRest.solve(); });
+    EXPECT_TRUE(isOneSentence(sentence) && contains(sentence, "againstFlow()")) << sentence;
 }
 
 }  // namespace

@@ -419,6 +419,23 @@ TEST(Fields, averageSumsOverTime) {
     EXPECT_DOUBLE_EQ(sums.ofAll(Sum::Flux, 0), 10.0 / 8);
 }
 
+// A sum that was left out has no number.
+TEST(Fields, ofContactsThatWereLeftOutAreRefused) {
+    const FieldGrid all("O", {-1, -1, -1}, {1, 1, 1}, 1);
+    const SmoothingKernel kernel(KernelShape::Gauss, 0, 0.1);
+    FieldSums sums(all, kernel, GrainGroups::none(), FieldContent::WithoutContacts);
+    sums.add(fiveGrains());
+    EXPECT_GT(sums.ofAll(Sum::Mass, 0), 0);
+    for (const std::size_t sum : {Sum::Fabric, Sum::ContactStress, Sum::Traction, Sum::count}) {
+        const std::string sentence = refusal([&] { static_cast<void>(sums.of(sum, 0, 0)); });
+        EXPECT_TRUE(isOneSentence(sentence) && contains(sentence, "WithoutContacts")) << sentence;
+        EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(sums.ofAll(sum, 0)); })));
+    }
+    const FieldSums whole(all, kernel);
+    EXPECT_EQ(whole.of(Sum::Traction + 2, 0, 0), 0);
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(whole.of(Sum::count, 0, 0)); })));
+}
+
 TEST(Fields, refuseInOneSentence) {
     const V low{0, 0, 0}, high{1, 1, 1};
     const double nan = std::nan("");

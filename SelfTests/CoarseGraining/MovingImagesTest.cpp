@@ -29,15 +29,18 @@ using Sum = FieldSums::Sum;
 using V = Vector<double>;
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
-enum class Motion { Sheared, Strained };
+/// Both: sheared, and strained along the gradient and the third axis.
+enum class Motion { Sheared, Strained, Both };
 
 /// Wet grains, of which many touch across faces that have slid by a part of the period, or have come nearer.
 std::unique_ptr<ShearedCloud<Wet>> cloud(Motion motion, int gradient = 1) {
-    const bool isSheared = motion == Motion::Sheared;
+    const bool isSheared = motion != Motion::Strained;
+    const int flow = gradient == 0 ? 1 : 0;
     auto scene =
         std::make_unique<ShearedCloud<Wet>>(isSheared ? std::optional(300.0) : std::nullopt, gradient);
-    if (!isSheared)
-        for (int axis = 0; axis < 3; ++axis) scene->setStrainRate(axis, axis == 2 ? 20 : -30);
+    if (motion != Motion::Sheared)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!isSheared || axis != flow) scene->setStrainRate(axis, axis == 2 ? 20 : -30);
     scene->setQuiet();
     return scene;
 }
@@ -65,9 +68,9 @@ double integral(const FieldSums& sums, std::size_t sum) {
 // any kernel or image.
 TEST(FieldsOfMovingImages, haveTheMassAndTheMeanStressOfTheScene) {
     const std::array<std::size_t, 9> symmetric{0, 1, 2, 1, 3, 4, 2, 4, 5};
-    for (const Motion motion : {Motion::Sheared, Motion::Strained})
+    for (const Motion motion : {Motion::Sheared, Motion::Strained, Motion::Both})
         for (const int gradient : {0, 1, 2}) {
-            if (motion == Motion::Strained && gradient > 0) continue;
+            if (motion != Motion::Sheared && gradient > 0) continue;
             const auto scene = cloud(motion, gradient);
             scene->initialise();
             scene->step(1500);
@@ -101,32 +104,29 @@ TEST(FieldsOfMovingImages, haveTheMassAndTheMeanStressOfTheScene) {
 
 // Each point against a sum over all images out to several periods, by the definition of the images.
 TEST(FieldsOfMovingImages, areSumsOverAllImages) {
-    for (const Motion motion : {Motion::Sheared, Motion::Strained}) {
+    for (const Motion motion : {Motion::Sheared, Motion::Strained, Motion::Both}) {
         const auto scene = cloud(motion);
         scene->initialise();
         scene->step(700);
         const GrainState state = stateOf(*scene);
         const PeriodicBox& box = state.periodic;
         const double w = 2e-3;
-        const FieldGrid grid = gridOver(box, "XY", 0.5 * box.length.x);
+        const FieldGrid grid = gridOver(box, "XY", 0.25 * box.length.x);  // the kernel reaches over the faces
         FieldSums sums(grid, SmoothingKernel(KernelShape::Lucy, 2, w));
         sums.add(state);
-        ASSERT_EQ(grid.size(), 4u);
-        for (std::size_t point = 0; point < 4; ++point) {
-            const double x = grid.at(0, point / 2), y = grid.at(1, point % 2);
+        ASSERT_GE(grid.size(), 16u);
+        for (std::size_t point = 0; point < grid.size(); ++point) {
+            const std::size_t along = grid.counts()[1];
+            const double x = grid.at(0, point / along), y = grid.at(1, point % along);
             double mass = 0, alongX = 0, alongY = 0;
             for (const GrainState::Grain& grain : state.grains)
                 for (int i = -3; i <= 3; ++i)
                     for (int j = -3; j <= 3; ++j) {
-                        V place = grain.position + V{i * box.length.x, 0, 0};
-                        V velocity = grain.velocity + V{box.strainRate.x * i * box.length.x, 0, 0};
-                        if (box.isSheared()) {
-                            place += static_cast<double>(j) * box.imageShift;
-                            velocity += static_cast<double>(j) * box.imageVelocity;
-                        } else {
-                            place.y += j * box.length.y;
-                            velocity.y += box.strainRate.y * j * box.length.y;
-                        }
+                        const V next = box.isSheared() ? box.imageShift : V{0, box.length.y, 0};
+                        const V shift = V{i * box.length.x, 0, 0} + static_cast<double>(j) * next;
+                        const V place = grain.position + shift;
+                        const V velocity = grain.velocity + static_cast<double>(j) * box.imageVelocity +
+                                           V{box.strainRate.x * shift.x, box.strainRate.y * shift.y, 0};
                         const double r2 = (place.x - x) * (place.x - x) + (place.y - y) * (place.y - y);
                         const double phi =
                             sums.kernel().value(r2) / box.length.z;  // averaged over the period
@@ -150,16 +150,16 @@ public:
     explicit Lattice(Motion motion, int flow, int gradient) {
         const auto* species = speciesHandler.copyAndAddObject(boxMaterial<Species<HertzianViscoelastic>>(0));
         for (int axis = 0; axis < 3; ++axis) setPeriodic(axis, 0, edge * spacing);
-        if (motion == Motion::Sheared) setLeesEdwards(flow, gradient, rate);
+        if (motion != Motion::Strained) setLeesEdwards(flow, gradient, rate);
         for (int k = 0; k < edge * edge * edge; ++k) {
             SphericalParticle grain;
             grain.setSpecies(species), grain.setRadius(0.3 * spacing);
             grain.setPosition(spacing *
                               Vec3D(k % edge + 0.5, k / edge % edge + 0.5, k / (edge * edge) + 0.5));
-            if (motion == Motion::Sheared) grain.setVelocity(shearFlowAt(grain.getPosition()));
+            if (motion != Motion::Strained) grain.setVelocity(shearFlowAt(grain.getPosition()));
             particleHandler.copyAndAddObject(grain);
         }
-        if (motion == Motion::Strained) setStrainRate(gradient, rate);
+        if (motion != Motion::Sheared) setStrainRate(gradient, rate);
         setTimeStep(0x1p-20), acceptUnstableTimeStep(), setQuiet();  // there is no contact
     }
 };
@@ -168,7 +168,7 @@ public:
 // of the width w makes of it (reference A6, identity 5). On a lattice, whose sums are integrals where its
 // spacing is 0.7 w or less, that is exact.
 TEST(FieldsOfMovingImages, ofAUniformFlowAreItsClosedForm) {
-    for (const Motion motion : {Motion::Sheared, Motion::Strained})
+    for (const Motion motion : {Motion::Sheared, Motion::Strained, Motion::Both})
         for (const auto& [flow, gradient] : {std::pair{0, 1}, std::pair{2, 0}, std::pair{1, 2}}) {
             Lattice scene(motion, flow, gradient);
             scene.initialise();
@@ -179,9 +179,10 @@ TEST(FieldsOfMovingImages, ofAUniformFlowAreItsClosedForm) {
             const auto g = static_cast<std::size_t>(gradient);
             const double w = std::max(Lattice::spacing, length[g] / Lattice::edge) / 0.7;
             const double density = scene.getTotalMass() / (length[0] * length[1] * length[2]);
-            const std::size_t along = motion == Motion::Sheared ? static_cast<std::size_t>(flow) : g;
-            const double slope =
-                motion == Motion::Sheared ? Lattice::rate : (&box.strainRate.x)[gradient];  // of the velocity
+            std::array<double, 3> slopes{};  // 1/s, of each part of the velocity along the gradient
+            if (motion != Motion::Strained)  // of the step's own speed, where the length along it has grown
+                slopes[static_cast<std::size_t>(flow)] = (&box.imageVelocity.x)[flow] / length[g];
+            if (motion != Motion::Sheared) slopes[g] = (&box.strainRate.x)[gradient];
             for (const std::string& coordinates : {std::string(1, "XYZ"[g]), std::string("XYZ")}) {
                 const FieldGrid grid = gridOver(box, coordinates, 0.2501 * length[g]);
                 FieldSums sums(grid, SmoothingKernel(KernelShape::Gauss, grid.dimensions(), w, 8 * w));
@@ -191,13 +192,18 @@ TEST(FieldsOfMovingImages, ofAUniformFlowAreItsClosedForm) {
                     const auto& n = grid.counts();
                     const std::size_t places[] = {k / (n[1] * n[2]), k / n[2] % n[1], k % n[2]};
                     const double off = grid.at(g, places[g]) - 0.5 * (grid.low(g) + grid.high(g));
-                    const double rho = sums.ofAll(Sum::Mass, k), j = sums.ofAll(Sum::Momentum + along, k);
-                    const double flux = sums.ofAll(Sum::Flux + diagonal[along], k);
+                    const double rho = sums.ofAll(Sum::Mass, k);
                     EXPECT_NEAR(rho / density, 1, 1e-12);
-                    EXPECT_NEAR(j / rho, slope * off, 1e-12 * slope * length[g]);
-                    // Of squares that are up to (length / w)^2 = 50 times as large; the cut-off takes away
-                    // 64 e^-32 of the second moment.
-                    EXPECT_NEAR((flux - j * j / rho) / (rho * slope * slope * w * w), 1, 1e-10);
+                    for (std::size_t along = 0; along < 3; ++along) {
+                        const double slope = slopes[along];
+                        if (slope == 0) continue;
+                        const double j = sums.ofAll(Sum::Momentum + along, k);
+                        const double flux = sums.ofAll(Sum::Flux + diagonal[along], k);
+                        EXPECT_NEAR(j / rho, slope * off, 1e-12 * slope * length[g]);
+                        // Of squares that are up to (length / w)^2 = 50 times as large; the cut-off takes
+                        // away 64 e^-32 of the second moment.
+                        EXPECT_NEAR((flux - j * j / rho) / (rho * slope * slope * w * w), 1, 1e-10);
+                    }
                 }
             }
         }
@@ -205,7 +211,7 @@ TEST(FieldsOfMovingImages, ofAUniformFlowAreItsClosedForm) {
 
 // A frame knows how its images move, so that fields of it are those of the run.
 TEST(FieldsOfMovingImages, areThoseOfFrames) {
-    for (const Motion motion : {Motion::Sheared, Motion::Strained}) {
+    for (const Motion motion : {Motion::Sheared, Motion::Strained, Motion::Both}) {
         const support::TestFolder folder;
         const auto scene = cloud(motion);
         const std::string name = (folder.path() / "run").string();
@@ -235,6 +241,10 @@ TEST(FieldsOfMovingImages, areThoseOfFrames) {
             ".pvd --coordinates Y --width-m 2e-3 --spacing-m 2.1e-3 --against-flow --each-frame --box-m "
             "0 0.0168 0 0.0168 0 0.0168");
         ASSERT_EQ(made.exitCode, 0);
+        support::expectOneSentence(
+            support::run("(" + (folders::tools / "coarse-grain").string() + " " + name +
+                         ".pvd --width-m 2e-3 --periodic-m 0.0168 0.0168 0.0168 2>&1 >/dev/null)"),
+            "would put them to rest");
         const auto ofFrames = rowsOf(made.output);
         ASSERT_EQ(ofRun.size(), 16u);
         ASSERT_EQ(ofFrames.size(), 16u);
