@@ -52,16 +52,21 @@ Vec3D Scene::contactForceOn(std::size_t identity) const {
     return toEigen(sum);
 }
 
-void Scene::setGravity(const Vec3D& acceleration) {
-    for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
-    particleHandler.finishStep();  // with the gravity that it had
-    const Vector<double> before = std::exchange(gravity, toVector(acceleration));
+template <class State>
+void Scene::takeIfImagesAllow(State& now, const State& asked) {
+    const State before = std::exchange(now, asked);
     try {
         refuseForMovingImages();
     } catch (const InputError&) {
-        gravity = before;
+        now = before;
         throw;
     }
+}
+
+void Scene::setGravity(const Vec3D& acceleration) {
+    for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
+    particleHandler.finishStep();  // with the gravity that it had
+    takeIfImagesAllow(gravity, toVector(acceleration));
     particleHandler.setGravity(gravity);
     adaptive.chooseAnew();
     gravityChanged |= hasBegun();
@@ -125,14 +130,19 @@ void Scene::setTargetShearStress(double stress, double time, double largestRate)
     checkValue("Simulation", "time of the target shear stress", time, "s", positive);
     if (!isSet(largestRate)) largestRate = 1 / time;
     checkValue("Simulation", "largest shear rate", largestRate, "1/s", positive);
-    shear.isControlled = true;
-    shear.stress = stress;
-    shear.time = time;
-    shear.largestRate = largestRate;
-    shear.servo = {.speed = shear.rate};
-    shear.atLargest = 0;
-    if (hasBegun()) refuseForMovingImages();
-    else shearAtSetUp = shear;
+    LeesEdwards asked = shear;
+    if (shear.isControlled) {
+        asked.servo.beginAnew(time == shear.time);
+    } else {
+        asked.servo = {.speed = shear.rate};
+        asked.atLargest = 0;
+    }
+    asked.isControlled = true;
+    asked.stress = stress;
+    asked.time = time;
+    asked.largestRate = largestRate;
+    if (hasBegun()) takeIfImagesAllow(shear, asked);
+    else shear = shearAtSetUp = asked;
 }
 
 AxisStrain& Scene::axisToStrain(int axis, std::string_view what) {
@@ -150,10 +160,11 @@ AxisStrain& Scene::axisToStrain(int axis, std::string_view what) {
 }
 
 void Scene::setStrain(int axis, const AxisStrain& how) {
-    strain.axes[static_cast<std::size_t>(axis)] = how;
-    strain.isSet = periodic.imagesMove = true;
-    if (hasBegun()) refuseForMovingImages();
-    else strainAtSetUp = strain;
+    HomogeneousStrain asked = strain;
+    asked.axes[static_cast<std::size_t>(axis)] = how;
+    asked.isSet = periodic.imagesMove = true;
+    if (hasBegun()) takeIfImagesAllow(strain, asked);
+    else strain = strainAtSetUp = asked;
 }
 
 void Scene::setStrainRate(int axis, double rate) {
@@ -163,12 +174,20 @@ void Scene::setStrainRate(int axis, double rate) {
 }
 
 void Scene::setTargetStress(int axis, double stress, double time, double largestRate) {
-    const double rate = axisToStrain(axis, "target stress").rate;
+    AxisStrain asked = axisToStrain(axis, "target stress");
     checkValue("Simulation", "target stress", stress, "Pa", anyFinite);
     checkValue("Simulation", "time of the target stress", time, "s", positive);
     if (!isSet(largestRate)) largestRate = 0.1 / time;
     checkValue("Simulation", "largest strain rate", largestRate, "1/s", positive);
-    setStrain(axis, {rate, true, stress, time, largestRate, {.speed = rate}});
+    if (asked.isControlled) {
+        asked.servo.beginAnew(time == asked.time);
+    } else {
+        asked = {.rate = asked.rate, .isControlled = true, .servo = {.speed = asked.rate}};
+    }
+    asked.stress = stress;
+    asked.time = time;
+    asked.largestRate = largestRate;
+    setStrain(axis, asked);
 }
 
 double Scene::getStrainRate(int axis) const {
