@@ -277,7 +277,10 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
 void Scene::letOutAndIn(double time) {
     if (outletHandler.isEmpty() && inletHandler.isEmpty()) return;
     try {
-        if (!outletHandler.isEmpty()) outletHandler.letOut(particleHandler, time, threads);
+        if (!outletHandler.isEmpty()) {
+            outletHandler.letOut(particleHandler, time, threads);
+            contactSystem.sumLostForces(particleHandler.store());
+        }
         if (!inletHandler.isEmpty())
             inletHandler.letIn(insertionScene(), time, [this](const std::string& sentence) {
                 logger(LogLevel::Warn, "{}", sentence);
@@ -504,6 +507,7 @@ void Scene::mixChangedLaws() {
 
 void Scene::takeOverChanges() {
     try {
+        contactSystem.sumLostForces(particleHandler.store());
         mixChangedLaws();
         const bool newLaws = std::exchange(lawsAreNew, false), changedWalls = wallHandler.hasChanges();
         const auto firstNewWall = static_cast<int>(wallHandler.firstNewWall());
