@@ -350,6 +350,7 @@ void Scene::advanceByStep(bool another) {
     serveStress();
     checkTouchesOfPistons();
     boxAtStep = periodic;
+    const LeesEdwards shearAtStep = shear;
     planeMotion.forget();
     try {
         advance(getTimeStep(), another);
@@ -368,6 +369,7 @@ void Scene::advanceByStep(bool another) {
                 grains.bodies[k].velocity -= changeOfFlow(grains.bodies[k].position);
             grains.bodies.place(grains);
         }
+        shear = shearAtStep;
         contactSystem.setPeriodicBox(periodic);
         if (ledgerKept) account.takeBack(ledger);
         fluxPlaneHandler.takeBack();
@@ -841,13 +843,15 @@ double Scene::move(ParticleStore& grains, double length) {
                 std::max(farthest, RigidBodyMotion::begin(grains, length, threads, integrator, periodic));
     }
     if (!periodic.imagesMove) return std::sqrt(farthest);
-    // The flow carries all grains, and those that are near each other apart at this rate; the skin of a list
-    // is at most the smallest radius.
+    // The flow carries all grains, and those that are near each other together at this rate at most, -n.G.n
+    // of any direction n and the gradient G of the flow: n_f n_g is at most 1/2, and the strains are weighed
+    // by n_x^2 + n_y^2 + n_z^2 = 1. The skin of a list is at most the smallest radius.
     const Vector<double> rates = periodic.strainRate;
     const double rate =
-        std::max({std::abs(shear.rate), std::abs(rates.x), std::abs(rates.y), std::abs(rates.z)});
+        0.5 * std::abs(shear.rate) + std::max({std::abs(rates.x), std::abs(rates.y), std::abs(rates.z)});
     if (strain.isSet) HomogeneousStrain::move(periodic, length);
-    shear.move(periodic, getTime() + length);
+    // To the time that a restart file holds: with its bits.
+    shear.move(periodic, length > 0 ? timeAfterNextStep() : getTime());
     contactSystem.setPeriodicBox(periodic);
     if (const auto objection = objectionToLengths(periodic, largestReach))
         throw RunError(fmt::format("At time {:.6g} s the {}", getTime(), *objection));
