@@ -33,17 +33,20 @@ public:
         setLeesEdwards(0, 1, rate);
         if (!isRestarted()) addGrains();
         setTimeStep(shortestContactTime() / 50);
-        // The time of the servo: some twice that in which sound passes the cell.
-        if (options.inertialNumber > 0) setTargetStress(1, pressure(), 500 * getTimeStep(), rate);
+        // The time of the servo: some twice that in which sound passes the cell, at up to
+        // diameter x sqrt(stiffness / mass) = 2.2 diameters in a contact time of 50 steps.
+        if (options.inertialNumber > 0) setTargetStress(1, pressure(), 80 * cells() * getTimeStep(), rate);
         setInterval(options.interval / rate, 100);
     }
     void writeRow(const Means& means) override {
         const double p = means.stress.trace() / 3, shear = -means.stress(0, 1);
+        // Made with the pressure that is held, as --inertial-number is.
+        const double ofNumber = options.inertialNumber > 0 ? means.stress(1, 1) : p;
         // That of the grains as they were drawn, in the cell as it is at the end of the row.
         const Vector<double> length = getPeriodicBox().length;
         const double solidFraction = getTotalMass() / density / (length.x * length.y * length.z);
         table.row(getTime(), rate * getTime(), solidFraction, p, shear, shear / p,
-                  rate * diameter * std::sqrt(density / p), means.kinetic / (density * solidFraction),
+                  rate * diameter * std::sqrt(density / ofNumber), means.kinetic / (density * solidFraction),
                   means.contacts);
     }
 

@@ -29,8 +29,10 @@ public:
         for (int axis = 0; axis < 3; ++axis) setPeriodic(axis, 0, edge() * spacing);
         if (!isRestarted()) addGrains();
         setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 25));
-        // The time of the servo: some twice that in which sound passes the cell.
-        for (int axis = 0; axis < 3; ++axis) setTargetStress(axis, pressure, 250 * getTimeStep(), 2 * rate());
+        // The time of the servo: some twice that in which sound passes the cell, at
+        // diameter x sqrt(stiffness / mass) = 2.2 diameters in a contact time of 25 steps or more.
+        for (int axis = 0; axis < 3; ++axis)
+            setTargetStress(axis, pressure, 25 * edge() * getTimeStep(), 2 * rate());
         setInterval(options.interval / rate(), 20);
         begin = getPeriodicBox().length;
     }

@@ -62,6 +62,7 @@ double ContactSystem::renew(Grains& grains) {
         takeForceAway(grains, bucket, contact);
         stored += endContact(grains, contact);
     });
+    sumLostForces(grains);
     listAgain(grains, false);
     liquid.clip(contacts, *species, grains);
     return stored;
@@ -242,8 +243,7 @@ void ContactSystem::takeForceAway(Grains& grains, const Bucket& bucket, std::uin
     };
     take(block.first[lane], 1);
     if (bucket.wall < 0) take(block.second[lane], -1);
-    else if (Wall& wall = walls->getObject(static_cast<std::size_t>(bucket.wall)); wall.drive())
-        wall.loseForce(-contacts.forceOf(contact));
+    else walls->getObject(static_cast<std::size_t>(bucket.wall)).loseForce(-contacts.forceOf(contact));
 }
 
 double ContactSystem::endContactsOf(Grains& grains, std::uint32_t place) {
@@ -460,6 +460,12 @@ void ContactSystem::findWallPoints(const Grains& grains, const Bucket& bucket, d
 void ContactSystem::sumWallForces(const Grains& grains) {
     for (std::size_t w = 0; w < walls->getSize(); ++w)
         if (walls->getObject(w).keepsForces()) sumForcesOn(grains, w);
+}
+
+void ContactSystem::sumLostForces(const Grains& grains) {
+    for (std::size_t w = 0; w < walls->getSize(); ++w)
+        if (const PlaneDrive* const drive = walls->getObject(w).drive(); drive && drive->forcesAreOld)
+            sumForcesOn(grains, w);
 }
 
 void ContactSystem::sumForcesOn(const Grains& grains, std::size_t number) {

@@ -91,6 +91,9 @@ public:
 
     /// Gives a wall the sum of the forces of the last step.
     void sumForcesOn(const Grains& grains, std::size_t wall);
+    /// The same of walls that are moved by forces, where contacts have ended since then: exactly, so that a
+    /// restart makes the same sum.
+    void sumLostForces(const Grains& grains);
 
     /// After the forces of a step (s) that ends at a time (s), in a scene in which liquid moves.
     void moveLiquid(Grains& grains, double time, double length);

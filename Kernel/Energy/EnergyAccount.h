@@ -140,8 +140,12 @@ private:
         for (std::size_t w = 0; w < walls.getSize(); ++w) {
             const Wall& wall = walls.getObject(w);
             const PlaneDrive* const drive = wall.drive();
-            if (!drive || !drive->isPiston() || drive->waits || step == 0) continue;
+            if (!drive || !drive->isPiston() || step == 0) continue;
             const double mass = drive->asked.mass;
+            if (drive->waits) {  // it was stopped
+                ledger.driver -= 0.5 * mass * drive->startVelocity * drive->startVelocity;
+                continue;
+            }
             ledger.loads +=
                 step * drive->meanVelocity * (mass * dot(gravity, wall.drivenNormal()) - drive->asked.load);
             if (scheme.remembersEarlier())

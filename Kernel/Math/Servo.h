@@ -36,9 +36,10 @@ struct Servo {
     double waited = 0;     // s, for that
 
     /// Forgets what it has learnt: the value is of something else from now on.
-    void forget() { drift = 0, beginAnew(); }
-    /// It has another target from now on.
-    void beginAnew() { hasLast = arrived = false, waited = 0; }
+    void forget() { drift = 0, beginAnew(false); }
+    /// It has another target from now on. What it has learnt of the value stays.
+    /// @param sameInterval the next look comes after the interval that there was
+    void beginAnew(bool sameInterval) { hasLast &= sameInterval, arrived = false, waited = 0; }
 
     /// Takes the speed for the time to come.
     /// @param stiffness of the value against what the speed moves, not negative

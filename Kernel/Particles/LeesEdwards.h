@@ -34,11 +34,12 @@ struct LeesEdwards {
     }
 
     /// Takes the rate for a step to come, which begins at a time (s). Returns by how much the speed of the
-    /// images has changed (m/s).
-    double begin(const PeriodicBox& box, double now) {
+    /// images has changed (m/s), which the box then knows.
+    double begin(PeriodicBox& box, double now) {
         const double before = speed;
         settle(box);
         if (speed == before) return 0;
+        box.imageVelocity.*axes[flow] = speed;
         offset = box.imageShift.*axes[flow];
         began = now;
         return speed - before;

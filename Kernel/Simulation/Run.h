@@ -136,6 +136,10 @@ protected:
     /// remember.
     void visitSteps(StateArchive& archive);
     void visitOutputs(StateArchive& archive);
+    /// s, what getTime() will be: not always getTime() + getTimeStep() to the last bit.
+    [[nodiscard]] double timeAfterNextStep() const {
+        return timeAfter(steps + 1, stepsBefore, timeBefore, timeStep);
+    }
     StepTimes::Part enter(StepTimes::Part part) { return times.enter(part); }
 
 private:

@@ -52,16 +52,21 @@ Vec3D Scene::contactForceOn(std::size_t identity) const {
     return toEigen(sum);
 }
 
-void Scene::setGravity(const Vec3D& acceleration) {
-    for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
-    particleHandler.finishStep();  // with the gravity that it had
-    const Vector<double> before = std::exchange(gravity, toVector(acceleration));
+template <class State>
+void Scene::takeIfImagesAllow(State& now, const State& asked) {
+    const State before = std::exchange(now, asked);
     try {
         refuseForMovingImages();
     } catch (const InputError&) {
-        gravity = before;
+        now = before;
         throw;
     }
+}
+
+void Scene::setGravity(const Vec3D& acceleration) {
+    for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
+    particleHandler.finishStep();  // with the gravity that it had
+    takeIfImagesAllow(gravity, toVector(acceleration));
     particleHandler.setGravity(gravity);
     adaptive.chooseAnew();
     gravityChanged |= hasBegun();
@@ -125,14 +130,19 @@ void Scene::setTargetShearStress(double stress, double time, double largestRate)
     checkValue("Simulation", "time of the target shear stress", time, "s", positive);
     if (!isSet(largestRate)) largestRate = 1 / time;
     checkValue("Simulation", "largest shear rate", largestRate, "1/s", positive);
-    shear.isControlled = true;
-    shear.stress = stress;
-    shear.time = time;
-    shear.largestRate = largestRate;
-    shear.servo = {.speed = shear.rate};
-    shear.atLargest = 0;
-    if (hasBegun()) refuseForMovingImages();
-    else shearAtSetUp = shear;
+    LeesEdwards asked = shear;
+    if (shear.isControlled) {
+        asked.servo.beginAnew(time == shear.time);
+    } else {
+        asked.servo = {.speed = shear.rate};
+        asked.atLargest = 0;
+    }
+    asked.isControlled = true;
+    asked.stress = stress;
+    asked.time = time;
+    asked.largestRate = largestRate;
+    if (hasBegun()) takeIfImagesAllow(shear, asked);
+    else shear = shearAtSetUp = asked;
 }
 
 AxisStrain& Scene::axisToStrain(int axis, std::string_view what) {
@@ -150,10 +160,11 @@ AxisStrain& Scene::axisToStrain(int axis, std::string_view what) {
 }
 
 void Scene::setStrain(int axis, const AxisStrain& how) {
-    strain.axes[static_cast<std::size_t>(axis)] = how;
-    strain.isSet = periodic.imagesMove = true;
-    if (hasBegun()) refuseForMovingImages();
-    else strainAtSetUp = strain;
+    HomogeneousStrain asked = strain;
+    asked.axes[static_cast<std::size_t>(axis)] = how;
+    asked.isSet = periodic.imagesMove = true;
+    if (hasBegun()) takeIfImagesAllow(strain, asked);
+    else strain = strainAtSetUp = asked;
 }
 
 void Scene::setStrainRate(int axis, double rate) {
@@ -163,12 +174,20 @@ void Scene::setStrainRate(int axis, double rate) {
 }
 
 void Scene::setTargetStress(int axis, double stress, double time, double largestRate) {
-    const double rate = axisToStrain(axis, "target stress").rate;
+    AxisStrain asked = axisToStrain(axis, "target stress");
     checkValue("Simulation", "target stress", stress, "Pa", anyFinite);
     checkValue("Simulation", "time of the target stress", time, "s", positive);
     if (!isSet(largestRate)) largestRate = 0.1 / time;
     checkValue("Simulation", "largest strain rate", largestRate, "1/s", positive);
-    setStrain(axis, {rate, true, stress, time, largestRate, {.speed = rate}});
+    if (asked.isControlled) {
+        asked.servo.beginAnew(time == asked.time);
+    } else {
+        asked = {.rate = asked.rate, .isControlled = true, .servo = {.speed = asked.rate}};
+    }
+    asked.stress = stress;
+    asked.time = time;
+    asked.largestRate = largestRate;
+    setStrain(axis, asked);
 }
 
 double Scene::getStrainRate(int axis) const {
@@ -258,7 +277,10 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
 void Scene::letOutAndIn(double time) {
     if (outletHandler.isEmpty() && inletHandler.isEmpty()) return;
     try {
-        if (!outletHandler.isEmpty()) outletHandler.letOut(particleHandler, time, threads);
+        if (!outletHandler.isEmpty()) {
+            outletHandler.letOut(particleHandler, time, threads);
+            contactSystem.sumLostForces(particleHandler.store());
+        }
         if (!inletHandler.isEmpty())
             inletHandler.letIn(insertionScene(), time, [this](const std::string& sentence) {
                 logger(LogLevel::Warn, "{}", sentence);
@@ -328,6 +350,7 @@ void Scene::advanceByStep(bool another) {
     serveStress();
     checkTouchesOfPistons();
     boxAtStep = periodic;
+    const LeesEdwards shearAtStep = shear;
     planeMotion.forget();
     try {
         advance(getTimeStep(), another);
@@ -346,6 +369,7 @@ void Scene::advanceByStep(bool another) {
                 grains.bodies[k].velocity -= changeOfFlow(grains.bodies[k].position);
             grains.bodies.place(grains);
         }
+        shear = shearAtStep;
         contactSystem.setPeriodicBox(periodic);
         if (ledgerKept) account.takeBack(ledger);
         fluxPlaneHandler.takeBack();
@@ -485,6 +509,7 @@ void Scene::mixChangedLaws() {
 
 void Scene::takeOverChanges() {
     try {
+        contactSystem.sumLostForces(particleHandler.store());
         mixChangedLaws();
         const bool newLaws = std::exchange(lawsAreNew, false), changedWalls = wallHandler.hasChanges();
         const auto firstNewWall = static_cast<int>(wallHandler.firstNewWall());
@@ -818,13 +843,15 @@ double Scene::move(ParticleStore& grains, double length) {
                 std::max(farthest, RigidBodyMotion::begin(grains, length, threads, integrator, periodic));
     }
     if (!periodic.imagesMove) return std::sqrt(farthest);
-    // The flow carries all grains, and those that are near each other apart at this rate; the skin of a list
-    // is at most the smallest radius.
+    // The flow carries all grains, and those that are near each other together at this rate at most, -n.G.n
+    // of any direction n and the gradient G of the flow: n_f n_g is at most 1/2, and the strains are weighed
+    // by n_x^2 + n_y^2 + n_z^2 = 1. The skin of a list is at most the smallest radius.
     const Vector<double> rates = periodic.strainRate;
     const double rate =
-        std::max({std::abs(shear.rate), std::abs(rates.x), std::abs(rates.y), std::abs(rates.z)});
+        0.5 * std::abs(shear.rate) + std::max({std::abs(rates.x), std::abs(rates.y), std::abs(rates.z)});
     if (strain.isSet) HomogeneousStrain::move(periodic, length);
-    shear.move(periodic, getTime() + length);
+    // To the time that a restart file holds: with its bits.
+    shear.move(periodic, length > 0 ? timeAfterNextStep() : getTime());
     contactSystem.setPeriodicBox(periodic);
     if (const auto objection = objectionToLengths(periodic, largestReach))
         throw RunError(fmt::format("At time {:.6g} s the {}", getTime(), *objection));

@@ -284,6 +284,9 @@ private:
     void checkTouchesOfPistons();
     AxisStrain& axisToStrain(int axis, std::string_view what);
     void setStrain(int axis, const AxisStrain& how);
+    /// Sets gravity, shear or strain. Throws InputError, and leaves it, if they do not fit each other.
+    template <class State>
+    void takeIfImagesAllow(State& now, const State& asked);
     /// Where a target of the stress is set, takes the rates for the step to come. Throws RunError where the
     /// grains cannot bear it.
     void serveStress();

@@ -135,6 +135,11 @@ inline std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
     return std::clamp<std::size_t>(grains + 3 * walls.getSize(), 2, contactsInDensestBed + 1) - 1;
 }
 
+/// That a piston can have, or has.
+inline double contactsOfPiston(const GrainSizes& grains, const Wall& wall) {
+    return std::max(grains.fullLayer(wall.drivenNormal()), static_cast<double>(wall.drive()->touches));
+}
+
 /// Of a piston: n (k, c) / M for the n contacts that it can have, or has; zero of other walls.
 inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
     const PlaneDrive* const drive = wall.drive();
@@ -148,9 +153,7 @@ inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& 
                                                        sphereMass(radius, species.density(s)))
                                             .normal);
     }
-    const double touches =
-        std::max(grains.fullLayer(wall.drivenNormal()), static_cast<double>(drive->touches));
-    return (touches / drive->asked.mass) * stiffest;
+    return (contactsOfPiston(grains, wall) / drive->asked.mass) * stiffest;
 }
 
 /// The sum of these rows of all walls: a grain may touch several.
@@ -196,32 +199,56 @@ inline double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& 
     return sceneStabilityLimit(species, grains, walls, integrator, pistonRows(species, grains, walls));
 }
 
-/// Throws InputError if a piston is so light that the time step (s), which the grains bear, is above the
-/// stability limit.
-inline void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
-                         double timeStep, const Integrator& integrator) {
-    const SpringAndDashpot rows = pistonRows(species, grains, walls);
-    const auto limitOf = [&](double share) {
-        return sceneStabilityLimit(species, grains, walls, integrator, share * rows);
-    };
-    if (timeStep <= limitOf(1) || timeStep > limitOf(0)) return;
-    double share = 1, tooMuch = 1;  // of the rows, that the step bears
+/// The largest share, up to 1, of what a time step (s) does not bear as a whole.
+/// @param limitOf (share) the stability limit, s; that of 0 is above the step
+template <class Limit>
+double shareThatIsBorne(double timeStep, Limit&& limitOf) {
+    double share = 1, tooMuch = 1;
     for (int halving = 0; halving < 50 && timeStep > limitOf(share); ++halving) tooMuch = share, share *= 0.5;
     for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (share + tooMuch);
         (timeStep > limitOf(middle) ? tooMuch : share) = middle;
     }
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        const Wall& wall = walls.getObject(w);
-        if (!wall.drive() || !wall.drive()->isPiston()) continue;
-        throw InputError(fmt::format(
-            "wall {}: mass of the piston = {:.6g} kg is too light for a time step of {:.6g} s with up to "
-            "{:.0f} contacts on it; it must be at least {:.6g} kg, or the step at most {:.6g} s, unless "
-            "acceptUnstableTimeStep() is called.",
-            w, wall.drive()->asked.mass, timeStep,
-            std::max(grains.fullLayer(wall.drivenNormal()), static_cast<double>(wall.drive()->touches)),
-            1.001 * wall.drive()->asked.mass / share, limitOf(1)));
+    return share;
+}
+
+/// Throws InputError if a piston is so light that the time step (s), which the grains bear, is above the
+/// stability limit: the lightest one, for its contacts, or all of them if the step does not bear the others
+/// either.
+inline void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                         double timeStep, const Integrator& integrator) {
+    const auto limitOf = [&](const SpringAndDashpot& rows) {
+        return sceneStabilityLimit(species, grains, walls, integrator, rows);
+    };
+    const SpringAndDashpot all = pistonRows(species, grains, walls);
+    if (timeStep <= limitOf(all) || timeStep > limitOf({})) return;
+    std::vector<std::size_t> pistons;
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (const Wall& wall = walls.getObject(w); wall.drive() && wall.drive()->isPiston())
+            pistons.push_back(w);
+    const auto rowOf = [&](std::size_t w) { return pistonRow(species, grains, walls.getObject(w)); };
+    const std::size_t lightest =
+        *std::ranges::min_element(pistons, {}, [&](std::size_t w) { return limitOf(rowOf(w)); });
+    SpringAndDashpot others;
+    for (const std::size_t w : pistons)
+        if (w != lightest) others = others + rowOf(w);
+    const bool isOne = timeStep <= limitOf(others);
+    const double share = shareThatIsBorne(
+        timeStep, [&](double part) { return limitOf(isOne ? others + part * rowOf(lightest) : part * all); });
+    if (isOne) pistons = {lightest};
+    std::vector<std::string> masses, least;
+    double touches = 0;
+    for (const std::size_t w : pistons) {
+        const double mass = walls.getObject(w).drive()->asked.mass;
+        masses.push_back(fmt::format("wall {}: mass of the piston = {:.6g} kg", w, mass));
+        least.push_back(fmt::format("{:.6g} kg", 1.001 * mass / share));
+        touches = std::max(touches, contactsOfPiston(grains, walls.getObject(w)));
     }
+    throw InputError(fmt::format(
+        "{} {} too light for a time step of {:.6g} s with up to {:.0f} contacts; it must be at least {}, or "
+        "the step at most {:.6g} s, unless acceptUnstableTimeStep() is called.",
+        fmt::join(masses, ", "), isOne ? "is" : "are together", timeStep, touches, fmt::join(least, ", "),
+        limitOf(all)));
 }
 
 /// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without

@@ -1,5 +1,7 @@
 #include "Kernel/Walls/InfiniteWall.h"
 
+#include <utility>
+
 namespace pendular {
 
 void InfiniteWall::setDrive(const PlaneDriveSettings& asked) {
@@ -8,10 +10,13 @@ void InfiniteWall::setDrive(const PlaneDriveSettings& asked) {
         driven = PlaneDrive{};
         driven->velocity = driven->servo.speed = velocity;
     }
-    driven->asked = asked;
-    driven->mostTouches = 0;
-    driven->isChecked = false;
-    driven->servo.beginAnew();
+    const PlaneDriveSettings before = std::exchange(driven->asked, asked);
+    // Nothing else is checked: another load needs no new list of contacts.
+    if (before.kind != asked.kind || before.mass != asked.mass || before.time != asked.time) {
+        driven->mostTouches = 0;
+        driven->isChecked = false;
+    }
+    driven->servo.beginAnew(before.time == asked.time);
     if (!isInRun()) atSetUp = asked;
 }
 

@@ -32,6 +32,7 @@ struct PlaneDrive {
     double acceleration = 0;                                       // m/s^2, at the end
     bool waits = false;                                            // for the first grains
     bool isChecked = false;                                        // as set-up is, since it was asked for
+    bool forcesAreOld = false;  // contacts have ended since they were summed
 
     std::uint64_t steps = 0;        // since it began
     std::uint64_t touches = 0;      // contacts that act, at the end of the last step

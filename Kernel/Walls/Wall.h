@@ -85,7 +85,8 @@ public:
     /// @param about m, the point of the torque
     void keepForces(bool keep = true, const Vec3D& about = Vec3D::Zero()) {
         forcesKept = keep;
-        kept = {.about = toVector(about)};
+        // A wall that is moved by its force keeps it.
+        kept = {.force = drive() ? kept.force : Vector<double>{0, 0, 0}, .about = toVector(about)};
     }
     [[nodiscard]] bool keepsForces() const { return forcesKept || drive() != nullptr; }
     /// N, of all grains on the wall at the end of the last step; zero unless keepForces() was called or it is
@@ -97,10 +98,18 @@ public:
     /// @param touches contacts that act
     void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches) {
         kept = {force, torque, kept.about};
-        if (PlaneDrive* const driven = drive()) driven->touches = touches;
+        if (PlaneDrive* const driven = drive()) driven->touches = touches, driven->forcesAreOld = false;
     }
-    /// A contact has ended between two steps: its force (N) on the wall acts no longer.
-    void loseForce(const Vector<double>& force) { kept.force -= force; }
+    /// A contact has ended between two steps: its force (N) on a wall that is moved by forces acts no longer.
+    /// What is left is rounded: the next step, and a restart file, need the sum of the contacts that there
+    /// are.
+    void loseForce(const Vector<double>& force) {
+        PlaneDrive* const driven = drive();
+        if (!driven) return;
+        kept.force -= force;
+        if (driven->touches > 0) --driven->touches;
+        driven->forcesAreOld = true;
+    }
 
     /// What a run has changed, and what must be as it was when the run began.
     virtual void visitState(StateArchive& archive) {

@@ -212,7 +212,7 @@ TEST(Piston, theLedgerCloses) {
         const EnergyLedger& ledger = box.energyLedger();
         const double start = ledger.closed();
         box.step(3000);
-        box.lid().setPiston(3e-3, 0.3);  // in the run; the energy of the new mass is the driver's
+        box.lid().setPiston(3e-3, 0.1);  // in the run; the energy of the new mass is the driver's
         box.setGravity({0, 0, -5});
         box.step(3000);
         double all = 0;
@@ -241,7 +241,7 @@ TEST(Piston, goesOnAfterARestartWithTheSameBits) {
         PressedBox<Rough> whole(scheme);
         whole.initialise();
         whole.step(1500);
-        whole.lid().setPiston(1.5e-3, 0.2);
+        whole.lid().setPiston(1.5e-3, 0.06);
         whole.step(1);
         whole.writeRestart(file);
         whole.step(1500);
@@ -418,19 +418,17 @@ TEST(Piston, canBeStoppedAndLetGoAgain) {
     UnderAPlane scene(oneGrain(), 2.2 * radius, 1e-5, 0, tooHeavyToMove);
     scene.plane().setPiston(1e-3, 0.01);
     scene.initialise();
-    scene.step(1000);
+    scene.step(500);
     const double at = scene.height();
+    EXPECT_NEAR(at, 2.2 * radius - 0.5 * 10 * 5e-3 * 5e-3, 1e-15);  // above the grain
     scene.plane().setVelocity({0, 0, 0});
     scene.step(100);
     EXPECT_EQ(scene.height(), at);
     EXPECT_EQ(scene.plane().drive(), nullptr);
     scene.plane().setPiston(1e-3, -0.01);  // it is pulled away from rest
     scene.step(100);
-    const double t = 100 * scene.getTimeStep(), force = 0.01 + scene.plane().getForce().z();
-    EXPECT_GT(scene.height(), at);
-    if (at > 2 * radius) {
-        EXPECT_NEAR(scene.height() - at, 0.5 * force / 1e-3 * t * t, 1e-15);
-    }
+    const double t = 100 * scene.getTimeStep();
+    EXPECT_NEAR(scene.height() - at, 0.5 * 10 * t * t, 1e-15);
 }
 
 }  // namespace

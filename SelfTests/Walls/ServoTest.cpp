@@ -85,7 +85,7 @@ TEST(ServoWall, holdsTheForceOfASoftBedThatGoesAway) {
         last = off, largest = std::max(largest, off);
     }
     EXPECT_LE(crossings, 2);
-    EXPECT_LT(largest, 0.2);
+    EXPECT_LT(largest, 0.135 * 0.1);  // Servo.h; it came slowly, and learnt from a tenth on
     EXPECT_NEAR(scene.force(), target, 1e-6 * target);
     EXPECT_NEAR(scene.wallHandler.getObject(0).getForce().z(), -target, 1e-6 * target);
     EXPECT_NEAR(scene.plane().getDrivenVelocity(), -u, 1e-6 * u);
@@ -110,7 +110,7 @@ TEST(ServoWall, hasTheSameBitsForAnyThreadsAndThroughRestarts) {
     const auto file = folder.path() / "half.h5";
     ServedBox<Rough> whole;
     whole.initialise();
-    whole.step(2003);
+    whole.step(6003);
     whole.writeRestart(file);
     whole.step(1500);
     EXPECT_GT(whole.lid().drive()->touches, 1u);
