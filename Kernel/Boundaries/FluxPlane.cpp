@@ -77,7 +77,7 @@ void FluxPlaneHandler::afterMotion(ParticleHandler& particles,
         for (const Crossing& crossing : crossings) {
             const TranslationRecord& grain = grains.translation[crossing.place];
             const double times = std::abs(crossing.times);
-            const double mass = times * particles.massOf(grain.radius, grains.species[crossing.place]);
+            const double mass = times * particles.massAt(crossing.place);
             const double liquid = times * liquidOf(crossing.place);
             FluxCount& count = plane.count;
             const bool forwards = crossing.times > 0;
