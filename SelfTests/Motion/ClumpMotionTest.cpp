@@ -468,7 +468,8 @@ TEST(ClumpMotion, stabilityLimitIsBelowThatOfARodWithAnyDashpot) {
 // A rod of Hertzian grains that stick between two plates, pressed by nearly the 5 % that the limit is made
 // for, with dashpots of a restitution: it shifts, turns and swings against their springs in the longest step
 // that is allowed. It starts where its springs have least energy, so its kinetic energy is never more than at
-// first, and dies away.
+// first, and dies away. (It grows from 13 times the limit on: of the neighbours that the limit supposes
+// there is one at each side, and its strong dashpots are taken as if they acted on all motions at once.)
 TEST(ClumpMotion, aPressedRodIsStableAtTheLimitOfTheDefaultScheme) {
     constexpr double r = 1e-3, overlap = 0.049 * r;
     Hertzian material;
