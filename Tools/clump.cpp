@@ -12,6 +12,7 @@
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Files/CsvFile.h"
 #include "Kernel/Particles/ClumpTemplate.h"
+#include "Kernel/Shapes/MeshSolid.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/Clump/MeshFilling.h"
@@ -99,7 +100,7 @@ void drawPicture(const std::vector<Ball>& spheres, const std::vector<Triangle>& 
 void writeErrors(const std::vector<Triangle>& mesh, const MassProperties& solid, const Options& o) {
     CsvFile file(o.errors, "method,spheres,volume_error,inertia_error,surface_error,centre_error");
     std::size_t before = 0;
-    const double area = clump::areaOfMesh(mesh);
+    const double area = areaOfMesh(mesh);
     const std::vector<Ball> all = fill(mesh, o, o.most);
     for (std::size_t base = 1; base <= all.size(); base *= 2)
         for (const std::size_t count : {base, base + base / 2}) {
@@ -147,13 +148,14 @@ int run(const Options& o) {
     else {
         mesh = readTriangles(o.mesh, o.unit);
         static_cast<void>(MeshRegion(mesh));  // throws where it is not closed
-        const MassProperties solid = clump::massOfMesh(mesh);
+        clump::orderFromOutside(mesh);
+        const MassProperties solid = massOfMesh(mesh);
         spheres = fewest(fill(mesh, o, o.most), solid, o.volumeError);
         if (spheres.empty())
             throw InputError(fmt::format("{}: no sphere of a radius of at least {:.6g} m is in the mesh.",
                                          program, o.smallest));
         fmt::print("# the mesh\n");
-        describe(solid, 0, clump::areaOfMesh(mesh), o.density);
+        describe(solid, 0, areaOfMesh(mesh), o.density);
         if (!o.errors.empty()) writeErrors(mesh, solid, o);
     }
     const MassProperties made = unionOfSpheres(spheres, spheres.size() > 16 ? tolerance : 1e-10);
@@ -161,7 +163,7 @@ int run(const Options& o) {
     fmt::print("# the spheres\n");
     describe(made, spheres.size(), area, o.density);
     if (!mesh.empty()) {
-        const Errors e = errorsOf(made, area, clump::massOfMesh(mesh), clump::areaOfMesh(mesh));
+        const Errors e = errorsOf(made, area, massOfMesh(mesh), areaOfMesh(mesh));
         fmt::print(
             "# against the mesh: volume {:+.3g}, worst principal moment {:+.3g}, surface {:+.3g}, centre "
             "{:.3g}\n",

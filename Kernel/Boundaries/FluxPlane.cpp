@@ -77,7 +77,7 @@ void FluxPlaneHandler::afterMotion(ParticleHandler& particles, double step,
         for (const Crossing& crossing : crossings) {
             const TranslationRecord& grain = grains.translation[crossing.place];
             const double times = std::abs(crossing.times);
-            const double mass = times * particles.massOf(grain.radius, grains.species[crossing.place]);
+            const double mass = times * particles.massAt(crossing.place);
             const double liquid = times * liquidOf(crossing.place);
             // Not the grain's own velocity, which is the one that contacts are to see: with most integrators
             // that of the end of the step. A way errs by 1e-16 of its place.

@@ -11,8 +11,9 @@ namespace pendular {
 
 class StateArchive;
 
-/// What has gone through a plane. Masses are those of solid spheres of the grains' densities; velocities are
-/// those with which grains moved in the step in which they went through it: way over time.
+/// What has gone through a plane. Masses are those of solid spheres of the grains' densities, in rigid bodies
+/// the grains' shares of the bodies' masses; velocities are those with which grains moved in the step in
+/// which they went through it: way over time.
 struct FluxCount {
     std::uint64_t forwards = 0, backwards = 0;   // grains, with the plane's normal and against it
     double massForwards = 0, massBackwards = 0;  // kg

@@ -55,6 +55,7 @@ void takeState(const Scene& scene, GrainState& state, FieldContent content = Fie
     for (const GrainColumn& column : grains.columns)
         if (column.name == "liquid_film") film = &column;
     const int threads = scene.getNumberOfThreads();
+    const GrainMasses masses(grains, scene.laws());
     std::vector<std::uint32_t> places(grains.place.begin(), grains.place.end());  // by identity
     std::vector<std::uint32_t> number(grains.size());                             // of the grain at a place
     state.grains.resize(places.size());
@@ -68,7 +69,7 @@ void takeState(const Scene& scene, GrainState& state, FieldContent content = Fie
                 state.grains[k] = {grain.position,
                                    grain.velocity,
                                    grain.radius,
-                                   massOf(grains, scene.laws(), place),
+                                   masses(place),
                                    film ? film->values[place] : 0,
                                    grains.species[place]};
             }

@@ -196,16 +196,8 @@ private:
 
     /// A sphere is where its grain is, and turns as that does: by the spin in the middle of the step.
     void follow(std::uint32_t k, const double* beginStep) {
+        bodies.follow(grains, k);
         RigidBody& body = bodies[k];
-        const std::uint32_t place = bodies.placeOf(bodies.begin(k));
-        const TranslationRecord& grain = grains.translation[place];
-        body.position = grain.position, body.velocity = grain.velocity;
-        body.acceleration = grains.acceleration[place];
-        if constexpr (hasSpin) {
-            const RotationRecord& turning = grains.rotation[place];
-            body.angularMomentum = body.inertia.x * turning.spin;
-            body.torque = body.inertia.x * turning.angularAcceleration;
-        }
         if (beginStep == nullptr) return;
         const Vector<double> middle =
             body.angularMomentum + ((scheme.position0 - scheme.velocity0) * *beginStep) * body.torque;
@@ -251,8 +243,9 @@ double RigidBodyMotion::finishAndBegin(ParticleStore& grains, const ContactStore
 }
 
 void RigidBodyMotion::takeBack(ParticleStore& grains, double step, const Integrator& scheme) {
-    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
-        RigidBody& body = grains.bodies[k];
+    RigidBodies& bodies = grains.bodies;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        RigidBody& body = bodies[k];
         const double position0 = scheme.position0 * step, velocity0 = scheme.velocity0 * step;
         body.velocity -= velocity0 * body.acceleration;
         body.position -= step * (body.velocity + position0 * body.acceleration);
@@ -260,8 +253,9 @@ void RigidBodyMotion::takeBack(ParticleStore& grains, double step, const Integra
         // The turn is symmetric in time.
         const Vector<double> middle = body.angularMomentum + position0 * body.torque;
         body.orientation = turnedFreely(body.orientation, body.inertia, middle, -step);
+        if (bodies.isSphere(grains, k)) bodies.follow(grains, k);  // TimeIntegration took the grain back
     }
-    grains.bodies.place(grains);
+    bodies.placeAll(grains);
 }
 
 }  // namespace pendular

@@ -15,13 +15,13 @@ inline void writeGrains(const std::filesystem::path& path, const ParticleStore& 
                  "identity,species,radius_m,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,spin_x_rad_per_s,"
                  "spin_y_rad_per_s,spin_z_rad_per_s,force_x_N,force_y_N,force_z_N,mass_kg,fixed");
     file.comment(remark);
+    const GrainMasses masses(grains, laws);
     for (const std::uint32_t place : grains.place) {
         const auto& [x, radius, v, inverseMass] = grains.translation[place];
         const Vector<double> spin = grains.hasSpin ? grains.rotation[place].spin : Vector<double>{0, 0, 0},
-                             force = forceOn(grains, laws, place);
+                             force = forceOn(grains, masses, place);
         file.row(grains.identity[place], grains.species[place], radius, x.x, x.y, x.z, v.x, v.y, v.z, spin.x,
-                 spin.y, spin.z, force.x, force.y, force.z, massOf(grains, laws, place),
-                 inverseMass > 0 ? 0 : 1);
+                 spin.y, spin.z, force.x, force.y, force.z, masses(place), inverseMass > 0 ? 0 : 1);
     }
     file.close();
 }

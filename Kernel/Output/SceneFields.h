@@ -16,19 +16,43 @@
 
 namespace pendular {
 
-/// The mass of the grain at a place, kg; also of one that is held or part of a rigid body, which its record
-/// does not have.
-inline double massOf(const ParticleStore& grains, const ContactLaws& laws, std::uint32_t place) {
-    const TranslationRecord& grain = grains.translation[place];
-    return grains.isFree(place) ? 1 / grain.inverseMass
-                                : sphereMass(grain.radius, laws.density(grains.species[place]));
-}
+/// The masses of grains; also of those that are held (solid spheres) or part of a rigid body (shares of its
+/// mass, parted as masses of free spheres are), which their records do not have.
+class GrainMasses {
+public:
+    GrainMasses(const ParticleStore& store, const ContactLaws& contactLaws)
+        : grains(store), laws(contactLaws) {
+        if (grains.bodies.empty()) return;
+        shares.resize(grains.size());
+        for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+            std::vector<double> own = grains.bodies.sharesOfMass(
+                k, [this](std::uint32_t grain) { return ofSphere(grains.place[grain]); });
+            const auto members = grains.bodies.membersOf(k);
+            for (std::size_t m = 0; m < own.size(); ++m) shares[grains.place[members[m].grain]] = own[m];
+        }
+    }
+    /// kg, of the grain at a place.
+    [[nodiscard]] double operator()(std::uint32_t place) const {
+        if (!shares.empty() && shares[place] > 0) return shares[place];
+        const double inverse = grains.translation[place].inverseMass;
+        return inverse > 0 ? 1 / inverse : ofSphere(place);
+    }
+
+private:
+    [[nodiscard]] double ofSphere(std::uint32_t place) const {
+        return sphereMass(grains.translation[place].radius, laws.density(grains.species[place]));
+    }
+
+    const ParticleStore& grains;
+    const ContactLaws& laws;
+    std::vector<double> shares;  // kg, by place; 0 of grains in no body
+};
 
 /// All forces on the grain at a place, N, with its weight and with what holds it in its rigid body; not kept,
 /// and zero, for a grain that is held.
-inline Vector<double> forceOn(const ParticleStore& grains, const ContactLaws& laws, std::uint32_t place) {
+inline Vector<double> forceOn(const ParticleStore& grains, const GrainMasses& masses, std::uint32_t place) {
     if (grains.translation[place].inverseMass == 0) return {0, 0, 0};
-    return massOf(grains, laws, place) * grains.acceleration[place];
+    return masses(place) * grains.acceleration[place];
 }
 
 /// Throws InputError where two fields of a frame have one name: a file cannot hold them.
@@ -47,6 +71,7 @@ inline void requireDistinctNames(const std::vector<PolyDataField>& fields, std::
 template <std::floating_point Real = float>
 PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
     PolyData data;
+    const GrainMasses masses(grains, laws);
     std::vector<Real> radius, mass, velocity, spin, force;
     std::vector<std::int32_t> species, fixed, identity;
     const auto append = [](std::vector<Real>& column, const Vector<double>& v) {
@@ -63,10 +88,10 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
         data.corners.push_back(static_cast<std::int32_t>(data.points.size()));
         data.points.push_back(grain.position);
         radius.push_back(static_cast<Real>(grain.radius));
-        mass.push_back(static_cast<Real>(massOf(grains, laws, place)));
+        mass.push_back(static_cast<Real>(masses(place)));
         append(velocity, grain.velocity);
         if (grains.hasSpin) append(spin, grains.rotation[place].spin);
-        append(force, forceOn(grains, laws, place));
+        append(force, forceOn(grains, masses, place));
         species.push_back(grains.species[place]);
         fixed.push_back(grain.inverseMass > 0 ? 0 : 1);
         identity.push_back(static_cast<std::int32_t>(grains.identity[place]));

@@ -105,7 +105,7 @@ void refuseOverlaps(const std::vector<Sphere>& spheres, std::span<const std::uin
 }  // namespace
 
 std::size_t BodyReference::at() const {
-    const std::uint32_t found = grains->bodies.find(number);
+    const std::uint32_t found = handler->store().bodies.find(number);
     if (found == RigidBodies::none) throw InputError(fmt::format("There is no rigid body {}.", number));
     return found;
 }
@@ -115,22 +115,30 @@ Eigen::Quaterniond BodyReference::getOrientation() const {
 }
 std::vector<std::uint32_t> BodyReference::getGrains() const {
     std::vector<std::uint32_t> all;
-    for (const BodyMember& member : grains->bodies.membersOf(at())) all.push_back(member.grain);
+    for (const BodyMember& member : handler->store().bodies.membersOf(at())) all.push_back(member.grain);
     return all;
 }
-template <class Change>
-void BodyReference::change(std::string_view what, const Vec3D& value, std::string_view unit, Change&& set) {
+void BodyReference::requireFinite(std::string_view what, const Vec3D& value, std::string_view unit) const {
     if (!value.allFinite())
         throw InputError(fmt::format("rigid body {}: {} = ({}, {}, {}) {} is not finite.", number, what,
                                      value.x(), value.y(), value.z(), unit));
-    set(body(), toVector(value));
-    grains->bodies.place(*grains, at());
 }
+// A sphere is what its grain is, which is set itself: by way of the body it would be rounded.
 void BodyReference::setVelocity(const Vec3D& velocity) {
-    change("velocity", velocity, "m/s", [](RigidBody& b, const Vector<double>& v) { b.velocity = v; });
+    requireFinite("velocity", velocity, "m/s");
+    ParticleStore& grains = handler->store();
+    const std::size_t k = at();
+    grains.bodies[k].velocity = toVector(velocity);
+    if (!grains.bodies.isSphere(grains, k)) return grains.bodies.place(grains, k);
+    grains.translation[handler->placeOf(getGrains()[0])].velocity = toVector(velocity);
 }
 void BodyReference::setAngularVelocity(const Vec3D& spin) {
-    change("angular velocity", spin, "rad/s", [](RigidBody& b, const Vector<double>& w) { b.setSpin(w); });
+    requireFinite("angular velocity", spin, "rad/s");
+    ParticleStore& grains = handler->store();
+    const std::size_t k = at();
+    grains.bodies[k].setSpin(toVector(spin));
+    if (!grains.bodies.isSphere(grains, k)) return grains.bodies.place(grains, k);
+    if (grains.hasSpin) grains.rotation[handler->placeOf(getGrains()[0])].spin = toVector(spin);
 }
 
 BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
@@ -172,38 +180,47 @@ BodyReference BodyHandler::add(RigidBody body, std::span<const std::uint32_t> id
     const std::uint32_t number = grains.bodies.add(body, members);
     if (!isSphere) grains.bodies.place(grains, grains.bodies.size() - 1);
     particles.noteJoined(identities);
-    return {grains, number};
+    return {particles, number};
 }
 
 BodyReference BodyHandler::copyAndAddObject(const Clump& clump) {
     if (clump.getSpeciesIndex() < 0)
         throw InputError("Clump: species is not set; call setSpecies() with a species of this scene.");
     const double density = particles.massOf(1, clump.getSpeciesIndex()) / sphereMass(1, 1);
-    std::vector<std::uint32_t> identities;
-    for (const SphericalParticle& sphere : clump.getSpheres())
-        identities.push_back(particles.copyAndAddObject(sphere).getId());
-    if (clump.getTemplate().isSphere()) return join(identities);
     BodyMass own = clump.getTemplate().massOf(density, clump.getScale());
     const Eigen::Matrix3d turn = clump.getOrientation().toRotationMatrix();
     own.centre = clump.getPosition();
     own.inertia = turn * own.inertia * turn.transpose();
     own.inertia = 0.5 * (own.inertia + own.inertia.transpose()).eval();
-    BodyReference body = join(identities, own);
+    std::vector<std::uint32_t> identities;
+    try {
+        for (const SphericalParticle& sphere : clump.getSpheres())
+            identities.push_back(particles.copyAndAddObject(sphere).getId());
+        return joinWithMotion(identities, clump, own);
+    } catch (...) {
+        for (const std::uint32_t identity : identities) particles.removeObject(identity);
+        throw;
+    }
+}
+
+BodyReference BodyHandler::joinWithMotion(std::span<const std::uint32_t> identities, const Clump& clump,
+                                          const BodyMass& mass) {
+    if (clump.getTemplate().isSphere()) return join(identities);
+    BodyReference body = join(identities, mass);
     body.setVelocity(clump.getVelocity());
     body.setAngularVelocity(clump.getAngularVelocity());
     return body;
 }
 
-void BodyHandler::refuseTooWide() const {
-    if (!periodic.any()) return;
-    double shortest = infinity;  // m
-    for (const double length : {periodic.length.x, periodic.length.y, periodic.length.z})
-        if (length > 0) shortest = std::min(shortest, length);
+double BodyHandler::refuseTooWide() const {
+    const double shortest = periodic.shortestLength();  // m
+    double widest = 0;                                  // m
     const ParticleStore& grains = particles.store();
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         for (const BodyMember& member : grains.bodies.membersOf(k)) {
             const double width =
                 2 * (norm(member.arm) + grains.translation[grains.place[member.grain]].radius);
+            widest = std::max(widest, width);
             if (width > 0.5 * shortest)
                 throw InputError(fmt::format(
                     "rigid body {} reaches {:.6g} m from its centre, so it is {:.6g} m wide when it turns; "
@@ -211,6 +228,7 @@ void BodyHandler::refuseTooWide() const {
                     "scene that repeats itself after {:.6g} m a body must not be wider than half of that.",
                     grains.bodies.numberOf(k), 0.5 * width, width, shortest));
         }
+    return widest;
 }
 
 void BodyHandler::removeObject(std::size_t number) {
@@ -224,7 +242,7 @@ BodyReference BodyHandler::getObject(std::size_t number) {
     if (particles.store().bodies.find(number) == RigidBodies::none)
         throw InputError(
             fmt::format("There is no rigid body {}; the scene has {} (counted from 0).", number, getSize()));
-    return {particles.store(), static_cast<std::uint32_t>(number)};
+    return {particles, static_cast<std::uint32_t>(number)};
 }
 
 std::optional<std::uint32_t> BodyHandler::bodyOf(std::uint32_t grain) const {

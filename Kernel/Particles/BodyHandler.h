@@ -14,7 +14,7 @@ namespace pendular {
 /// InputError.
 class BodyReference {
 public:
-    BodyReference(ParticleStore& store, std::uint32_t body) : grains(&store), number(body) {}
+    BodyReference(ParticleHandler& particles, std::uint32_t body) : handler(&particles), number(body) {}
 
     [[nodiscard]] std::uint32_t getId() const { return number; }
     [[nodiscard]] double getMass() const { return body().mass; }                       // kg
@@ -39,11 +39,10 @@ public:
 
 private:
     [[nodiscard]] std::size_t at() const;
-    [[nodiscard]] RigidBody& body() const { return grains->bodies[at()]; }
-    template <class Change>
-    void change(std::string_view what, const Vec3D& value, std::string_view unit, Change&& set);
+    [[nodiscard]] RigidBody& body() const { return handler->store().bodies[at()]; }
+    void requireFinite(std::string_view what, const Vec3D& value, std::string_view unit) const;
 
-    ParticleStore* grains;
+    ParticleHandler* handler;  // its store() finishes a step that was left unfinished
     std::uint32_t number;
 };
 
@@ -66,11 +65,11 @@ public:
     }
     /// Adds the spheres of a clump and joins them: a body with the mass of its template. Its spheres follow
     /// each other in the order of the template; they take no notice of other grains (insert() does). Throws
-    /// InputError as copyAndAddObject() of grains does.
+    /// InputError as copyAndAddObject() of grains does; then nothing was added.
     BodyReference copyAndAddObject(const Clump& clump);
-    /// Throws InputError if a body is wider than half the period of a scene, so that it could meet itself, or
-    /// another one twice.
-    void refuseTooWide() const;
+    /// Throws InputError if a body is wider than half the shortest period of a scene, so that it could meet
+    /// itself, or another one twice. Returns the width of the widest (m, as it turns).
+    double refuseTooWide() const;
     /// Removes a body and all its grains.
     void removeObject(std::size_t number);
 
@@ -81,6 +80,8 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> bodyOf(std::uint32_t grain) const;
 
 private:
+    BodyReference joinWithMotion(std::span<const std::uint32_t> identities, const Clump& clump,
+                                 const BodyMass& mass);
     BodyReference add(RigidBody body, std::span<const std::uint32_t> identities,
                       std::span<const Vec3D> positions, bool isSphere);
 

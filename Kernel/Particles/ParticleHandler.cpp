@@ -63,8 +63,7 @@ Vec3D GrainReference::getAngularVelocity() const {
 
 double GrainReference::getMass() const {
     if (isFixed()) return infinity;
-    return handler->store().bodies.contains(number) ? handler->massOf(getRadius(), getSpeciesIndex())
-                                                    : 1 / record().inverseMass;
+    return handler->store().bodies.contains(number) ? handler->massAt(place()) : 1 / record().inverseMass;
 }
 
 Vec3D GrainReference::getForce() const {
@@ -148,6 +147,20 @@ double ParticleHandler::massOf(double radius, int of) const {
     const double density = species->density(index);
     checkValue(species->typeName(index), "density", density, "kg/m^3", positive);
     return sphereMass(radius, density);
+}
+
+double ParticleHandler::massAt(std::uint32_t at) const {
+    const auto ofSphere = [this](std::uint32_t place) {
+        return massOf(grains.translation[place].radius, grains.species[place]);
+    };
+    const std::uint32_t identity = grains.identity[at], body = grains.bodies.bodyOf(identity);
+    if (body == RigidBodies::none) return ofSphere(at);
+    const std::uint32_t k = grains.bodies.find(body);
+    const std::vector<double> shares =
+        grains.bodies.sharesOfMass(k, [&](std::uint32_t grain) { return ofSphere(grains.place[grain]); });
+    const auto members = grains.bodies.membersOf(k);
+    const auto own = std::ranges::find(members, identity, &BodyMember::grain);
+    return shares[static_cast<std::size_t>(own - members.begin())];
 }
 
 GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain) {

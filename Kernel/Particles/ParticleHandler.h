@@ -26,7 +26,7 @@ public:
     [[nodiscard]] Vec3D getPosition() const { return toEigen(record().position); }
     [[nodiscard]] Vec3D getVelocity() const { return toEigen(record().velocity); }
     [[nodiscard]] double getRadius() const { return record().radius; }
-    /// kg; infinite for a grain that is held. Of a grain of a rigid body, that of a solid sphere.
+    /// kg; infinite for a grain that is held. Of a grain of a rigid body, its share of the body's mass.
     [[nodiscard]] double getMass() const;
     [[nodiscard]] bool isFixed() const { return record().inverseMass == 0; }
     [[nodiscard]] int getSpeciesIndex() const;
@@ -157,6 +157,9 @@ public:
 
     /// kg, of a grain of this size (m) and species
     [[nodiscard]] double massOf(double radius, int species) const;
+    /// kg, of the grain at a place: of a solid sphere; in a rigid body its share of that one's mass, which is
+    /// parted as masses of free spheres are.
+    [[nodiscard]] double massAt(std::uint32_t place) const;
     /// Gives all grains the mass of their species' density.
     void renewMasses();
     /// The scene begins: no column is added from now on.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "Kernel/Math/Vector.h"
 
@@ -24,6 +26,13 @@ struct PeriodicBox {
     bool imagesMove = false;             // the scene was set up for shear or strain
 
     [[nodiscard]] bool any() const { return length.x > 0 || length.y > 0 || length.z > 0; }
+    /// m; infinite if there is none.
+    [[nodiscard]] double shortestLength() const {
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const double own : {length.x, length.y, length.z})
+            if (own > 0) shortest = std::min(shortest, own);
+        return shortest;
+    }
     [[nodiscard]] bool isSheared() const { return across.x + across.y + across.z > 0; }
 
     /// By how many images along the gradient a difference of two positions (m) is off the nearest one.

@@ -44,8 +44,9 @@ void RigidBodies::turnArms(std::size_t at) {
     for (std::size_t m = begins[at]; m < begins[at + 1]; ++m) turned[m].arm = axes.turn(members[m].arm);
 }
 
-void RigidBodies::place(ParticleStore& grains) {
-    for (std::size_t k = 0; k < size(); ++k) place(grains, k);
+void RigidBodies::placeAll(ParticleStore& grains) {
+    for (std::size_t k = 0; k < size(); ++k)
+        if (!isSphere(grains, k)) place(grains, k);
 }
 void RigidBodies::place(ParticleStore& grains, std::size_t at) {
     const RigidBody& body = bodies[at];
@@ -64,14 +65,28 @@ void RigidBodies::place(ParticleStore& grains, std::size_t at) {
         turning.spin = spin;
         turning.angularAcceleration = {0, 0, 0};
         turning.inverseInertia = 2.5 / (body.mass * grain.radius * grain.radius);
-        if (isSphere(at)) turning.angularAcceleration = turning.inverseInertia * body.torque;
+        if (isSphere(grains, at)) turning.angularAcceleration = turning.inverseInertia * body.torque;
     }
 }
 
-bool RigidBodies::isSphere(std::size_t at) const {
-    const Vector<double>& inertia = bodies[at].inertia;
-    return begins[at + 1] == begins[at] + 1 && members[begins[at]].arm == Vector<double>{0, 0, 0} &&
-           inertia.x == inertia.y && inertia.y == inertia.z;
+void RigidBodies::follow(const ParticleStore& grains, std::size_t at) {
+    RigidBody& body = bodies[at];
+    const std::uint32_t place = grains.place[members[begins[at]].grain];
+    body.position = grains.translation[place].position, body.velocity = grains.translation[place].velocity;
+    body.acceleration = grains.acceleration[place];
+    if (!grains.hasSpin) return;
+    const RotationRecord& turning = grains.rotation[place];
+    body.angularMomentum = body.inertia.x * turning.spin;
+    body.torque = body.inertia.x * turning.angularAcceleration;
+}
+
+bool RigidBodies::isSphere(const ParticleStore& grains, std::size_t at) const {
+    if (begins[at + 1] != begins[at] + 1 || !(members[begins[at]].arm == Vector<double>{0, 0, 0}))
+        return false;
+    const RigidBody& body = bodies[at];
+    const double radius = grains.translation[grains.place[members[begins[at]].grain]].radius;
+    const double moment = 0.4 * body.mass * radius * radius;  // as join() has it
+    return body.inertia == Vector<double>{moment, moment, moment};
 }
 
 void RigidBodies::refresh(const ParticleStore& grains) {
@@ -84,10 +99,10 @@ void RigidBodies::refresh(const ParticleStore& grains) {
             bodyAt[places[m]] = static_cast<std::uint32_t>(k);
         }
     order.clear(), spheresOnly.clear(), own.clear();
-    for (std::uint32_t k = 0; k < size(); ++k) (isSphere(k) ? spheresOnly : order).push_back(k);
+    for (std::uint32_t k = 0; k < size(); ++k) (isSphere(grains, k) ? spheresOnly : order).push_back(k);
     std::ranges::sort(order, {}, [&](std::uint32_t k) { return places[begins[k]]; });
     for (std::uint32_t at = 0; at < grains.size(); ++at)
-        if (bodyAt[at] == none || isSphere(bodyAt[at])) own.push_back(at);
+        if (bodyAt[at] == none || isSphere(grains, bodyAt[at])) own.push_back(at);
     placesAreKnown = true;
 }
 
@@ -105,18 +120,30 @@ double responseOfTurning(const Vector<double>& arm, const Vector<double>& inerti
 
 }  // namespace
 
+double RigidBodies::massAtContacts(const ParticleStore& grains, std::size_t at) const {
+    const RigidBody& body = bodies[at];
+    if (isSphere(grains, at)) return body.mass;
+    double response = 0, rims = 0;  // 1/kg; m^2
+    for (const BodyMember& member : membersOf(at)) {
+        response += 1 / body.mass + responseOfTurning(member.arm, body.inertia);
+        const double radius = grains.translation[grains.place[member.grain]].radius;
+        rims += radius * radius;
+    }
+    const Vector<double>& moments = body.inertia;
+    return 1 / std::max(response, rims / (2.5 * std::min({moments.x, moments.y, moments.z})));
+}
+
 BodyResponse RigidBodies::response(const ParticleStore& grains) const {
     BodyResponse most;
     for (std::size_t k = 0; k < size(); ++k) {
         const RigidBody& body = bodies[k];
-        double response = 0, largest = 0, smallest = infinity;  // 1/kg; m
+        double largest = 0, smallest = infinity;  // m
         for (const BodyMember& member : membersOf(k)) {
-            response += 1 / body.mass + responseOfTurning(member.arm, body.inertia);
             const double radius = grains.translation[grains.place[member.grain]].radius;
             largest = std::max(largest, radius), smallest = std::min(smallest, radius);
         }
         const double ratio = smallest / largest;
-        most.inertia = std::min(most.inertia, 1 / (response * body.largestFreeMass));
+        most.inertia = std::min(most.inertia, massAtContacts(grains, k) / body.largestFreeMass);
         most.damping = std::max(most.damping, body.mass / (ratio * ratio * ratio * body.largestFreeMass));
     }
     return most;

@@ -104,15 +104,32 @@ public:
     /// Removes the body at a place, not its grains.
     void remove(std::size_t at);
 
-    /// Gives the grains of all bodies, or of one, the mass, the places and the velocities that they have in
-    /// it.
-    void place(ParticleStore& grains);
+    /// Gives the grains of a body the mass, the places and the velocities that they have in it.
     void place(ParticleStore& grains, std::size_t at);
+    /// The same of all bodies but spheres: their grains move by themselves, and keep their bits.
+    void placeAll(ParticleStore& grains);
+    /// The body of a sphere takes over the motion of its grain.
+    void follow(const ParticleStore& grains, std::size_t at);
+    /// Whether a body is a solid sphere: one grain about its centre, with the moment 2/5 m r^2 to the bit.
+    [[nodiscard]] bool isSphere(const ParticleStore& grains, std::size_t at) const;
+
+    /// kg, for which each grain of a body stands: as much as its free sphere has of all of theirs.
+    /// @param massOfSphere kg, by identity
+    template <class Function>
+    [[nodiscard]] std::vector<double> sharesOfMass(std::size_t at, Function&& massOfSphere) const {
+        std::vector<double> shares;
+        double sum = 0;
+        for (const BodyMember& grain : membersOf(at)) sum += shares.emplace_back(massOfSphere(grain.grain));
+        for (double& share : shares) share = bodies[at].mass * (share / sum);
+        return shares;
+    }
 
     /// Of the body that moves most easily. All contacts of a body may act at once: with n grains, n contact
     /// stiffnesses act on its approach (1/M each) and on its turning (the response of each grain's arm), as
     /// on a mass 1 / (n/M + sum of these) a grain, which is compared with the free sphere that its largest
-    /// grain would be. Dashpots are made for the mass of the body.
+    /// grain would be. Friction at the rims turns a body by the sum of r^2 / I, of the smallest moment; the
+    /// limit takes 5/2 over that mass for it (of a solid sphere), so the mass is at most 2/5 I / sum of r^2.
+    /// Dashpots are made for the mass of the body.
     [[nodiscard]] BodyResponse response(const ParticleStore& grains) const;
 
     /// Finds the grains where they are now: after each change of places, before the calls below.
@@ -121,7 +138,7 @@ public:
     /// Where bodies are, those behind each other whose first grains are in the store; without those that
     /// move as their only grain.
     [[nodiscard]] const std::vector<std::uint32_t>& inSpace() const { return order; }
-    /// Bodies of one grain, of the inertia of a sphere, about its centre: they move as it does, bit for bit.
+    /// Those that isSphere() is true of: they move as their grain does, bit for bit.
     [[nodiscard]] const std::vector<std::uint32_t>& spheres() const { return spheresOnly; }
     /// The places of all grains that move by themselves, or are held, or are the sphere of a body.
     [[nodiscard]] const std::vector<std::uint32_t>& ownPlaces() const { return own; }
@@ -138,7 +155,8 @@ public:
 private:
     void requireWhole(const StateArchive& archive, const ParticleStore& grains) const;
     void turnArms(std::size_t at);
-    [[nodiscard]] bool isSphere(std::size_t at) const;
+    /// kg, a grain; see response()
+    [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
     std::vector<RigidBody> bodies;
     std::vector<std::uint32_t> numbers;  // of each; they grow

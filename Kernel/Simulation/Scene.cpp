@@ -367,7 +367,7 @@ void Scene::advanceByStep(bool another) {
                 grain.velocity -= changeOfFlow(grain.position);
             for (std::size_t k = 0; k < grains.bodies.size(); ++k)
                 grains.bodies[k].velocity -= changeOfFlow(grains.bodies[k].position);
-            grains.bodies.place(grains);
+            grains.bodies.placeAll(grains);
         }
         shear = shearAtStep;
         contactSystem.setPeriodicBox(periodic);
@@ -383,6 +383,7 @@ void Scene::tellEvents() {
 }
 
 void Scene::check() {
+    widestBody = bodyHandler.refuseTooWide();
     refuseForBodies(particleHandler.store().bodies);
     GrainSizes sizes = grainSizes(particleHandler.store());
     const bool checksStep = !unstableAccepted && !adaptive.hasChosen();
@@ -406,7 +407,6 @@ void Scene::check() {
 
 void Scene::refuseForBodies(const RigidBodies& bodies) const {
     if (bodies.empty()) return;
-    bodyHandler.refuseTooWide();
     if (integrator.remembersEarlier() || integrator.contacts.springsInStep)
         throw InputError(
             fmt::format("Simulation: the integrator {} does not move rigid bodies; take "
@@ -414,6 +414,16 @@ void Scene::refuseForBodies(const RigidBodies& bodies) const {
                         integrator.name));
     if (!outletHandler.isEmpty())
         throw InputError("Simulation: outlets do not know rigid bodies; leave the outlets out.");
+}
+
+/// Of a scene that has become too short for a body.
+void Scene::refuseWideBodies() {
+    if (widestBody <= 0.5 * periodic.shortestLength()) return;
+    try {
+        widestBody = bodyHandler.refuseTooWide();  // the widest may have been removed
+    } catch (const InputError& refusal) {
+        throw RunError(fmt::format("At time {:.6g} s {}", getTime(), refusal.what()));
+    }
 }
 
 void Scene::refuseForMovingImages() const {
@@ -704,12 +714,15 @@ void Scene::warnOfFedSprings() const {
     const double fewest = fewestStepsToDouble(laws(), checkedSizes, wallHandler, scheme(), getTimeStep());
     if (fewest > 1e7) return;
     const std::string time = fewest < 1 ? "less than one step" : fmt::format("some {:.0f} steps", fewest);
-    logger(
-        LogLevel::Warn,
-        "{}: its springs have too weak dashpots for a time step of {:.3g} s, at which motions of grains at "
-        "rest may double in {}; give it a larger dissipation, or take a smaller step, "
-        "integrators::springsInStep or velocityVerlet.",
-        laws().friction, getTimeStep(), time);
+    const std::string_view advice =
+        checkedSizes.hasBodies
+            ? "give it a larger dissipation, or take a smaller step, or integrators::velocityVerlet"
+            : "give it a larger dissipation, or take a smaller step, integrators::springsInStep or "
+              "velocityVerlet";
+    logger(LogLevel::Warn,
+           "{}: its springs have too weak dashpots for a time step of {:.3g} s, at which motions of grains "
+           "at rest may double in {}; {}.",
+           laws().friction, getTimeStep(), time, advice);
 }
 
 void Scene::visitAll(StateArchive& archive) {
@@ -855,6 +868,7 @@ double Scene::move(ParticleStore& grains, double length) {
     contactSystem.setPeriodicBox(periodic);
     if (const auto objection = objectionToLengths(periodic, largestReach))
         throw RunError(fmt::format("At time {:.6g} s the {}", getTime(), *objection));
+    if (hasBodies) refuseWideBodies();
     return std::sqrt(farthest) +
            0.5 * rate * length * (largestReach + contactSystem.filmReach() + smallestRadius);
 }
@@ -981,7 +995,7 @@ void Scene::bringBack(ParticleStore& grains) {
     for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         grains.bodies[k].position = periodic.wrap(grains.bodies[k].position);
-    grains.bodies.place(grains);  // each body stays whole
+    grains.bodies.placeAll(grains);  // each body stays whole
     intoLedger([&] { account.wentRound(grains, gravity, ledger); });
 }
 

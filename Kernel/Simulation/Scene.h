@@ -274,6 +274,7 @@ private:
     /// At set-up throws, in a run warns, where not all has found room.
     Inserted tellOf(const Inserted& made);
     void refuseForBodies(const RigidBodies& bodies) const;
+    void refuseWideBodies();
     void refuseForMovingImages() const;
     /// Planes that are moved by forces.
     void refuseForDrivenPlanes() const;
@@ -367,6 +368,7 @@ private:
     Vector<double> strainChange{0, 0, 0};  // 1/s, with which the step began
     Vector<double> shearChange{0, 0, 0};   // m/s, of the image along the gradient
     double largestReach = 0;               // m, of two centres that act on each other
+    double widestBody = 0;                 // m, of rigid bodies
     Vector<double> gravity{0, 0, 0};
     Integrator integrator = integrators::predictedVelocityVerlet;
     double smallestRadius = infinity;

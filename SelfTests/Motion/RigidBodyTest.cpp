@@ -377,6 +377,32 @@ TEST(RigidBody, makesTheStabilityLimitShorterByItsResponse) {
     EXPECT_NEAR(joined.stabilityLimit() / free.stabilityLimit(), std::sqrt(1 / (1 + 2 / 2.8)), 1e-12);
 }
 
+// A body with a tenth of a sphere's moment is turned by friction at its rim with r^2 k_t / I, on a plane:
+// with velocity Verlet, which stands 2 / w, the limit must be below that.
+TEST(RigidBody, makesTheStabilityLimitShorterByItsRim) {
+    constexpr double r = 1e-3, stiffness = 1000, tangential = 1000;
+    Rough material;
+    material.setDensity(2500);
+    material.setStiffness(stiffness);
+    material.setSlidingStiffness(tangential);
+    material.setSlidingFrictionCoefficient(0.4);
+    const double m = mass(r, 2500), moment = 0.1 * 0.4 * m * r * r;
+    FewGrains<Rough> scene(material, {{.radius = r, .position = {0, 0, r}}}, 1e-7, {{{0, 0, -1}, {0, 0, 0}}});
+    scene.setIntegrator(integrators::velocityVerlet);
+    const double sphere = scene.stabilityLimit();
+    scene.bodyHandler.join({0}, BodyMass{m, {0, 0, r}, moment * Eigen::Matrix3d::Identity()});
+    const double limit = scene.stabilityLimit(), critical = 2 / std::sqrt(r * r * tangential / moment);
+    EXPECT_LT(limit, critical);
+    EXPECT_GT(limit, 0.2 * critical);
+    EXPECT_NEAR(limit / sphere, std::sqrt(0.1), 1e-12);
+    // A sphere that is a body has the limit of the sphere, to the bit.
+    FewGrains<Rough> joined(material, {{.radius = r, .position = {0, 0, r}}}, 1e-7,
+                            {{{0, 0, -1}, {0, 0, 0}}});
+    joined.setIntegrator(integrators::velocityVerlet);
+    joined.bodyHandler.join({0});
+    EXPECT_EQ(joined.stabilityLimit(), sphere);
+}
+
 TEST(RigidBody, refusesWhatCannotBeJoined) {
     constexpr double r = 1e-3;
     FewGrains<Smooth> scene(smooth(1000, 2500),

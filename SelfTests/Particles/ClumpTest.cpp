@@ -4,8 +4,12 @@
 #include <fstream>
 #include <numbers>
 
+#include "Kernel/CoarseGraining/FieldSums.h"
+#include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Shapes/MeshSolid.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Walls/TriangleReader.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -117,6 +121,80 @@ TEST(Clump, refusesABodyThatIsWiderThanHalfThePeriod) {
     Clump clump{ClumpTemplate(dimer(r))};
     EXPECT_TRUE(
         contains(support::refusal([&] { scene.bodyHandler.copyAndAddObject(clump); }), "species is not set"));
+}
+
+// A box of 3 x 2 x 1 mm about (1.5, 1, 0.5) mm for which one sphere stands, with corners either way round.
+TEST(Clump, hasTheMassOfAMesh) {
+    const support::TestFolder folder;
+    for (const bool clockwise : {false, true}) {
+        std::ofstream file(folder.path() / "box.txt");
+        constexpr int faces[6][4]{{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 1, 3, 2},
+                                  {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}};
+        const auto corner = [&](int k) {
+            file << (k & 4 ? 3 : 0) << ' ' << (k & 2 ? 2 : 0) << ' ' << (k & 1 ? 1 : 0) << ' ';
+        };
+        for (const auto& f : faces)
+            for (const int middle : {1, 2}) {
+                corner(f[0]), corner(f[clockwise ? middle + 1 : middle]),
+                    corner(f[clockwise ? middle : middle + 1]);
+                file << '\n';
+            }
+        file.close();
+        const ClumpTemplate box({{{1.5e-3, 1e-3, 0.5e-3}, 1e-3}},
+                                massOfMesh(readTriangles(folder.path() / "box.txt", 1e-3)));
+        const BodyMass own = box.massOf(density, 1);
+        EXPECT_NEAR(own.mass / (density * 6e-9), 1, 1e-14);
+        EXPECT_NEAR(own.inertia(0, 0) / (own.mass * 5e-6 / 12), 1, 1e-13);
+        EXPECT_NEAR(own.inertia(2, 2) / (own.mass * 13e-6 / 12), 1, 1e-13);
+        EXPECT_LT(box.getSpheres()[0].centre.norm(), 1e-17);
+    }
+}
+
+// What cannot be joined leaves no grains behind: the moments of a copy that is a billion times smaller are no
+// longer above zero.
+TEST(Clump, addsAllOfItOrNothing) {
+    FewGrains<Smooth> scene(material(), {{.radius = 1e-3}}, 1e-6);
+    Clump clump{ClumpTemplate(dimer(1), BodyMass{1, {0, 0, 0}, 1e-300 * Eigen::Matrix3d::Identity()})};
+    clump.setSpecies(scene.speciesHandler.getObject(0));
+    clump.setScale(1e-9);
+    EXPECT_TRUE(contains(support::refusal([&] { scene.bodyHandler.copyAndAddObject(clump); }),
+                         "they must be positive"));
+    EXPECT_EQ(scene.particleHandler.getSize(), 1u);
+    EXPECT_EQ(scene.bodyHandler.getSize(), 0u);
+    scene.initialise();
+    scene.step();
+}
+
+// Grains stand for shares of the mass of their body, in fields, outputs and at planes that count: overlaps
+// do not count twice.
+TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
+    constexpr double r = 1e-3, speed = 0.5;
+    FewGrains<Smooth> scene(material(), {{.radius = r, .position = {0, 0, 0}}}, 1e-5);
+    scene.fluxPlaneHandler.add({0, 0, 1}, {0, 0, 0.012});
+    Clump clump{ClumpTemplate({{{0, 0, 0}, r}, {{0.8 * r, 0, 0}, 0.7 * r}, {{0, 0.4 * r, r}, r}})};
+    clump.setSpecies(scene.speciesHandler.getObject(0));
+    clump.setPosition({0, 0, 0.01});
+    clump.setVelocity({0, 0, speed});
+    const BodyReference body = scene.bodyHandler.copyAndAddObject(clump);
+    const double free = scene.particleHandler.getObject(0).getMass(), all = body.getMass() + free;  // kg
+    scene.initialise();
+    scene.step(1000);  // 5 mm
+    double ofGrains = 0, written = 0;
+    for (const GrainReference grain : scene.particleHandler) ofGrains += grain.getMass();
+    EXPECT_NEAR(ofGrains / all, 1, 1e-14);
+    const PolyData points = grainPoints<double>(scene.particleHandler.store(), scene.laws());
+    for (const double mass : std::get<std::vector<double>>(points.pointFields[1].numbers)) written += mass;
+    EXPECT_EQ(points.pointFields[1].name, "mass_kg");
+    EXPECT_NEAR(written / all, 1, 1e-14);
+    const FieldGrid grid("O", {-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}, 0.01);
+    FieldSums sums(grid, SmoothingKernel(KernelShape::Gauss, grid.dimensions(), r, 3 * r));
+    sums.add(stateOf(scene));
+    EXPECT_NEAR(sums.ofAll(FieldSums::Mass, 0) * grid.volume() / all, 1, 1e-13);
+    EXPECT_NEAR(sums.ofAll(FieldSums::Momentum + 2, 0) * grid.volume() / (body.getMass() * speed), 1, 1e-13);
+    const FluxCount& count = scene.fluxPlaneHandler.count(0);
+    EXPECT_EQ(count.forwards, 3u);
+    EXPECT_NEAR(count.netMass() / body.getMass(), 1, 1e-14);
+    EXPECT_NEAR(count.netMomentum().z() / (body.getMass() * speed), 1, 1e-14);
 }
 
 /// Whether a sphere of one body overlaps another body's, in a periodic scene.

@@ -25,7 +25,8 @@ using support::run;
 const std::string tool = (folders::tools / "clump").string() + " ";
 
 /// The twelve triangles of a box from the origin to a corner, counter-clockwise from outside.
-std::string boxMesh(double a, double b, double c) {
+/// @param clockwise the corners of each in the other sense
+std::string boxMesh(double a, double b, double c, bool clockwise = false) {
     constexpr std::array<std::array<int, 4>, 6> faces{
         {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}}};
     std::string text;
@@ -34,7 +35,7 @@ std::string boxMesh(double a, double b, double c) {
     };
     for (const auto& f : faces)
         for (const auto& t : {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}})
-            text += corner(t[0]) + corner(t[1]) + corner(t[2]) + "\n";
+            text += corner(t[0]) + corner(t[clockwise ? 2 : 1]) + corner(t[clockwise ? 1 : 2]) + "\n";
     return text;
 }
 const support::TemporaryFile box(".txt", boxMesh(3, 2, 1));
@@ -96,6 +97,16 @@ TEST(ClumpTool, weighsAMeshAndFillsItBothWays) {
                     1, 1e-4);
         EXPECT_EQ(run(ofBox + "--cells 24 --method " + method).output,
                   run(ofBox + "--cells 24 --method " + method).output);
+    }
+}
+
+TEST(ClumpTool, takesAMeshWhoseCornersGoRoundTheOtherWay) {
+    const support::TemporaryFile turned(".txt", boxMesh(3, 2, 1, true));
+    for (const std::string method : {"surface", "within"}) {
+        const std::string how = " --cells 12 --number 6 --method " + method;
+        const auto result = run(tool + "--mesh " + turned.path.string() + how);
+        EXPECT_EQ(result.exitCode, 0) << result.output;
+        EXPECT_EQ(result.output, run(ofBox + how).output);
     }
 }
 

@@ -94,6 +94,21 @@ TEST(FedSprings, areWarnedOfWhereTheStepIsTooLongForTheirDashpots) {
         std::numbers::ln2, 1e-9);
 }
 
+// With a rigid body springs stay ahead, and the advice is what a scene with bodies takes.
+TEST(FedSprings, areWarnedOfWithARigidBody) {
+    Row row(0, 0.4 / frequency());
+    row.bodyHandler.join({0});
+    row.acceptUnstableTimeStep();
+    const std::string warning = row.warning();
+    EXPECT_TRUE(support::contains(warning, "larger dissipation"));
+    EXPECT_TRUE(support::contains(warning, "integrators::velocityVerlet"));
+    EXPECT_EQ(warning.find("springsInStep"), std::string::npos);
+    Row verlet(0, 0.4 / frequency());
+    verlet.bodyHandler.join({0});
+    verlet.setIntegrator(integrators::velocityVerlet);
+    EXPECT_EQ(verlet.warning(), "");
+}
+
 TEST(FedSprings, areMovedInTheStepWhereDashpotsLackAndElseKeepTheirBits) {
     const double near = 1.99 * radius, step = 1e-6;
     const auto hash = [&](double dissipation, const Integrator& integrator) {

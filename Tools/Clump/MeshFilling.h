@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
-#include "Tools/Clump/MeshSolid.h"
+#include "Kernel/Insertion/MeshRegion.h"
+#include "Kernel/Shapes/MeshSolid.h"
 
 namespace pendular::clump {
 
@@ -17,6 +19,30 @@ struct Filling {
     double overlap = 0.6;  // of a sphere's radius, that the next spheres may reach into
     std::uint64_t seed = 1;
 };
+
+/// Turns a mesh that is clockwise over.
+inline void orderFromOutside(std::vector<Triangle>& mesh) {
+    if (signedVolume(mesh) < 0)
+        for (Triangle& t : mesh) std::swap(t[1], t[2]);
+}
+
+/// m, from a point to the nearest point of a triangle. Source: Ericson, Real-Time Collision Detection (2005),
+/// section 5.1.5: by the region of the plane that the point lies over.
+inline double distanceTo(const Triangle& t, const Vector<double>& p) {
+    const Vector<double> ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
+    const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp);
+    const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+    if (d1 <= 0 && d2 <= 0) return norm(ap);
+    if (d3 >= 0 && d4 <= d3) return norm(bp);
+    if (d6 >= 0 && d5 <= d6) return norm(cp);
+    const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return norm(ap - (d1 / (d1 - d3)) * ab);
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return norm(ap - (d2 / (d2 - d6)) * ac);
+    if (va <= 0 && d4 >= d3 && d5 >= d6)
+        return norm(bp - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (t[2] - t[1]));
+    const double scale = 1 / (va + vb + vc);
+    return norm(ap - (vb * scale) * ab - (vc * scale) * ac);
+}
 
 /// Points of the surface with the normals inwards: the corners of the mesh after its triangles were halved
 /// until no edge is longer than a length (m).
