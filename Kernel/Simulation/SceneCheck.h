@@ -135,6 +135,14 @@ inline std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
     return std::clamp<std::size_t>(grains + 3 * walls.getSize(), 2, contactsInDensestBed + 1) - 1;
 }
 
+/// The contacts for which the mass of a piston is checked: before its first step a guess, a full layer; then
+/// the most that there have been, so that a run that goes on is checked as one that was not stopped.
+inline double touchesOfPiston(const GrainSizes& grains, const Wall& wall) {
+    const PlaneDrive& drive = *wall.drive();
+    const double now = static_cast<double>(std::max(drive.touches, drive.mostTouches));
+    return drive.steps > 0 ? now : std::max(grains.fullLayer(wall.drivenNormal()), now);
+}
+
 /// Of a piston: n (k, c) / M for the n contacts that it can have, or has; zero of other walls.
 inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
     const PlaneDrive* const drive = wall.drive();
@@ -148,9 +156,7 @@ inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& 
                                                        sphereMass(radius, species.density(s)))
                                             .normal);
     }
-    const double touches =
-        std::max(grains.fullLayer(wall.drivenNormal()), static_cast<double>(drive->touches));
-    return (touches / drive->asked.mass) * stiffest;
+    return (touchesOfPiston(grains, wall) / drive->asked.mass) * stiffest;
 }
 
 /// The sum of these rows of all walls: a grain may touch several.
@@ -218,8 +224,7 @@ inline void checkPistons(const ContactLaws& species, const GrainSizes& grains, c
             "wall {}: mass of the piston = {:.6g} kg is too light for a time step of {:.6g} s with up to "
             "{:.0f} contacts on it; it must be at least {:.6g} kg, or the step at most {:.6g} s, unless "
             "acceptUnstableTimeStep() is called.",
-            w, wall.drive()->asked.mass, timeStep,
-            std::max(grains.fullLayer(wall.drivenNormal()), static_cast<double>(wall.drive()->touches)),
+            w, wall.drive()->asked.mass, timeStep, touchesOfPiston(grains, wall),
             1.001 * wall.drive()->asked.mass / share, limitOf(1)));
     }
 }
