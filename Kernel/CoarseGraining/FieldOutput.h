@@ -67,6 +67,8 @@ public:
                     "FieldOutput: NAME-fields.h5 is the file of Hdf5Output; give it another name by "
                     "withName().");
         }
+        if (window > 0 && !times.isGiven() && scene.adaptiveTimeStep().isSet())
+            throw InputError("FieldOutput: averages with the adaptive time step need withInterval().");
         FieldSums::refuseMovingImages(sums.grid(), scene.getPeriodicBox());
     }
 
