@@ -66,6 +66,8 @@ public:
             Hdf5Series::prepare();
             refuseFileOfOthers(scene.getName());
         }
+        if (window > 0 && !times.isGiven() && scene.adaptiveTimeStep().isSet())
+            throw InputError("FieldOutput: averages with the adaptive time step need withInterval().");
         FieldSums::refuseMovingImages(sums.grid(), scene.getPeriodicBox());
         if (!withFlow && !scene.getPeriodicBox().imagesMove)
             throw InputError(

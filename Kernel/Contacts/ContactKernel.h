@@ -285,12 +285,11 @@ private:
         history.turn({.normal = g.normal,
                       .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
                       .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
-        if constexpr (movesSprings<Friction, Pack>)
-            if (timing.springsInStep) [[unlikely]] {
-                slip.timeBefore = slip.timeAfter = Pack(0);
-                history.move(moved.sliding);
-                if constexpr (HasContactTorque<Friction>) history.moveRotation(moved.turning, g.normal);
-            }
+        if (timing.springsInStep) [[unlikely]] {
+            slip.timeBefore = slip.timeAfter = Pack(0);
+            history.move(moved.sliding);
+            if constexpr (HasContactTorque<Friction>) history.moveRotation(moved.turning, g.normal);
+        }
         const SliderForce<Pack> force = sliderForce<Friction>(laws.friction, normal.contact,
                                                               max(normal.repulsion, Pack(0)), slip, history);
         if (ledger) [[unlikely]]

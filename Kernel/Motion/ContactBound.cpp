@@ -5,6 +5,7 @@
 #include <span>
 
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Walls/PartCover.h"
 
 namespace pendular {
 namespace {
@@ -134,50 +135,97 @@ void ContactBounds::chooseWeights(const ParticleStore& grains) {
     dashpotUnit = unitOf(4 * dashpot);
 }
 
-/// The contacts of a bucket that act, or are within reach.
+/// The contacts of a bucket that act, or are within reach. Those of one grain with the parts of a wall follow
+/// each other.
 void ContactBounds::take(const ContactSystem& contacts, const WallHandler& walls, const ParticleStore& grains,
                          const Bucket& bucket, const ContactOutlook& outlook) {
     const ContactStore& store = contacts.store();
-    const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
-    const PeriodicBox& box = contacts.periodicBox();
-    for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
-        const std::size_t b = c / Pack::lanes, lane = c % Pack::lanes;
-        if (!ContactStore::bitOf(store.states[b].listed, c)) continue;
-        const std::uint32_t first = store.blocks[b].first[lane], second = store.blocks[b].second[lane];
-        const TranslationRecord& one = grains.translation[first];
-        Term term{first, none, {}, {}, {}, 0, 0, one.radius, false};
-        Bodies& bodies = term.pair.bodies;
-        bodies.radius1 = one.radius;
-        double inverseMass = one.inverseMass;
+    const auto isListed = [&](std::size_t c) {
+        return ContactStore::bitOf(store.states[c / Pack::lanes].listed, c);
+    };
+    const auto grainOf = [&](std::size_t c) { return store.blocks[c / Pack::lanes].first[c % Pack::lanes]; };
+    const std::size_t end = bucket.end * Pack::lanes;
+    for (std::size_t c = bucket.begin * Pack::lanes, next; c < end; c = next) {
+        next = c + 1;
+        if (!isListed(c)) continue;
         if (bucket.wall < 0) {
-            const TranslationRecord& two = grains.translation[second];
-            const Vector<double> apart = two.position - one.position, shift = box.nearest(apart);
-            const double distance = norm(shift);
-            term.second = second;
-            term.normal = (1 / distance) * shift;
-            term.gap = distance - (one.radius + two.radius);
-            Vector<double> velocity = one.velocity - two.velocity;
-            if (box.imagesMove) velocity += box.velocityBetweenImages(apart, shift);
-            term.approach = dot(velocity, term.normal);
-            inverseMass += two.inverseMass;
-            term.smallerRadius = std::min(one.radius, two.radius);
-            bodies.radius2 = two.radius;
-        } else {
-            WallPoint point;
-            walls.getObject(static_cast<std::size_t>(bucket.wall))
-                .findPoints(one.position, one.radius + outlook.reach, {&second, 1}, {&point, 1});
-            term.gap = point.distance - one.radius;
-            term.normal = point.normal;
-            term.approach = dot(one.velocity - point.velocity, term.normal);
+            takePair(contacts, grains, bucket, c, outlook);
+            continue;
         }
-        if (!(inverseMass > 0)) continue;
-        term.drags = ContactStore::bitOf(store.states[b].bridged, c) ||
-                     (laws.resistsMotion &&
-                      term.gap < outlook.reach + laws.range(bucket.species1, bucket.species2, bodies));
-        if (!(term.gap < outlook.reach) && !(term.gap < 0) && !term.drags) continue;
-        term.pair.effectiveMass = 1 / inverseMass;
-        terms.push_back(term);
+        while (next < end && isListed(next) && grainOf(next) == grainOf(c)) ++next;
+        takeAtWall(contacts, walls.getObject(static_cast<std::size_t>(bucket.wall)), grains, bucket, c, next,
+                   outlook);
     }
+}
+
+void ContactBounds::takePair(const ContactSystem& contacts, const ParticleStore& grains, const Bucket& bucket,
+                             std::size_t contact, const ContactOutlook& outlook) {
+    const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
+    const std::uint32_t first = block.first[contact % Pack::lanes],
+                        second = block.second[contact % Pack::lanes];
+    const TranslationRecord &one = grains.translation[first], &two = grains.translation[second];
+    if (!(one.inverseMass + two.inverseMass > 0)) return;
+    const PeriodicBox& box = contacts.periodicBox();
+    const Vector<double> apart = two.position - one.position, shift = box.nearest(apart);
+    const double distance = norm(shift);
+    Vector<double> velocity = one.velocity - two.velocity;
+    if (box.imagesMove) velocity += box.velocityBetweenImages(apart, shift);
+    Term term{.first = first, .second = second, .normal = (1 / distance) * shift};
+    term.gap = distance - (one.radius + two.radius);
+    term.approach = dot(velocity, term.normal);
+    term.smallerRadius = std::min(one.radius, two.radius);
+    term.pair.bodies = {one.radius, two.radius};
+    term.pair.effectiveMass = 1 / (one.inverseMass + two.inverseMass);
+    keep(contacts, bucket, contact, term, outlook);
+}
+
+/// Parts that others cover have no contact of their own. By the next choice one may: it does not turn by more
+/// than a smooth surface, or it is not yet within reach (README).
+void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, const ParticleStore& grains,
+                               const Bucket& bucket, std::size_t begin, std::size_t end,
+                               const ContactOutlook& outlook) {
+    const ContactStore& store = contacts.store();
+    const std::uint32_t first = store.blocks[begin / Pack::lanes].first[begin % Pack::lanes];
+    const TranslationRecord& grain = grains.translation[first];
+    if (!(grain.inverseMass > 0)) return;
+    parts.clear();
+    for (std::size_t c = begin; c < end; ++c)
+        parts.push_back(store.blocks[c / Pack::lanes].second[c % Pack::lanes]);
+    points.assign(parts.size(), {});
+    const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
+    const Bodies bodies{grain.radius};
+    const double range = laws.resistsMotion ? laws.range(bucket.species1, bucket.species2, bodies) : 0;
+    const double reach = grain.radius + outlook.reach + range;
+    wall.findPoints(grain.position, reach, parts, points);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        WallPoint point = points[k];
+        if (point.coveredBy >= 0) {
+            const WallPoint& cover = points[static_cast<std::size_t>(point.coveredBy)];
+            if (outlook.reach == 0 || isSmooth(cover.normal, point.normal)) continue;
+            wall.findPoints(grain.position, reach, {&parts[k], 1}, {&point, 1});
+        }
+        Term term{.first = first, .second = none, .normal = point.normal};
+        term.gap = point.distance - grain.radius;
+        term.approach = dot(grain.velocity - point.velocity, term.normal);
+        term.smallerRadius = grain.radius;
+        term.pair.bodies = bodies;
+        term.pair.effectiveMass = 1 / grain.inverseMass;
+        keep(contacts, bucket, begin + k, term, outlook);
+    }
+}
+
+/// If it acts, or is within reach.
+void ContactBounds::keep(const ContactSystem& contacts, const Bucket& bucket, std::size_t contact, Term& term,
+                         const ContactOutlook& outlook) {
+    const int a = bucket.species1, b = bucket.species2;
+    const ContactLaws& laws = contacts.laws().ofPair(a, b);
+    term.drags = ContactStore::bitOf(contacts.store().states[contact / Pack::lanes].bridged, contact);
+    if (!term.drags && laws.resistsMotion) {
+        const double forms =
+            laws.formsAtContact ? laws.filmContactGap(a, b) : laws.range(a, b, term.pair.bodies);
+        term.drags = term.gap < outlook.reach + forms;
+    }
+    if (term.gap < outlook.reach || term.gap < 0 || term.drags) terms.push_back(term);
 }
 
 void ContactBounds::summarise(ContactBound& found) const {

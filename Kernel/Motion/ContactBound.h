@@ -65,12 +65,12 @@ private:
     struct Term {
         std::uint32_t first, second;  // places; second: none at a wall
         Vector<double> normal;
-        PressedPair pair;
-        ContactStiffness stiffness;
-        double gap;            // m
-        double approach;       // m/s
-        double smallerRadius;  // m
-        bool drags;            // a bridge
+        PressedPair pair{};
+        ContactStiffness stiffness{};
+        double gap = 0;            // m
+        double approach = 0;       // m/s
+        double smallerRadius = 0;  // m
+        bool drags = false;        // a bridge
     };
     struct OfGrain {
         Block spring, dashpot;
@@ -84,6 +84,13 @@ private:
 
     void take(const ContactSystem& contacts, const WallHandler& walls, const ParticleStore& grains,
               const Bucket& bucket, const ContactOutlook& outlook);
+    void takePair(const ContactSystem& contacts, const ParticleStore& grains, const Bucket& bucket,
+                  std::size_t contact, const ContactOutlook& outlook);
+    /// @param begin, end contacts of one grain with parts of the wall
+    void takeAtWall(const ContactSystem& contacts, const Wall& wall, const ParticleStore& grains,
+                    const Bucket& bucket, std::size_t begin, std::size_t end, const ContactOutlook& outlook);
+    void keep(const ContactSystem& contacts, const Bucket& bucket, std::size_t contact, Term& term,
+              const ContactOutlook& outlook);
     void press(const ContactLaws& laws, const Bucket& bucket, std::span<Term> ofBucket,
                const ContactOutlook& outlook, double approach);
     void summarise(ContactBound& found) const;
@@ -99,6 +106,9 @@ private:
 
     std::vector<Term> terms;
     std::vector<OfGrain> blocks;  // of the grains by place
+    // Of one grain at a wall.
+    std::vector<std::uint32_t> parts;
+    std::vector<WallPoint> points;
     double springUnit = 0, dashpotUnit = 0;
 };
 

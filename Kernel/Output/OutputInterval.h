@@ -8,8 +8,8 @@
 
 namespace pendular {
 
-/// The steps at which an output is due that has an interval of its own: those nearest to its multiples. They
-/// follow from the number of the step, so a run that goes on has those of one that was not stopped.
+/// The steps at which an output is due that has an interval of its own: those nearest to its multiples. A run
+/// that goes on has those of one that was not stopped.
 class OutputInterval {
 public:
     /// None: the output is due whenever writeOutput() is called.
@@ -20,6 +20,17 @@ public:
     }
 
     [[nodiscard]] bool isGiven() const { return seconds > 0; }
+    /// What goes into a restart file.
+    struct Told {
+        double interval;  // s
+        double multiple;  // of it, the last one; NaN: none yet
+    };
+    [[nodiscard]] Told lastTold() const { return {seconds, told}; }
+    /// Goes on from what another one, or this one in another run, was told. Nothing if that had another
+    /// interval.
+    void goOnFrom(const Told& last) {
+        if (last.interval == seconds) told = last.multiple;
+    }
     /// Whether the nearest multiple of the interval was not told of yet. Asked after each step, in order.
     /// @param timeStep s; @param timeBefore s, of the steps that are not counted: those with another time
     /// step

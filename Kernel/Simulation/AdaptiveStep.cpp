@@ -72,9 +72,13 @@ void AdaptiveStep::visitState(StateArchive& archive) {
     archive.same("largest", largest, "s");
     archive.value("stepsSince", stepsSince);
     archive.value("surprised", surprised);
-    archive.finite("wallSpeed", wallSpeed);
-    archive.finite("supposedSpeed", supposedSpeed);
-    archive.finite("supposedWallSpeed", supposedWallSpeed);
+    const auto speed = [&](std::string_view name, double& value) {  // infinite where an endless wall tilts
+        archive.value(name, value);
+        archive.require(value >= 0, name, "is negative or not a number");
+    };
+    speed("wallSpeed", wallSpeed);
+    speed("supposedSpeed", supposedSpeed);
+    speed("supposedWallSpeed", supposedWallSpeed);
     archive.finite("approachBefore", approachBefore);
     archive.value("choices", choices);
     archive.value("smallestChosen", smallestChosen);

@@ -51,6 +51,11 @@ public:
     /// @param step s, that was; @param most s, the largest unless one was given; @param gravity m/s^2
     [[nodiscard]] Outlook lookAhead(const ParticleStore& grains, double step, double most, double gravity,
                                     double smallestRadius);
+    /// The step (s) until the next choice, where grains have come: at most what any contact of theirs stands.
+    /// @param step s, that is; @param most, limit as below
+    [[nodiscard]] double shorten(double step, double most, double limit) const {
+        return std::min({step, share * limit, largest > 0 ? largest : most});
+    }
     /// The step (s) from now on.
     /// @param limit s, that of the densest bed at the largest sound overlap
     [[nodiscard]] double choose(double step, double most, const Outlook& outlook, const ContactBound& bound,

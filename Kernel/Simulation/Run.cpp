@@ -156,7 +156,19 @@ void Run::visitOutputs(StateArchive& archive) {
         for (const KeptOutput& output : outputs)
             if (output.visitState) output.visitState(archive);
     });
+    visitIntervals(archive);
     archive.group("driver", [&] { visitState(archive); });
+}
+
+/// Outputs of one interval are due at the same steps, so that it is no matter which of them a file knows.
+void Run::visitIntervals(StateArchive& archive) {
+    std::vector<OutputInterval::Told> told;
+    for (const KeptOutput& output : outputs)
+        if (output.interval.isGiven()) told.push_back(output.interval.lastTold());
+    archive.column<double>("outputIntervals", told);
+    if (!archive.isReading()) return;
+    for (KeptOutput& output : outputs)
+        for (const OutputInterval::Told& last : told) output.interval.goOnFrom(last);
 }
 
 /// By any of its paths.

@@ -143,6 +143,7 @@ protected:
     StepTimes::Part enter(StepTimes::Part part) { return times.enter(part); }
 
 private:
+    void visitIntervals(StateArchive& archive);
     /// Marks, for as long as it lives, that one of the calls below is under way; throws InputError where any
     /// of the given ones is.
     class Within;

@@ -90,9 +90,10 @@ private:
             rows.addNumber("smallest time step", adaptive.smallestStep(), "s");
             rows.addNumber("largest time step", adaptive.largestStep(), "s");
         }
-        rows.addNumber(
-            "stability limit",
-            sceneStabilityLimit(scene.laws(), sizes(scene), scene.wallHandler, scene.getIntegrator()), "s");
+        rows.addNumber("stability limit",
+                       sceneStabilityLimit(scene.laws(), scene.grainSizes(scene.particleHandler.store()),
+                                           scene.wallHandler, scene.scheme()),
+                       "s");
         if (scene.acceptsUnstableTimeStep()) rows.add("step above the stability limit", "accepted");
         rows.add("threads", scene.getNumberOfThreads());
         rows.add("grains", scene.particleHandler.getSize());

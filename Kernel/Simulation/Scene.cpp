@@ -526,7 +526,11 @@ void Scene::takeOverChanges() {
         if (!newLaws && !changedWalls && getTimeStep() == checkedStep && !particleHandler.hasChanges())
             return;
         const GrainChanges changes = particleHandler.takeChanges();
-        adaptive.chooseAnew();
+        const bool newBodies = changedWalls || !changes.placed.empty() || !changes.altered.empty();
+        if (adaptive.isSet()) {
+            if (newLaws || newBodies || getTimeStep() != checkedStep) adaptive.chooseAnew();
+            else shortenTimeStep();
+        }
         if (newLaws) {
             ContactLayout asked = laws().layout;
             asked.named = contactSystem.columns().size();
@@ -539,7 +543,6 @@ void Scene::takeOverChanges() {
             if (liquidDensity > 0) weighFilms(particleHandler.store());
             speciesChanged = true;
         }
-        const bool newBodies = changedWalls || !changes.placed.empty() || !changes.altered.empty();
         if (changedWalls) sumForcesOnNewDrives();
         if (newLaws || newBodies || getTimeStep() != checkedStep || isNewToChecks(changes.added)) check();
         ParticleStore& grains = particleHandler.store();

@@ -233,11 +233,18 @@ public:
     /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1) of what they and those
     /// that may come stand, at most the largest step (s). Unless that is given, it is 0.9 over the highest
     /// frequency of two grains (shortestContactTime() 0.9 / pi), which keeps bulk figures to 1 %. The run
-    /// begins with setTimeStep(). At set-up; not with moving images (shear, strain), rigid bodies or
-    /// integrators that remember a step.
+    /// begins with setTimeStep(). At set-up; not with moving images (shear, strain), rigid bodies, walls that
+    /// forces move, viscous bridges or integrators that remember a step.
     void setAdaptiveTimeStep(double share, double largestStep = unset);
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const { return adaptive; }
     [[nodiscard]] const Integrator& getIntegrator() const { return integrator; }
+    /// What the scene makes of it: springsInStep where the friction lacks dashpots, or with the adaptive
+    /// step.
+    [[nodiscard]] Integrator scheme() const {
+        return springsInStep ? integrators::springsInStep : integrator;
+    }
+    /// Of all these grains, and of those that inlets will bring.
+    [[nodiscard]] GrainSizes grainSizes(const ParticleStore& grains) const;
     /// Half a period (s) of the fastest oscillation of two grains: about the shortest time of a contact, for
     /// steps that are as accurate as is wanted (the README of Kernel/Motion says which).
     [[nodiscard]] double shortestContactTime();
@@ -267,8 +274,6 @@ private:
     [[nodiscard]] InsertionScene insertionScene() {
         return {particleHandler, wallHandler, periodic, threads};
     }
-    /// Of all grains that there are and that inlets will bring.
-    [[nodiscard]] GrainSizes grainSizes(const ParticleStore& grains) const;
     /// At the end of a step (s), grains go and come.
     void letOutAndIn(double time);
     /// At set-up throws, in a run warns, where not all has found room.
@@ -308,9 +313,10 @@ private:
     void refuseForAdaptiveStep() const;
     /// The step (s) from now on, where a new one is due.
     void chooseTimeStep();
-    [[nodiscard]] Integrator scheme() const {
-        return springsInStep ? integrators::springsInStep : integrator;
-    }
+    /// The same where grains have come: until the next choice.
+    void shortenTimeStep();
+    /// s, of the adaptive step, for the stiffest pair
+    [[nodiscard]] double largestStepOf(const GrainSizes& sizes) const;
 
     /// The films of the grains begin to be counted.
     void beginLiquid();

@@ -135,9 +135,12 @@ inline std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
     return std::clamp<std::size_t>(grains + 3 * walls.getSize(), 2, contactsInDensestBed + 1) - 1;
 }
 
-/// That a piston can have, or has.
-inline double contactsOfPiston(const GrainSizes& grains, const Wall& wall) {
-    return std::max(grains.fullLayer(wall.drivenNormal()), static_cast<double>(wall.drive()->touches));
+/// The contacts for which the mass of a piston is checked: before its first step a guess, a full layer; then
+/// the most that there have been, so that a run that goes on is checked as one that was not stopped.
+inline double touchesOfPiston(const GrainSizes& grains, const Wall& wall) {
+    const PlaneDrive& drive = *wall.drive();
+    const double now = static_cast<double>(std::max(drive.touches, drive.mostTouches));
+    return drive.steps > 0 ? now : std::max(grains.fullLayer(wall.drivenNormal()), now);
 }
 
 /// Of a piston: n (k, c) / M for the n contacts that it can have, or has; zero of other walls.
@@ -153,7 +156,7 @@ inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& 
                                                        sphereMass(radius, species.density(s)))
                                             .normal);
     }
-    return (contactsOfPiston(grains, wall) / drive->asked.mass) * stiffest;
+    return (touchesOfPiston(grains, wall) / drive->asked.mass) * stiffest;
 }
 
 /// The sum of these rows of all walls: a grain may touch several.
@@ -242,7 +245,7 @@ inline void checkPistons(const ContactLaws& species, const GrainSizes& grains, c
         const double mass = walls.getObject(w).drive()->asked.mass;
         masses.push_back(fmt::format("wall {}: mass of the piston = {:.6g} kg", w, mass));
         least.push_back(fmt::format("{:.6g} kg", 1.001 * mass / share));
-        touches = std::max(touches, contactsOfPiston(grains, walls.getObject(w)));
+        touches = std::max(touches, touchesOfPiston(grains, walls.getObject(w)));
     }
     throw InputError(fmt::format(
         "{} {} too light for a time step of {:.6g} s with up to {:.0f} contacts; it must be at least {}, or "

@@ -22,6 +22,7 @@ StabilityAdvice Scene::stabilityAdvice() {
     const ContactBound now = find({}), pressed = find({.leastOverlap = largestSoundOverlap}),
                        smooth = find({.sticking = false});
     const double limit = stabilityLimit();
+    const bool acts = now.step < infinity;
     std::size_t sides = 0, free = 0;
     contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         if (contactSystem.store().touches(contact)) sides += bucket.wall < 0 ? 2 : 1;
@@ -30,15 +31,15 @@ StabilityAdvice Scene::stabilityAdvice() {
     return {
         .limit = limit,
         .step = now.step,
-        .byOverlap = now.step / pressed.step,
-        .byNeighbours = pressed.step / limit,
-        .byFriction = smooth.step / now.step,
+        .byOverlap = acts ? now.step / pressed.step : 1,
+        .byNeighbours = acts ? pressed.step / limit : 1,
+        .byFriction = acts ? smooth.step / now.step : 1,
         .largestOverlap = now.largestOverlap,
         .meanOverlap = now.meanOverlap,
         .contactsOfGrain = static_cast<double>(sides) / static_cast<double>(std::max<std::size_t>(free, 1)),
         .slidingShare = slidingShare(contactSystem, grains),
         .grain = now.grain,
-        .species = now.step < infinity ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
+        .species = acts ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
         .contactsOfThis = now.contactsOfGrain,
         .overlapOfThis = now.overlapOfGrain};
 }
@@ -69,6 +70,11 @@ void Scene::refuseForAdaptiveStep() const {
                 "wall {}: the adaptive time step does not know walls that forces move (setPiston(), "
                 "setTargetForce()); leave setAdaptiveTimeStep() out.",
                 w));
+    if (laws().resistsMotion)
+        throw InputError(
+            fmt::format("Simulation: the viscous bridges of {} need steps of one length; leave "
+                        "setAdaptiveTimeStep() out.",
+                        laws().name));
     if (integrator.remembersEarlier())
         throw InputError(
             fmt::format("Simulation: the integrator {} needs steps of one length; leave "
@@ -77,13 +83,25 @@ void Scene::refuseForAdaptiveStep() const {
                         integrator.name));
 }
 
+double Scene::largestStepOf(const GrainSizes& sizes) const {
+    const double most = 0.9 / std::numbers::pi * shortestHalfPeriod(laws(), sizes, wallHandler);
+    return most < infinity ? most : getTimeStep();  // nothing can touch
+}
+
+void Scene::shortenTimeStep() {
+    const GrainSizes sizes = grainSizes(particleHandler.store());
+    const double limit = sceneStabilityLimit(laws(), sizes, wallHandler, scheme()),
+                 step = adaptive.shorten(getTimeStep(), largestStepOf(sizes), limit);
+    if (step < getTimeStep()) setTimeStep(step);
+    checkedStep = getTimeStep();
+}
+
 void Scene::chooseTimeStep() {
     particleHandler.finishStep();
     ParticleStore& grains = particleHandler.storeInStep();
     const StepTimes::Part before = enter(StepTimes::Part::Search);
     const GrainSizes sizes = grainSizes(grains);
-    const double most = 0.9 / std::numbers::pi * shortestHalfPeriod(laws(), sizes, wallHandler);
-    const double step = getTimeStep();
+    const double step = getTimeStep(), most = largestStepOf(sizes);
     const AdaptiveStep::Outlook outlook =
         adaptive.lookAhead(grains, step, most, norm(gravity), sizes.smallest());
     ContactBound bound;

@@ -155,23 +155,22 @@ concept NormalLaw = HasFieldTable<Law> && HasRange<Law> && HasNormalForce<Law, d
 
 /// What a friction law remembers of a contact: its History<T>.
 template <class History, class T>
-concept FrictionHistory = requires(History history, const History& kept, const FrameRotation<T>& rotation) {
+concept FrictionHistory = requires(History history, const History& kept, const FrameRotation<T>& rotation,
+                                   const Vector<T>& way) {
     { kept.slidingSpring() } -> std::convertible_to<Vector<T>>;  // m, of body 1 against body 2, tangential
     history.turn(rotation);
+    history.move(way);  // m; springs are moved from outside with ContactTiming::springsInStep
 };
 
-/// Whether the springs of a friction law can be moved from outside (ContactTiming::springsInStep): sliding by
-/// move(way), and, of laws with a torque of their own, rolling and torsion by moveRotation(way, normal).
-/// Those of others stay half a step ahead.
+/// A law with a torque of its own has springs of rolling and torsion that are moved from outside as well:
+/// moveRotation(way of R* times the relative spin, normal).
 template <class Law, class T>
-concept movesSprings = requires(typename Law::template History<T> history, const Vector<T>& way) {
-    history.move(way);
+concept MovesRotation = !requires {
+    requires Law::hasContactTorque;
 }
-&&(
-    !requires { requires Law::hasContactTorque; } ||
-    requires(typename Law::template History<T> history, const Vector<T>& way) {
-        history.moveRotation(way, way);
-    });
+|| requires(typename Law::template History<T> history, const Vector<T>& way, const Vector<T>& normal) {
+    history.moveRotation(way, normal);
+};
 
 template <class Law, class T>
 concept HasFrictionForce = requires(const typename Law::Prepared p, const Contact<T>& contact, T normalForce,
@@ -204,14 +203,13 @@ template <class Law>
 concept FrictionLaw = HasFieldTable<Law> && HasRange<Law> && std::same_as<decltype(Law::acts), const bool> &&
     requires(const Law law) {
     { law.prepare(AnyNormalLaw{}) } -> std::same_as<typename Law::Prepared>;
-} &&(!Law::acts || (HasFrictionForce<Law, double> && HasFrictionForce<Law, Pack> &&
-                    FrictionHistory<typename Law::template History<double>, double> &&
-                    FrictionHistory<typename Law::template History<Pack>, Pack> &&
-                    requires(const typename Law::Prepared p, const Contact<double>& contact) {
-                        {
-                            Law::stiffness(p, contact)
-                            } -> std::same_as<double>;  // N/m, of the tangential spring
-                    }));
+} &&(!Law::acts ||
+     (HasFrictionForce<Law, double> && HasFrictionForce<Law, Pack> &&
+      FrictionHistory<typename Law::template History<double>, double> &&
+      FrictionHistory<typename Law::template History<Pack>, Pack> && MovesRotation<Law, double> &&
+      MovesRotation<Law, Pack> && requires(const typename Law::Prepared p, const Contact<double>& contact) {
+          { Law::stiffness(p, contact) } -> std::same_as<double>;  // N/m, of the tangential spring
+      }));
 
 /// A friction law that gives torques of its own to the two bodies (rolling, torsion), besides those of the
 /// tangential force:
@@ -327,8 +325,8 @@ concept HasFilmContactGap = !MovesLiquid<Law> && requires(const Law law) {
     { law.filmContactGap } -> std::convertible_to<double>;
 };
 
-/// An attraction that begins and ends at full size, at the touch and at its range: `jumpsAtEnds`. Its first and
-/// last samples stand for the time since its start and to its end.
+/// An attraction that begins and ends at full size, at the touch and at its range: `jumpsAtEnds`. Its first
+/// and last samples stand for the time since its start and to its end.
 template <class Law>
 concept JumpsAtEnds = requires {
     requires Law::jumpsAtEnds;

@@ -97,6 +97,19 @@ TEST(Outlet, letsGoWhatIsOldEnough) {
 
 TEST(Outlet, knowsAgesThroughARestart) { expectTheSameThroughARestart<Ageing>(450); }
 
+/// The same with a step that follows the contacts, onto a floor, and a plane that counts.
+class Adapting : public Ageing {
+public:
+    explicit Adapting(int threads) : Ageing(threads) {
+        setGravity({0, 0, -9.81});
+        addWall({0, 0, -1}, {0, 0, -2 * d});
+        fluxPlaneHandler.add({0, 0, -1}, {0, 0, 10 * d});
+        setAdaptiveTimeStep(0.5);
+    }
+};
+
+TEST(AdaptiveStep, knowsWhatComesAndGoesThroughARestart) { expectTheSameThroughARestart<Adapting>(450); }
+
 /// Of two outlets that cover the same, the first takes what a condition lets through.
 class Choosing : public FilledScene {
 public:

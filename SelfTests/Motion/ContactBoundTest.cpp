@@ -10,6 +10,7 @@
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "Tools/AccuracyVersusCost/CriticalStep.h"
@@ -220,6 +221,45 @@ TEST(ContactBound, advisesWhatBinds) {
     EXPECT_EQ(advice.contactsOfGrain, 1);
     EXPECT_EQ(advice.contactsOfThis, 1u);
     EXPECT_TRUE(support::contains(advice.text(), "supposes overlaps of 5 %"));
+}
+
+TEST(ContactBound, advisesNothingWithoutContacts) {
+    scenes::FewGrains<Linear> scene(linear(), {{.radius = 1e-3}}, 1e-9);
+    scene.setQuiet();
+    scene.initialise();
+    const StabilityAdvice advice = scene.stabilityAdvice();
+    EXPECT_EQ(advice.step, infinity);
+    for (const double factor : {advice.byOverlap, advice.byNeighbours, advice.byFriction})
+        EXPECT_EQ(factor, 1);
+    EXPECT_TRUE(support::contains(advice.text(), "No contacts act"));
+}
+
+// A grain at the corner of six faces, and on an edge, has one contact with them, as on a plane. They fall
+// by 1e-3, or the mesh would make one of them; the normal is off by that, the squared frequency by its
+// square.
+TEST(ContactBound, countsCoveredFacesOnce) {
+    const auto stepOn = [](bool isMesh, const Vec3D& corner) {
+        scenes::FewGrains<Linear> scene(linear(), {{.radius = 1e-3, .position = {0, 0, 0.97e-3}}}, 1e-9);
+        scene.setQuiet();
+        const auto* species = scene.speciesHandler.getObject(0);
+        const auto at = [&](int k) {
+            const double angle = std::numbers::pi / 3 * k;
+            return toVector(corner + 5e-3 * Vec3D(std::cos(angle), std::sin(angle), -1e-3));
+        };
+        std::vector<Triangle> faces;
+        for (int k = 0; k < 6; ++k) faces.push_back({toVector(corner), at(k), at(k + 1)});
+        TriangleWall mesh;
+        mesh.set(faces);
+        InfiniteWall plane;
+        plane.set({0, 0, -1}, {0, 0, 0});
+        mesh.setSpecies(species), plane.setSpecies(species);
+        if (isMesh) scene.wallHandler.copyAndAddObject(mesh);
+        else scene.wallHandler.copyAndAddObject(plane);
+        scene.initialise();
+        return scene.stableStepOfContacts();
+    };
+    for (const Vec3D& corner : {Vec3D(0, 0, 0), Vec3D(-1e-3, 0, 0), Vec3D(1e-4, 1e-4, 0)})
+        EXPECT_NEAR(stepOn(true, corner) / stepOn(false, corner), 1, 1e-6);
 }
 
 }  // namespace

@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "Kernel/Math/Random.h"
+#include "Kernel/Output/OutputForm.h"
 #include "Kernel/Output/OutputInterval.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -48,8 +53,7 @@ TEST(OutputInterval, tellsEachMultipleOnceWhereTheTimeStepChanges) {
         const auto steps = static_cast<std::size_t>(random.uniform(1, 6));
         for (std::size_t step = stretch == 0 ? 0 : 1; step <= steps; ++step) {
             if (!output.isDueAfter(step, timeStep, before)) continue;
-            ASSERT_NEAR(before + static_cast<double>(step) * timeStep, static_cast<double>(told),
-                        0.3);
+            ASSERT_NEAR(before + static_cast<double>(step) * timeStep, static_cast<double>(told), 0.3);
             ++told;
         }
         before += static_cast<double>(steps) * timeStep;
@@ -69,6 +73,52 @@ TEST(OutputInterval, leavesNoMultipleOut) {
             ASSERT_NEAR(static_cast<double>(steps[k]), static_cast<double>(k) * ratio, 0.5 + 1e-9) << ratio;
         ASSERT_GE(static_cast<double>(steps.size()) * ratio, 1000.5 - 1e-9) << ratio;
     }
+}
+
+struct StepList : RemembersNothing {
+    std::shared_ptr<std::vector<std::size_t>> steps = std::make_shared<std::vector<std::size_t>>();
+    [[nodiscard]] OutputInterval interval() const { return {"StepList", 1e-5}; }
+    template <class Scene>
+    void write(const Scene& scene) {
+        steps->push_back(scene.getNumberOfTimeSteps());
+    }
+};
+
+// Where the first step after a restart file has another length, the multiple of 2e-5 s, 2 us after the file,
+// is told in that step.
+TEST(OutputInterval, leavesNoMultipleOutAfterARestart) {
+    if (!Hdf5File::isAvailable()) GTEST_SKIP();
+    using Smooth = Species<LinearViscoelastic>;
+    struct Flight : scenes::FewGrains<Smooth> {
+        explicit Flight(const std::string& name, double end)
+            : FewGrains(ballast(), {{.radius = 1e-3}}, 1e-6) {
+            setName(name);
+            setQuiet();
+            setTimeMax(end);
+            keepRestartFile();
+            addOutput(list);
+        }
+        static Smooth ballast() {
+            Smooth species;
+            species.setDensity(2500), species.setStiffness(1);
+            return species;
+        }
+        void actionsBeforeTimeStep() override {
+            if (getNumberOfTimeSteps() == 18) setTimeStep(5e-6);
+        }
+        StepList list;
+    };
+    const support::TestFolder folder;
+    Flight whole(folder.path() / "whole", 5e-5);
+    whole.solve();
+    Flight first(folder.path() / "part", 18e-6);
+    first.solve();
+    Flight second(folder.path() / "part", 5e-5);
+    second.restartFrom(first.restartFile());
+    second.solve();
+    const std::vector<std::size_t> all{0, 10, 19, 20, 22, 24, 25};  // 0, 10, 23, 28, 38, 48, 53 us
+    EXPECT_EQ(*whole.list.steps, all);
+    EXPECT_EQ(*second.list.steps, std::vector<std::size_t>(all.begin() + 2, all.end()));
 }
 
 TEST(OutputInterval, isNoneOrPositive) {

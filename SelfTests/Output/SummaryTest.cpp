@@ -104,6 +104,19 @@ TEST(Summary, saysWhatRunsAndHowFar) {
     EXPECT_TRUE(contains(shown.output, "healthy, and at its end"));
 }
 
+// With the adaptive step the scene moves springs in the step, whose limit is another one.
+TEST(Summary, hasTheStabilityLimitOfTheRun) {
+    const TestFolder folder;
+    Watched<Rough> scene(folder.name());
+    scene.setAdaptiveTimeStep(0.5);
+    scene.setTimeMax(1e-3);
+    const double before = scene.stabilityLimit();
+    scene.solve();
+    ASSERT_NE(scene.stabilityLimit(), before);
+    EXPECT_TRUE(contains(contentOf(folder.name() + "-summary.csv"),
+                         fmt::format("\nstability limit,{},s\n", scene.stabilityLimit())));
+}
+
 // Grains meet at 1 to 2 m/s, for less than the time between two outputs.
 TEST(Summary, hasTheLargestOverlapThatWasMet) {
     const TestFolder folder;

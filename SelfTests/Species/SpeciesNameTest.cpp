@@ -160,6 +160,7 @@ template <class T>
 struct SpringWithMisspeltName {
     Vector<T> displacment;
     void turn(const FrameRotation<T>&) {}
+    void move(const Vector<T>&) {}
 };
 struct FrictionWithoutSpring : Mindlin {
     template <class T>
@@ -169,10 +170,23 @@ template <class T>
 struct SpringThatDoesNotTurn {
     [[nodiscard]] Vector<T> slidingSpring() const;
     void trun(const FrameRotation<T>&) {}
+    void move(const Vector<T>&) {}
 };
 struct FrictionThatDoesNotTurn : Mindlin {
     template <class T>
     using History = SpringThatDoesNotTurn<T>;
+};
+template <class T>
+struct SpringThatDoesNotMove {
+    [[nodiscard]] Vector<T> slidingSpring() const;
+    void turn(const FrameRotation<T>&) {}
+};
+struct FrictionThatDoesNotMove : Mindlin {
+    template <class T>
+    using History = SpringThatDoesNotMove<T>;
+};
+struct RollingThatDoesNotMove : Mindlin {
+    static constexpr bool hasContactTorque = true;
 };
 
 struct AdhesionWithoutPrepare : LiquidBridgeBagheri {
@@ -219,8 +233,12 @@ TEST(SpeciesName, aBrokenFrictionLawIsNone) {
     EXPECT_TRUE((FrictionHistory<TangentialSpring<double>, double>));
     EXPECT_FALSE((FrictionHistory<broken::SpringWithMisspeltName<double>, double>));
     EXPECT_FALSE((FrictionHistory<broken::SpringThatDoesNotTurn<double>, double>));
+    EXPECT_FALSE((FrictionHistory<broken::SpringThatDoesNotMove<double>, double>));
     EXPECT_FALSE(FrictionLaw<broken::FrictionWithoutSpring>);
     EXPECT_FALSE(FrictionLaw<broken::FrictionThatDoesNotTurn>);
+    // These would have the stability limit of springs in the step, and springs ahead.
+    EXPECT_FALSE(FrictionLaw<broken::FrictionThatDoesNotMove>);
+    EXPECT_FALSE(FrictionLaw<broken::RollingThatDoesNotMove>);
 }
 
 TEST(SpeciesName, aBrokenAdhesionLawIsNone) {
