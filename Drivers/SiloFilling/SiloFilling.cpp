@@ -1,5 +1,4 @@
-/// A silo is filled by a stream of grains of many sizes: the pressure on its wall over depth, against
-/// Janssen.
+/// A silo is filled by a stream of grains of many sizes: pressure on its wall over depth, against Janssen.
 #include <CLI/CLI.hpp>
 
 #include "Drivers/Shared/CommandLine.h"
@@ -80,8 +79,7 @@ int main(int argc, char** argv) {
         .options = o.run,
         .addOptions =
             [&](CLI::App& app) {
-                app.add_option("--sizes", o.sizes,
-                               "CSV file of sizes instead, as Kernel/Sizes/README.md says");
+                app.add_option("--sizes", o.sizes, "CSV file of sizes instead (Kernel/Sizes/README.md)");
             },
         .files = "pressure.csv",
         .numbers = {

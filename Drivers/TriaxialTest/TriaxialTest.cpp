@@ -1,5 +1,4 @@
-/// Triaxial test without walls: grains in a periodic box are pressed to a pressure from all sides, and then
-/// compressed along z at a rate while the stress along x and y stays.
+/// Triaxial test without walls: grains that repeat themselves are pressed, then compressed along z only.
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/StressCell.h"
@@ -92,11 +91,7 @@ int main(int argc, char** argv) {
         .numbers = {
             {"number", "", &o.number, {1, 1e8}, "number of grains, about"},
             {"friction", "", &o.friction, {0, 10}, "coefficient of friction of the grains"},
-            {"inertial-number",
-             "",
-             &o.inertialNumber,
-             {1e-6, 0.1},
-             "rate x diameter x sqrt(density / pressure)"},
+            {"inertial-number", "", &o.inertialNumber, {1e-6, 0.1}, "of the rate of the compression"},
             {"stiffness", "", &o.stiffness, {1e2, 1e8}, "of a contact, over pressure x diameter"},
             {"strain", "", &o.strain, {0, 1}, "axial strain (logarithm of the length) at the end"},
             {"interval-strain", "", &o.interval, positive, "over which a row of the table is a mean"}}};
