@@ -214,7 +214,7 @@ private:
             const Vector<Pack> apart =
                 periodic.nearest(Vector<Pack>{self.position.x - x, self.position.y - y, self.position.z - z});
             const Pack radii = abs(sizes), touch = size + radii, squared = squaredNorm(apart);
-            const Mask overlap = squared < touch * touch & listedFrom(n, begins[k + 1]);
+            const Mask overlap = (squared < touch * touch) & listedFrom(n, begins[k + 1]);
             if (none(overlap)) continue;
             const Pack distance = sqrt(squared);
             // A grain of the scene has the size that it has.
