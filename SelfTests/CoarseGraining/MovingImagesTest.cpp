@@ -1,4 +1,5 @@
 // Fields of scenes whose images move against each other: in shear, and in strain.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -242,8 +243,9 @@ TEST(FieldsOfMovingImages, areThoseOfFrames) {
             "0 0.0168 0 0.0168 0 0.0168");
         ASSERT_EQ(made.exitCode, 0);
         support::expectOneSentence(
-            support::run("(" + (folders::tools / "coarse-grain").string() + " " + name +
-                         ".pvd --width-m 2e-3 --periodic-m 0.0168 0.0168 0.0168 2>&1 >/dev/null)"),
+            support::run(fmt::format("({} {}.pvd --width-m 2e-3 --periodic-m 0.0168 0.0168 0.0168 2>&1 "
+                                     ">/dev/null)",
+                                     (folders::tools / "coarse-grain").string(), name)),
             "would put them to rest");
         const auto ofFrames = rowsOf(made.output);
         ASSERT_EQ(ofRun.size(), 16u);

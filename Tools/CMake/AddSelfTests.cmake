@@ -41,6 +41,7 @@ function(pendular_add_self_test folder)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
     if(folder STREQUAL HowDoI)  # many small files with the same species: together they compile in a sixth of the time
         set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 14)
+        set_source_files_properties("${selfTests}/HowDoI/FirstDriver.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
     add_warnings(${name})
     precompile_headers(${name} ${keeperOfTests} <gtest/gtest.h> "Kernel/Simulation/Simulation.h")
