@@ -233,27 +233,27 @@ private:
 
     double pushOne(std::size_t k) {
         const Sphere& self = spheres[k];
-        auto [sum, least, contacts] = pushOfPartners(k);
+        Push push = pushOfPartners(k);
         if (border[k]) {
             const double margin = hasMargin ? self.size : 0;
             const Point inwards = region.inwards(self.position, margin);
-            sum += 2 * inwards;  // a border gives way by nothing
+            push.way += 2 * inwards;  // a border gives way by nothing
             if (const double outside = norm(inwards); outside > 0)
-                least = std::min(least, 1 - outside / self.size);
+                push.least = std::min(push.least, 1 - outside / self.size);
             forEachWallNear(walls, periodic, self.position, self.size,
                             [&](const WallPoint& point, std::size_t) {
-                                sum -= 2 * (self.size - point.distance) * point.normal;
-                                least = std::min(least, point.distance / self.size);
-                                ++contacts;
+                                push.way -= 2 * (self.size - point.distance) * point.normal;
+                                push.least = std::min(push.least, point.distance / self.size);
+                                ++push.contacts;
                             });
         }
         // Each pair would be apart after one step of half its overlap; of many contacts each gets a part, and
         // steps have inertia, by which slow modes go ten times as fast.
-        const double share = stepShare * usualContacts / std::max<double>(usualContacts, contacts);
-        steps[k] = inertia * shifts[k] + share * sum;
+        const double share = stepShare * usualContacts / std::max<double>(usualContacts, push.contacts);
+        steps[k] = inertia * shifts[k] + share * push.way;
         const double longest = 0.2 * self.size, length = norm(steps[k]);
         if (length > longest) steps[k] *= longest / length;
-        return least;
+        return push.least;
     }
 
     void move() {
