@@ -194,7 +194,7 @@ TEST(RotatingDrum, writesZonesThatSumToTheGrains) {
         EXPECT_NE(result.output.find(part), std::string::npos) << part << " in " << result.output;
 }
 
-TEST(LiquidInShear, writesProfilesThatHoldAllLiquid) {
+TEST(HeavyLiquidInShear, writesProfilesThatHoldAllLiquid) {
     const TestFolder folder;
     const auto result = run(drivers + "/LiquidInShear/LiquidInShear --width-m 0.02 --end-time-s 0.2 " +
                             "--interval-s 0.1 --film-m3 3e-11 " + folder.option());
@@ -248,7 +248,7 @@ TEST(HeavyWetPlaneShear, isHarderAndLooserTheLessItIsPressed) {
                       "reduced-pressure = 0");
 }
 
-TEST(DryingBed, losesItsTensionWithItsLiquid) {
+TEST(HeavyDryingBed, losesItsTensionWithItsLiquid) {
     const TestFolder folder;
     const auto result = run(drivers + "/DryingBed/DryingBed --number 150 --begin-s 0.03 --end-time-s 0.17 " +
                             "--interval-s 0.01 " + folder.option());
@@ -271,7 +271,7 @@ TEST(DryingBed, losesItsTensionWithItsLiquid) {
                       "--flux-m/s = -1 m/s");
 }
 
-TEST(SprayCoating, countsWhatItSprays) {
+TEST(HeavySprayCoating, countsWhatItSprays) {
     const TestFolder folder;
     const auto result = run(drivers + "/SprayCoating/SprayCoating --length-m 0.008 --begin-s 0.1 " +
                             "--end-time-s 0.3 --interval-s 0.05 " + folder.option());
@@ -325,7 +325,7 @@ TEST(Penetration, goesOnAfterTheStopIfAsked) {
 }
 
 /// Floor and wall bear the weight of all that has come; what the wall bears is what its layers say.
-TEST(SiloFilling, bearsTheWeightOfWhatHasCome) {
+TEST(HeavySiloFilling, bearsTheWeightOfWhatHasCome) {
     const TestFolder folder;
     const auto result = run(drivers +
                             "/SiloFilling/SiloFilling --mass-kg 0.004 --fill-time-s 0.04 --end-time-s 0.36 "

@@ -79,7 +79,7 @@ TEST(Drum, namesTheNextNumberThatFits) {
     EXPECT_EQ(looseDrumGrains(fits, drumFor(fits)).size(), fits);
 }
 
-TEST(Drum, settledGrainsLieAtRestBelowTheAxis) {
+TEST(HeavyDrum, settledGrainsLieAtRestBelowTheAxis) {
     const DrumShape drum = drumFor(200);
     const auto grains = settledDrumGrains(200, drum, softening);
     // Overlaps: a pressure of 300 Pa at the bottom is F = p d^2 = 5 mN on a grain of M2, and Hertz's law,

@@ -79,7 +79,7 @@ TEST(Hopper, losesNoGrain) {
 
 /// A cone of 60 degrees, 200 grains of sizes from 1 to 2.4 mm: all leave, and the counter is what the hopper
 /// has lost.
-TEST(Hopper, withAConeEmptiesToTheLastGrain) {
+TEST(HeavyHopper, withAConeEmptiesToTheLastGrain) {
     Hopper hopper{.diameter = 0.016, .grainDiameter = 1.6e-3, .number = 200};
     hopper.coneSlope = std::numbers::pi / 3;
     hopper.sizes = evenSizes(1e-3, 2.4e-3);

@@ -107,7 +107,7 @@ TEST(Penetration, intruderFallsFreelyUntilItMeetsTheBed) {
 
 /// The bed takes up energy and never gives any: what can come from its springs at the start is the work of
 /// the settled bed's weight over its overlaps, at most weight x 5 % of a radius.
-TEST(Penetration, stopsInTheBedAndCreatesNoEnergy) {
+TEST(HeavyPenetration, stopsInTheBedAndCreatesNoEnergy) {
     PenetrationScene scene(bed(), bedBoxFor(number), 5, softening);
     const double before = mechanicalEnergy(scene);
     const double intruderEnergy = 0.5 * scene.intruder().getMass() * 25;

@@ -436,7 +436,7 @@ public:
 
 // Once it is full, what is in it stays the same; flows are the inlet's, and the momentum along the chute is
 // what gravity gives: walls cannot, and contacts do not.
-TEST(SteadyChute, letsThroughWhatComes) {
+TEST(HeavySteadyChute, letsThroughWhatComes) {
     Chute scene(1);
     scene.initialise();
     scene.steps(50000);  // 0.25 s; a grain takes 0.08 s from end to end

@@ -163,13 +163,13 @@ void compare(const WetCollision& expected, double stepsPerContact, const Flight&
     }
 }
 
-TEST(WetCollision, followsTheIndependentSolution) {
+TEST(HeavyWetCollision, followsTheIndependentSolution) {
     for (const WetCollision& collision : wetCollisions)
         for (double steps : {50, 100, 200, 400})
             for (int k = 0; k < 32; ++k) compare(collision, steps, fly(collision, steps, spreadOffset(k)));
 }
 
-TEST(WetCollision, convergesWithTheStep) {
+TEST(HeavyWetCollision, convergesWithTheStep) {
     // The largest error over 64 offsets is halved with the step. Their mean is much smaller, because the
     // start of the bridge errs as much to the one side as to the other: an eighth of the largest one at 64
     // evenly spread offsets.
@@ -289,7 +289,7 @@ double ledgerGap(const WetCollision& collision, double steps) {
     return largest;
 }
 
-TEST(WetCollision, energyLedgerClosesWithTheSquareOfTheStep) {
+TEST(HeavyWetCollision, energyLedgerClosesWithTheSquareOfTheStep) {
     Bridges::forEach([]<class Bridge>() {
         for (const WetCollision& collision : wetCollisions) {
             const double energy = 0.5 * paper::reducedMass * collision.speed * collision.speed;

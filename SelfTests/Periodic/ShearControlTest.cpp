@@ -237,7 +237,7 @@ TEST(ShearControl, aCrystalHasTheStressOfTheClosedForm) {
 }
 
 /// The servo brings the crystal to its shear stress, and holds it.
-TEST(ShearControl, aServoBringsACrystalToItsShearStress) {
+TEST(HeavyShearControl, aServoBringsACrystalToItsShearStress) {
     Lattice<Smooth> scene(linear(), 4, 2 * Lattice<Smooth>::radius * (1 - 1e-3));
     scene.setLeesEdwards(0, 1, 0);
     scene.setTargetShearStress(20, 50 * scene.timeStep);

@@ -299,7 +299,7 @@ TEST(Strain, oneAxisAloneFollowsItsOwnStiffness) {
 
 /// Loose grains are pressed, with another stress along z, and keep it: within what one grain in 512 makes of
 /// it.
-TEST(Strain, looseGrainsComeUnderTheirStress) {
+TEST(HeavyStrain, looseGrainsComeUnderTheirStress) {
     PressedCloud<Dry> scene;
     for (int axis = 0; axis < 3; ++axis) scene.setTargetStress(axis, axis == 2 ? 300 : 200, 2e-3, 20);
     scene.initialise();

@@ -221,7 +221,7 @@ TEST(AdaptiveStep, givesTheSameBitsOnATiltingFloor) {
 // Boxes of 48 grains that start a little otherwise come to rest in other packings. Those with the adaptive
 // step are of the same kind: the mean heights of six differ by less than four standard errors (by chance once
 // in 400 times, with ten degrees of freedom), which are small enough to tell 6 %.
-TEST(AdaptiveStep, settlesAsWithFixedSteps) {
+TEST(HeavyAdaptiveStep, settlesAsWithFixedSteps) {
     constexpr int count = 6;
     struct Heights {
         double mean = 0, squaredError = 0;  // m, m^2
