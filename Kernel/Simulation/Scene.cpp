@@ -279,7 +279,7 @@ void Scene::letOutAndIn(double time) {
     try {
         if (!outletHandler.isEmpty()) {
             outletHandler.letOut(particleHandler, time, threads);
-            contactSystem.sumLostForces(particleHandler.store());
+            contactSystem.sumLostForces(particleHandler.storeInStep());
         }
         if (!inletHandler.isEmpty())
             inletHandler.letIn(insertionScene(), time, [this](const std::string& sentence) {
@@ -519,7 +519,7 @@ void Scene::mixChangedLaws() {
 
 void Scene::takeOverChanges() {
     try {
-        contactSystem.sumLostForces(particleHandler.store());
+        contactSystem.sumLostForces(particleHandler.storeInStep());
         mixChangedLaws();
         const bool newLaws = std::exchange(lawsAreNew, false), changedWalls = wallHandler.hasChanges();
         const auto firstNewWall = static_cast<int>(wallHandler.firstNewWall());
