@@ -145,8 +145,8 @@ struct PairGeometry {
     }
 
     /// @param acceleration m/s^2, of the grains; @param overlap m
-    [[nodiscard, gnu::noinline]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
-                                                                         Pack overlap) const {
+    [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
+                                                          Pack overlap) const {
         const auto angular = [&](const std::uint32_t* index) {
             const auto [x, y, z] = loadRecords<3>(numbers(rotation) + 4, 8, index);
             return Vector<Pack>{x, y, z};
@@ -232,8 +232,8 @@ struct WallGeometry {
     }
 
     /// Those of the grains: walls are taken to keep their velocity for the step.
-    [[nodiscard, gnu::noinline]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
-                                                                         Pack overlap) const {
+    [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
+                                                          Pack overlap) const {
         const auto [wx, wy, wz] =
             loadRecords<3>(reinterpret_cast<const double*>(rotation) + 4, 8, block.first.data());
         const Vector<Pack> angular{wx, wy, wz};

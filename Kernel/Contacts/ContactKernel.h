@@ -125,11 +125,7 @@ public:
         Vector<Pack> tangential = zero, lastTorque = zero;
         if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
         if constexpr (Friction::acts) {
-            MovedSprings moved;
-            if (timing.springsInStep) [[unlikely]]
-                moved =
-                    moveSprings(g, geometry.accelerations(acceleration, normal.lever), begins, normal.timing);
-            tangential = computeFriction(block, g, last, touching, begins, normal, moved);
+            tangential = computeFriction(block, geometry, g, last, touching, begins, normal);
         }
         if constexpr (resists >= BridgeResists::Sliding)
             tangential =
@@ -255,10 +251,12 @@ private:
     struct MovedSprings {
         Vector<Pack> sliding, turning;
     };
-    [[gnu::noinline]] MovedSprings moveSprings(const ContactGeometry<Pack>& g,
-                                               const ContactAcceleration<Pack>& a, Mask begins,
-                                               const SampleTiming<Pack>& sampled) const {
-        const Pack time = Pack(timeStep) * select(begins, sampled.before, Pack(1)), half = Pack(-0.5) * time;
+    /// @param steps of that time
+    template <class Geometry>
+    [[gnu::noinline, gnu::cold]] MovedSprings moveSprings(Geometry geometry, ContactGeometry<Pack> g,
+                                                          Pack lever, Pack steps) const {
+        const ContactAcceleration<Pack> a = geometry.accelerations(acceleration, lever);
+        const Pack time = Pack(timeStep) * steps, half = Pack(-0.5) * time;
         const Vector<Pack> velocity =
             fma(half, a.velocity, g.velocity) + cross(fma(half, a.spinLever, g.spinLever), g.normal);
         MovedSprings moved{time * (velocity - dot(velocity, g.normal) * g.normal), zero};
@@ -267,9 +265,10 @@ private:
         return moved;
     }
 
-    Vector<Pack> computeFriction(std::size_t block, const ContactGeometry<Pack>& g, const LastForces& last,
-                                 Mask touching, Mask begins, const NormalPart& normal,
-                                 const MovedSprings& moved) {
+    template <class Geometry>
+    Vector<Pack> computeFriction(std::size_t block, const Geometry& geometry, const ContactGeometry<Pack>& g,
+                                 const LastForces& last, Mask touching, Mask begins,
+                                 const NormalPart& normal) {
         const Pack approach = dot(g.velocity, g.normal);
         const Vector<Pack> sideways = fma(-approach, g.normal, g.velocity);
         // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
@@ -286,6 +285,8 @@ private:
                       .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
                       .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
         if (timing.springsInStep) [[unlikely]] {
+            const MovedSprings moved =
+                moveSprings(geometry, g, normal.lever, select(begins, normal.timing.before, Pack(1)));
             slip.timeBefore = slip.timeAfter = Pack(0);
             history.move(moved.sliding);
             if constexpr (HasContactTorque<Friction>) history.moveRotation(moved.turning, g.normal);
