@@ -36,7 +36,7 @@ std::vector<std::string> SummaryFile::complaints() const {
         if (row.unit == "J" && row.quantity != "kinetic energy" && !std::isfinite(number(row.quantity)))
             found.push_back(fmt::format("its {} is not finite", row.quantity));
     if (isAboveLimit() && !limitIsAccepted())
-        found.push_back("its time step is above the stability limit: the results mean nothing");
+        found.emplace_back("its time step is above the stability limit: the results mean nothing");
     if (isOnItsWay() && age() > longestSilence())
         found.push_back(fmt::format("it was on its way {:.0f} s ago, and may not run any more", age()));
     for (const Row& row : all)

@@ -10,21 +10,18 @@ endif()
 enable_testing()
 file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/SelfTests/Fuzz/*.cpp")
 list(FILTER sources EXCLUDE REGEX "Test\\.cpp$")
-# The kernel without the solver of bridges, which is half of the compiler's time and reads no files.
-set(readerSources ${kernelSources})
-list(FILTER readerSources EXCLUDE REGEX "/Kernel/Capillary/|/BridgeChoice|/Adhesion/LiquidBridge[^B]|/Adhesion/Shared/")
-list(APPEND readerSources "${PROJECT_SOURCE_DIR}/Kernel/Species/Adhesion/Shared/LiquidBridge.cpp")
-add_library(FuzzedKernel STATIC ${readerSources})
-set(kernel "$<TARGET_PROPERTY:PendularKernel,INTERFACE")
-target_compile_features(FuzzedKernel PUBLIC cxx_std_20)
-target_compile_options(FuzzedKernel PUBLIC "${kernel}_COMPILE_OPTIONS>")
-target_include_directories(FuzzedKernel PUBLIC "${kernel}_INCLUDE_DIRECTORIES>")
-target_link_libraries(FuzzedKernel PUBLIC Eigen3::Eigen fmt::fmt ZLIB::ZLIB Threads::Threads
-    $<$<BOOL:${hdf5Found}>:${HDF5_LIBRARY}>)
 add_executable(FuzzReaders ${sources})
-target_link_libraries(FuzzReaders PRIVATE FuzzedKernel)
+target_link_libraries(FuzzReaders PRIVATE PendularKernel)
 target_link_options(FuzzReaders PRIVATE -fsanitize=fuzzer)
 add_warnings(FuzzReaders)
+
+# What shows libFuzzer which way an input takes, in what reads files and in what a restart file fills. The whole kernel
+# would make the tests of the same build slower. Not by -fsanitize=fuzzer-no-link, which precompiled headers do not bear.
+set(coverage -fsanitize-coverage=inline-8bit-counters,indirect-calls,trace-cmp,pc-table)
+set(readerSources ${kernelSources})
+list(FILTER readerSources INCLUDE REGEX "/Kernel/(Boundaries|Files|Insertion|Output|Particles|Simulation|Species|State|Walls)/")
+list(FILTER readerSources EXCLUDE REGEX "/BridgeChoice|/Adhesion/")
+set_property(SOURCE ${readerSources} ${sources} APPEND PROPERTY COMPILE_OPTIONS ${coverage})
 
 # Per input: 5 s, 256 MiB in one piece and 2 GiB in all. max_len: no more than a few times the largest seed.
 function(pendular_add_fuzz_run target maxLength)
