@@ -9,6 +9,7 @@
 
 #include "Drivers/Shared/BenchmarkScenes.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
+#include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/Program.h"
@@ -116,6 +117,7 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
     scene.step(options.warm);
     const std::size_t rebuildsBefore = scene.contacts().rebuildCount();
     Exchange exchange(scene, options.exchange);
+    const double processorBefore = processorTime();
     const auto start = std::chrono::steady_clock::now();
     if (options.exchange == 0) scene.step(options.steps);
     else
@@ -124,6 +126,7 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
             scene.step();
         }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double processorSeconds = processorTime() - processorBefore;
     exchange.report(seconds);
 
     const auto& grains = scene.particleHandler.store();
@@ -136,13 +139,14 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
     if (options.header)
         fmt::print(
             "scene,species,particles,listed_pairs,touching,threads,steps,seconds,million_particle_steps_per_"
-            "second,bytes_per_particle,rebuilds,kinetic_energy_J,state_hash,peak_bytes_per_particle\n");
-    fmt::print("{},{},{},{},{},{},{},{:.6g},{:.4f},{:.1f},{},{:.6e},{:016x},{:.1f}\n", options.choice.scene,
-               scene.laws().name, grains.size(), listed, touching, options.threads, options.steps, seconds,
-               count * static_cast<double>(options.steps) / seconds * 1e-6,
+            "second,bytes_per_particle,rebuilds,kinetic_energy_J,state_hash,peak_bytes_per_particle,"
+            "processor_seconds\n");
+    fmt::print("{},{},{},{},{},{},{},{:.6g},{:.4f},{:.1f},{},{:.6e},{:016x},{:.1f},{:.6g}\n",
+               options.choice.scene, scene.laws().name, grains.size(), listed, touching, options.threads,
+               options.steps, seconds, count * static_cast<double>(options.steps) / seconds * 1e-6,
                static_cast<double>(grains.bytes() + scene.contacts().bytes()) / count,
                scene.contacts().rebuildCount() - rebuildsBefore, translationalEnergy(grains),
-               stateHash(grains), (peakMemory() - memoryBefore) / count);
+               stateHash(grains), (peakMemory() - memoryBefore) / count, processorSeconds);
     if (!options.paraView.empty()) measureFrames(scene, seconds / static_cast<double>(options.steps));
 }
 

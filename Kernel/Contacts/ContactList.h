@@ -47,6 +47,7 @@ public:
         store.releaseList();  // so that the old list and the search are not there at the same time
         formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
         std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
+        grains.bodies.keepTogether(grains, formerPlace);
         grains.reorder(formerPlace, threads);
         grains.bodies.refresh(grains);
         if (reachOfFilms > 0) reachOfAll = std::max(reachOfAll, std::min(reachOfFilms, largestRange(grains)));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <span>
 
 #include "Kernel/Contacts/ParticleSum.h"
 #include "Kernel/Parallel.h"
@@ -11,6 +11,19 @@
 namespace pendular {
 
 namespace {
+
+/// A Four of each of eight bodies.
+struct EightFours {
+    Four of[Pack::lanes];
+    Four operator[](std::size_t lane) const { return of[lane]; }
+};
+EightFours foursOf(const Pack& a, const Pack& b, const Pack& c, const Pack& d) {
+    alignas(64) EightFours fours;
+    storeRecords(reinterpret_cast<double*>(fours.of), std::array{a, b, c, d});
+    return fours;
+}
+EightFours foursOf(const Vector<Pack>& v, const Pack& behind) { return foursOf(v.x, v.y, v.z, behind); }
+EightFours foursOf(const Pack& before, const Vector<Pack>& v) { return foursOf(before, v.x, v.y, v.z); }
 
 /// Eight bodies, one in each lane.
 struct EightBodies {
@@ -36,17 +49,19 @@ struct EightBodies {
                 c[7]};
     }
     void store(RigidBodies& bodies, const std::uint32_t* index, int count) const {
-        alignas(64) double lanes[3][64];
-        storeRecords(lanes[0], std::array{mass, inertia.x, inertia.y, inertia.z, position.x, position.y,
-                                          position.z, velocity.x});
-        storeRecords(lanes[1], std::array{velocity.y, velocity.z, acceleration.x, acceleration.y,
-                                          acceleration.z, momentum.x, momentum.y, momentum.z});
-        storeRecords(lanes[2],
-                     std::array{torque.x, torque.y, torque.z, orientation.real, orientation.imaginary.x,
-                                orientation.imaginary.y, orientation.imaginary.z, largestFreeMass});
-        for (int lane = 0; lane < count; ++lane)
-            for (int part = 0; part < 3; ++part)
-                std::memcpy(&bodies[index[lane]].mass + 8 * part, lanes[part] + 8 * lane, 64);
+        // By quarters of 32 bytes, as they are written: a longer load would wait for both of its halves.
+        const std::array<EightFours, record / 4> parts{
+            foursOf(mass, inertia),
+            foursOf(position, velocity.x),
+            foursOf({velocity.y, velocity.z, acceleration.x}, acceleration.y),
+            foursOf({acceleration.z, momentum.x, momentum.y}, momentum.z),
+            foursOf(torque, orientation.real),
+            foursOf(orientation.imaginary, largestFreeMass)};
+        for (int lane = 0; lane < count; ++lane) {
+            Four* const to = reinterpret_cast<Four*>(&bodies[index[lane]].mass);
+            for (std::size_t part = 0; part < parts.size(); ++part)
+                to[part] = parts[part][static_cast<std::size_t>(lane)];
+        }
     }
 
     void begin(double step, const Integrator& scheme) {
@@ -68,37 +83,35 @@ struct EightBodies {
     }
 };
 
-/// What the grains of a body need to know of it.
-struct alignas(64) BodyInSpace {
-    Four position, velocity, spin, x, y, z, acceleration, unused;
-};
-using EightInSpace = std::array<BodyInSpace, Pack::lanes>;
+/// What the grains of eight bodies need to know of them.
+struct EightInSpace {
+    EightFours position, velocity, spin;
+    EightFours x, y, z;       // the axes, if asked for
+    EightFours acceleration;  // if not
 
-/// @param withAxes also where its axes are
-void toSpace(const EightBodies& b, bool withAxes, EightInSpace& to) {
-    const Axes<Pack> axes(b.orientation);
-    const Vector<Pack> spin = RigidBody::spinOf(axes, b.inertia, b.momentum);
-    const Pack none = 0;
-    alignas(64) double lanes[64];
-    const auto put = [&](std::size_t part, const Vector<Pack>& first, const Vector<Pack>& second) {
-        storeRecords(lanes, std::array{first.x, first.y, first.z, none, second.x, second.y, second.z, none});
-        for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
-            std::memcpy(reinterpret_cast<double*>(&to[lane]) + 8 * part, lanes + 8 * lane, 64);
-    };
-    put(0, b.position, b.velocity);
-    put(1, spin, axes.x);
-    if (withAxes) put(2, axes.y, axes.z);
-    else put(3, b.acceleration, b.acceleration);
-}
+    EightInSpace(const EightBodies& b, bool withAxes) {
+        const Axes<Pack> axes(b.orientation);
+        const Pack none = 0;
+        position = foursOf(b.position, none), velocity = foursOf(b.velocity, none);
+        spin = foursOf(RigidBody::spinOf(axes, b.inertia, b.momentum), none);
+        if (withAxes) x = foursOf(axes.x, none), y = foursOf(axes.y, none), z = foursOf(axes.z, none);
+        else acceleration = foursOf(b.acceleration, none);
+    }
+};
 
 template <bool hasSpin, bool hasContactTorque>
 class BodyLoops {
 public:
     static constexpr std::size_t lanes = Pack::lanes;
     static constexpr std::size_t groupsWorthAThread = 32;
+    static constexpr std::size_t grainsAhead = 8;  // whose contacts are asked for before
 
     BodyLoops(ParticleStore& store, const Integrator& integrator, const PeriodicBox& periodic)
-        : grains(store), bodies(store.bodies), scheme(integrator), box(periodic) {}
+        : grains(store),
+          bodies(store.bodies),
+          members(store.bodies.membersInSpace()),
+          scheme(integrator),
+          box(periodic) {}
 
     /// What is not wanted is null.
     struct Finish {
@@ -124,56 +137,64 @@ public:
 private:
     double stepGroup(const std::vector<std::uint32_t>& order, std::size_t first, const Finish* finish,
                      const double* beginStep) {
-        const auto count = static_cast<int>(std::min(lanes, order.size() - first));
+        const std::size_t count = std::min(lanes, order.size() - first);
         std::array<std::uint32_t, lanes> index;
-        for (std::size_t lane = 0; lane < lanes; ++lane)
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
             index[lane] = order[std::min(first + lane, order.size() - 1)];
+            prefetch<true>(&bodies[order[std::min(first + 2 * lanes + lane, order.size() - 1)]],
+                           sizeof(RigidBody));
+        }
         EightBodies eight = EightBodies::load(bodies, index.data());
         if (finish != nullptr) {
-            alignas(64) std::array<std::array<double, 8>, lanes> sums{};
-            for (int lane = 0; lane < count; ++lane)
-                sumForces(index[lane], finish->contacts, sums[lane].data());
+            alignas(64) std::array<ForceAndTorque<true>, lanes> sums{};
+            for (std::size_t lane = 0; lane < count; ++lane)
+                sums[lane] = sumForces(first + lane, finish->contacts);
             static constexpr std::array<std::uint32_t, lanes> inOrder{0, 1, 2, 3, 4, 5, 6, 7};
-            const auto c = loadRecords<8>(sums[0].data(), 8, inOrder.data());
+            const auto c = loadRecords<8>(reinterpret_cast<const double*>(sums.data()), 8, inOrder.data());
             eight.finish({c[0], c[1], c[2]}, {c[4], c[5], c[6]}, finish->gravity, finish->step, scheme);
         }
         if (beginStep != nullptr) eight.begin(*beginStep, scheme);
-        eight.store(bodies, index.data(), count);
-        EightInSpace inSpace;
-        toSpace(eight, beginStep != nullptr, inSpace);
+        eight.store(bodies, index.data(), static_cast<int>(count));
+        const EightInSpace inSpace(eight, beginStep != nullptr);
         double farthest = 0;
-        for (int lane = 0; lane < count; ++lane)
+        for (std::size_t lane = 0; lane < count; ++lane)
             if (beginStep != nullptr)
-                farthest = std::max(farthest, moveGrains(index[lane], inSpace[lane], *beginStep));
-            else placeGrains(index[lane], inSpace[lane]);
+                farthest = std::max(farthest, moveGrains(first + lane, inSpace, lane, *beginStep));
+            else placeGrains(first + lane, inSpace, lane);
         return farthest;
     }
 
-    /// Of all contacts of all grains of a body: force, and torque about its centre of mass.
-    void sumForces(std::uint32_t body, const ContactStore& contacts, double* to) const {
-        Four force{}, torque{};
-        for (std::uint32_t m = bodies.begin(body); m < bodies.end(body); ++m) {
-            const std::uint32_t place = bodies.placeOf(m);
-            const auto sum =
-                sumContacts<hasSpin, hasContactTorque>(contacts, place, grains.translation[place].radius);
-            force += sum.force;
-            torque += crossFour(loadFour(bodies.turnedArm(m).arm), sum.force);
-            if constexpr (hasSpin) torque += sum.torque;
-        }
-        *reinterpret_cast<Four*>(to) = force;
-        *reinterpret_cast<Four*>(to + 4) = torque;
+    /// Of the body at a place of inSpace().
+    [[nodiscard]] std::span<MemberInSpace> membersOf(std::size_t at) const {
+        return {members.data() + bodies.firstInSpace(at), members.data() + bodies.firstInSpace(at + 1)};
     }
 
-    double moveGrains(std::uint32_t body, const BodyInSpace& now, double length) {
+    /// Of all contacts of all grains of a body: force, and torque about its centre of mass.
+    [[nodiscard]] ForceAndTorque<true> sumForces(std::size_t body, const ContactStore& contacts) const {
+        Four force{}, torque{};
+        for (std::size_t m = bodies.firstInSpace(body); m < bodies.firstInSpace(body + 1); ++m) {
+            if (m + grainsAhead < members.size())
+                prefetchContacts<hasSpin>(contacts, members[m + grainsAhead].place);
+            const MemberInSpace& member = members[m];
+            const auto sum = sumContacts<hasSpin, hasContactTorque>(contacts, member.place,
+                                                                    grains.translation[member.place].radius);
+            force += sum.force;
+            torque += crossFour(loadFour(member.turned), sum.force);
+            if constexpr (hasSpin) torque += sum.torque;
+        }
+        return {force, torque};
+    }
+
+    double moveGrains(std::size_t body, const EightInSpace& now, std::size_t lane, double length) {
         double farthest = 0;
-        for (std::uint32_t m = bodies.begin(body); m < bodies.end(body); ++m) {
-            const Vector<double>& own = bodies.member(m).arm;
-            const Four arm = own.x * now.x + own.y * now.y + own.z * now.z;
-            storeVector(bodies.turnedArm(m).arm, arm, Four{});
-            TranslationRecord& grain = grains.translation[bodies.placeOf(m)];
-            const Four before = loadFour(grain.position), after = now.position + arm;
+        for (MemberInSpace& member : membersOf(body)) {
+            const Four arm =
+                member.arm.x * now.x[lane] + member.arm.y * now.y[lane] + member.arm.z * now.z[lane];
+            storeVector(member.turned, arm, Four{});
+            TranslationRecord& grain = grains.translation[member.place];
+            const Four before = loadFour(grain.position), after = now.position[lane] + arm;
             storeVector(grain.position, after, before);
-            setVelocity(bodies.placeOf(m), now, arm);
+            setVelocity(member.place, now, lane, arm);
             Vector<double> shift = vectorOf(after - before);
             if (box.imagesMove) shift -= length * box.flowAt(vectorOf(before));
             const double squared = squaredNorm(shift);
@@ -181,17 +202,19 @@ private:
         }
         return farthest;
     }
-    void placeGrains(std::uint32_t body, const BodyInSpace& now) {
-        for (std::uint32_t m = bodies.begin(body); m < bodies.end(body); ++m) {
-            setVelocity(bodies.placeOf(m), now, loadFour(bodies.turnedArm(m).arm));
-            grains.acceleration[bodies.placeOf(m)] = vectorOf(now.acceleration);
+    void placeGrains(std::size_t body, const EightInSpace& now, std::size_t lane) {
+        for (const MemberInSpace& member : membersOf(body)) {
+            setVelocity(member.place, now, lane, loadFour(member.turned));
+            grains.acceleration[member.place] = vectorOf(now.acceleration[lane]);
         }
     }
-    [[gnu::always_inline]] void setVelocity(std::uint32_t place, const BodyInSpace& now, Four arm) {
+    [[gnu::always_inline]] void setVelocity(std::uint32_t place, const EightInSpace& now, std::size_t lane,
+                                            Four arm) {
         TranslationRecord& grain = grains.translation[place];
-        storeVector(grain.velocity, now.velocity + crossFour(now.spin, arm), loadFour(grain.velocity));
+        storeVector(grain.velocity, now.velocity[lane] + crossFour(now.spin[lane], arm),
+                    loadFour(grain.velocity));
         if constexpr (hasSpin)
-            storeVector(grains.rotation[place].spin, now.spin, loadFour(grains.rotation[place].spin));
+            storeVector(grains.rotation[place].spin, now.spin[lane], loadFour(grains.rotation[place].spin));
     }
 
     /// A sphere is where its grain is, and turns as that does: by the spin in the middle of the step.
@@ -206,6 +229,7 @@ private:
 
     ParticleStore& grains;
     RigidBodies& bodies;
+    std::span<MemberInSpace> members;  // of all
     const Integrator& scheme;
     const PeriodicBox& box;
 };

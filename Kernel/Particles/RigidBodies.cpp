@@ -18,11 +18,9 @@ std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember
     bodies.push_back(body);
     numbers.push_back(next);
     members.insert(members.end(), grains.begin(), grains.end());
-    turned.resize(members.size());
     forgetPlaces();
     begins.push_back(static_cast<std::uint32_t>(members.size()));
     for (const BodyMember& member : grains) bodyOfGrain[member.grain] = next;
-    turnArms(size() - 1);
     return next++;
 }
 
@@ -30,18 +28,12 @@ void RigidBodies::remove(std::size_t at) {
     const auto first = members.begin() + begins[at], end = members.begin() + begins[at + 1];
     const auto count = static_cast<std::uint32_t>(end - first);
     for (auto member = first; member != end; ++member) bodyOfGrain.erase(member->grain);
-    turned.erase(turned.begin() + begins[at], turned.begin() + begins[at + 1]);
     members.erase(first, end);
     forgetPlaces();
     begins.erase(begins.begin() + static_cast<std::ptrdiff_t>(at));
     for (std::size_t k = at; k < begins.size(); ++k) begins[k] -= count;
     bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(at));
     numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(at));
-}
-
-void RigidBodies::turnArms(std::size_t at) {
-    const Axes axes(bodies[at].orientation);
-    for (std::size_t m = begins[at]; m < begins[at + 1]; ++m) turned[m].arm = axes.turn(members[m].arm);
 }
 
 void RigidBodies::placeAll(ParticleStore& grains) {
@@ -51,10 +43,11 @@ void RigidBodies::placeAll(ParticleStore& grains) {
 void RigidBodies::place(ParticleStore& grains, std::size_t at) {
     const RigidBody& body = bodies[at];
     const Vector<double> spin = body.spin();
-    turnArms(at);
-    for (std::size_t m = begins[at]; m < begins[at + 1]; ++m) {
-        const std::uint32_t place = grains.place[members[m].grain];
-        const Vector<double>& arm = turned[m].arm;
+    const Axes axes(body.orientation);
+    armsAreTurned = false;
+    for (const BodyMember& member : membersOf(at)) {
+        const std::uint32_t place = grains.place[member.grain];
+        const Vector<double> arm = axes.turn(member.arm);
         TranslationRecord& grain = grains.translation[place];
         grain.inverseMass = 1 / body.mass;
         grain.position = body.position + arm;
@@ -89,21 +82,57 @@ bool RigidBodies::isSphere(const ParticleStore& grains, std::size_t at) const {
     return body.inertia == Vector<double>{moment, moment, moment};
 }
 
+std::vector<std::uint32_t> RigidBodies::bodiesAt(const ParticleStore& grains) const {
+    std::vector<std::uint32_t> all(grains.size(), none);
+    for (std::uint32_t k = 0; k < size(); ++k)
+        for (const BodyMember& member : membersOf(k)) all[grains.place[member.grain]] = k;
+    return all;
+}
+
+void RigidBodies::keepTogether(const ParticleStore& grains, std::vector<std::uint32_t>& places) const {
+    if (empty()) return;
+    const std::vector<std::uint32_t> bodyOfPlace = bodiesAt(grains);
+    std::vector<bool> isListed(size(), false);
+    std::vector<std::uint32_t> together;
+    together.reserve(places.size());
+    for (const std::uint32_t place : places) {
+        const std::uint32_t body = bodyOfPlace[place];
+        if (body == none) together.push_back(place);
+        if (body == none || isListed[body]) continue;
+        for (const BodyMember& member : membersOf(body)) together.push_back(grains.place[member.grain]);
+        isListed[body] = true;
+    }
+    places.swap(together);
+}
+
 void RigidBodies::refresh(const ParticleStore& grains) {
-    if (placesAreKnown || (empty() && bodyAt.empty())) return;
-    bodyAt.assign(grains.size(), none);
-    places.resize(members.size());
-    for (std::size_t k = 0; k < size(); ++k)
-        for (std::size_t m = begins[k]; m < begins[k + 1]; ++m) {
-            places[m] = grains.place[members[m].grain];
-            bodyAt[places[m]] = static_cast<std::uint32_t>(k);
-        }
-    order.clear(), spheresOnly.clear(), own.clear();
+    if (!placesAreKnown && !(empty() && bodyAt.empty())) findPlaces(grains);
+    if (!armsAreTurned) turnArms();
+}
+
+void RigidBodies::findPlaces(const ParticleStore& grains) {
+    bodyAt = bodiesAt(grains);
+    order.clear(), firsts.clear(), inOrder.clear(), spheresOnly.clear(), own.clear();
     for (std::uint32_t k = 0; k < size(); ++k) (isSphere(grains, k) ? spheresOnly : order).push_back(k);
-    std::ranges::sort(order, {}, [&](std::uint32_t k) { return places[begins[k]]; });
+    std::ranges::sort(order, {}, [&](std::uint32_t k) { return grains.place[membersOf(k).front().grain]; });
+    for (const std::uint32_t k : order) {
+        firsts.push_back(static_cast<std::uint32_t>(inOrder.size()));
+        for (const BodyMember& member : membersOf(k))
+            inOrder.push_back({.arm = member.arm, .place = grains.place[member.grain]});
+    }
+    firsts.push_back(static_cast<std::uint32_t>(inOrder.size()));
     for (std::uint32_t at = 0; at < grains.size(); ++at)
         if (bodyAt[at] == none || isSphere(grains, bodyAt[at])) own.push_back(at);
     placesAreKnown = true;
+    armsAreTurned = false;
+}
+
+void RigidBodies::turnArms() {
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const Axes axes(bodies[order[k]].orientation);
+        for (std::size_t m = firsts[k]; m < firsts[k + 1]; ++m) inOrder[m].turned = axes.turn(inOrder[m].arm);
+    }
+    armsAreTurned = true;
 }
 
 namespace {
@@ -169,9 +198,7 @@ void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains)
     for (std::size_t k = 0; k < arms.size(); ++k) members.push_back({grainsOf[k], arms[k]});
     requireWhole(archive, grains);
     bodyOfGrain.clear();
-    turned.resize(members.size());
     forgetPlaces();
-    for (std::size_t k = 0; k < size(); ++k) turnArms(k);
     for (std::size_t k = 0; k < size(); ++k)
         for (const BodyMember& member : membersOf(k)) {
             archive.require(!bodyOfGrain.contains(member.grain), "grains", "has a grain in two bodies");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -48,11 +49,14 @@ struct BodyMember {
     Vector<double> arm;   // m, from the centre of mass, in the principal axes
 };
 
-/// The arm of a grain as its body is turned, in a register's alignment.
-struct alignas(32) TurnedArm {
-    Vector<double> arm{0, 0, 0};  // m
+/// What the motion of a body needs of one of its grains: one cache line, read in the order of space.
+struct alignas(64) MemberInSpace {
+    Vector<double> arm{0, 0, 0};     // m, from the centre of mass, in the principal axes
+    std::uint32_t place = 0;         // of the grain
+    Vector<double> turned{0, 0, 0};  // m, the arm as the body is turned
     double unused = 0;
 };
+static_assert(sizeof(MemberInSpace) == 64 && offsetof(MemberInSpace, turned) == 32);
 
 /// What bodies do to the stability limit of a scene of free spheres.
 struct BodyResponse {
@@ -132,29 +136,32 @@ public:
     /// Dashpots are made for the mass of the body.
     [[nodiscard]] BodyResponse response(const ParticleStore& grains) const;
 
+    /// Puts the grains of a body behind each other, at the first of them.
+    /// @param places of all grains, in an order in space
+    void keepTogether(const ParticleStore& grains, std::vector<std::uint32_t>& places) const;
     /// Finds the grains where they are now: after each change of places, before the calls below.
     void refresh(const ParticleStore& grains);
     void forgetPlaces() { placesAreKnown = false; }
     /// Where bodies are, those behind each other whose first grains are in the store; without those that
     /// move as their only grain.
     [[nodiscard]] const std::vector<std::uint32_t>& inSpace() const { return order; }
+    /// The grains of these, body by body.
+    [[nodiscard]] std::span<MemberInSpace> membersInSpace() { return inOrder; }
+    /// Where the grains of the body at a place of inSpace() begin among them; those of the next one follow.
+    [[nodiscard]] std::uint32_t firstInSpace(std::size_t k) const { return firsts[k]; }
     /// Those that isSphere() is true of: they move as their grain does, bit for bit.
     [[nodiscard]] const std::vector<std::uint32_t>& spheres() const { return spheresOnly; }
     /// The places of all grains that move by themselves, or are held, or are the sphere of a body.
     [[nodiscard]] const std::vector<std::uint32_t>& ownPlaces() const { return own; }
-    [[nodiscard]] std::uint32_t begin(std::size_t at) const { return begins[at]; }
-    [[nodiscard]] std::uint32_t end(std::size_t at) const { return begins[at + 1]; }
-    /// By the number of a member, from begin() to end() of its body.
-    [[nodiscard]] const BodyMember& member(std::size_t number) const { return members[number]; }
-    [[nodiscard]] std::uint32_t placeOf(std::size_t number) const { return places[number]; }
-    [[nodiscard]] TurnedArm& turnedArm(std::size_t number) { return turned[number]; }
-    [[nodiscard]] const TurnedArm& turnedArm(std::size_t number) const { return turned[number]; }
 
     void visitState(StateArchive& archive, const ParticleStore& grains);
 
 private:
     void requireWhole(const StateArchive& archive, const ParticleStore& grains) const;
-    void turnArms(std::size_t at);
+    /// Of the grain at each place; `none` for one in no body.
+    [[nodiscard]] std::vector<std::uint32_t> bodiesAt(const ParticleStore& grains) const;
+    void findPlaces(const ParticleStore& grains);
+    void turnArms();
     /// kg, a grain; see response()
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
@@ -162,9 +169,10 @@ private:
     std::vector<std::uint32_t> numbers;  // of each; they grow
     std::vector<std::uint32_t> begins{0};
     std::vector<BodyMember> members;
-    std::vector<TurnedArm> turned;  // of each member
-    bool placesAreKnown = false;
-    std::vector<std::uint32_t> places, bodyAt, order, spheresOnly, own;
+    std::vector<MemberInSpace> inOrder;  // of the bodies in `order`, body by body
+    bool placesAreKnown = false, armsAreTurned = false;
+    std::vector<std::uint32_t> firsts;  // of each body in `order`, and one more
+    std::vector<std::uint32_t> bodyAt, order, spheresOnly, own;
     std::unordered_map<std::uint32_t, std::uint32_t> bodyOfGrain;
     std::uint32_t next = 0;
 };
