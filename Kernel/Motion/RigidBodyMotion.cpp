@@ -17,13 +17,14 @@ struct EightFours {
     Four of[Pack::lanes];
     Four operator[](std::size_t lane) const { return of[lane]; }
 };
-EightFours foursOf(const Pack& a, const Pack& b, const Pack& c, const Pack& d) {
+[[gnu::always_inline]] inline EightFours foursOf(const Pack& a, const Pack& b, const Pack& c, const Pack& d) {
     alignas(64) EightFours fours;
     storeRecords(reinterpret_cast<double*>(fours.of), std::array{a, b, c, d});
     return fours;
 }
-EightFours foursOf(const Vector<Pack>& v, const Pack& behind) { return foursOf(v.x, v.y, v.z, behind); }
-EightFours foursOf(const Pack& before, const Vector<Pack>& v) { return foursOf(before, v.x, v.y, v.z); }
+[[gnu::always_inline]] inline EightFours foursOf(const Vector<Pack>& v, const Pack& behind) {
+    return foursOf(v.x, v.y, v.z, behind);
+}
 
 /// Eight bodies, one in each lane.
 struct EightBodies {
@@ -49,18 +50,17 @@ struct EightBodies {
                 c[7]};
     }
     void store(RigidBodies& bodies, const std::uint32_t* index, int count) const {
-        // By quarters of 32 bytes, as they are written: a longer load would wait for both of its halves.
-        const std::array<EightFours, record / 4> parts{
-            foursOf(mass, inertia),
-            foursOf(position, velocity.x),
-            foursOf({velocity.y, velocity.z, acceleration.x}, acceleration.y),
-            foursOf({acceleration.z, momentum.x, momentum.y}, momentum.z),
-            foursOf(torque, orientation.real),
+        // What a step changes: all but the mass and the moments, which are the first four numbers. In pieces
+        // as they come from registers: a longer load would wait for both of its halves.
+        constexpr std::size_t firstPart = 1;
+        const std::array<EightFours, record / 4 - firstPart> parts{
+            foursOf(position, velocity.x), foursOf({velocity.y, velocity.z, acceleration.x}, acceleration.y),
+            foursOf({acceleration.z, momentum.x, momentum.y}, momentum.z), foursOf(torque, orientation.real),
             foursOf(orientation.imaginary, largestFreeMass)};
         for (int lane = 0; lane < count; ++lane) {
             Four* const to = reinterpret_cast<Four*>(&bodies[index[lane]].mass);
             for (std::size_t part = 0; part < parts.size(); ++part)
-                to[part] = parts[part][static_cast<std::size_t>(lane)];
+                to[firstPart + part] = parts[part][static_cast<std::size_t>(lane)];
         }
     }
 
@@ -83,20 +83,28 @@ struct EightBodies {
     }
 };
 
+/// The axes of eight bodies, which turn the arms of their grains.
+struct EightAxes {
+    EightFours x, y, z;
+
+    explicit EightAxes(const Axes<Pack>& axes)
+        : x(foursOf(axes.x, 0)), y(foursOf(axes.y, 0)), z(foursOf(axes.z, 0)) {}
+    [[gnu::always_inline]] Four turn(std::size_t lane, const Vector<double>& v) const {
+        return v.x * x[lane] + v.y * y[lane] + v.z * z[lane];
+    }
+};
+
 /// What the grains of eight bodies need to know of them.
 struct EightInSpace {
+    EightAxes axes;
     EightFours position, velocity, spin;
-    EightFours x, y, z;       // the axes, if asked for
-    EightFours acceleration;  // if not
 
-    EightInSpace(const EightBodies& b, bool withAxes) {
-        const Axes<Pack> axes(b.orientation);
-        const Pack none = 0;
-        position = foursOf(b.position, none), velocity = foursOf(b.velocity, none);
-        spin = foursOf(RigidBody::spinOf(axes, b.inertia, b.momentum), none);
-        if (withAxes) x = foursOf(axes.x, none), y = foursOf(axes.y, none), z = foursOf(axes.z, none);
-        else acceleration = foursOf(b.acceleration, none);
-    }
+    explicit EightInSpace(const EightBodies& b) : EightInSpace(b, Axes<Pack>(b.orientation)) {}
+    EightInSpace(const EightBodies& b, const Axes<Pack>& of)
+        : axes(of),
+          position(foursOf(b.position, 0)),
+          velocity(foursOf(b.velocity, 0)),
+          spin(foursOf(RigidBody::spinOf(of, b.inertia, b.momentum), 0)) {}
 };
 
 template <bool hasSpin, bool hasContactTorque>
@@ -147,15 +155,16 @@ private:
         EightBodies eight = EightBodies::load(bodies, index.data());
         if (finish != nullptr) {
             alignas(64) std::array<ForceAndTorque<true>, lanes> sums{};
+            const EightAxes axes(Axes<Pack>(eight.orientation));
             for (std::size_t lane = 0; lane < count; ++lane)
-                sums[lane] = sumForces(first + lane, finish->contacts);
+                sums[lane] = sumForces(first + lane, axes, lane, finish->contacts);
             static constexpr std::array<std::uint32_t, lanes> inOrder{0, 1, 2, 3, 4, 5, 6, 7};
             const auto c = loadRecords<8>(reinterpret_cast<const double*>(sums.data()), 8, inOrder.data());
             eight.finish({c[0], c[1], c[2]}, {c[4], c[5], c[6]}, finish->gravity, finish->step, scheme);
         }
         if (beginStep != nullptr) eight.begin(*beginStep, scheme);
         eight.store(bodies, index.data(), static_cast<int>(count));
-        const EightInSpace inSpace(eight, beginStep != nullptr);
+        const EightInSpace inSpace(eight);
         double farthest = 0;
         for (std::size_t lane = 0; lane < count; ++lane)
             if (beginStep != nullptr)
@@ -165,32 +174,36 @@ private:
     }
 
     /// Of the body at a place of inSpace().
-    [[nodiscard]] std::span<MemberInSpace> membersOf(std::size_t at) const {
+    [[nodiscard]] std::span<const MemberInSpace> membersOf(std::size_t at) const {
         return {members.data() + bodies.firstInSpace(at), members.data() + bodies.firstInSpace(at + 1)};
     }
 
     /// Of all contacts of all grains of a body: force, and torque about its centre of mass.
-    [[nodiscard]] ForceAndTorque<true> sumForces(std::size_t body, const ContactStore& contacts) const {
+    [[nodiscard]] ForceAndTorque<true> sumForces(std::size_t body, const EightAxes& axes, std::size_t lane,
+                                                 const ContactStore& contacts) const {
         Four force{}, torque{};
         for (std::size_t m = bodies.firstInSpace(body); m < bodies.firstInSpace(body + 1); ++m) {
-            if (m + grainsAhead < members.size())
-                prefetchContacts<hasSpin>(contacts, members[m + grainsAhead].place);
+            if (m + grainsAhead < members.size()) prefetchGrain(contacts, members[m + grainsAhead].place);
             const MemberInSpace& member = members[m];
             const auto sum = sumContacts<hasSpin, hasContactTorque>(contacts, member.place,
                                                                     grains.translation[member.place].radius);
             force += sum.force;
-            torque += crossFour(loadFour(member.turned), sum.force);
+            torque += crossFour(axes.turn(lane, member.arm), sum.force);
             if constexpr (hasSpin) torque += sum.torque;
         }
         return {force, torque};
     }
 
+    [[gnu::always_inline]] void prefetchGrain(const ContactStore& contacts, std::uint32_t place) const {
+        prefetch<true>(&grains.translation[place], sizeof(TranslationRecord));
+        if constexpr (hasSpin) prefetch<true>(&grains.rotation[place], sizeof(RotationRecord));
+        prefetchContacts<hasSpin>(contacts, place);
+    }
+
     double moveGrains(std::size_t body, const EightInSpace& now, std::size_t lane, double length) {
         double farthest = 0;
-        for (MemberInSpace& member : membersOf(body)) {
-            const Four arm =
-                member.arm.x * now.x[lane] + member.arm.y * now.y[lane] + member.arm.z * now.z[lane];
-            storeVector(member.turned, arm, Four{});
+        for (const MemberInSpace& member : membersOf(body)) {
+            const Four arm = now.axes.turn(lane, member.arm);
             TranslationRecord& grain = grains.translation[member.place];
             const Four before = loadFour(grain.position), after = now.position[lane] + arm;
             storeVector(grain.position, after, before);
@@ -203,9 +216,10 @@ private:
         return farthest;
     }
     void placeGrains(std::size_t body, const EightInSpace& now, std::size_t lane) {
+        const Vector<double>& acceleration = bodies[bodies.inSpace()[body]].acceleration;
         for (const MemberInSpace& member : membersOf(body)) {
-            setVelocity(member.place, now, lane, loadFour(member.turned));
-            grains.acceleration[member.place] = vectorOf(now.acceleration[lane]);
+            setVelocity(member.place, now, lane, now.axes.turn(lane, member.arm));
+            grains.acceleration[member.place] = acceleration;
         }
     }
     [[gnu::always_inline]] void setVelocity(std::uint32_t place, const EightInSpace& now, std::size_t lane,
@@ -229,7 +243,7 @@ private:
 
     ParticleStore& grains;
     RigidBodies& bodies;
-    std::span<MemberInSpace> members;  // of all
+    const std::vector<MemberInSpace>& members;  // of all
     const Integrator& scheme;
     const PeriodicBox& box;
 };

@@ -44,7 +44,6 @@ void RigidBodies::place(ParticleStore& grains, std::size_t at) {
     const RigidBody& body = bodies[at];
     const Vector<double> spin = body.spin();
     const Axes axes(body.orientation);
-    armsAreTurned = false;
     for (const BodyMember& member : membersOf(at)) {
         const std::uint32_t place = grains.place[member.grain];
         const Vector<double> arm = axes.turn(member.arm);
@@ -106,11 +105,7 @@ void RigidBodies::keepTogether(const ParticleStore& grains, std::vector<std::uin
 }
 
 void RigidBodies::refresh(const ParticleStore& grains) {
-    if (!placesAreKnown && !(empty() && bodyAt.empty())) findPlaces(grains);
-    if (!armsAreTurned) turnArms();
-}
-
-void RigidBodies::findPlaces(const ParticleStore& grains) {
+    if (placesAreKnown || (empty() && bodyAt.empty())) return;
     bodyAt = bodiesAt(grains);
     order.clear(), firsts.clear(), inOrder.clear(), spheresOnly.clear(), own.clear();
     for (std::uint32_t k = 0; k < size(); ++k) (isSphere(grains, k) ? spheresOnly : order).push_back(k);
@@ -118,21 +113,12 @@ void RigidBodies::findPlaces(const ParticleStore& grains) {
     for (const std::uint32_t k : order) {
         firsts.push_back(static_cast<std::uint32_t>(inOrder.size()));
         for (const BodyMember& member : membersOf(k))
-            inOrder.push_back({.arm = member.arm, .place = grains.place[member.grain]});
+            inOrder.push_back({member.arm, grains.place[member.grain]});
     }
     firsts.push_back(static_cast<std::uint32_t>(inOrder.size()));
     for (std::uint32_t at = 0; at < grains.size(); ++at)
         if (bodyAt[at] == none || isSphere(grains, bodyAt[at])) own.push_back(at);
     placesAreKnown = true;
-    armsAreTurned = false;
-}
-
-void RigidBodies::turnArms() {
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const Axes axes(bodies[order[k]].orientation);
-        for (std::size_t m = firsts[k]; m < firsts[k + 1]; ++m) inOrder[m].turned = axes.turn(inOrder[m].arm);
-    }
-    armsAreTurned = true;
 }
 
 namespace {

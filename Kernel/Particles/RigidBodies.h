@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -49,14 +48,11 @@ struct BodyMember {
     Vector<double> arm;   // m, from the centre of mass, in the principal axes
 };
 
-/// What the motion of a body needs of one of its grains: one cache line, read in the order of space.
-struct alignas(64) MemberInSpace {
-    Vector<double> arm{0, 0, 0};     // m, from the centre of mass, in the principal axes
-    std::uint32_t place = 0;         // of the grain
-    Vector<double> turned{0, 0, 0};  // m, the arm as the body is turned
-    double unused = 0;
+/// What the motion of a body needs of one of its grains.
+struct alignas(32) MemberInSpace {
+    Vector<double> arm;   // m, as of BodyMember
+    std::uint32_t place;  // of the grain
 };
-static_assert(sizeof(MemberInSpace) == 64 && offsetof(MemberInSpace, turned) == 32);
 
 /// What bodies do to the stability limit of a scene of free spheres.
 struct BodyResponse {
@@ -146,7 +142,7 @@ public:
     /// move as their only grain.
     [[nodiscard]] const std::vector<std::uint32_t>& inSpace() const { return order; }
     /// The grains of these, body by body.
-    [[nodiscard]] std::span<MemberInSpace> membersInSpace() { return inOrder; }
+    [[nodiscard]] const std::vector<MemberInSpace>& membersInSpace() const { return inOrder; }
     /// Where the grains of the body at a place of inSpace() begin among them; those of the next one follow.
     [[nodiscard]] std::uint32_t firstInSpace(std::size_t k) const { return firsts[k]; }
     /// Those that isSphere() is true of: they move as their grain does, bit for bit.
@@ -160,8 +156,6 @@ private:
     void requireWhole(const StateArchive& archive, const ParticleStore& grains) const;
     /// Of the grain at each place; `none` for one in no body.
     [[nodiscard]] std::vector<std::uint32_t> bodiesAt(const ParticleStore& grains) const;
-    void findPlaces(const ParticleStore& grains);
-    void turnArms();
     /// kg, a grain; see response()
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
@@ -170,7 +164,7 @@ private:
     std::vector<std::uint32_t> begins{0};
     std::vector<BodyMember> members;
     std::vector<MemberInSpace> inOrder;  // of the bodies in `order`, body by body
-    bool placesAreKnown = false, armsAreTurned = false;
+    bool placesAreKnown = false;
     std::vector<std::uint32_t> firsts;  // of each body in `order`, and one more
     std::vector<std::uint32_t> bodyAt, order, spheresOnly, own;
     std::unordered_map<std::uint32_t, std::uint32_t> bodyOfGrain;
