@@ -1,0 +1,178 @@
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "Drivers/Shared/GrainLattice.h"
+#include "Kernel/InputError.h"
+#include "Kernel/Species/LawNames.h"
+
+// Four small scenes that Pendular, LIGGGHTS and LAMMPS can all have: only spheres, planes and a cylinder.
+
+namespace pendular::bulk {
+
+/// One for all grains and walls; only the drum's wall has another friction.
+struct PeerMaterial {
+    static constexpr double density = 2500;        // kg/m^3
+    static constexpr double elasticModulus = 5e6;  // Pa, Young's
+    static constexpr double poissonRatio = 0.2;
+    static constexpr double restitution = 0.5;
+    static constexpr double friction = 0.5;
+    static constexpr double radius = 1e-3;   // m, of the largest grain, but for the intruder
+    static constexpr double smallest = 0.8;  // of that; even between, so that no crystal forms
+    static constexpr double gravity = 9.8;   // m/s^2
+
+    /// s, in which a wave goes round a grain, about: what users of other codes take a share of.
+    /// Source: Ning and Ghadiri (2006), Chem. Eng. Sci. 61, 5991: pi R sqrt(rho / G) / (0.163 nu + 0.8766).
+    [[nodiscard]] static double rayleighTime() {
+        const double shearModulus = elasticModulus / (2 * (1 + poissonRatio));
+        return std::numbers::pi * radius * std::sqrt(density / shearModulus) /
+               (0.163 * poissonRatio + 0.8766);
+    }
+};
+
+enum class GrainKind { Free = 1, Held = 2, Intruder = 3 };  // the numbers are atom types of the peers
+
+struct PeerGrain {
+    GrainKind kind;
+    double radius, density;    // m, kg/m^3
+    Vec3D position, velocity;  // m, m/s
+};
+
+/// What all codes begin with. Periodic where there is no wall; gravity points along -`up`.
+struct BulkScene {
+    std::string name;
+    double endTime, interval, measureFrom;  // s, run and frames; figures are of the time from then on
+    Vec3D lowest, highest;                  // m, of the box that grains are lost outside of
+    std::array<bool, 3> periodic;
+    int up = 2;
+    double cylinder = 0, spin = 0;  // m, rad/s: of a drum about z; 0: planes at the lowest faces
+    double wallFriction = PeerMaterial::friction;
+    bool settles = false;  // begins with grains that have come to rest
+    std::vector<PeerGrain> grains{};
+};
+
+inline constexpr std::array bulkSceneNames{"bed", "drum", "hopper", "impact"};
+
+namespace detail {
+
+inline constexpr double cell = 2.2 * PeerMaterial::radius;  // m, of a grain at the start
+
+/// A grain in a cell, with a random speed so that each seed gives another packing.
+inline PeerGrain looseGrain(const Vec3D& centre, UniformRandom& random) {
+    const GrainRow row =
+        jittered(PeerMaterial::radius * random.uniform(PeerMaterial::smallest, 1), centre, random);
+    const auto speed = [&] { return random.uniform(-0.2, 0.2); };
+    const double x = speed(), y = speed();
+    return {GrainKind::Free, row.radius, PeerMaterial::density, row.position, {x, y, speed()}};
+}
+template <class Fits>
+void fill(BulkScene& scene, const Vec3D& low, const Vec3D& high, std::size_t number, UniformRandom& random,
+          Fits&& fits) {
+    for (const Vec3D& centre : latticeCells(low, high, cell, fits)) {
+        if (number-- == 0) return;
+        scene.grains.push_back(looseGrain(centre, random));
+    }
+}
+inline const auto everywhere = [](const Vec3D&) { return true; };
+
+inline BulkScene bed(UniformRandom& random) {
+    const double width = 7 * cell;
+    BulkScene scene{.name = "bed",
+                    .endTime = 0.4,
+                    .interval = 2e-3,
+                    .measureFrom = 0.3,
+                    .lowest = Vec3D::Zero(),
+                    .highest = {width, width, 0.1},
+                    .periodic = {true, true, false}};
+    fill(scene, scene.lowest, scene.highest, 1000, random, everywhere);
+    return scene;
+}
+
+/// A smooth cylinder that carries the grains by its friction.
+inline BulkScene drum(UniformRandom& random) {
+    const double radius = 0.02, length = 8 * cell;
+    BulkScene scene{.name = "drum",
+                    .endTime = 0.8,
+                    .interval = 2.5e-3,
+                    .measureFrom = 0.3,
+                    .lowest = {-0.021, -0.021, 0},
+                    .highest = {0.021, 0.021, length},
+                    .periodic = {false, false, true},
+                    .up = 1,
+                    .cylinder = radius,
+                    .spin = 5,
+                    .wallFriction = 1};
+    fill(scene, {-radius, -radius, 0}, {radius, radius, length}, 2000, random, [&](const Vec3D& c) {
+        const double reach = std::hypot(std::abs(c.x()) + 0.5 * cell, std::abs(c.y()) + 0.5 * cell);
+        return reach < radius && c.y() < 0.15 * radius;
+    });
+    return scene;
+}
+
+/// Over a floor of held grains with a slit along y; between two planes along x.
+inline BulkScene hopper(UniformRandom& random) {
+    const double half = 0.018, slit = 0.0065, length = 5 * cell, r = PeerMaterial::radius;
+    BulkScene scene{.name = "hopper",
+                    .endTime = 0.3,
+                    .interval = 2e-3,
+                    .measureFrom = 0.05,
+                    .lowest = {-half, 0, -0.01},
+                    .highest = {half, length, 0.15},
+                    .periodic = {false, true, false},
+                    .settles = true};
+    const int across = static_cast<int>(length / (1.8 * r));
+    for (double x = slit; x < half; x += 1.8 * r)
+        for (const double side : {-1.0, 1.0})
+            for (int k = 0; k < across; ++k)
+                scene.grains.push_back({GrainKind::Held,
+                                        r,
+                                        PeerMaterial::density,
+                                        {side * x, (k + 0.5) * length / across, 0},
+                                        Vec3D::Zero()});
+    fill(scene, {-half, 0, 1.2 * r}, {half, length, 0.15}, 1500, random, everywhere);
+    return scene;
+}
+
+/// A heavy sphere falls on a bed at rest.
+inline BulkScene impact(UniformRandom& random) {
+    const double width = 10 * cell;
+    BulkScene scene{.name = "impact",
+                    .endTime = 0.06,
+                    .interval = 5e-4,
+                    .measureFrom = 0,
+                    .lowest = Vec3D::Zero(),
+                    .highest = {width, width, 0.1},
+                    .periodic = {true, true, false},
+                    .settles = true};
+    fill(scene, scene.lowest, scene.highest, 1500, random, everywhere);
+    return scene;
+}
+
+}  // namespace detail
+
+inline BulkScene bulkScene(const std::string& name, std::uint64_t seed) {
+    UniformRandom random(seed);
+    if (name == "bed") return detail::bed(random);
+    if (name == "drum") return detail::drum(random);
+    if (name == "hopper") return detail::hopper(random);
+    if (name == "impact") return detail::impact(random);
+    unknownName("scene", name, std::vector<std::string_view>(bulkSceneNames.begin(), bulkSceneNames.end()));
+}
+
+/// Above the highest grain of a bed that has settled: it meets the bed at once.
+inline PeerGrain intruder(const BulkScene& scene) {
+    double top = 0;
+    for (const PeerGrain& grain : scene.grains) top = std::max(top, grain.position.z() + grain.radius);
+    const double radius = 4 * PeerMaterial::radius, speed = 1.5;
+    const Vec3D middle = 0.5 * (scene.lowest + scene.highest);
+    return {GrainKind::Intruder,
+            radius,
+            3 * PeerMaterial::density,
+            {middle.x(), middle.y(), top + radius + 1e-5},
+            {0, 0, -speed}};
+}
+
+}  // namespace pendular::bulk

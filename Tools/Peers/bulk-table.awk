@@ -1,0 +1,37 @@
+# Of the rows of Tools/compare-bulk.sh (scene,code,step over Rayleigh's time or share,seed,step_s,survived,s of the processor for a
+# second,figure,value,...): means and standard errors over the seeds, deviations from the smallest step of the same code.
+function mean(at,   i, s) { for (i = 1; i <= n[at]; i++) s += v[at, i]; return s / n[at] }
+function error(at, m,   i, s) { for (i = 1; i <= n[at]; i++) s += (v[at, i] - m) ^ 2; return n[at] > 1 ? sqrt(s / (n[at] * (n[at] - 1))) : "nan" }
+function median(at,   i, j, t) {
+    for (i = 1; i <= runs[at]; i++) for (j = i + 1; j <= runs[at]; j++) if (cost[at, j] < cost[at, i]) { t = cost[at, i]; cost[at, i] = cost[at, j]; cost[at, j] = t }
+    return runs[at] % 2 ? cost[at, (runs[at] + 1) / 2] : (cost[at, runs[at] / 2] + cost[at, runs[at] / 2 + 1]) / 2
+}
+# Each variant of Pendular against its default; the others against themselves.
+function reference(scene, code) { return scene SUBSEP first[scene, code ~ /^pendular/ ? "pendular-default" : code] }
+{
+    run = $1 SUBSEP $2 "," $3
+    if (!(run in runs)) { order[++count] = run; scene[count] = $1; code[count] = $2; share[count] = $3; step[count] = $5 }
+    if (!(($1, $2) in first)) first[$1, $2] = $2 "," $3
+    cost[run, ++runs[run]] = $7
+    alive[run] += $6
+    for (k = 8; k < NF; k += 2) {
+        if (!(($1, $k) in seen)) { seen[$1, $k] = 1; figures[$1] = figures[$1] " " $k }
+        at = run SUBSEP $k
+        v[at, ++n[at]] = $(k + 1)
+    }
+}
+END {
+    print "scene,code,step_over_rayleigh_time_or_share,step_s,runs,runs_that_survived,processor_s_per_s,figure,mean,standard_error,deviation_percent,deviation_standard_error_percent"
+    for (c = 1; c <= count; c++) {
+        run = order[c]
+        all = split(figures[scene[c]], names, " ")
+        for (f = 1; f <= all; f++) {
+            head = sprintf("%s,%s,%s,%.4g,%d,%d,%.4g,%s", scene[c], code[c], share[c], step[c], runs[run], alive[run], median(run), names[f])
+            at = run SUBSEP names[f]; to = reference(scene[c], code[c]) SUBSEP names[f]
+            if (alive[run] < runs[run]) { print head ",nan,nan,nan,nan"; continue }
+            m = mean(at); right = mean(to); e = error(at, m); er = error(to, right)
+            same = at == to
+            printf "%s,%.5g,%.2g,%.3g,%.2g\n", head, m, e, same ? 0 : 100 * (m / right - 1), same ? 0 : 100 * sqrt(e ^ 2 + er ^ 2) / (right < 0 ? -right : right)
+        }
+    }
+}
