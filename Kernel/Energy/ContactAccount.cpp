@@ -1,5 +1,7 @@
 #include "Kernel/Energy/ContactAccount.h"
 
+#include <algorithm>
+
 namespace pendular {
 namespace {
 
@@ -70,6 +72,30 @@ void addSlider(const SliderSample& last, const SliderSample& now, const Vector<d
 }
 
 }  // namespace
+
+/// The path slid is the work over the force of friction; by the sums of both samples of the step, this is
+/// 1/mu of Coulomb's law, and stays bounded where a contact ends.
+ContactWear contactWear(const EnergyRecord& record, double slidingWork, const Vector<double>& velocity,
+                        double mass) {
+    const ContactSample& now = record.now;
+    ContactWear done{.slidingWork = slidingWork};
+    double load = 0, friction = 0;  // N
+    for (const ContactSample* sample : {&record.last, &now}) {
+        if (!(sample->sliding.slides > 0)) continue;
+        load += std::max(sample->elasticForce + sample->dashpotForce, 0.0);
+        friction += norm(sample->sliding.spring + sample->sliding.rest);
+    }
+    if (friction > 0) done.loadTimesPath = slidingWork * load / friction;
+    if (!(now.touching > 0) || record.last.touching > 0) return done;
+    const Vector<double> against = velocity - now.wallVelocity;
+    const double approach = dot(against, now.normal);
+    if (!(approach > 0)) return done;
+    done.isImpact = true;
+    done.mass = mass;
+    done.normalSpeed = approach;
+    done.tangentialSpeed = norm(against - approach * now.normal);
+    return done;
+}
 
 void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion& second,
                 const ContactKind& kind, double step, EnergyLedger& account) {

@@ -2,6 +2,7 @@
 
 #include "Kernel/Contacts/ContactSample.h"
 #include "Kernel/Energy/EnergyLedger.h"
+#include "Kernel/Walls/WearLaw.h"
 
 namespace pendular {
 
@@ -21,6 +22,12 @@ struct ContactKind {
     bool adhesionBreaks = false;             // else it is a function of the separation, which loses nothing
     Vector<double> pistonVelocity{0, 0, 0};  // m/s, of a wall whose kinetic energy is in the ledger
 };
+
+/// What a contact with a wall does to it in a step, of a record to which addContact() still has to come.
+/// @param slidingWork J, that the slider dissipates in the step; @param velocity of the grain at the start of
+/// the step, m/s; @param mass of the grain, kg
+ContactWear contactWear(const EnergyRecord& record, double slidingWork, const Vector<double>& velocity,
+                        double mass);
 
 /// Adds to an account what one contact did in a step (s), and makes the present sample the last one.
 void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion& second,

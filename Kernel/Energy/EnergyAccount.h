@@ -1,10 +1,13 @@
 #pragma once
 
+#include <utility>
+
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/BodyAccount.h"
 #include "Kernel/Energy/ContactAccount.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/Walls/WornWall.h"
 
 namespace pendular {
 
@@ -77,6 +80,7 @@ public:
         ledger.stepError -=
             workBesidesContacts(grains, contacts.store(), gravity, step, scheme, ledger.gravityBefore);
         const PeriodicBox& box = contacts.periodicBox();
+        const std::vector<WornWall*> wornOf = wornWalls(walls);
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                  std::size_t lane, EnergyRecord& record) {
@@ -91,7 +95,18 @@ public:
                     grains.translation[second].position - grains.translation[first].position;
                 other.slide = -box.velocityBetweenImages(apart, box.nearest(apart));
             }
-            addContact(record, meanMotion(grains, first), other, kind, step, account);
+            const BodyMotion grain = meanMotion(grains, first);
+            WornWall* const worn = kind.isWall ? wornOf[static_cast<std::size_t>(bucket.wall)] : nullptr;
+            if (!worn || step == 0) return addContact(record, grain, other, kind, step, account);
+            const EnergyRecord then = record;  // addContact() makes the present sample the last one
+            const double slidElsewhere = std::exchange(account.sliding, 0);
+            addContact(record, grain, other, kind, step, account);
+            const Vector<double> at = grains.translation[first].position + depthOf(then, grain.radius);
+            if (!grain.isHeld)
+                worn->takeWear(second, at,
+                               contactWear(then, account.sliding, before[rank[first]].velocity,
+                                           1 / grains.translation[first].inverseMass));
+            account.sliding += slidElsewhere;
         });
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
         account.migration = byLiquid.migration;
@@ -117,6 +132,12 @@ private:
             motion.angularAcceleration = grains.rotation[k].angularAcceleration;
         }
         return motion;
+    }
+
+    /// m, from the centre of a grain to the surface of the wall that it touches, or has just left.
+    static Vector<double> depthOf(const EnergyRecord& record, double radius) {
+        const ContactSample& sample = record.now.acts() ? record.now : record.last;
+        return (radius - 2 * sample.halfOverlap) * sample.normal;
     }
 
     static double energyOfPistons(const WallHandler& walls) {

@@ -8,6 +8,7 @@
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/StressServo.h"
+#include "Kernel/Walls/WornWall.h"
 
 namespace pendular {
 
@@ -316,6 +317,9 @@ static void refuseUnlessBridgesJoin(const ContactLaws& laws, double gap) {
 
 void Scene::setUp() {
     setupInitialConditions();
+    // It tells what slides.
+    ledgerKept |=
+        std::ranges::any_of(wornWalls(wallHandler), [](const WornWall* wall) { return wall != nullptr; });
     prepareOutputs();
     requireTimeStep();
     laws().mixAll();
@@ -385,6 +389,7 @@ void Scene::tellEvents() {
 void Scene::check() {
     widestBody = bodyHandler.refuseTooWide();
     refuseForBodies(particleHandler.store().bodies);
+    refuseWear(wallHandler, ledgerKept, laws().layout.hasTorque);
     GrainSizes sizes = grainSizes(particleHandler.store());
     const bool checksStep = !unstableAccepted && !adaptive.hasChosen();
     checkScene(laws(), sizes, wallHandler, checksStep ? getTimeStep() : 0, scheme());

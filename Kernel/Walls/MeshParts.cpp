@@ -86,6 +86,9 @@ public:
         std::sort(made.smoothPairs.begin(), made.smoothPairs.end());
         made.smoothPairs.erase(std::unique(made.smoothPairs.begin(), made.smoothPairs.end()),
                                made.smoothPairs.end());
+        for (Index t = 0; t < pieces.size(); ++t) made.triangles.partOf.push_back(number[root(t)]);
+        made.triangles.corners = std::move(triangleCorners);
+        made.triangles.vertices = std::move(vertices);
         return std::move(made);
     }
 

@@ -16,6 +16,13 @@ struct MeshPart {
     Vector<double> normal;                // unit
 };
 
+/// The triangles of a mesh, without those that it leaves out.
+struct MeshTriangles {
+    std::vector<Vector<double>> vertices;               // m; some may belong to no triangle
+    std::vector<std::array<std::uint32_t, 3>> corners;  // of each triangle: places in `vertices`
+    std::vector<std::uint32_t> partOf;                  // of each triangle
+};
+
 /// The parts of a mesh, in the order of their first triangles. Merging is only an economy (a wall of a
 /// thousand coplanar triangles is one part): triangles that do not merge touch the same grains with the same
 /// forces.
@@ -23,6 +30,7 @@ struct MeshParts {
     std::vector<MeshPart> parts;
     /// Parts (lower, higher) that share an edge at which the surface turns by less than smoothAngle; sorted.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> smoothPairs;
+    MeshTriangles triangles;
     double size = 0;          // m, diagonal of the box around all vertices
     std::size_t leftOut = 0;  // triangles without area, and repeated ones
 };

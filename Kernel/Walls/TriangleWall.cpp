@@ -37,7 +37,8 @@ struct TriangleMesh {
     BoxTree tree;
     Box box;
     double size = 0, radius = 0;  // m; radius: of all corners around the middle of the box
-    std::size_t triangles = 0, leftOut = 0;
+    std::size_t leftOut = 0;
+    MeshTriangles triangles;
 
     explicit TriangleMesh(std::span<const Triangle> given);
 
@@ -57,7 +58,7 @@ TriangleMesh::TriangleMesh(std::span<const Triangle> given) {
     smoothPairs = std::move(made.smoothPairs);
     size = made.size;
     leftOut = made.leftOut;
-    triangles = given.size() - leftOut;
+    triangles = std::move(made.triangles);
     std::vector<Box> boxes;
     for (const MeshPart& part : made.parts) {
         Vector<double> middle{0, 0, 0};
@@ -115,10 +116,35 @@ bool TriangleMesh::holds(const Face& face, const Vector<double>& point, double t
 
 void TriangleWall::set(std::span<const Triangle> triangles) {
     mesh = std::make_shared<const TriangleMesh>(triangles);
+    if (worn) worn.emplace(mesh->triangles, worn->law());
     takePlace();
 }
 
-std::size_t TriangleWall::getNumberOfTriangles() const { return mesh ? mesh->triangles : 0; }
+void TriangleWall::keepWear(const WearLaw& law) {
+    if (!mesh) throw InputError("TriangleWall: there is no shape that wears; call set() before keepWear().");
+    if (isInRun())
+        throw InputError(
+            "TriangleWall: wear is kept from the start of a run or not at all; call keepWear() at set-up.");
+    worn.emplace(mesh->triangles, law);
+}
+
+const WornTriangles& TriangleWall::getWear() const {
+    if (!worn) throw InputError("TriangleWall: its wear is not kept; call keepWear() at set-up.");
+    return *worn;
+}
+
+void TriangleWall::takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) {
+    worn->add(part, getPose().placeBack(point), done);
+}
+
+void TriangleWall::visitState(StateArchive& archive) {
+    RigidWall::visitState(archive);
+    archive.require(worn || archive.isWriting() || !archive.holds("wear/law"), "wear",
+                    "is kept in the file, and the wall of the scene keeps none: call keepWear()");
+    if (worn) archive.group("wear", [&] { worn->visitState(archive); });
+}
+
+std::size_t TriangleWall::getNumberOfTriangles() const { return mesh ? mesh->triangles.corners.size() : 0; }
 std::size_t TriangleWall::getNumberOfParts() const { return mesh ? mesh->faces.size() : 0; }
 std::size_t TriangleWall::getNumberLeftOut() const { return mesh ? mesh->leftOut : 0; }
 
@@ -178,6 +204,13 @@ SurfaceExtent TriangleWall::extent() const {
 
 WallSurface TriangleWall::surfaceInBody(const SceneSphere&) const {
     WallSurface surface;
+    if (worn) {
+        for (std::size_t t = 0; t < worn->size(); ++t) {
+            const Triangle corners = worn->triangle(t);
+            surface.polygons.emplace_back(corners.begin(), corners.end());
+        }
+        return surface;
+    }
     for (const Face& face : mesh->faces) {
         Polygon& polygon = surface.polygons.emplace_back();
         for (const Side& side : mesh->sidesOf(face)) polygon.push_back(side.corner);

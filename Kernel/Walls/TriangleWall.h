@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "Kernel/Walls/RigidWall.h"
 #include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Walls/WornTriangles.h"
 
 namespace pendular {
 
@@ -12,7 +14,7 @@ struct TriangleMesh;
 
 /// A surface of triangles, of no thickness: grains may lie on both sides. Its parts are convex plane polygons
 /// of coplanar triangles; edges and corners belong to one part at a time (see the README of this folder).
-class TriangleWall final : public RigidWall {
+class TriangleWall final : public RigidWall, public WornWall {
 public:
     /// Throws InputError if a coordinate is not finite or no triangle has an area.
     void set(std::span<const Triangle> triangles);
@@ -26,6 +28,20 @@ public:
     /// Triangles without area, and repeated ones.
     [[nodiscard]] std::size_t getNumberLeftOut() const;
 
+    /// Counts from the start of the run what grains do to each triangle, and what they wear off it by the
+    /// law; the scene keeps the ledger of the energy for it. The shape stays. Throws InputError before set()
+    /// and in a run.
+    void keepWear(const WearLaw& law);
+    /// Throws InputError unless it is kept.
+    [[nodiscard]] const WornTriangles& getWear() const;
+    [[nodiscard]] bool keepsWear() const override { return worn.has_value(); }
+    [[nodiscard]] bool needsFriction() const override { return worn->law().needsFriction(); }
+    [[nodiscard]] const SurfaceWear& wearOf(std::size_t triangle) const override {
+        return worn->of(triangle);
+    }
+    void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) override;
+    void visitState(StateArchive& archive) override;
+
 protected:
     void listInBody(const Vector<double>& centre, double reach,
                     std::vector<std::uint32_t>& parts) const override;
@@ -38,6 +54,7 @@ protected:
 
 private:
     std::shared_ptr<const TriangleMesh> mesh;  // copies of a wall share it
+    std::optional<WornTriangles> worn;
 };
 
 }  // namespace pendular

@@ -1,0 +1,88 @@
+#include "Kernel/Walls/WornTriangles.h"
+
+#include <algorithm>
+
+namespace pendular {
+
+WornTriangles::WornTriangles(const MeshTriangles& given, const WearLaw& law)
+    : mesh(given), wearLaw(law), wear(given.corners.size()) {
+    makeTree();
+    for (std::size_t t = 0; t < wear.size(); ++t) {
+        const auto [a, b, c] = triangle(t);
+        wear[t].area = 0.5 * norm(cross(b - a, c - a));
+    }
+}
+
+void WornTriangles::makeTree() {
+    std::vector<Box> boxes(mesh.corners.size());
+    Box all;
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+        for (const Vector<double>& corner : triangle(t)) boxes[t].include(corner), all.include(corner);
+    tree = BoxTree(boxes);
+    // Points lie on the surface but for round-off; where a grain has just left it, triangleAt() looks
+    // farther.
+    tolerance = 1e3 * meshTolerance * norm(all.highest - all.lowest);
+}
+
+Triangle WornTriangles::triangle(std::size_t number) const {
+    const auto& [a, b, c] = mesh.corners[number];
+    return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+}
+
+std::array<double, 3> WornTriangles::weightsAt(std::size_t number, const Vector<double>& point) const {
+    const auto [a, b, c] = triangle(number);
+    const Vector<double> twice = cross(b - a, c - a);
+    const double inverse = 1 / squaredNorm(twice);
+    const double ofA = inverse * dot(twice, cross(b - point, c - point)),
+                 ofB = inverse * dot(twice, cross(c - point, a - point));
+    return {ofA, ofB, 1 - ofA - ofB};
+}
+
+/// Points on an edge belong to both of its triangles but for round-off: the one with the largest of the
+/// smallest weights has them, of equal ones the first.
+std::uint32_t WornTriangles::triangleAt(std::uint32_t part, const Vector<double>& point) const {
+    std::uint32_t best = 0;
+    double largest = -infinity;
+    const auto consider = [&](std::uint32_t t) {
+        if (mesh.partOf[t] != part) return;
+        const double least = std::ranges::min(weightsAt(t, point));
+        if (least < largest || (least == largest && t > best)) return;
+        largest = least;
+        best = t;
+    };
+    tree.forEachNear(point, tolerance, consider);
+    if (largest == -infinity)
+        for (std::uint32_t t = 0; t < mesh.corners.size(); ++t) consider(t);
+    return best;
+}
+
+void WornTriangles::add(std::uint32_t part, const Vector<double>& point, const ContactWear& done) {
+    SurfaceWear& sums = wear[triangleAt(part, point)];
+    sums.slidingWork += done.slidingWork;
+    sums.volume += wearLaw.volume(done);
+    if (!done.isImpact) return;
+    sums.impactWork += done.impactWork();
+    sums.impacts += 1;
+}
+
+SurfaceWear WornTriangles::sum() const {
+    SurfaceWear all;
+    for (const SurfaceWear& each : wear) {
+        all.slidingWork += each.slidingWork;
+        all.impactWork += each.impactWork;
+        all.impacts += each.impacts;
+        all.volume += each.volume;
+        all.area += each.area;
+    }
+    return all;
+}
+
+void WornTriangles::visitState(StateArchive& archive) {
+    wearLaw.visitState(archive);
+    const std::size_t triangles = wear.size();
+    archive.column<double>("triangles", wear);
+    archive.require(wear.size() == triangles, "triangles", "has not one row for each triangle");
+    archive.requireFinite("triangles", wear);
+}
+
+}  // namespace pendular

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "Kernel/Walls/BoxTree.h"
+#include "Kernel/Walls/MeshParts.h"
+#include "Kernel/Walls/WornWall.h"
+
+namespace pendular {
+
+/// The triangles of a mesh, by which its wear is counted: coplanar ones are one part of the mesh, but each
+/// has its own sums. Those that the mesh leaves out have none.
+class WornTriangles {
+public:
+    WornTriangles(const MeshTriangles& mesh, const WearLaw& wearLaw);
+
+    /// Takes in what a contact of a part does in a step, at a point (m, in the frame of the mesh): counted
+    /// for the triangle of this part in which the point lies, or to which it is nearest.
+    void add(std::uint32_t part, const Vector<double>& point, const ContactWear& done);
+
+    [[nodiscard]] std::size_t size() const { return wear.size(); }
+    [[nodiscard]] const SurfaceWear& of(std::size_t triangle) const { return wear[triangle]; }
+    /// Of all triangles; the area is theirs together.
+    [[nodiscard]] SurfaceWear sum() const;
+    [[nodiscard]] Triangle triangle(std::size_t number) const;
+    [[nodiscard]] const WearLaw& law() const { return wearLaw; }
+
+    void visitState(StateArchive& archive);
+
+private:
+    /// The weights of a triangle's corners at the foot of a point on its plane; they sum to 1.
+    [[nodiscard]] std::array<double, 3> weightsAt(std::size_t number, const Vector<double>& point) const;
+    /// The number of a triangle of the part.
+    [[nodiscard]] std::uint32_t triangleAt(std::uint32_t part, const Vector<double>& point) const;
+    void makeTree();
+
+    MeshTriangles mesh;
+    WearLaw wearLaw;
+    std::vector<SurfaceWear> wear;
+    BoxTree tree;
+    double tolerance;  // m
+};
+
+}  // namespace pendular

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "Kernel/Walls/WallHandler.h"
+#include "Kernel/Walls/WearLaw.h"
+
+namespace pendular {
+
+/// What grains have done to a piece of a wall.
+struct SurfaceWear {
+    double slidingWork = 0;  // J, that friction dissipated in sliding
+    double impactWork = 0;   // J, of impacts along the normal
+    double impacts = 0;      // how many
+    double volume = 0;       // m^3, worn off
+    double area = 0;         // m^2, at the start of the run
+};
+
+/// A wall that can count what grains wear off it.
+class WornWall {
+public:
+    virtual ~WornWall() = default;
+
+    [[nodiscard]] virtual bool keepsWear() const = 0;
+    /// By sliding: without friction it would never wear.
+    [[nodiscard]] virtual bool needsFriction() const = 0;
+    /// Takes in what a contact of a part of the wall does to it in a step, at a point (m) of the scene. In
+    /// the order of identities, from one thread. Throws RunError where the wall cannot wear there.
+    virtual void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) = 0;
+    /// Of a polygon of its surface().
+    [[nodiscard]] virtual const SurfaceWear& wearOf(std::size_t polygon) const = 0;
+};
+
+/// Of each wall, by its number: the wall, if it keeps its wear, else null.
+std::vector<WornWall*> wornWalls(const WallHandler& walls);
+
+/// Throws InputError where a wall keeps its wear and the scene cannot.
+/// @param withLedger the scene keeps the ledger of the energy; @param withFriction its laws have friction
+void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction);
+
+}  // namespace pendular
