@@ -83,7 +83,8 @@ TEST(Drivers, printNothingWhereTheyAreQuiet) {
         {"WetPlaneShear", "--strain 0.2"},
         {"TriaxialTest",
          "--number 64 --stiffness 1e3 --inertial-number 0.05 --strain 0.1 --interval-strain 0.05"},
-        {"WetWallCollision", "--speeds-m/s 1"}};
+        {"WetWallCollision", "--speeds-m/s 1"},
+        {"WornPlates", "--number 1"}};
     for (const std::string& name : everyDriver()) {
         const TestFolder folder;
         const auto options = shorter.find(name);
