@@ -35,8 +35,8 @@ bool isLess(const Point& a, const Point& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
-/// For each vertex the first one within a distance (m) of it, itself or one that stands for itself.
-/// @param origin near to them: the numbers of cells stay small
+}  // namespace
+
 std::vector<Index> joinClose(std::span<const Point> vertices, double distance, const Point& origin) {
     using Cell = std::array<std::int64_t, 3>;
     const double inverseSize =
@@ -60,6 +60,8 @@ std::vector<Index> joinClose(std::span<const Point> vertices, double distance, c
     }
     return same;
 }
+
+namespace {
 
 class PartMaker {
 public:

@@ -39,6 +39,11 @@ struct MeshParts {
 /// triangle, and the distance at which two vertices are one.
 inline constexpr double meshTolerance = 1e-9;
 
+/// For each vertex the first one within a distance (m) of it, itself or one that stands for itself.
+/// @param origin near to them: the numbers of cells stay small
+std::vector<std::uint32_t> joinClose(std::span<const Vector<double>> vertices, double distance,
+                                     const Vector<double>& origin);
+
 /// Throws InputError if a coordinate is not finite (or above 1e9 m) or no triangle has an area.
 MeshParts makeMeshParts(std::span<const Triangle> triangles);
 

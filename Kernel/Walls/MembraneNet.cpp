@@ -1,0 +1,298 @@
+#include "Kernel/Walls/MembraneNet.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Walls/BoxTree.h"
+#include "Kernel/Walls/MeshParts.h"
+
+namespace pendular {
+namespace {
+
+using Index = std::uint32_t;
+using Point = Vector<double>;
+
+Point twiceArea(const Point& a, const Point& b, const Point& c) { return cross(b - a, c - a); }
+
+void checkMaterial(const MembraneMaterial& m) {
+    checkValue("Membrane", "Young's modulus", m.youngsModulus, "Pa", positive);
+    checkValue("Membrane", "thickness", m.thickness, "m", positive);
+    checkValue("Membrane", "density", m.density, "kg/m^3", positive);
+    if (!(std::abs(m.poissonsRatio - 1.0 / 3) < 1e-3))
+        throw InputError(fmt::format(
+            "Membrane: Poisson's ratio = {}; a net of springs has 1/3 and no other: leave it out (for "
+            "another "
+            "ratio nu, E / (1 - nu) counts where a membrane is pulled in all directions, E where in one).",
+            m.poissonsRatio));
+}
+
+std::array<Point, 4> cornersOf(const MembraneNet::Hinge& hinge, MembraneNet::Points at) {
+    std::array<Point, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = at[hinge.corners[k]];
+    return corners;
+}
+
+}  // namespace
+
+/// With the unit normals nA, nB, and the heights hA, hB of the corners 2, 3 over the edge: a shift of corner
+/// 2 along nA turns its triangle by shift / hA. Corners 0 and 1 bear the opposite, by the lever rule
+/// (Bridson, Marino and Fedkiw (2003), their u1 to u4 over the edge's length).
+HingeAngle hingeAngle(const std::array<Point, 4>& x) {
+    const Point edge = x[1] - x[0];
+    const Point ofA = cross(edge, x[2] - x[0]), ofB = cross(x[3] - x[0], edge);  // twice the areas
+    const double length2 = squaredNorm(edge), length = std::sqrt(length2);
+    const double a2 = squaredNorm(ofA), b2 = squaredNorm(ofB);
+    const Point byA = (length / a2) * ofA, byB = (length / b2) * ofB;  // n / h
+    const double footA = dot(x[2] - x[0], edge) / length2, footB = dot(x[3] - x[0], edge) / length2;
+    HingeAngle result;
+    result.angle = std::atan2(dot(cross(ofA, ofB), edge) / length, dot(ofA, ofB));
+    result.by = {(1 - footA) * byA + (1 - footB) * byB, footA * byA + footB * byB, -byA, -byB};
+    return result;
+}
+
+MembraneNet::MembraneNet(std::span<const Triangle> given, const MembraneMaterial& material) {
+    checkMaterial(material);
+    join(given);
+    mass.assign(rest.size(), 0);
+    for (std::size_t t = 0; t < faces.size(); ++t)
+        for (const Index v : faces[t]) mass[v] += material.density * material.thickness * areas[t] / 3;
+    findEdges(material);
+}
+
+void MembraneNet::join(std::span<const Triangle> given) {
+    Box box;
+    std::vector<Point> all;
+    for (std::size_t t = 0; t < given.size(); ++t)
+        for (const Point& p : given[t]) {
+            if (!(squaredNorm(p) <= 1e18))
+                throw InputError(
+                    fmt::format("Membrane: a coordinate of triangle {} is not finite or above 1e9 m.", t));
+            all.push_back(p);
+            box.include(p);
+        }
+    if (given.empty()) throw InputError("Membrane: there are no triangles.");
+    extent = norm(box.highest - box.lowest);
+    const std::vector<Index> same = joinClose(all, meshTolerance * extent, box.lowest);
+    std::vector<Index> number(all.size());
+    for (Index v = 0; v < all.size(); ++v) {
+        if (same[v] != v) continue;
+        number[v] = static_cast<Index>(rest.size());
+        rest.push_back(all[v]);
+    }
+    for (std::size_t t = 0; t < given.size(); ++t) {
+        const std::array<Index, 3> c{number[same[3 * t]], number[same[3 * t + 1]], number[same[3 * t + 2]]};
+        const Point a = rest[c[0]], b = rest[c[1]], d = rest[c[2]];
+        const double twice = norm(twiceArea(a, b, d)),
+                     longest = std::max({norm(b - a), norm(d - a), norm(d - b)});
+        if (!(twice > 1e-6 * longest * longest))
+            throw InputError(
+                fmt::format("Membrane: triangle {} (counted from 0) has no area; a net needs triangles whose "
+                            "height is at "
+                            "least 1e-6 of their longest edge, better near to equilateral ones.",
+                            t));
+        faces.push_back(c);
+        areas.push_back(0.5 * twice);
+    }
+}
+
+void MembraneNet::findEdges(const MembraneMaterial& material) {
+    struct Side {
+        std::size_t triangle, from;  // which corner it begins at
+        bool upwards;                // from the vertex of the lower number
+    };
+    std::map<std::pair<Index, Index>, std::vector<Side>> sides;
+    for (std::size_t t = 0; t < faces.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = faces[t][k], b = faces[t][(k + 1) % 3];
+            sides[std::minmax(a, b)].push_back({t, k, a < b});
+        }
+    const double stretching = material.youngsModulus * material.thickness;  // N/m
+    const double nu = 1.0 / 3, bending = stretching * material.thickness * material.thickness /
+                                         (12 * (1 - nu * nu));  // N m
+    atRim.assign(rest.size(), false);
+    for (const auto& [edge, at] : sides) {
+        if (at.size() > 2)
+            throw InputError(
+                fmt::format("Membrane: triangles {}, {} and {} (counted from 0) share an edge; a membrane "
+                            "has at most two "
+                            "at each.",
+                            at[0].triangle, at[1].triangle, at[2].triangle));
+        double area = 0;
+        for (const Side& side : at) area += areas[side.triangle];
+        const double length = norm(rest[edge.second] - rest[edge.first]);
+        edges.push_back({{edge.first, edge.second}, length, stretching * area / (length * length)});
+        if (at.size() == 1) {
+            atRim[edge.first] = atRim[edge.second] = true;
+            continue;
+        }
+        if (at[0].upwards == at[1].upwards)
+            throw InputError(
+                fmt::format("Membrane: the corners of triangles {} and {} (counted from 0) run in opposite "
+                            "senses, so that "
+                            "their normals point to different sides; turn one of them round.",
+                            at[0].triangle, at[1].triangle));
+        const Side &first = at[0].upwards ? at[0] : at[1], &second = at[0].upwards ? at[1] : at[0];
+        Hinge hinge{{edge.first, edge.second, faces[first.triangle][(first.from + 2) % 3],
+                     faces[second.triangle][(second.from + 2) % 3]},
+                    {static_cast<Index>(first.triangle), static_cast<Index>(second.triangle)},
+                    0,
+                    bending * length * length / area};
+        hinge.angle = hingeAngle(cornersOf(hinge, rest)).angle;
+        folds.push_back(hinge);
+    }
+}
+
+bool MembraneNet::isClosed() const {
+    return std::ranges::none_of(atRim, [](bool at) { return at; });
+}
+
+void MembraneNet::addElasticForces(Points at, std::span<Point> forces) const {
+    for (const Spring& spring : edges) {
+        const Point along = at[spring.ends[1]] - at[spring.ends[0]];
+        const double length = norm(along);
+        const Point pull = (spring.stiffness * (length - spring.length) / length) * along;
+        forces[spring.ends[0]] += pull;
+        forces[spring.ends[1]] -= pull;
+    }
+    for (const Hinge& hinge : folds) {
+        const HingeAngle now = hingeAngle(cornersOf(hinge, at));
+        const double moment = -hinge.stiffness * (now.angle - hinge.angle);
+        for (std::size_t k = 0; k < 4; ++k) forces[hinge.corners[k]] += moment * now.by[k];
+    }
+}
+
+void MembraneNet::addPressureForces(Points at, double pressure, std::span<Point> forces) const {
+    for (const auto& [a, b, c] : faces) {
+        const Point share = (pressure / 6) * twiceArea(at[a], at[b], at[c]);
+        for (const Index v : {a, b, c}) forces[v] += share;
+    }
+}
+
+double MembraneNet::stretchingEnergy(Points at) const {
+    double sum = 0;
+    for (const Spring& spring : edges) {
+        const double stretch = norm(at[spring.ends[1]] - at[spring.ends[0]]) - spring.length;
+        sum += 0.5 * spring.stiffness * stretch * stretch;
+    }
+    return sum;
+}
+
+double MembraneNet::bendingEnergy(Points at) const {
+    double sum = 0;
+    for (const Hinge& hinge : folds) {
+        const double turn = hingeAngle(cornersOf(hinge, at)).angle - hinge.angle;
+        sum += 0.5 * hinge.stiffness * turn * turn;
+    }
+    return sum;
+}
+
+double MembraneNet::volume(Points at) const {
+    const Point origin = at[0];
+    double sum = 0;
+    for (const auto& [a, b, c] : faces) sum += dot(at[a] - origin, cross(at[b] - origin, at[c] - origin)) / 6;
+    return sum;
+}
+
+double MembraneNet::squaredFrequency(const std::vector<bool>& held) const {
+    std::vector<Eigen::Matrix3d> tensors(rest.size(), Eigen::Matrix3d::Zero());
+    const auto inverseMass = [&](Index v) { return !held.empty() && held[v] ? 0 : 1 / mass[v]; };
+    const auto add = [&](Index v, double weight, const Point& along) {
+        const Eigen::Vector3d d(along.x, along.y, along.z);
+        const double length2 = d.squaredNorm();
+        if (length2 > 0 && inverseMass(v) > 0) tensors[v] += (weight / length2) * d * d.transpose();
+    };
+    for (const Spring& spring : edges) {
+        const auto [a, b] = spring.ends;
+        const double weight = spring.stiffness * (inverseMass(a) + inverseMass(b));
+        for (const Index v : spring.ends) add(v, weight, rest[b] - rest[a]);
+    }
+    for (const Hinge& hinge : folds) {
+        const HingeAngle now = hingeAngle(cornersOf(hinge, rest));
+        double weight = 0;
+        for (std::size_t k = 0; k < 4; ++k) weight += squaredNorm(now.by[k]) * inverseMass(hinge.corners[k]);
+        for (std::size_t k = 0; k < 4; ++k) add(hinge.corners[k], hinge.stiffness * weight, now.by[k]);
+    }
+    double largest = 0;
+    for (const Eigen::Matrix3d& tensor : tensors) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor, Eigen::EigenvaluesOnly);
+        largest = std::max(largest, solver.eigenvalues()[2]);
+    }
+    return largest;
+}
+
+int MembraneNet::collapsed(Points at) const {
+    for (std::size_t t = 0; t < faces.size(); ++t) {
+        const auto& [a, b, c] = faces[t];
+        if (!(norm(twiceArea(at[a], at[b], at[c])) > 0.02 * areas[t])) return static_cast<int>(t);
+    }
+    constexpr double cosineOfTouch = -0.98481;  // of 170 degrees
+    for (const Hinge& hinge : folds) {
+        const std::array<Point, 4> x = cornersOf(hinge, at);
+        const Point ofA = twiceArea(x[0], x[1], x[2]), ofB = twiceArea(x[1], x[0], x[3]);
+        if (!(dot(ofA, ofB) > cosineOfTouch * norm(ofA) * norm(ofB)))
+            return static_cast<int>(hinge.triangles[0]);
+    }
+    return -1;
+}
+
+std::vector<Triangle> membraneSheet(int columns, int rows, double edge) {
+    checkValue("membraneSheet()", "columns", columns, "", {1, 1e5});
+    checkValue("membraneSheet()", "rows", rows, "", {1, 1e5});
+    checkValue("membraneSheet()", "edge", edge, "m", positive);
+    const double height = 0.5 * std::sqrt(3.0) * edge, width = columns * edge;
+    const auto rowOf = [&](int row) {
+        std::vector<Point> points;
+        const double y = row * height;
+        if (row % 2 == 0) {
+            for (int k = 0; k <= columns; ++k) points.push_back({k * edge, y, 0});
+            return points;
+        }
+        points.push_back({0, y, 0});
+        for (int k = 0; k < columns; ++k) points.push_back({(k + 0.5) * edge, y, 0});
+        points.push_back({width, y, 0});
+        return points;
+    };
+    std::vector<Triangle> triangles;
+    for (int row = 0; row < rows; ++row) {
+        const bool even = row % 2 == 0;  // one point less in its lower line
+        const std::vector<Point> lower = rowOf(row), upper = rowOf(row + 1);
+        const auto n = static_cast<std::size_t>(columns);
+        for (std::size_t k = 0; k <= n; ++k) {
+            if (even) triangles.push_back({lower[k], upper[k + 1], upper[k]});
+            else triangles.push_back({lower[k], lower[k + 1], upper[k]});
+            if (k == n) break;
+            if (even) triangles.push_back({lower[k], lower[k + 1], upper[k + 1]});
+            else triangles.push_back({lower[k + 1], upper[k + 1], upper[k]});
+        }
+    }
+    return triangles;
+}
+
+std::vector<Triangle> membraneTube(double radius, double height, int around) {
+    checkValue("membraneTube()", "radius", radius, "m", positive);
+    checkValue("membraneTube()", "height", height, "m", positive);
+    checkValue("membraneTube()", "edges around", around, "", {3, 1e5});
+    const double turn = 2 * std::numbers::pi / around, edge = 2 * radius * std::sin(0.5 * turn);
+    const int rows = std::max(1, static_cast<int>(std::lround(height / (0.5 * std::sqrt(3.0) * edge))));
+    const auto at = [&](int row, int k) {
+        const double angle = turn * (k % around + 0.5 * (row % 2));
+        return Point{radius * std::cos(angle), radius * std::sin(angle), height * row / rows};
+    };
+    std::vector<Triangle> triangles;
+    for (int row = 0; row < rows; ++row)
+        for (int k = 0; k < around; ++k) {
+            const int shift =
+                row % 2;  // the upper line is half an edge ahead of an even row, behind an odd one
+            triangles.push_back({at(row, k), at(row, k + 1), at(row + 1, k + shift)});
+            triangles.push_back({at(row, k + 1 - shift), at(row + 1, k + 1), at(row + 1, k)});
+        }
+    return triangles;
+}
+
+}  // namespace pendular
