@@ -55,6 +55,18 @@ public:
         }
     }
 
+    /// The same boxes have moved: nodes keep what they hold. Searches find the same; they are slower the more
+    /// the boxes have changed their order.
+    void refit(std::span<const Box> boxes) {
+        for (std::size_t node = nodes.size(); node-- > 0;) {  // those below a node come behind it
+            Node& at = nodes[node];
+            at.box = {};
+            for (std::uint32_t k = at.begin; k < at.end; ++k) at.box.include(boxes[order[k]]);
+            for (std::size_t below = node + 1; below < at.next; below = nodes[below].next)
+                at.box.include(nodes[below].box);
+        }
+    }
+
 private:
     struct Node {
         Box box;

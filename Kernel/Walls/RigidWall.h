@@ -15,14 +15,6 @@ namespace pendular {
 /// is.
 class RigidWall : public Wall {
 public:
-    template <class S>
-    void setSpecies(const S* wallSpecies) {
-        if (wallSpecies->getIndex() < 0)
-            throw InputError(
-                "A wall's species was not added to the scene; call setSpecies() with what "
-                "speciesHandler.copyAndAddObject() returned.");
-        species = wallSpecies->getIndex();
-    }
     [[nodiscard]] bool isSet() const { return given; }
 
     // These replace a function that setMotion() has given.

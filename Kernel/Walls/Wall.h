@@ -6,11 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "Kernel/InputError.h"
 #include "Kernel/Particles/SphericalParticle.h"
 #include "Kernel/Walls/PlaneDrive.h"
 #include "Kernel/Walls/WallSurface.h"
 
 namespace pendular {
+
+class Membrane;
 
 /// Where a sphere is nearest to a part of a wall.
 struct WallPoint {
@@ -40,6 +43,15 @@ struct WallForce {
 class Wall {
 public:
     virtual ~Wall() = default;
+
+    template <class S>
+    void setSpecies(const S* wallSpecies) {
+        if (wallSpecies->getIndex() < 0)
+            throw InputError(
+                "A wall's species was not added to the scene; call setSpecies() with what "
+                "speciesHandler.copyAndAddObject() returned.");
+        species = wallSpecies->getIndex();
+    }
 
     [[nodiscard]] virtual std::size_t partCount() const { return 1; }
 
@@ -75,7 +87,11 @@ public:
     [[nodiscard]] virtual PlaneDrive* drive() { return nullptr; }
     [[nodiscard]] const PlaneDrive* drive() const { return const_cast<Wall*>(this)->drive(); }
 
-    /// Unit, away from the grains, of a wall that is moved by forces.
+    /// Itself where it is one whose vertices forces move; else null.
+    [[nodiscard]] virtual Membrane* membrane() { return nullptr; }
+    [[nodiscard]] const Membrane* membrane() const { return const_cast<Wall*>(this)->membrane(); }
+
+    /// Unit, away from the grains, of a plane that is moved by forces.
     [[nodiscard]] virtual Vector<double> drivenNormal() const { return {0, 0, 0}; }
 
     /// The wall as polygons, for pictures; a shape that gives none is not seen.
@@ -103,7 +119,7 @@ public:
     /// A contact has ended between two steps: its force (N) on a wall that is moved by forces acts no longer.
     /// What is left is rounded: the next step, and a restart file, need the sum of the contacts that there
     /// are.
-    void loseForce(const Vector<double>& force) {
+    virtual void loseForce(const Vector<double>& force) {
         PlaneDrive* const driven = drive();
         if (!driven) return;
         kept.force -= force;

@@ -1,0 +1,146 @@
+#include "Kernel/Walls/Membrane.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "Kernel/Walls/RigidWall.h"
+
+namespace pendular {
+
+void Membrane::set(std::span<const Triangle> triangles, const MembraneMaterial& of) {
+    if (isSet() && pendular::isSet(began))
+        throw InputError("Membrane: its shape cannot be set again in a run; remove it and add another one.");
+    net = std::make_shared<const MembraneNet>(triangles, of);
+    material = of;
+    areaDensity = of.density * of.thickness;
+    const std::size_t count = net->vertices().size();
+    const MembraneState::Column none(count, {0, 0, 0});
+    now = {net->vertices(), none, none, none, none, none, none};
+    held.assign(count, false);
+    std::vector<std::array<std::uint32_t, 2>> neighbours;
+    for (const MembraneNet::Hinge& hinge : net->hinges()) neighbours.push_back(hinge.triangles);
+    shape = MembraneSurface(net->triangles(), neighbours, now.position);
+}
+
+void Membrane::hold(const std::function<bool(const Vec3D&)>& where, const Vec3D& velocity) {
+    const Vector<double> moves = checkedVector("Membrane", "velocity of held vertices", velocity, "m/s");
+    if (!isSet()) throw InputError("Membrane: call set() or read() before vertices are held.");
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < held.size(); ++v) {
+        if (!where(toEigen(now.position[v]))) continue;
+        held[v] = true;
+        now.velocity[v] = moves;
+        ++count;
+    }
+    if (count == 0) throw InputError("Membrane: hold(): none of its vertices is there.");
+}
+
+void Membrane::holdRim(const Vec3D& velocity) {
+    if (!isSet() || net->isClosed()) throw InputError("Membrane: holdRim(): it has no free edges.");
+    std::size_t v = 0;  // hold() asks in this order
+    hold([&](const Vec3D&) { return net->rim()[v++]; }, velocity);
+}
+
+void Membrane::setPressure(double value) {
+    checkValue("Membrane", "pressure", value, "Pa", anyFinite);
+    pressure = value;
+}
+
+void Membrane::setDamping(double rate) {
+    checkValue("Membrane", "damping", rate, "1/s", notNegative);
+    if (pendular::isSet(began)) throw InputError("Membrane: its damping is set before the run only.");
+    damping = rate;
+}
+
+double Membrane::getKineticEnergy() const {
+    double sum = 0;
+    for (std::size_t v = 0; v < held.size(); ++v)
+        if (!held[v]) sum += 0.5 * net->masses()[v] * squaredNorm(now.velocity[v]);
+    return sum;
+}
+
+double Membrane::getElasticEnergy() const {
+    return net->stretchingEnergy(now.position) + net->bendingEnergy(now.position);
+}
+
+double Membrane::lightestVertex() const {
+    double lightest = infinity;
+    for (std::size_t v = 0; v < held.size(); ++v)
+        if (!held[v]) lightest = std::min(lightest, net->masses()[v]);
+    return lightest;
+}
+
+TriangleWeights Membrane::weightsAt(std::size_t triangle, const Vector<double>& point) const {
+    const auto& [a, b, c] = net->triangles()[triangle];
+    return {now.position[a], now.position[b], now.position[c], point};
+}
+
+void Membrane::findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                          std::span<WallPoint> points) const {
+    shape.findPoints(centre, reach, parts, points);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        WallPoint& point = points[k];
+        if (!(point.distance < reach)) continue;
+        const TriangleWeights weights = weightsAt(parts[k], centre + point.distance * point.normal);
+        for (std::size_t c = 0; c < 3; ++c)
+            point.velocity += weights.share[c] * now.velocity[net->triangles()[parts[k]][c]];
+    }
+}
+
+double Membrane::moveTo(double time) {
+    if (!pendular::isSet(began)) began = time;
+    return std::exchange(shifted, 0);
+}
+
+void Membrane::loseForce(const Vector<double>& force) {
+    Wall::loseForce(force);
+    forcesAreOld = true;
+}
+
+void Membrane::goOn(MembraneState next, double farthest) {
+    now = std::move(next);
+    shifted = farthest;
+    shape.update(now.position);
+}
+
+WallSurface Membrane::surface(const SceneSphere&) const {
+    WallSurface surface;
+    for (const auto& [a, b, c] : net->triangles())
+        surface.polygons.push_back({now.position[a], now.position[b], now.position[c]});
+    return surface;
+}
+
+void Membrane::visitState(StateArchive& archive) {
+    Wall::visitState(archive);
+    archive.same("shape", "Membrane");
+    archive.same("triangles", net->triangles().size());
+    archive.same<double>("corners", std::span<const Vector<double>>(net->vertices()));
+    archive.same("youngsModulus", material.youngsModulus, "Pa");
+    archive.same("thickness", material.thickness, "m");
+    archive.same("density", material.density, "kg/m^3");
+    archive.same("damping", damping, "1/s");
+    archive.finite("pressure", pressure);
+    archive.value("forcesAreOld", forcesAreOld);
+    std::vector<std::uint8_t> holds(held.begin(), held.end());
+    const auto whole = [&](std::string_view name, const auto& column) {
+        archive.require(column.size() == held.size(), name, "is not one for each vertex");
+    };
+    archive.column<std::uint8_t>("held", holds);
+    whole("held", holds);
+    for (std::size_t v = 0; v < held.size(); ++v) held[v] = holds[v] != 0;
+    const auto visit = [&](std::string_view name, MembraneState::Column& column) {
+        archive.column<double>(name, column);
+        whole(name, column);
+        archive.requireFinite(name, column);
+    };
+    visit("position", now.position), visit("velocity", now.velocity);
+    visit("acceleration", now.acceleration), visit("earlier", now.earlier);
+    visit("ofGrains", now.ofGrains), visit("elastic", now.elastic), visit("ofPressure", now.ofPressure);
+    if (!archive.isReading()) return;
+    archive.require(net->collapsed(now.position) < 0, "position", "has a triangle without area");
+    shape.update(now.position);
+}
+
+}  // namespace pendular

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "Kernel/Walls/MembraneNet.h"
+#include "Kernel/Walls/MembraneSurface.h"
+
+namespace pendular {
+
+/// Where the vertices of a membrane are, and what moves them. One entry for each vertex.
+struct MembraneState {
+    using Column = std::vector<Vector<double>>;
+
+    Column position, velocity;     // m, m/s
+    Column acceleration, earlier;  // m/s^2, at the end of the last step, and at its start; of held ones F / m
+    Column ofGrains;               // N, of the contacts
+    Column elastic;                // N, of springs and hinges
+    Column ofPressure;             // N
+};
+
+/// What forces did in the last step, J; for the energy ledger.
+struct MembraneWork {
+    double byGrains = 0;   // contacts, on all vertices
+    double byLoads = 0;    // pressure on all vertices, weight of those that move
+    double byHolders = 0;  // what held vertices were given
+    double damped = 0;     // lost
+    double missing = 0;  // error of the step: what the elastic energy and the motion have, and no force gave
+};
+
+/// An elastic membrane of triangles (MembraneNet.h) that touches grains from both sides. Contacts are with
+/// its triangles, as at a TriangleWall; their forces and torques go to the corners by barycentric weights.
+/// Its vertices are integrated with the grains. It has no thickness for contacts, and does not touch itself:
+/// a run ends where a triangle collapses or folds onto its neighbour, and nowhere else.
+class Membrane final : public Wall {
+public:
+    /// Throws InputError as MembraneNet.
+    void set(std::span<const Triangle> triangles, const MembraneMaterial& material);
+    /// From an STL file or rows of nine numbers (readTriangles). @param scale m for one unit of the file
+    void read(const std::filesystem::path& path, const MembraneMaterial& material, double scale = 1) {
+        set(readTriangles(path, scale), material);
+    }
+    [[nodiscard]] bool isSet() const { return net != nullptr; }
+
+    /// From now on, the vertices at places (m; where they are now) for which the function is true move with
+    /// this velocity (m/s) and not by forces. Also in a run, again for the same ones too. Throws InputError
+    /// if there is none.
+    void hold(const std::function<bool(const Vec3D&)>& where, const Vec3D& velocity = Vec3D::Zero());
+    /// The same for all vertices at free edges.
+    void holdRim(const Vec3D& velocity = Vec3D::Zero());
+    /// @param value Pa, pushes along the normals (of corners that run counter-clockwise towards the eye);
+    /// negative against them. Also in a run: it acts from the end of the next step on.
+    void setPressure(double value);
+    /// Each vertex of mass m and velocity v has the force -rate m v, as in a fluid at rest; at set-up.
+    /// @param rate 1/s
+    void setDamping(double rate);
+
+    [[nodiscard]] const MembraneNet& getNet() const { return *net; }
+    [[nodiscard]] double getPressure() const { return pressure; }
+    [[nodiscard]] double getDamping() const { return damping; }
+    [[nodiscard]] const std::vector<bool>& getHeld() const { return held; }
+    [[nodiscard]] Vec3D getPosition(std::size_t vertex) const { return toEigen(now.position.at(vertex)); }
+    [[nodiscard]] Vec3D getVelocity(std::size_t vertex) const { return toEigen(now.velocity.at(vertex)); }
+    /// N, by the grains, at the end of the last step.
+    [[nodiscard]] Vec3D getForceOfGrains(std::size_t vertex) const {
+        return toEigen(now.ofGrains.at(vertex));
+    }
+    [[nodiscard]] double getVolume() const { return net->volume(now.position); }  // m^3, of a closed one
+    [[nodiscard]] double getKineticEnergy() const;                                // J, of what is not held
+    [[nodiscard]] double getElasticEnergy() const;                                // J
+    /// kg, of the lightest vertex that moves; infinite where all are held
+    [[nodiscard]] double lightestVertex() const;
+    [[nodiscard]] double squaredFrequency() const { return net->squaredFrequency(held); }  // 1/s^2
+    [[nodiscard]] double massOfArea() const { return areaDensity; }                        // kg/m^2
+
+    using Wall::membrane;
+    [[nodiscard]] Membrane* membrane() override { return this; }
+    [[nodiscard]] std::size_t partCount() const override { return net->triangles().size(); }
+    void listParts(const Vector<double>& centre, double reach,
+                   std::vector<std::uint32_t>& parts) const override {
+        shape.listParts(centre, reach, parts);
+    }
+    void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                    std::span<WallPoint> points) const override;
+    [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const override {
+        return shape.isCrossed(from, to);
+    }
+    double moveTo(double time) override;
+    void join(double time) { began = time; }
+    void loseForce(const Vector<double>& force) override;
+    [[nodiscard]] WallSurface surface(const SceneSphere& around) const override;
+    void visitState(StateArchive& archive) override;
+
+    // For MembraneMotion.
+    [[nodiscard]] const MembraneState& state() const { return now; }
+    /// The vertices go on; the farthest (m) is told by the next moveTo().
+    void goOn(MembraneState next, double farthest);
+    /// Forces, velocities and accelerations at the end of the step; the places are those of goOn().
+    void finish(MembraneState end) { now = std::move(end), forcesAreOld = false; }
+    /// Contacts have ended, or none of its forces are known, since the last step.
+    [[nodiscard]] bool hasOldForces() const { return forcesAreOld; }
+    [[nodiscard]] TriangleWeights weightsAt(std::size_t triangle, const Vector<double>& point) const;
+    MembraneWork work;
+
+private:
+    std::shared_ptr<const MembraneNet> net;  // copies share it
+    MembraneMaterial material;
+    double areaDensity = 0;  // kg/m^2
+    std::vector<bool> held;
+    double pressure = 0;  // Pa
+    double damping = 0;   // 1/s
+    MembraneState now;
+    MembraneSurface shape;
+    double shifted = 0;    // m, by goOn()
+    double began = unset;  // s, of the run; not a number before it
+    bool forcesAreOld = true;
+};
+
+}  // namespace pendular
