@@ -7,6 +7,7 @@
 #include "Kernel/Energy/ContactAccount.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/WornWall.h"
 
 namespace pendular {
@@ -30,6 +31,7 @@ public:
         if (step > 0)
             ledger.driver += kineticEnergy(grains) - ledger.kinetic +
                              (energyOfPistons(walls) - ledger.pistons) +
+                             (energyOfMembranes(walls) - ledger.membranes) +
                              (potential + ledger.carried - ledger.potential);
         before.clear();
         for (const std::uint32_t place : grains.place) before.push_back(motionOf(grains, place));
@@ -97,22 +99,30 @@ public:
             }
             const BodyMotion grain = meanMotion(grains, first);
             WornWall* const worn = kind.isWall ? wornOf[static_cast<std::size_t>(bucket.wall)] : nullptr;
-            if (!worn || step == 0) return addContact(record, grain, other, kind, step, account);
-            const EnergyRecord then = record;  // addContact() makes the present sample the last one
-            const double slidElsewhere = std::exchange(account.sliding, 0);
-            addContact(record, grain, other, kind, step, account);
-            const Vector<double> at = grains.translation[first].position + depthOf(then, grain.radius);
-            if (!grain.isHeld)
-                worn->takeWear(second, at,
-                               contactWear(then, account.sliding, before[rank[first]].velocity,
-                                           1 / grains.translation[first].inverseMass));
-            account.sliding += slidElsewhere;
+            const double byWalls = account.walls;
+            if (!worn || step == 0) {
+                addContact(record, grain, other, kind, step, account);
+            } else {
+                const EnergyRecord then = record;  // addContact() makes the present sample the last one
+                const double slidElsewhere = std::exchange(account.sliding, 0);
+                addContact(record, grain, other, kind, step, account);
+                const Vector<double> at = grains.translation[first].position + depthOf(then, grain.radius);
+                if (!grain.isHeld)
+                    worn->takeWear(second, at,
+                                   contactWear(then, account.sliding, before[rank[first]].velocity,
+                                               1 / grains.translation[first].inverseMass));
+                account.sliding += slidElsewhere;
+            }
+            // The membrane's own account has this work, as it was done on the vertices.
+            if (kind.isWall && walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
+                account.stepError -= std::exchange(account.walls, byWalls) - byWalls;
         });
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
         account.migration = byLiquid.migration;
         account.evaporation = byLiquid.evaporation;
         takeOver(account, step > 0, ledger);  // overlaps at the start are there without work
         takeInPistons(walls, gravity, step, scheme, ledger);
+        takeInMembranes(walls, step, ledger);
         ledger.kinetic = kineticEnergy(grains);
         ledger.potential = ledger.carried + potentialEnergy(grains, gravity);
         ledger.gravityBefore = gravity;
@@ -146,6 +156,28 @@ private:
             if (const PlaneDrive* const drive = std::as_const(walls.getObject(w)).drive())
                 sum += drive->kineticEnergy();
         return sum;
+    }
+    static double energyOfMembranes(const WallHandler& walls) {
+        double sum = 0;  // J
+        for (std::size_t w = 0; w < walls.getSize(); ++w)
+            if (const Membrane* const membrane = std::as_const(walls.getObject(w)).membrane())
+                sum += membrane->getKineticEnergy();
+        return sum;
+    }
+    static void takeInMembranes(const WallHandler& walls, double step, EnergyLedger& ledger) {
+        ledger.membraneElastic = 0;
+        for (std::size_t w = 0; w < walls.getSize(); ++w) {
+            const Membrane* const membrane = std::as_const(walls.getObject(w)).membrane();
+            if (!membrane) continue;
+            ledger.membraneElastic += membrane->getElasticEnergy();
+            if (step == 0) continue;
+            const MembraneWork& work = membrane->work;
+            ledger.pressures += work.byLoads;
+            ledger.walls += work.byHolders;
+            ledger.membraneDamping += work.damped;
+            ledger.stepError -= work.byGrains + work.missing;
+        }
+        ledger.membranes = energyOfMembranes(walls);
     }
     /// m/s, the mean in the step; zero of other walls.
     static Vector<double> pistonVelocity(const WallHandler& walls, int number) {

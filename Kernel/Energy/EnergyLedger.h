@@ -18,7 +18,9 @@ struct EnergyLedger {
     double torsionElastic = 0;
     /// Net work done against the adhesions and bridges that act; negative in most contacts.
     double adhesive = 0;
-    double pistons = 0;  // kinetic, of walls with a mass
+    double pistons = 0;          // kinetic, of walls with a mass
+    double membranes = 0;        // kinetic, of their vertices
+    double membraneElastic = 0;  // in their springs and hinges
 
     // What has been lost since the start.
     double normalDashpots = 0;
@@ -29,15 +31,17 @@ struct EnergyLedger {
     double torsion = 0;
     double brokenAdhesion = 0;  // net work done against adhesions and bridges that have broken
     double viscousBridges = 0;  // by bridges that resist motion
+    double membraneDamping = 0;
     /// Of tangential springs whose stiffness follows the overlap while they are stretched, for which the laws
     /// have no force: lost as contacts open, negative as they close.
     double stiffening = 0;
 
     // What the scene has been given since the start.
-    double walls = 0;   // by walls that move, and by grains that are held and move
-    double loads = 0;   // by the loads and the weights of pistons
-    double driver = 0;  // where a driver changes velocities, places or the gravity
-    double images = 0;  // by images that move against each other: shear and strain of a periodic scene
+    double walls = 0;      // by walls that move, and by grains that are held and move
+    double loads = 0;      // by the loads and the weights of pistons
+    double pressures = 0;  // by pressures on membranes, and their weight
+    double driver = 0;     // where a driver changes velocities, places or the gravity
+    double images = 0;     // by images that move against each other: shear and strain of a periodic scene
     // By liquid: bridges whose volume changes while they last (ContactLiquid). A bridge forms without energy,
     // so that all that its force has done is in lost_in_broken_adhesion when it ends.
     double migration = 0;    // liquid comes to a bridge
@@ -59,11 +63,15 @@ struct EnergyLedger {
     [[nodiscard]] double stored() const { return springs() + adhesive; }
     [[nodiscard]] double lost() const {
         return normalDashpots + plastic + tangentialDashpots + sliding + rolling + torsion + brokenAdhesion +
-               viscousBridges + stiffening;
+               viscousBridges + stiffening + membraneDamping;
     }
     /// Constant except for the error of the time steps.
-    [[nodiscard]] double total() const { return kinetic + pistons + potential + stored() + lost() - given(); }
-    [[nodiscard]] double given() const { return walls + loads + driver + images + migration + evaporation; }
+    [[nodiscard]] double total() const {
+        return kinetic + pistons + membranes + membraneElastic + potential + stored() + lost() - given();
+    }
+    [[nodiscard]] double given() const {
+        return walls + loads + pressures + driver + images + migration + evaporation;
+    }
     /// Constant except for round-off.
     [[nodiscard]] double closed() const { return total() + stepError; }
     /// Net work done against adhesions and bridges: negative while they have given more than they took.
@@ -83,6 +91,8 @@ struct EnergyLedger {
                                      {"torsion_elastic", &L::torsionElastic},
                                      {"adhesive", &L::adhesive},
                                      {"kinetic_of_pistons", &L::pistons},
+                                     {"kinetic_of_membranes", &L::membranes},
+                                     {"elastic_of_membranes", &L::membraneElastic},
                                      {"lost_in_normal_dashpots", &L::normalDashpots},
                                      {"lost_plastic", &L::plastic},
                                      {"lost_in_tangential_dashpots", &L::tangentialDashpots},
@@ -92,8 +102,10 @@ struct EnergyLedger {
                                      {"lost_in_broken_adhesion", &L::brokenAdhesion},
                                      {"lost_in_viscous_bridges", &L::viscousBridges},
                                      {"lost_in_stiffening", &L::stiffening},
+                                     {"lost_in_membranes", &L::membraneDamping},
                                      {"given_by_walls", &L::walls},
                                      {"given_by_loads", &L::loads},
+                                     {"given_by_pressures", &L::pressures},
                                      {"given_by_driver", &L::driver},
                                      {"given_by_images", &L::images},
                                      {"given_by_migration", &L::migration},

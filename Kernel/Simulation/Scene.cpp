@@ -356,6 +356,7 @@ void Scene::advanceByStep(bool another) {
     boxAtStep = periodic;
     const LeesEdwards shearAtStep = shear;
     planeMotion.forget();
+    membraneMotion.forget();
     try {
         advance(getTimeStep(), another);
     } catch (const RunError&) {
@@ -363,6 +364,7 @@ void Scene::advanceByStep(bool another) {
         if (!particleHandler.store().bodies.empty())
             RigidBodyMotion::takeBack(particleHandler.store(), getTimeStep(), integrator);
         planeMotion.takeBack(wallHandler);
+        membraneMotion.takeBack(wallHandler);
         wallHandler.moveTo(getTime());
         periodic = boxAtStep;
         if (strain.isSet || shear.isSet) {
@@ -901,7 +903,10 @@ void Scene::advance(double length, bool another) {
             return particleHandler.films().of(grains, place) + contactSystem.liquidAt(grains, place);
         });
     refuseRunaway(grainShift);
-    if (length > 0) planeMotion.begin(wallHandler, contactSystem, grains, planeStep(length));
+    if (length > 0) {
+        planeMotion.begin(wallHandler, contactSystem, grains, planeStep(length));
+        membraneMotion.begin(wallHandler, contactSystem, grains, planeStep(length));
+    }
     const double wallShift = wallHandler.moveTo(getTime() + length);
     adaptive.moved(grainShift, wallShift, length);
     enter(StepTimes::Part::Search);
@@ -920,6 +925,7 @@ void Scene::advance(double length, bool another) {
         contactSystem.moveLiquid(grains, getTime() + length, length);
     }
     if (length > 0) PlaneMotion::finish(wallHandler, planeStep(length));
+    membraneMotion.finish(wallHandler, contactSystem, grains, planeStep(length), ledgerKept);
     enter(StepTimes::Part::Sum);
     leftLength = length;
     particleHandler.leaveStepUnfinished();

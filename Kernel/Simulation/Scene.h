@@ -10,7 +10,7 @@
 #include "Kernel/Insertion/ClumpInsertion.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Motion/PlaneMotion.h"
+#include "Kernel/Motion/MembraneMotion.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Output/OutputForm.h"
 #include "Kernel/Particles/BodyHandler.h"
@@ -364,6 +364,7 @@ private:
     ContactLaws* contactLaws = nullptr;
     ContactSystem contactSystem;
     PlaneMotion planeMotion;
+    MembraneMotion membraneMotion;
     EnergyLedger ledger;
     EnergyAccount account;
     PeriodicBox periodic;

@@ -16,6 +16,7 @@
 #include "Kernel/InputError.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/RunError.h"
+#include "Kernel/Walls/Membrane.h"
 
 namespace pendular {
 
@@ -143,10 +144,8 @@ inline double touchesOfPiston(const GrainSizes& grains, const Wall& wall) {
     return drive.steps > 0 ? now : std::max(grains.fullLayer(wall.drivenNormal()), now);
 }
 
-/// Of a piston: n (k, c) / M for the n contacts that it can have, or has; zero of other walls.
-inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
-    const PlaneDrive* const drive = wall.drive();
-    if (!drive || !drive->isPiston()) return {};
+/// N/m, of the contacts of a wall with the grains.
+inline SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
     SpringAndDashpot stiffest;
     for (std::size_t s = 0; s < grains.free.size(); ++s) {
         if (grains.free[s].empty()) continue;
@@ -156,7 +155,58 @@ inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& 
                                                        sphereMass(radius, species.density(s)))
                                             .normal);
     }
-    return (touchesOfPiston(grains, wall) / drive->asked.mass) * stiffest;
+    return stiffest;
+}
+
+/// Of a piston: n (k, c) / M for the n contacts that it can have, or has; zero of other walls.
+inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    const PlaneDrive* const drive = wall.drive();
+    if (!drive || !drive->isPiston()) return {};
+    return (touchesOfPiston(grains, wall) / drive->asked.mass) * stiffestAt(species, grains, wall);
+}
+
+/// The same of the vertices of a membrane: a contact's work, k (u - sum w v)^2 with weights w that sum to 1,
+/// is at most k (1/m + 1/M) (m u^2 + M sum w v^2). So a vertex of mass M has the weights of its contacts, n:
+/// those of a hexagonal layer of the smallest grains on its share of the sheet, at least one.
+inline SpringAndDashpot membraneRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    const Membrane* const membrane = wall.membrane();
+    if (!membrane || !(membrane->lightestVertex() < infinity) || grains.count == 0) return {};
+    const double radius = grains.smallest();
+    const double onArea = 1 / (2 * std::sqrt(3.0) * radius * radius * membrane->massOfArea());  // 1/kg
+    return std::max(1 / membrane->lightestVertex(), onArea) * stiffestAt(species, grains, wall);
+}
+
+/// The stability limit (s) of the vertices of a membrane: their net, and the grains that touch it, with their
+/// side 1/m of a contact as well. Infinite of other walls.
+inline double membraneLimit(const ContactLaws& species, const GrainSizes& grains, const Wall& wall,
+                            const Integrator& integrator) {
+    const Membrane* const membrane = wall.membrane();
+    if (!membrane || !(membrane->lightestVertex() < infinity)) return infinity;
+    SpringAndDashpot row{membrane->squaredFrequency(), membrane->getDamping()};
+    row = row + membraneRow(species, grains, wall);
+    for (std::size_t s = 0; s < grains.free.size(); ++s) {
+        if (grains.free[s].empty()) continue;
+        const double radius = grains.free[s].smallest, mass = sphereMass(radius, species.density(s));
+        const double touches = std::max(1.0, membrane->lightestVertex() / (2 * std::sqrt(3.0) * radius *
+                                                                           radius * membrane->massOfArea()));
+        row = row + (touches / mass) * stiffestAt(species, grains, wall);
+    }
+    return stabilityMargin * SignChange(integrator).limit(row);
+}
+
+/// Throws InputError if the time step (s) is above this limit of a membrane.
+inline void checkMembranes(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                           double timeStep, const Integrator& integrator) {
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (const double limit = membraneLimit(species, grains, walls.getObject(w), integrator);
+            timeStep > limit)
+            throw InputError(fmt::format(
+                "wall {}, a membrane: its springs and hinges (squared frequency up to {:.4g} 1/s^2) and the "
+                "grains that touch its lightest vertex ({:.4g} kg) do not bear a time step of {:.6g} s; it "
+                "must be at most {:.6g} s, or the net coarser, heavier or softer, unless "
+                "acceptUnstableTimeStep() is called.",
+                w, walls.getObject(w).membrane()->squaredFrequency(),
+                walls.getObject(w).membrane()->lightestVertex(), timeStep, limit));
 }
 
 /// The sum of these rows of all walls: a grain may touch several.
@@ -190,9 +240,14 @@ inline double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& 
     const Integrator integrator = schemeOfScene(species, grains, walls, asked);
     const std::size_t contacts = mostContacts(grains.count, walls);
     double limit = infinity;
+    SpringAndDashpot ofWalls = ofPistons;
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        limit = std::min(limit, membraneLimit(species, grains, walls.getObject(w), integrator));
+        ofWalls = ofWalls + membraneRow(species, grains, walls.getObject(w));
+    }
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
-        limit = std::min(
-            limit, stabilityLimit(laws, bodies, mass, integrator, contacts, grains.response, ofPistons));
+        limit = std::min(limit,
+                         stabilityLimit(laws, bodies, mass, integrator, contacts, grains.response, ofWalls));
     });
     return limit;
 }
@@ -280,6 +335,7 @@ inline void checkScene(const ContactLaws& species, const GrainSizes& grains, con
         },
         Pairs::OfGrains);
     checkPistons(species, grains, walls, timeStep, integrator);
+    checkMembranes(species, grains, walls, timeStep, integrator);
     const double limit = sceneStabilityLimit(species, grains, walls, integrator);
     if (timeStep > limit)
         throw InputError(

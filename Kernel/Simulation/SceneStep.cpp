@@ -65,10 +65,10 @@ void Scene::refuseForAdaptiveStep() const {
             "Simulation: the adaptive time step does not know shear (setLeesEdwards()) and strain "
             "(setStrainRate(), setTargetStress()); leave setAdaptiveTimeStep() out.");
     for (std::size_t w = 0; w < wallHandler.getSize(); ++w)
-        if (wallHandler.getObject(w).drive())
+        if (wallHandler.getObject(w).drive() || wallHandler.getObject(w).membrane())
             throw InputError(fmt::format(
                 "wall {}: the adaptive time step does not know walls that forces move (setPiston(), "
-                "setTargetForce()); leave setAdaptiveTimeStep() out.",
+                "setTargetForce()) and membranes; leave setAdaptiveTimeStep() out.",
                 w));
     if (laws().resistsMotion)
         throw InputError(

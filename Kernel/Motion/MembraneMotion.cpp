@@ -1,0 +1,201 @@
+#include "Kernel/Motion/MembraneMotion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "Kernel/RunError.h"
+
+namespace pendular {
+namespace {
+
+using Step = MembraneMotion::Step;
+using Column = MembraneState::Column;
+
+/// Calls function(number, membrane) for each.
+template <class Function>
+void forEachMembrane(const WallHandler& walls, Function&& function) {
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (Membrane* const membrane = walls.getObject(w).membrane()) function(w, *membrane);
+}
+
+/// What a contact does to a triangle.
+struct TriangleForce {
+    std::uint32_t grain, triangle;  // identity
+    Vector<double> point;           // m, of the triangle
+    Vector<double> force, couple;   // N, N m about the point
+};
+
+/// Puts the forces, and the accelerations that follow, into a state whose places and velocities are those of
+/// now.
+void takeForces(const Membrane& membrane, std::size_t number, const ContactSystem& contacts,
+                const ParticleStore& grains, const Vector<double>& gravity, MembraneState& state) {
+    const MembraneNet& net = membrane.getNet();
+    const Vector<double> none{0, 0, 0};
+    state.ofGrains = forcesOfGrains(membrane, static_cast<int>(number), contacts, grains);
+    state.elastic.assign(state.position.size(), none);
+    state.ofPressure.assign(state.position.size(), none);
+    net.addElasticForces(state.position, state.elastic);
+    net.addPressureForces(state.position, membrane.getPressure(), state.ofPressure);
+    for (std::size_t v = 0; v < state.position.size(); ++v) {
+        const Vector<double> force = state.ofGrains[v] + state.elastic[v] + state.ofPressure[v];
+        state.acceleration[v] = (1 / net.masses()[v]) * force;
+        if (!membrane.getHeld()[v])
+            state.acceleration[v] += gravity - membrane.getDamping() * state.velocity[v];
+    }
+}
+
+/// In a step h of velocity Verlet each force F did h/2 (F + F+) . (v + v+)/2, exactly.
+MembraneWork workOf(const Membrane& membrane, const MembraneState& was, const MembraneState& is,
+                    const Step& step) {
+    const MembraneNet& net = membrane.getNet();
+    MembraneWork work;
+    double elastic = 0, beyond = 0;  // J
+    for (std::size_t v = 0; v < is.position.size(); ++v) {
+        const Vector<double> way = (0.25 * step.length) * (was.velocity[v] + is.velocity[v]);
+        const double byGrains = dot(was.ofGrains[v] + is.ofGrains[v], way),
+                     bySprings = dot(was.elastic[v] + is.elastic[v], way),
+                     byPressure = dot(was.ofPressure[v] + is.ofPressure[v], way);
+        work.byGrains += byGrains;
+        elastic += bySprings;
+        work.byLoads += byPressure;
+        if (membrane.getHeld()[v]) {
+            work.byHolders -= byGrains + bySprings + byPressure;
+            continue;
+        }
+        const double mass = net.masses()[v];
+        const double byWeight = 2 * mass * dot(step.gravity, way);
+        work.byLoads += byWeight;
+        const double all = mass * dot(was.acceleration[v] + is.acceleration[v], way);
+        work.damped += byGrains + bySprings + byPressure + byWeight - all;
+        beyond += 0.5 * mass * (squaredNorm(is.velocity[v]) - squaredNorm(was.velocity[v])) - all;
+    }
+    const double stored = net.stretchingEnergy(is.position) + net.bendingEnergy(is.position) -
+                          net.stretchingEnergy(was.position) - net.bendingEnergy(was.position);
+    work.missing = stored + elastic + (step.scheme.remembersEarlier() ? beyond : 0);
+    return work;
+}
+
+void refuseCollapse(std::size_t number, const Membrane& membrane, const Step& step) {
+    const int triangle = membrane.getNet().collapsed(membrane.state().position);
+    if (triangle < 0) return;
+    const auto& [a, b, c] = membrane.getNet().triangles()[static_cast<std::size_t>(triangle)];
+    const Vector<double> middle = (1.0 / 3) * (membrane.state().position[a] + membrane.state().position[b] +
+                                               membrane.state().position[c]);
+    throw RunError(fmt::format(
+        "At time {:.6g} s triangle {} of wall {}, a membrane, at ({:.6g}, {:.6g}, {:.6g}) m has collapsed or "
+        "folded onto its neighbour: press it less, or take a finer or a thicker net, or more damping.",
+        step.time, triangle, number, middle.x, middle.y, middle.z));
+}
+
+}  // namespace
+
+Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& contacts,
+                      const ParticleStore& grains) {
+    const ContactStore& store = contacts.store();
+    const ContactLayout& layout = store.memory.getLayout();
+    std::vector<TriangleForce> found;
+    for (const Bucket& bucket : store.buckets) {
+        if (bucket.wall != wall) continue;
+        for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
+            if (!store.acts(c)) continue;
+            const std::size_t block = c / Pack::lanes, lane = c % Pack::lanes, slot = store.slotOf(c);
+            const std::uint32_t place = store.blocks[block].first[lane];
+            const TranslationRecord& grain = grains.translation[place];
+            const WallPointColumns& columns = store.wallPoints[block - store.firstWallBlock()];
+            const Vector<double> normal{columns.normal[0].lane[lane], columns.normal[1].lane[lane],
+                                        columns.normal[2].lane[lane]};
+            const double distance = columns.distance.lane[lane];
+            const Vector<double> force = -store.forceOf(c);
+            TriangleForce at{grains.identity[place],
+                             store.blocks[block].second[lane],
+                             grain.position + distance * normal,
+                             force,
+                             {0, 0, 0}};
+            // The grain's own lever ends half the overlap below its surface (WallContacts.h).
+            if (layout.hasTorque)
+                at.couple =
+                    (grain.radius - store.memory.records[slot].halfOverlap - distance) * cross(normal, force);
+            if (layout.hasContactTorque) at.couple -= store.memory.torques[slot].torque;
+            found.push_back(at);
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const TriangleForce& a, const TriangleForce& b) {
+        return std::tie(a.grain, a.triangle) < std::tie(b.grain, b.triangle);
+    });
+    Column forces(membrane.getNet().vertices().size(), {0, 0, 0});
+    for (const TriangleForce& at : found) {
+        const auto shares = membrane.weightsAt(at.triangle, at.point).forces(at.force, at.couple);
+        const auto& corners = membrane.getNet().triangles()[at.triangle];
+        for (std::size_t k = 0; k < 3; ++k) forces[corners[k]] += shares[k];
+    }
+    return forces;
+}
+
+void MembraneMotion::begin(const WallHandler& walls, const ContactSystem& contacts,
+                           const ParticleStore& grains, const Step& step) {
+    before.clear();
+    forEachMembrane(walls, [&](std::size_t number, Membrane& membrane) {
+        MembraneState next = membrane.state();
+        before.emplace_back(number, next);
+        if (membrane.hasOldForces()) takeForces(membrane, number, contacts, grains, step.gravity, next);
+        before.back().second = next;  // for the account of the step
+        const Integrator& s = step.scheme;
+        const double h = step.length;
+        double farthest2 = 0;
+        for (std::size_t v = 0; v < next.position.size(); ++v) {
+            Vector<double> shift = h * next.velocity[v];
+            if (!membrane.getHeld()[v]) {
+                const Vector<double>&a = next.acceleration[v], &e = next.earlier[v];
+                shift += (h * h) * (s.position0 * a + s.position1 * e);
+                next.velocity[v] += h * (s.velocity0 * a + s.velocity1 * e);
+            }
+            next.position[v] += shift;
+            const double moved2 = squaredNorm(shift);
+            if (!(moved2 <= farthest2)) farthest2 = moved2;
+        }
+        const double farthest = std::sqrt(farthest2);
+        if (!(farthest <= step.smallestRadius) || !std::isfinite(farthest))
+            throw RunError(fmt::format(
+                "At time {:.6g} s a vertex of wall {}, a membrane, moves {:.4g} m in a step of {:.4g} s, "
+                "more "
+                "than the smallest radius, {:.4g} m: take a smaller time step, a smaller pressure or more "
+                "damping.",
+                step.time, number, farthest, step.length, step.smallestRadius));
+        membrane.goOn(std::move(next), farthest);
+        refuseCollapse(number, membrane, step);
+    });
+}
+
+void MembraneMotion::finish(const WallHandler& walls, const ContactSystem& contacts,
+                            const ParticleStore& grains, const Step& step, bool keepsWork) const {
+    std::size_t k = 0;
+    forEachMembrane(walls, [&](std::size_t number, Membrane& membrane) {
+        MembraneState end = membrane.state();
+        takeForces(membrane, number, contacts, grains, step.gravity, end);
+        if (step.length == 0) {
+            end.earlier = end.acceleration;  // there is no step before the first
+            return membrane.finish(std::move(end));
+        }
+        const MembraneState& was = before[k++].second;
+        const Integrator& s = step.scheme;
+        for (std::size_t v = 0; v < end.position.size(); ++v) {
+            if (!membrane.getHeld()[v])
+                end.velocity[v] +=
+                    (s.corrector * step.length) *
+                    (end.acceleration[v] - s.now * was.acceleration[v] + s.earlier * was.earlier[v]);
+            end.earlier[v] = was.acceleration[v];
+        }
+        if (keepsWork) membrane.work = workOf(membrane, was, end, step);
+        membrane.finish(std::move(end));
+    });
+}
+
+void MembraneMotion::takeBack(const WallHandler& walls) const {
+    for (const auto& [number, state] : before)
+        if (Membrane* const membrane = walls.getObject(number).membrane()) membrane->goOn(state, 0);
+}
+
+}  // namespace pendular

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "Kernel/Motion/PlaneMotion.h"
+#include "Kernel/Walls/Membrane.h"
+
+namespace pendular {
+
+/// Moves the vertices of membranes as grains are moved, in the two parts of a step around the forces. The
+/// forces of contacts are handed to the corners of their triangles in the order of grains and triangles, so
+/// that no bit depends on the list or the threads.
+class MembraneMotion {
+public:
+    using Step = PlaneMotion::Step;
+
+    /// A step is about to begin: there is nothing to be taken back.
+    void forget() { before.clear(); }
+    /// Before walls move. Throws RunError where a vertex moves too far or a triangle collapses.
+    void begin(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
+               const Step& step);
+    /// When the forces of contacts are known. A step of no length: at the start of a run.
+    /// @param keepsWork for the energy ledger
+    void finish(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
+                const Step& step, bool keepsWork) const;
+    /// Undoes begin.
+    void takeBack(const WallHandler& walls) const;
+
+private:
+    std::vector<std::pair<std::size_t, MembraneState>> before;  // of the wall of this number
+};
+
+/// N, of the grains on each vertex, by the contacts as they were last computed. Of each contact the force
+/// acts at the triangle's nearest point, with the couple that it has about it: force and torque are kept to
+/// round-off.
+[[nodiscard]] MembraneState::Column forcesOfGrains(const Membrane& membrane, int wall,
+                                                   const ContactSystem& contacts,
+                                                   const ParticleStore& grains);
+
+}  // namespace pendular
