@@ -181,7 +181,7 @@ int main(int argc, char** argv) {
         "large scenes, and kept in the folder of --states.");
     Options o;
     app.add_option("--scene", o.choice.scene,
-                   "bed, wet-bed, wet-walls, sprayed-bed, drum, penetration, gas or polydisperse")
+                   "bed, clumps, wet-bed, wet-walls, sprayed-bed, drum, penetration, gas or polydisperse")
         ->capture_default_str();
     app.add_option("--particles", o.choice.particles,
                    "number of grains, about; the scene's own if not given");
@@ -194,7 +194,8 @@ int main(int argc, char** argv) {
     app.add_option("--ratio", o.choice.ratio, "radius of large grains to that of small ones (polydisperse)")
         ->capture_default_str();
     app.add_option("--clumps", o.choice.clumps,
-                   "spheres that are joined to each rigid body (bed, wet-bed); 1: none")
+                   "spheres that are joined to each rigid body (bed, wet-bed; clumps: so many rows of "
+                   "--positions); 1: none")
         ->capture_default_str();
     app.add_option("--shear", o.choice.shear,
                    "speed along x over the height above the floor that the grains start with, 1/s (bed, "
@@ -202,7 +203,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--positions", o.choice.positions,
                    "file of rows radius x y z (m): the bed of Dosta et al. (2024), repeated along x to the "
-                   "number of --particles, or their drum or penetration");
+                   "number of --particles, or their drum or penetration; or clumps");
     app.add_option("--walls", o.choice.walls, "file of triangles, for the positions of drum and penetration");
     app.add_option("--states", o.choice.states, "folder of initial states")
         ->type_name("TEXT or ''")

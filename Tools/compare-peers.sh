@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Runs the same scenes in Pendular and in those of LIGGGHTS, LAMMPS and YADE that are installed, in turn, one thread each,
 # and writes the medians as a table (CSV) and a chart (PNG).
-#   Tools/compare-peers.sh [--scenes "bed wet-bed mixture sheared-mixture"] [--particles "25000 250000"] [--runs 3] [--output FOLDER]
+#   Tools/compare-peers.sh [--scenes "bed wet-bed mixture sheared-mixture clumps"] [--particles "25000 250000"] [--runs 3] [--output FOLDER]
 #                          [--bed FILE] [--drum FILE --drum-walls FILE]
 # --scenes     bed: dry, of the numbers of --particles; wet-bed: the first of these, with liquid bridges (Bagheri's law and the
 #              exact one), beside LIGGGHTS' easo/capillary/viscous; mixture: 20 000 grains, radii 1 to 10, two sizes of equal
 #              volume, beside LIGGGHTS with cells of one size: with cells by size ("multi") version 3.8.0 finds no neighbours;
 #              sheared-mixture: the same, whose grains start with 100 1/s times their height as speed along x; LIGGGHTS with
-#              a skin of 1 mm, the best of 0.2, 0.5, 1 and 2 mm
+#              a skin of 1 mm, the best of 0.2, 0.5, 1 and 2 mm; clumps: beds of 10 000 spheres in clumps of 2 (a rod), 4 (a square)
+#              and 8 (a cube) that touch, which LIGGGHTS inserts as multispheres and lets settle first (minutes)
 # --bed FILE   rows radius x y z: the bed of Dosta et al. (2024) instead of the one that Pendular makes by itself
 # --drum FILE  their drum, with its walls as rows of nine numbers; LIGGGHTS only. Without it there is no drum.
 # --build DIR  a build folder; build/release if not given
@@ -23,8 +24,8 @@ require_number runs "$runs"
 read -ra scene_names <<<"$scenes"
 for scene in "${scene_names[@]:-}"; do
     case $scene in
-    bed | wet-bed | mixture | sheared-mixture) ;;
-    *) refuse "--scenes: '$scene' is none of bed, wet-bed, mixture, sheared-mixture" ;;
+    bed | wet-bed | mixture | sheared-mixture | clumps) ;;
+    *) refuse "--scenes: '$scene' is none of bed, wet-bed, mixture, sheared-mixture, clumps" ;;
     esac
 done
 require_file bed "$bed"
@@ -146,6 +147,23 @@ run_mixture() {  # name, shear (1/s), skin of LIGGGHTS (m)
     done
 }
 
+# The bed settles in each run again, which gives the same one: our spheres are those of its bed.dump.
+run_clumps() {  # spheres of a clump
+    local steps=2000 warm=500 settle=21000 shape=$work/shape.txt
+    if ! command -v liggghts >/dev/null; then
+        say "clumps need LIGGGHTS, which is not installed"
+        return
+    fi
+    awk -v n="$1" 'BEGIN { r = 1e-3; for (k = 0; k < n; k++) print (k % 2 ? r : -r), (int(k / 2) % 2 ? r : -r), (int(k / 4) ? r : -r), r }' >"$shape"
+    for ((run = 1; run <= runs; ++run)); do
+        say "clumps of $1, run $run of $runs"
+        run_peer "clumps-of-$1" liggghts liggghts -in "$tools/Peers/clumps.liggghts" -var spheres "$1" -var clumps $((10000 / $1)) \
+            -var shape "$shape" -var settle $settle -var warm $warm -var steps $steps
+        awk 'NF == 5 && $2 + 0 > 0 { print $2, $3, $4, $5 }' "$work/bed.dump" >"$work/clumps.rows"
+        run_ours pendular "clumps-of-$1" --scene clumps --positions "$work/clumps.rows" --clumps "$1"
+    done
+}
+
 run_drum() {
     local steps=1000 warm=500
     lammps_data "$drum" "-0.15 0.15 -0.1 0.1 -0.15" 2 | sed 's/^2 atom types/3 atom types/' >"$work/drum.data"
@@ -168,6 +186,7 @@ for scene in "${scene_names[@]}"; do
     wet-bed) run_wet_bed "${sizes[0]}" ;;
     mixture) run_mixture mixture 0 2e-4 ;;
     sheared-mixture) run_mixture sheared-mixture 100 1e-3 ;;
+    clumps) for n in 2 4 8; do run_clumps "$n"; done ;;
     esac
 done
 if [[ -n $drum ]]; then run_drum; fi

@@ -29,7 +29,8 @@ struct BenchmarkChoice {
     }
 };
 
-inline constexpr double benchmarkStep = 5e-7;   // s
+inline constexpr double benchmarkStep = 5e-7;                  // s
+inline constexpr double clumpModulus = 5e6, clumpStep = 7e-6;  // Pa, s: soft, so that peers settle them soon
 inline constexpr double settlingSoftness = 30;  // divides the stiffness while a drum or a bed is filled
 
 /// More grains than the published bed has are copies along x.
@@ -60,8 +61,22 @@ void fillWithGas(Scene& scene, const S* species, std::size_t grains) {
     scene.setTimeStep(benchmarkStep);
 }
 
+/// Clumps from a file of rows radius x y z (m), those of a body behind each other, in the smallest box that
+/// holds them.
+inline Settled settledClumpsOf(const std::filesystem::path& positions) {
+    Settled bed{{Vec3D::Constant(infinity), Vec3D::Constant(-infinity)}, readGrainFile(positions)};
+    for (const GrainRow& grain : bed.grains) {
+        const Vec3D radius = Vec3D::Constant(grain.radius);
+        bed.box.lowest = bed.box.lowest.cwiseMin(grain.position - radius);
+        bed.box.highest = bed.box.highest.cwiseMax(grain.position + radius);
+    }
+    bed.box.highest.z() = infinity;
+    return bed;
+}
+
 /// The grains and the box of a bed or a mixture.
 inline Settled settledIn(const BenchmarkChoice& choice, int threads) {
+    if (choice.scene == "clumps") return settledClumpsOf(choice.positions);
     if (!choice.positions.empty()) return publishedBed(choice);
     if (choice.scene == "polydisperse")
         return settledMixture(choice.particlesOr(200000), choice.ratio, choice.states, threads);
@@ -113,14 +128,16 @@ void withSceneOf(std::string_view speciesName, const BenchmarkChoice& choice, in
         fillWithGas(scene, species, choice.particlesOr(25000));
         return function(scene);
     }
+    const bool areClumps = choice.scene == "clumps";
+    if (areClumps) material.elasticModulus = clumpModulus;
     material.set(*species);
     Settled bed = settledIn(choice, threads);
-    fillBox(scene, species, bed.grains, bed.box, benchmarkStep);
+    fillBox(scene, species, bed.grains, bed.box, areClumps ? clumpStep : benchmarkStep);
     if (choice.shear != 0)
         for (GrainReference grain : scene.particleHandler)
             grain.setVelocity({choice.shear * (grain.getPosition().z() - bed.box.lowest.z()), 0, 0});
     if (choice.clumps > 1) {
-        joinNeighbours(scene, choice.clumps);
+        areClumps ? joinRows(scene, choice.clumps) : joinNeighbours(scene, choice.clumps);
         scene.acceptUnstableTimeStep();  // the same step for all: the limit counts with the worst body
     }
     if (choice.scene == "sprayed-bed") addRain(scene, bed.box);
@@ -169,18 +186,20 @@ void withPenetration(const BenchmarkChoice& choice, Function&& function) {
 
 /// Refuses what does not fit together.
 inline void check(const BenchmarkChoice& choice) {
-    static const std::vector<std::string_view> known{"bed",  "wet-bed",     "wet-walls", "sprayed-bed",
-                                                     "drum", "penetration", "gas",       "polydisperse"};
+    static const std::vector<std::string_view> known{
+        "bed", "clumps", "wet-bed", "wet-walls", "sprayed-bed", "drum", "penetration", "gas", "polydisperse"};
     if (std::find(known.begin(), known.end(), choice.scene) == known.end())
         unknownName("scene", choice.scene, known);
     if (choice.particles > 0) checkNumberOfGrains("benchmark-scenes", choice.particles);
-    const bool isBed =
-        choice.scene == "bed" || choice.scene.starts_with("wet-") || choice.scene == "sprayed-bed";
+    const bool isBed = choice.scene == "bed" || choice.scene.starts_with("wet-") ||
+                       choice.scene == "sprayed-bed" || choice.scene == "clumps";
     checkValue("benchmark-scenes", "ratio", choice.ratio, "", {1, 50});
     checkValue("benchmark-scenes", "shear", choice.shear, "1/s", {-1e4, 1e4});
     checkValue("benchmark-scenes", "clumps", static_cast<double>(choice.clumps), "spheres", {1, 64});
-    if (choice.clumps > 1 && choice.scene != "bed" && choice.scene != "wet-bed")
+    if (choice.clumps > 1 && choice.scene != "bed" && choice.scene != "wet-bed" && choice.scene != "clumps")
         throw InputError(fmt::format("benchmark-scenes: the scene {} takes no clumps.", choice.scene));
+    if (choice.scene == "clumps" && choice.positions.empty())
+        throw InputError("benchmark-scenes: the scene clumps needs positions: give --positions FILE.");
     if (choice.shear != 0 && !isBed && choice.scene != "polydisperse")
         throw InputError(fmt::format("benchmark-scenes: the scene {} takes no shear.", choice.scene));
     const bool hasMesh = choice.scene == "drum" || choice.scene == "penetration";

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "Kernel/Contacts/NeighbourSearch.h"
@@ -25,6 +28,19 @@ inline BodyMass massOfSpheres(Scene& scene, std::span<const std::uint32_t> ident
                                           arm.squaredNorm() * one - arm * arm.transpose());
     }
     return sum;
+}
+
+/// Joins each so many grains, in the order in which they were added, to a clump; throws InputError where some
+/// are left.
+inline void joinRows(Scene& scene, std::size_t size) {
+    const std::size_t count = scene.particleHandler.getSize();
+    if (count % size != 0)
+        throw InputError(fmt::format("joinRows(): {} grains are not clumps of {} spheres.", count, size));
+    std::vector<std::uint32_t> clump(size);
+    for (std::size_t first = 0; first < count; first += size) {
+        std::iota(clump.begin(), clump.end(), static_cast<std::uint32_t>(first));
+        scene.bodyHandler.join(clump, massOfSpheres(scene, clump));
+    }
 }
 
 /// Joins the grains of a scene to clumps of so many spheres, each to neighbours that it nearly touches; where

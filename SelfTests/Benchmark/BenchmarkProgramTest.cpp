@@ -63,6 +63,8 @@ TEST(BenchmarkProgram, refusesWithOneSentence) {
     expectRefusal("--scene bed --walls walls.txt", "takes no walls");
     expectRefusal("--scene drum --species LinearViscoelasticSpecies", "has its own species");
     expectRefusal("--scene bed --positions /nowhere/grains.txt", "/nowhere/grains.txt");
+    expectRefusal("--scene clumps --clumps 2", "needs positions");
+    expectRefusal("--scene gas --clumps 2", "takes no clumps");
     expectRefusal("--scene gas --particles 10 --steps 0", "steps = 0");
     expectRefusal("--scene gas --particles 10 --threads 0", "threads = 0");
 }

@@ -305,6 +305,20 @@ TYPED_TEST(RigidBodyBox, givesTheSameBitsForAnyThreadsListsAndRestarts) {
     support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
 }
 
+/// Also those that are far apart in space, so that forces of a body are summed from memory in a row.
+TEST(RigidBody, hasItsGrainsBehindEachOtherInMemory) {
+    BoxOfBodies<Rough> scene;
+    scene.initialise();
+    scene.steps(500);
+    const ParticleStore& grains = scene.particleHandler.store();
+    ASSERT_GT(grains.bodies.size(), 10u);
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        const auto members = grains.bodies.membersOf(k);
+        for (std::uint32_t m = 0; m < members.size(); ++m)
+            EXPECT_EQ(grains.place[members[m].grain], grains.place[members[0].grain] + m);
+    }
+}
+
 TEST(RigidBody, goesThroughAPeriodicSceneWhole) {
     constexpr double r = 1e-3;
     FewGrains<Smooth> scene(smooth(1000, 2500),
