@@ -84,6 +84,7 @@ TEST(Drivers, printNothingWhereTheyAreQuiet) {
         {"TriaxialTest",
          "--number 64 --stiffness 1e3 --inertial-number 0.05 --strain 0.1 --interval-strain 0.05"},
         {"WetWallCollision", "--speeds-m/s 1"},
+        {"WornDrum", "--end-time-s 0.02"},
         {"WornPlates", "--number 1"}};
     for (const std::string& name : everyDriver()) {
         const TestFolder folder;
