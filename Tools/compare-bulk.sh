@@ -56,10 +56,15 @@ peer_codes=()
 if command -v liggghts >/dev/null; then peer_codes+=(liggghts); fi
 if command -v lmp >/dev/null; then peer_codes+=(lammps); fi
 
+# In version 29 Sep 2021 of LAMMPS a turning cylinder throws the grains about, with 20 times the kinetic energy that they have
+# in the other codes, at any step; one that stands does not, and a turning region does it as well.
+can_run() { [[ $1 != drum || $2 != lammps ]]; }  # scene, code
+
 declare -A skin_of
 choose_skins() {  # scene
     local code skin best
     for code in "${peer_codes[@]}"; do
+        if ! can_run "$1" "$code"; then continue; fi
         best=1e9
         for skin in $skins; do
             run_peer "$1" "$code" "$(awk -v r="$rayleigh" 'BEGIN { print 0.3 * r }')" 1 "$skin" 0.2
@@ -83,6 +88,7 @@ for scene in $scenes; do
         keep "$scene" pendular-adaptive "$share" "$seed" "$("${start[@]}" --integrator adaptive --step "$share" 2>/dev/null)"
         for step in $peers; do
             for code in "${peer_codes[@]}"; do
+                if ! can_run "$scene" "$code"; then continue; fi
                 run_peer "$scene" "$code" "$(awk -v r="$rayleigh" -v f="$step" 'BEGIN { printf "%.17g", f * r }')" "$seed" "${skin_of[$code]}" 1
                 keep "$scene" "$code" "$step" "$seed" "$("${start[@]}" --step "$step" --frames "$work/frames" --seconds "$seconds")"
             done
@@ -95,7 +101,7 @@ done
     "$tools/describe-machine.sh" "$command_line; one thread each; user time of the processor, medians of the seeds, in turn"
     awk -F, -f "$tools/Peers/bulk-table.awk" "$raw"
 } >"$output/bulk-peers.csv"
-rm -f "$output/bulk-runs.csv"
+cp "$raw" "$output/bulk-runs.csv"
 cat "$output/bulk-peers.csv"
 if command -v gnuplot >/dev/null; then
     gnuplot -c "$tools/Peers/bulk.gp" "$output/bulk-peers.csv" "$output/bulk-peers.png"

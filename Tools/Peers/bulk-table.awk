@@ -1,5 +1,6 @@
 # Of the rows of Tools/compare-bulk.sh (scene,code,step over Rayleigh's time or share,seed,step_s,survived,s of the processor for a
-# second,figure,value,...): means and standard errors over the seeds, deviations from the smallest step of the same code.
+# second,figure,value,...): means and standard errors over the seeds, and the mean deviation from the run of the same code (each
+# variant of Pendular: of its default) at its smallest step from the same start, with the standard error of that mean.
 function mean(at,   i, s) { for (i = 1; i <= n[at]; i++) s += v[at, i]; return s / n[at] }
 function error(at, m,   i, s) { for (i = 1; i <= n[at]; i++) s += (v[at, i] - m) ^ 2; return n[at] > 1 ? sqrt(s / (n[at] * (n[at] - 1))) : "nan" }
 function median(at,   i, j, t) {
@@ -29,9 +30,11 @@ END {
             head = sprintf("%s,%s,%s,%.4g,%d,%d,%.4g,%s", scene[c], code[c], share[c], step[c], runs[run], alive[run], median(run), names[f])
             at = run SUBSEP names[f]; to = reference(scene[c], code[c]) SUBSEP names[f]
             if (alive[run] < runs[run]) { print head ",nan,nan,nan,nan"; continue }
-            m = mean(at); right = mean(to); e = error(at, m); er = error(to, right)
-            same = at == to
-            printf "%s,%.5g,%.2g,%.3g,%.2g\n", head, m, e, same ? 0 : 100 * (m / right - 1), same ? 0 : 100 * sqrt(e ^ 2 + er ^ 2) / (right < 0 ? -right : right)
+            m = mean(at)
+            n["ratio"] = n[at]
+            for (i = 1; i <= n[at]; i++) v["ratio", i] = 100 * (v[at, i] / v[to, i] - 1)
+            deviation = mean("ratio")
+            printf "%s,%.5g,%.2g,%.3g,%.2g\n", head, m, error(at, m), deviation, error("ratio", deviation)
         }
     }
 }

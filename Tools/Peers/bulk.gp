@@ -28,7 +28,7 @@ do for [panel in "'bed coordination' 'bed solid_fraction' 'drum centre_angle_deg
     if (panel eq "bed coordination") { set key top right samplen 1 opaque } else { set key off }
     plot for [k = 1:5] ARG1 using (cost(k, scene, figure)):(low(abs(column(size)))):(low(abs(column(size)) - column(error))):(low(abs(column(size)) + column(error))) \
              with yerrorbars linewidth 1.5 pointtype 7 pointsize 1.2 linecolor rgb colours[k] title titles[k], \
-         for [k = 1:5] ARG1 using (cost(k, scene, figure)):(low(abs(column(size)))):(sprintf("  %.1f", column("step_over_rayleigh_time_or_share"))) \
+         for [k = 1:5] ARG1 using (cost(k, scene, figure)):(low(abs(column(size)))):(sprintf("  %g", column("step_over_rayleigh_time_or_share"))) \
              with labels left font ",10" textcolor rgb colours[k] notitle
 }
 unset multiplot
