@@ -98,7 +98,7 @@ for scene in $scenes; do
 done
 
 {
-    "$tools/describe-machine.sh" "$command_line; one thread each; user time of the processor, medians of the seeds, in turn"
+    "$tools/describe-machine.sh" "$command_line; one thread each; user time of the processor (of Pendular with system time), medians of the seeds, in turn"
     awk -F, -f "$tools/Peers/bulk-table.awk" "$raw"
 } >"$output/bulk-peers.csv"
 cp "$raw" "$output/bulk-runs.csv"
