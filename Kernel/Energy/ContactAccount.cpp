@@ -78,7 +78,7 @@ void addSlider(const SliderSample& last, const SliderSample& now, const Vector<d
 ContactWear contactWear(const EnergyRecord& record, double slidingWork, const Vector<double>& velocity,
                         double mass) {
     const ContactSample& now = record.now;
-    ContactWear done{.slidingWork = slidingWork};
+    ContactWear done{.slidingWork = slidingWork, .towards = now.acts() ? now.normal : record.last.normal};
     double load = 0, friction = 0;  // N
     for (const ContactSample* sample : {&record.last, &now}) {
         if (!(sample->sliding.slides > 0)) continue;

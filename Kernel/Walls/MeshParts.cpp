@@ -65,10 +65,10 @@ namespace {
 
 class PartMaker {
 public:
-    explicit PartMaker(std::span<const Triangle> given) {
+    PartMaker(std::span<const Triangle> given, CoplanarTriangles coplanar) {
         weld(given);
         findEdges();
-        mergeCoplanar();
+        if (coplanar == CoplanarTriangles::Merge) mergeCoplanar();
     }
 
     MeshParts result() {
@@ -305,6 +305,8 @@ private:
 
 }  // namespace
 
-MeshParts makeMeshParts(std::span<const Triangle> triangles) { return PartMaker(triangles).result(); }
+MeshParts makeMeshParts(std::span<const Triangle> triangles, CoplanarTriangles coplanar) {
+    return PartMaker(triangles, coplanar).result();
+}
 
 }  // namespace pendular

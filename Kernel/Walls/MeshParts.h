@@ -44,7 +44,11 @@ inline constexpr double meshTolerance = 1e-9;
 std::vector<std::uint32_t> joinClose(std::span<const Vector<double>> vertices, double distance,
                                      const Vector<double>& origin);
 
+/// Whether coplanar triangles become one part, or each is its own, as where they will move apart.
+enum class CoplanarTriangles { Merge, Keep };
+
 /// Throws InputError if a coordinate is not finite (or above 1e9 m) or no triangle has an area.
-MeshParts makeMeshParts(std::span<const Triangle> triangles);
+MeshParts makeMeshParts(std::span<const Triangle> triangles,
+                        CoplanarTriangles coplanar = CoplanarTriangles::Merge);
 
 }  // namespace pendular

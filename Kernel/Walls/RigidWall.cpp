@@ -240,7 +240,8 @@ void RigidWall::join(double time) {
 double RigidWall::moveTo(double time) {
     now = time;
     if (drive()) return shifted;
-    return atRest ? 0 : placeAt(time);
+    const double worn = changeShape(time);
+    return worn + (atRest ? 0 : placeAt(time));
 }
 
 /// Returns how far (m) any point of the surface has moved.

@@ -10,9 +10,9 @@
 namespace pendular {
 
 /// A wall that is a rigid body with a prescribed motion. The shape is given in the body's own frame, which is
-/// that of the scene at time 0 unless setMotion() says otherwise; it never changes, so that a mesh is
-/// searched by one tree for ever. The motion may be set again during a run: the wall goes on from where it
-/// is.
+/// that of the scene at time 0 unless setMotion() says otherwise; it never changes but by wear, so that a
+/// mesh is searched by one tree for long. The motion may be set again during a run: the wall goes on from
+/// where it is.
 class RigidWall : public Wall {
 public:
     [[nodiscard]] bool isSet() const { return given; }
@@ -72,6 +72,8 @@ protected:
     /// It is moved by forces from now on, from where it is. Returns its velocity (m/s). Throws InputError if
     /// it turns.
     Vector<double> beginDrive();
+    /// The shape changes with the time (s), by wear; returns how far (m) any of its points has moved.
+    virtual double changeShape(double /*time*/) { return 0; }
     /// The name and the numbers of the shape, by StateArchive::same().
     virtual void visitShape(StateArchive& /*archive*/) const {}
 

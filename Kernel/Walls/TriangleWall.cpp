@@ -1,8 +1,11 @@
 #include "Kernel/Walls/TriangleWall.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "Kernel/RunError.h"
 #include "Kernel/Walls/BoxTree.h"
 #include "Kernel/Walls/MeshParts.h"
 #include "Kernel/Walls/PartCover.h"
@@ -40,7 +43,7 @@ struct TriangleMesh {
     std::size_t leftOut = 0;
     MeshTriangles triangles;
 
-    explicit TriangleMesh(std::span<const Triangle> given);
+    TriangleMesh(std::span<const Triangle> given, CoplanarTriangles coplanar);
 
     [[nodiscard]] std::span<const Side> sidesOf(const Face& face) const {
         return std::span(sides).subspan(face.begin, face.end - face.begin);
@@ -53,8 +56,8 @@ struct TriangleMesh {
     }
 };
 
-TriangleMesh::TriangleMesh(std::span<const Triangle> given) {
-    MeshParts made = makeMeshParts(given);
+TriangleMesh::TriangleMesh(std::span<const Triangle> given, CoplanarTriangles coplanar) {
+    MeshParts made = makeMeshParts(given, coplanar);
     smoothPairs = std::move(made.smoothPairs);
     size = made.size;
     leftOut = made.leftOut;
@@ -115,9 +118,10 @@ bool TriangleMesh::holds(const Face& face, const Vector<double>& point, double t
 }
 
 void TriangleWall::set(std::span<const Triangle> triangles) {
-    mesh = std::make_shared<const TriangleMesh>(triangles);
-    if (worn) worn.emplace(mesh->triangles, worn->law());
+    given = mesh = std::make_shared<const TriangleMesh>(triangles, CoplanarTriangles::Merge);
     takePlace();
+    if (moving) keepWear(worn->law(), moving->motionOfVertices());
+    else if (worn) keepWear(worn->law());
 }
 
 void TriangleWall::keepWear(const WearLaw& law) {
@@ -126,6 +130,44 @@ void TriangleWall::keepWear(const WearLaw& law) {
         throw InputError(
             "TriangleWall: wear is kept from the start of a run or not at all; call keepWear() at set-up.");
     worn.emplace(mesh->triangles, law);
+    moving.reset();
+}
+
+void TriangleWall::keepWear(const WearLaw& law, const VertexMotion& motion) {
+    keepWear(law);
+    moving.emplace(mesh->triangles, motion);
+    placeVertices(mesh->triangles.vertices);
+    given = mesh;
+}
+
+void TriangleWall::placeVertices(std::vector<Vector<double>> places) {
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b, c] : worn->mesh().corners) triangles.push_back({places[a], places[b], places[c]});
+    const auto moved = std::make_shared<const TriangleMesh>(triangles, CoplanarTriangles::Keep);
+    if (moved->leftOut > 0)
+        throw RunError(
+            "Wear has taken the area of a triangle of a TriangleWall: end the run before, or take larger "
+            "triangles.");
+    mesh = moved;
+    vertices = std::move(places);
+    worn->moveTo(vertices);
+}
+
+/// Its vertices have moved before they are looked at in a step; where they would not leave a surface, they
+/// stay where they were.
+double TriangleWall::changeShape(double time) {
+    if (!moving || !moving->isDue(time)) return 0;
+    std::vector<Vector<double>> moved = vertices;
+    const double farthest = moving->move(moved, time);
+    if (farthest == 0) return 0;
+    placeVertices(std::move(moved));
+    return farthest;
+}
+
+const WornVertices& TriangleWall::getWornVertices() const {
+    if (!moving)
+        throw InputError("TriangleWall: its vertices do not move; call keepWear() with a motion at set-up.");
+    return *moving;
 }
 
 const WornTriangles& TriangleWall::getWear() const {
@@ -134,14 +176,28 @@ const WornTriangles& TriangleWall::getWear() const {
 }
 
 void TriangleWall::takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) {
-    worn->add(part, getPose().placeBack(point), done);
+    const WornTriangles::Place place = worn->add(part, getPose().placeBack(point), done);
+    if (!moving || place.volume == 0) return;
+    if (dot(getPose().turn(mesh->faces[place.triangle].normal), done.towards) > 0)
+        throw RunError(fmt::format(
+            "A grain wears triangle {} of a TriangleWall from behind: where vertices move, grains must be on "
+            "the side to which the normals point; turn the triangle's corners round, or give the other side "
+            "triangles of its own.",
+            place.triangle));
+    moving->add(worn->mesh().corners[place.triangle], place.weights, place.volume);
 }
 
 void TriangleWall::visitState(StateArchive& archive) {
     RigidWall::visitState(archive);
     archive.require(worn || archive.isWriting() || !archive.holds("wear/law"), "wear",
                     "is kept in the file, and the wall of the scene keeps none: call keepWear()");
+    archive.require(moving || archive.isWriting() || !archive.holds("wornVertices/acceleration"), "wear",
+                    "moves the vertices in the file, and those of the scene stay: call keepWear() with a "
+                    "motion");
     if (worn) archive.group("wear", [&] { worn->visitState(archive); });
+    if (!moving) return;
+    archive.group("wornVertices", [&] { moving->visitState(archive, vertices); });
+    if (archive.isReading()) placeVertices(vertices);
 }
 
 std::size_t TriangleWall::getNumberOfTriangles() const { return mesh ? mesh->triangles.corners.size() : 0; }
@@ -192,9 +248,9 @@ bool TriangleWall::isCrossedInBody(const Vector<double>& from, const Vector<doub
 
 void TriangleWall::visitShape(StateArchive& archive) const {
     std::vector<Vector<double>> corners;
-    for (const Side& side : mesh->sides) corners.push_back(side.corner);
+    for (const Side& side : given->sides) corners.push_back(side.corner);
     archive.same("shape", "TriangleWall");
-    archive.same("parts", getNumberOfParts());
+    archive.same("parts", given->faces.size());
     archive.same<double>("corners", std::span<const Vector<double>>(corners));
 }
 

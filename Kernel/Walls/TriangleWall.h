@@ -7,6 +7,7 @@
 #include "Kernel/Walls/RigidWall.h"
 #include "Kernel/Walls/TriangleReader.h"
 #include "Kernel/Walls/WornTriangles.h"
+#include "Kernel/Walls/WornVertices.h"
 
 namespace pendular {
 
@@ -32,8 +33,14 @@ public:
     /// law; the scene keeps the ledger of the energy for it. The shape stays. Throws InputError before set()
     /// and in a run.
     void keepWear(const WearLaw& law);
+    /// The same, and the vertices move, so that the wall loses this volume. Its material is behind the
+    /// normals of its triangles: a grain that touches it from there ends the run. Coplanar triangles are not
+    /// merged.
+    void keepWear(const WearLaw& law, const VertexMotion& motion);
     /// Throws InputError unless it is kept.
     [[nodiscard]] const WornTriangles& getWear() const;
+    /// Throws InputError unless vertices move.
+    [[nodiscard]] const WornVertices& getWornVertices() const;
     [[nodiscard]] bool keepsWear() const override { return worn.has_value(); }
     [[nodiscard]] bool needsFriction() const override { return worn->law().needsFriction(); }
     [[nodiscard]] const SurfaceWear& wearOf(std::size_t triangle) const override {
@@ -50,11 +57,18 @@ protected:
     [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override;
     [[nodiscard]] SurfaceExtent extent() const override;
     [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override;
+    double changeShape(double time) override;
     void visitShape(StateArchive& archive) const override;
 
 private:
-    std::shared_ptr<const TriangleMesh> mesh;  // copies of a wall share it
+    /// Makes the mesh of where its vertices are to be (m). Throws RunError where a triangle loses its area.
+    void placeVertices(std::vector<Vector<double>> places);
+
+    std::shared_ptr<const TriangleMesh> mesh;   // copies of a wall share it
+    std::shared_ptr<const TriangleMesh> given;  // before wear
     std::optional<WornTriangles> worn;
+    std::optional<WornVertices> moving;
+    std::vector<Vector<double>> vertices;  // m, of a wall whose vertices move
 };
 
 }  // namespace pendular

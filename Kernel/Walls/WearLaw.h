@@ -8,12 +8,13 @@ namespace pendular {
 
 /// What one contact does to a wall in a step.
 struct ContactWear {
-    double slidingWork = 0;      // J, that the slider of friction dissipates
-    double loadTimesPath = 0;    // N m, the normal force times the path that it slides
-    bool isImpact = false;       // the touch begins in this step, as follows
-    double mass = 0;             // kg, of the grain, or of the rigid body that it belongs to
-    double normalSpeed = 0;      // m/s, of the grain's centre against the surface; positive
-    double tangentialSpeed = 0;  // m/s
+    double slidingWork = 0;           // J, that the slider of friction dissipates
+    double loadTimesPath = 0;         // N m, the normal force times the path that it slides
+    bool isImpact = false;            // the touch begins in this step, as follows
+    double mass = 0;                  // kg, of the grain, or of the rigid body that it belongs to
+    double normalSpeed = 0;           // m/s, of the grain's centre against the surface; positive
+    double tangentialSpeed = 0;       // m/s
+    Vector<double> towards{0, 0, 0};  // unit, from the grain to the wall
 
     /// J, that the normal force takes up until the grain stands still along the normal: m v_n^2 / 2.
     [[nodiscard]] double impactWork() const { return 0.5 * mass * normalSpeed * normalSpeed; }

@@ -5,7 +5,7 @@
 namespace pendular {
 
 WornTriangles::WornTriangles(const MeshTriangles& given, const WearLaw& law)
-    : mesh(given), wearLaw(law), wear(given.corners.size()) {
+    : triangles(given), wearLaw(law), wear(given.corners.size()) {
     makeTree();
     for (std::size_t t = 0; t < wear.size(); ++t) {
         const auto [a, b, c] = triangle(t);
@@ -14,7 +14,7 @@ WornTriangles::WornTriangles(const MeshTriangles& given, const WearLaw& law)
 }
 
 void WornTriangles::makeTree() {
-    std::vector<Box> boxes(mesh.corners.size());
+    std::vector<Box> boxes(triangles.corners.size());
     Box all;
     for (std::size_t t = 0; t < boxes.size(); ++t)
         for (const Vector<double>& corner : triangle(t)) boxes[t].include(corner), all.include(corner);
@@ -25,8 +25,8 @@ void WornTriangles::makeTree() {
 }
 
 Triangle WornTriangles::triangle(std::size_t number) const {
-    const auto& [a, b, c] = mesh.corners[number];
-    return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+    const auto& [a, b, c] = triangles.corners[number];
+    return {triangles.vertices[a], triangles.vertices[b], triangles.vertices[c]};
 }
 
 std::array<double, 3> WornTriangles::weightsAt(std::size_t number, const Vector<double>& point) const {
@@ -44,7 +44,7 @@ std::uint32_t WornTriangles::triangleAt(std::uint32_t part, const Vector<double>
     std::uint32_t best = 0;
     double largest = -infinity;
     const auto consider = [&](std::uint32_t t) {
-        if (mesh.partOf[t] != part) return;
+        if (triangles.partOf[t] != part) return;
         const double least = std::ranges::min(weightsAt(t, point));
         if (least < largest || (least == largest && t > best)) return;
         largest = least;
@@ -52,17 +52,27 @@ std::uint32_t WornTriangles::triangleAt(std::uint32_t part, const Vector<double>
     };
     tree.forEachNear(point, tolerance, consider);
     if (largest == -infinity)
-        for (std::uint32_t t = 0; t < mesh.corners.size(); ++t) consider(t);
+        for (std::uint32_t t = 0; t < triangles.corners.size(); ++t) consider(t);
     return best;
 }
 
-void WornTriangles::add(std::uint32_t part, const Vector<double>& point, const ContactWear& done) {
-    SurfaceWear& sums = wear[triangleAt(part, point)];
+WornTriangles::Place WornTriangles::add(std::uint32_t part, const Vector<double>& point,
+                                        const ContactWear& done) {
+    const std::uint32_t number = triangleAt(part, point);
+    SurfaceWear& sums = wear[number];
+    const double volume = wearLaw.volume(done);
     sums.slidingWork += done.slidingWork;
-    sums.volume += wearLaw.volume(done);
-    if (!done.isImpact) return;
-    sums.impactWork += done.impactWork();
-    sums.impacts += 1;
+    sums.volume += volume;
+    if (done.isImpact) {
+        sums.impactWork += done.impactWork();
+        sums.impacts += 1;
+    }
+    return {number, weightsAt(number, point), volume};
+}
+
+void WornTriangles::moveTo(const std::vector<Vector<double>>& vertices) {
+    triangles.vertices = vertices;
+    makeTree();
 }
 
 SurfaceWear WornTriangles::sum() const {
@@ -79,9 +89,9 @@ SurfaceWear WornTriangles::sum() const {
 
 void WornTriangles::visitState(StateArchive& archive) {
     wearLaw.visitState(archive);
-    const std::size_t triangles = wear.size();
+    const std::size_t count = wear.size();
     archive.column<double>("triangles", wear);
-    archive.require(wear.size() == triangles, "triangles", "has not one row for each triangle");
+    archive.require(wear.size() == count, "triangles", "has not one row for each triangle");
     archive.requireFinite("triangles", wear);
 }
 

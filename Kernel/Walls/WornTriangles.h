@@ -15,9 +15,16 @@ class WornTriangles {
 public:
     WornTriangles(const MeshTriangles& mesh, const WearLaw& wearLaw);
 
+    /// Where a volume has been worn off.
+    struct Place {
+        std::uint32_t triangle;
+        std::array<double, 3> weights;  // of its corners at the point; they sum to 1
+        double volume;                  // m^3
+    };
+
     /// Takes in what a contact of a part does in a step, at a point (m, in the frame of the mesh): counted
     /// for the triangle of this part in which the point lies, or to which it is nearest.
-    void add(std::uint32_t part, const Vector<double>& point, const ContactWear& done);
+    Place add(std::uint32_t part, const Vector<double>& point, const ContactWear& done);
 
     [[nodiscard]] std::size_t size() const { return wear.size(); }
     [[nodiscard]] const SurfaceWear& of(std::size_t triangle) const { return wear[triangle]; }
@@ -25,6 +32,10 @@ public:
     [[nodiscard]] SurfaceWear sum() const;
     [[nodiscard]] Triangle triangle(std::size_t number) const;
     [[nodiscard]] const WearLaw& law() const { return wearLaw; }
+    [[nodiscard]] const MeshTriangles& mesh() const { return triangles; }
+
+    /// Its vertices (m) have moved.
+    void moveTo(const std::vector<Vector<double>>& vertices);
 
     void visitState(StateArchive& archive);
 
@@ -35,7 +46,7 @@ private:
     [[nodiscard]] std::uint32_t triangleAt(std::uint32_t part, const Vector<double>& point) const;
     void makeTree();
 
-    MeshTriangles mesh;
+    MeshTriangles triangles;
     WearLaw wearLaw;
     std::vector<SurfaceWear> wear;
     BoxTree tree;
