@@ -15,17 +15,20 @@ set key top left reverse Left
 set multiplot layout 1,3
 set title "Newton's method has not ended"
 set format y "%g %%"
+set yrange [0:5]
 plot for [k=0:3] r = word("1 2 5 10", k + 1) + 0 \
     table using "exponent":(of(r, 100.0 * column("failures_of_newton") / column("pairs"))) \
     with linespoints linestyle (k + 1) pointtype (5 + 2 * k) title sprintf("half lengths up to 1 : %g", r)
 set title "largest difference of the depth from two starts"
 set logscale y
+set yrange [1e-17:1e-6]
 set format y "10^{%T}"
 plot for [k=0:3] r = word("1 2 5 10", k + 1) + 0 \
     table using "exponent":(of(r, column("largest_difference_of_depth_per_distance") + 1e-17)) \
     with linespoints linestyle (k + 1) pointtype (5 + 2 * k) notitle
 set title "time of a pair that touches (ns)"
 unset logscale y
+set yrange [1e-17:1e-6]
 set format y "%g"
 set yrange [0:*]
 set key spacing 1.2

@@ -54,9 +54,10 @@ struct SlabOverlap {
     /// radii of curvature A and the slope g along the plane; with A (1 + damping) for it, and without F where
     /// that would not lead downwards.
     ///
-    /// On flat faces and edges the radii are infinite, F ~ |t|^(n/(n-1)), and steps along t overshoot. There
-    /// the point of the flatter surface goes by A t, and the normal is the one of where it comes to: points
-    /// are smooth functions of each other where normals are not.
+    /// On flat faces and edges the radii are infinite, F ~ |t|^(n/(n-1)), and steps along t overshoot. So
+    /// each body's point goes along its surface by A_i t, and gives the normal of where it comes to: points
+    /// are smooth functions of each other where normals are not. Of the two normals the mean is taken with
+    /// the weights A_i, so that in each direction the flatter body leads.
     /// @param size m, of the pair
     [[nodiscard]] Step newtonStep(const SuperquadricPair<T>& pair, const Vector<T>& n, const T& damping,
                                   const T& size) const {
@@ -74,23 +75,32 @@ struct SlabOverlap {
         const T gu = dot(slope, plane.u), gv = dot(slope, plane.v);
         const T tu = scale * fma(vv, gu, -(radii.uv * gv)), tv = scale * fma(uu, gv, -(radii.uv * gu));
         const T decrease = -fma(tu, gu, tv * gv);
-        const T shorter =  // at most half a radian
-            min(T(1), 0.5 / sqrt(max(fma(tu, tu, tv * tv), T(1e-300))));
-        const Vector<T> along = n + (shorter * tu) * plane.u + (shorter * tv) * plane.v;
-        if (pair.shape1.areEllipsoids && pair.shape2.areEllipsoids)
-            return {along * (1.0 / sqrt(squaredNorm(along))), decrease};
+        const auto turned = [&](const T& alongU, const T& alongV) {
+            const T shorter =  // at most half a radian
+                min(T(1), 0.5 / sqrt(max(fma(alongU, alongU, alongV * alongV), T(1e-300))));
+            const Vector<T> to = n + (shorter * alongU) * plane.u + (shorter * alongV) * plane.v;
+            return Step{to * (1.0 / sqrt(squaredNorm(to))), decrease};
+        };
+        if (pair.shape1.areEllipsoids && pair.shape2.areEllipsoids) return turned(tu, tv);
 
-        const MaskOf<T> firstLeads = firstIsFlatter();
         const auto movedBy = [&](const Curvature<T>& a) {
             return fma(a.uu, tu, a.uv * tv) * plane.u + fma(a.uv, tu, a.vv * tv) * plane.v;
         };
-        const Vector<T> move1 = movedBy(one), move2 = movedBy(two);
         const Vector<T> point2 = point1 - slope - pair.shift;
         const Vector<T> normal1 =
-            pair.axes1.turn(outwardNormal(pair.shape1, pair.axes1.turnBack(point1 + move1)));
+            pair.axes1.turn(outwardNormal(pair.shape1, pair.axes1.turnBack(point1 + movedBy(one))));
         const Vector<T> normal2 =
-            -pair.axes2.turn(outwardNormal(pair.shape2, pair.axes2.turnBack(point2 - move2)));
-        return {select(firstLeads, normal1, normal2), decrease};
+            -pair.axes2.turn(outwardNormal(pair.shape2, pair.axes2.turnBack(point2 - movedBy(two))));
+        // (A1 + A2)^-1 (A1 t1 + A2 t2), of the turns t1 and t2 to the two normals.
+        T mu = 0.0, mv = 0.0;
+        const auto add = [&](const Curvature<T>& a, const Vector<T>& normal) {
+            const T ahead = 1.0 / max(dot(normal, n), T(0.1));
+            const T u = ahead * dot(normal, plane.u), v = ahead * dot(normal, plane.v);
+            mu = mu + fma(a.uu, u, a.uv * v), mv = mv + fma(a.uv, u, a.vv * v);
+        };
+        add(one, normal1), add(two, normal2);
+        const Curvature<T> mean = (one + two).inverse();
+        return turned(fma(mean.uu, mu, mean.uv * mv), fma(mean.uv, mu, mean.vv * mv));
     }
 
     void takeWhere(const MaskOf<T>& mask, const SlabOverlap& better) {
@@ -200,7 +210,7 @@ SuperquadricTouch<T> findTouch(const SuperquadricPair<T>& pair, const Vector<T>&
     const T roundOff = 4e-16 * size;
     Vector<T> normal = start;
     SlabOverlap<T> now(pair, normal);
-    T damping = 0.0;
+    T damping = 0.0, idleSteps = 0.0;
     MaskOf<T> done = normal.x != normal.x;  // none
     if (onlyTouching) done = now.value < 0.0;
     for (int k = 0; k < mostSteps && !all(done); ++k) {
@@ -208,11 +218,14 @@ SuperquadricTouch<T> findTouch(const SuperquadricPair<T>& pair, const Vector<T>&
         const SlabOverlap<T> there(pair, step.normal);
         // The step is still taken: the normal is then known to the square of its length, some 1e-8.
         const MaskOf<T> small = (1.0 + damping) * step.decrease < roundOff;
+        // Where a flat face is met, slopes are known worse than F: three steps that do not change it end it
+        // too.
+        idleSteps = select(abs(there.value - now.value) <= roundOff, idleSteps + 1.0, T(0));
         const MaskOf<T> better = (!done) & (there.value <= now.value + roundOff);
         normal = select(better, step.normal, normal);
         now.takeWhere(better, there);
         damping = select(better, select(damping > 0.1, 0.25 * damping, T(0)), max(4.0 * damping, T(1)));
-        done = done | small;
+        done = done | small | (idleSteps >= 3.0);
         if (onlyTouching) done = done | (now.value < 0.0);
     }
     if (!all(done)) searchAround(pair, !done, normal, now);
