@@ -154,14 +154,17 @@ MaskOf<T> boxesAreApart(const SuperquadricPair<T>& pair) {
         return fma(s.a, abs(dot(axes.x, along)),
                    fma(s.b, abs(dot(axes.y, along)), s.c * abs(dot(axes.z, along))));
     };
-    const auto apart = [&](const Vector<T>& axis, const T& own, const SuperquadricLanes<T>& other,
-                           const Axes<T>& axes) {
-        return abs(dot(axis, pair.shift)) > own + reach(other, axes, axis);
-    };
     const auto &s = pair.shape1, &t = pair.shape2;
-    return apart(pair.axes1.x, s.a, t, pair.axes2) | apart(pair.axes1.y, s.b, t, pair.axes2) |
-           apart(pair.axes1.z, s.c, t, pair.axes2) | apart(pair.axes2.x, t.a, s, pair.axes1) |
-           apart(pair.axes2.y, t.b, s, pair.axes1) | apart(pair.axes2.z, t.c, s, pair.axes1);
+    MaskOf<T> areApart = pair.shift.x != pair.shift.x;  // none
+    const auto look = [&](const Vector<T>& axis, const T& own, const SuperquadricLanes<T>& other,
+                          const Axes<T>& axes) {
+        const MaskOf<T> here = abs(dot(axis, pair.shift)) > own + reach(other, axes, axis);
+        areApart = areApart | here;
+    };
+    look(pair.axes1.x, s.a, t, pair.axes2), look(pair.axes1.y, s.b, t, pair.axes2);
+    look(pair.axes1.z, s.c, t, pair.axes2), look(pair.axes2.x, t.a, s, pair.axes1);
+    look(pair.axes2.y, t.b, s, pair.axes1), look(pair.axes2.z, t.c, s, pair.axes1);
+    return areApart;
 }
 
 /// The fallback where Newton's method has not ended: about the best normal so far, the best of eight
