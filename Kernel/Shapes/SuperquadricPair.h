@@ -202,8 +202,7 @@ void searchAround(const SuperquadricPair<T>& pair, const MaskOf<T>& wanted, Vect
 /// apart; deeper in, the one near `start`, that is the one that the contact began with.
 ///
 /// The point and the overlap of Podlozhnyuk et al. (2017), Comput. Part. Mech. 4, 101, which other codes
-/// take, agree with it for light contacts; but they depend on how f is scaled, and part from it by up to 13 %
-/// and 8 degrees in deep ones.
+/// take, agree with it for light contacts; but they depend on how f is scaled, and part from it in deep ones.
 /// @param start unit
 /// @param onlyTouching lanes that are found to be apart are left as they are: no nearest points
 template <Number T>
