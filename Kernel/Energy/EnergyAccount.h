@@ -41,6 +41,12 @@ public:
     /// Where the step failed.
     void takeBack(EnergyLedger& ledger) const { ledger = atBegin; }
 
+    /// What the walls have taken note of in finish() counts, at the end (s) of a step that has not failed.
+    static void finishWear(const WallHandler& walls, double time) {
+        for (WornWall* const worn : wornWalls(walls))
+            if (worn) worn->finishStep(time);
+    }
+
     /// When the grains have moved.
     void moved(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
         const double now = potentialEnergy(grains, gravity);
@@ -83,6 +89,8 @@ public:
             workBesidesContacts(grains, contacts.store(), gravity, step, scheme, ledger.gravityBefore);
         const PeriodicBox& box = contacts.periodicBox();
         const std::vector<WornWall*> wornOf = wornWalls(walls);
+        for (WornWall* const worn : wornOf)
+            if (worn) worn->forgetStep();
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                  std::size_t lane, EnergyRecord& record) {

@@ -359,6 +359,7 @@ void Scene::advanceByStep(bool another) {
     membraneMotion.forget();
     try {
         advance(getTimeStep(), another);
+        if (ledgerKept) EnergyAccount::finishWear(wallHandler, getTime() + getTimeStep());
     } catch (const RunError&) {
         Motion::takeBack(particleHandler.store(), getTimeStep(), integrator);
         if (!particleHandler.store().bodies.empty())
@@ -391,7 +392,7 @@ void Scene::tellEvents() {
 void Scene::check() {
     widestBody = bodyHandler.refuseTooWide();
     refuseForBodies(particleHandler.store().bodies);
-    refuseWear(wallHandler, ledgerKept, laws().layout.hasTorque);
+    refuseWear(wallHandler, ledgerKept, laws().layout.hasTorque, !particleHandler.store().bodies.empty());
     GrainSizes sizes = grainSizes(particleHandler.store());
     const bool checksStep = !unstableAccepted && !adaptive.hasChosen();
     checkScene(laws(), sizes, wallHandler, checksStep ? getTimeStep() : 0, scheme());

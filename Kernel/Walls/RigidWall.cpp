@@ -240,8 +240,7 @@ void RigidWall::join(double time) {
 double RigidWall::moveTo(double time) {
     now = time;
     if (drive()) return shifted;
-    const double worn = changeShape(time);
-    return worn + (atRest ? 0 : placeAt(time));
+    return takeShapeShift() + (atRest ? 0 : placeAt(time));
 }
 
 /// Returns how far (m) any point of the surface has moved.

@@ -72,8 +72,8 @@ protected:
     /// It is moved by forces from now on, from where it is. Returns its velocity (m/s). Throws InputError if
     /// it turns.
     Vector<double> beginDrive();
-    /// The shape changes with the time (s), by wear; returns how far (m) any of its points has moved.
-    virtual double changeShape(double /*time*/) { return 0; }
+    /// How far (m) any point of the shape has moved, by wear, since this was last asked.
+    virtual double takeShapeShift() { return 0; }
     /// The name and the numbers of the shape, by StateArchive::same().
     virtual void visitShape(StateArchive& /*archive*/) const {}
 

@@ -120,24 +120,41 @@ bool TriangleMesh::holds(const Face& face, const Vector<double>& point, double t
 void TriangleWall::set(std::span<const Triangle> triangles) {
     given = mesh = std::make_shared<const TriangleMesh>(triangles, CoplanarTriangles::Merge);
     takePlace();
-    if (moving) keepWear(worn->law(), moving->motionOfVertices());
-    else if (worn) keepWear(worn->law());
+    if (worn) beginWear(worn->law(), motionOfVertices());
 }
 
 void TriangleWall::keepWear(const WearLaw& law) {
+    refuseWearInRun();
+    beginWear(law, {});
+}
+
+void TriangleWall::keepWear(const WearLaw& law, const VertexMotion& motion) {
+    refuseWearInRun();
+    beginWear(law, motion);
+}
+
+void TriangleWall::refuseWearInRun() const {
     if (!mesh) throw InputError("TriangleWall: there is no shape that wears; call set() before keepWear().");
     if (isInRun())
         throw InputError(
             "TriangleWall: wear is kept from the start of a run or not at all; call keepWear() at set-up.");
-    worn.emplace(mesh->triangles, law);
-    moving.reset();
 }
 
-void TriangleWall::keepWear(const WearLaw& law, const VertexMotion& motion) {
-    keepWear(law);
-    moving.emplace(mesh->triangles, motion);
-    placeVertices(mesh->triangles.vertices);
-    given = mesh;
+std::optional<VertexMotion> TriangleWall::motionOfVertices() const {
+    return moving ? std::optional(moving->motionOfVertices()) : std::nullopt;
+}
+
+void TriangleWall::beginWear(WearLaw law, std::optional<VertexMotion> motion) {
+    noted.clear();
+    moving.reset();
+    worn.emplace(mesh->triangles, law);
+    if (!motion) return;
+    std::vector<Triangle> triangles;
+    for (std::size_t t = 0; t < worn->size(); ++t) triangles.push_back(worn->triangle(t));
+    given = mesh = std::make_shared<const TriangleMesh>(triangles, CoplanarTriangles::Keep);
+    worn.emplace(mesh->triangles, law);  // each triangle is a part
+    moving.emplace(mesh->triangles, *motion);
+    vertices = mesh->triangles.vertices;
 }
 
 void TriangleWall::placeVertices(std::vector<Vector<double>> places) {
@@ -153,17 +170,6 @@ void TriangleWall::placeVertices(std::vector<Vector<double>> places) {
     worn->moveTo(vertices);
 }
 
-/// Its vertices have moved before they are looked at in a step; where they would not leave a surface, they
-/// stay where they were.
-double TriangleWall::changeShape(double time) {
-    if (!moving || !moving->isDue(time)) return 0;
-    std::vector<Vector<double>> moved = vertices;
-    const double farthest = moving->move(moved, time);
-    if (farthest == 0) return 0;
-    placeVertices(std::move(moved));
-    return farthest;
-}
-
 const WornVertices& TriangleWall::getWornVertices() const {
     if (!moving)
         throw InputError("TriangleWall: its vertices do not move; call keepWear() with a motion at set-up.");
@@ -176,15 +182,35 @@ const WornTriangles& TriangleWall::getWear() const {
 }
 
 void TriangleWall::takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) {
-    const WornTriangles::Place place = worn->add(part, getPose().placeBack(point), done);
-    if (!moving || place.volume == 0) return;
-    if (dot(getPose().turn(mesh->faces[place.triangle].normal), done.towards) > 0)
+    if (done.slidingWork == 0 && !done.isImpact) return;
+    if (moving && dot(getPose().turn(mesh->faces[part].normal), done.towards) > 0)
         throw RunError(fmt::format(
             "A grain wears triangle {} of a TriangleWall from behind: where vertices move, grains must be on "
             "the side to which the normals point; turn the triangle's corners round, or give the other side "
             "triangles of its own.",
-            place.triangle));
-    moving->add(worn->mesh().corners[place.triangle], place.weights, place.volume);
+            part));
+    noted.push_back({part, getPose().placeBack(point), done});
+}
+
+/// The vertices first, which may fail: by what was worn off before this step.
+void TriangleWall::finishStep(double time) {
+    if (moving && moving->isDue(time)) {
+        std::vector<Vector<double>> moved = vertices;
+        WornVertices after = *moving;
+        shapeShift = after.move(moved, time);
+        if (shapeShift > 0) placeVertices(std::move(moved));
+        *moving = std::move(after);
+    }
+    for (const Note& note : noted) {
+        const WornTriangles::Place place = worn->add(note.part, note.point, note.done);
+        if (moving) moving->add(worn->mesh().corners[place.triangle], place.weights, place.volume);
+    }
+    noted.clear();
+}
+
+void TriangleWall::join(double time) {
+    if (worn) beginWear(worn->law(), motionOfVertices());
+    RigidWall::join(time);
 }
 
 void TriangleWall::visitState(StateArchive& archive) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "Kernel/Walls/RigidWall.h"
 #include "Kernel/Walls/TriangleReader.h"
@@ -42,11 +43,15 @@ public:
     /// Throws InputError unless vertices move.
     [[nodiscard]] const WornVertices& getWornVertices() const;
     [[nodiscard]] bool keepsWear() const override { return worn.has_value(); }
-    [[nodiscard]] bool needsFriction() const override { return worn->law().needsFriction(); }
+    [[nodiscard]] const WearLaw& wearLaw() const override { return worn->law(); }
     [[nodiscard]] const SurfaceWear& wearOf(std::size_t triangle) const override {
         return worn->of(triangle);
     }
     void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) override;
+    void forgetStep() override { noted.clear(); }
+    void finishStep(double time) override;
+    /// As that of RigidWall; what was worn off the wall that it was copied from does not count.
+    void join(double time);
     void visitState(StateArchive& archive) override;
 
 protected:
@@ -57,10 +62,13 @@ protected:
     [[nodiscard]] bool isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const override;
     [[nodiscard]] SurfaceExtent extent() const override;
     [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override;
-    double changeShape(double time) override;
+    double takeShapeShift() override { return std::exchange(shapeShift, 0); }
     void visitShape(StateArchive& archive) const override;
 
 private:
+    void refuseWearInRun() const;
+    void beginWear(WearLaw law, std::optional<VertexMotion> motion);
+    [[nodiscard]] std::optional<VertexMotion> motionOfVertices() const;
     /// Makes the mesh of where its vertices are to be (m). Throws RunError where a triangle loses its area.
     void placeVertices(std::vector<Vector<double>> places);
 
@@ -69,6 +77,14 @@ private:
     std::optional<WornTriangles> worn;
     std::optional<WornVertices> moving;
     std::vector<Vector<double>> vertices;  // m, of a wall whose vertices move
+    double shapeShift = 0;                 // m, how far they went in the last step
+    /// In the step that is computed.
+    struct Note {
+        std::uint32_t part;
+        Vector<double> point;  // m, in the body's frame
+        ContactWear done;
+    };
+    std::vector<Note> noted;
 };
 
 }  // namespace pendular

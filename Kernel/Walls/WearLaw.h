@@ -49,6 +49,8 @@ public:
     [[nodiscard]] double volume(const ContactWear& done) const;
     /// Whether it counts sliding.
     [[nodiscard]] bool needsFriction() const { return kind == Kind::Reye || kind == Kind::Archard; }
+    /// Whether it counts impacts.
+    [[nodiscard]] bool needsImpacts() const { return kind == Kind::Finnie; }
     /// The formula, with its number.
     [[nodiscard]] std::string text() const;
     void visitState(StateArchive& archive) const;

@@ -90,9 +90,13 @@ SurfaceWear WornTriangles::sum() const {
 void WornTriangles::visitState(StateArchive& archive) {
     wearLaw.visitState(archive);
     const std::size_t count = wear.size();
+    std::vector<double> areas;  // m^2
+    for (const SurfaceWear& each : wear) areas.push_back(each.area);
     archive.column<double>("triangles", wear);
     archive.require(wear.size() == count, "triangles", "has not one row for each triangle");
     archive.requireFinite("triangles", wear);
+    archive.require(std::ranges::equal(areas, wear, {}, {}, &SurfaceWear::area), "triangles",
+                    "has other areas than the triangles of the scene");
 }
 
 }  // namespace pendular

@@ -23,7 +23,8 @@ public:
     };
 
     /// Takes in what a contact of a part does in a step, at a point (m, in the frame of the mesh): counted
-    /// for the triangle of this part in which the point lies, or to which it is nearest.
+    /// for the triangle of this part in which the point lies, or where it has the largest of the smallest
+    /// weights.
     Place add(std::uint32_t part, const Vector<double>& point, const ContactWear& done);
 
     [[nodiscard]] std::size_t size() const { return wear.size(); }

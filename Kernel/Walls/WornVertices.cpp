@@ -138,6 +138,10 @@ double WornVertices::move(std::span<Vector<double>> vertices, double time) {
         if (!(swept > 0) || std::abs(swept - asked) <= 1e-14 * asked) break;
         scale *= asked / swept;
     }
+    if (!(swept > 0)) {  // so wavy that they would add volume: they wait
+        std::ranges::copy(from, vertices.begin());
+        return 0;
+    }
     refuseTurned(from, vertices);
     double farthest = 0;
     for (std::size_t v = 0; v < from.size(); ++v) {

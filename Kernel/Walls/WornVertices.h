@@ -37,7 +37,7 @@ public:
     /// Whether it is time (s) to move.
     [[nodiscard]] bool isDue(double time) const;
     /// Moves the vertices; returns how far (m) the farthest goes. What a vertex cannot go at once is kept for
-    /// the next moves. Throws RunError if a triangle would turn over.
+    /// the next moves. Throws RunError if a triangle would turn over in one move.
     double move(std::span<Vector<double>> vertices, double time);
 
     [[nodiscard]] const VertexMotion& motionOfVertices() const { return motion; }

@@ -22,11 +22,15 @@ public:
     virtual ~WornWall() = default;
 
     [[nodiscard]] virtual bool keepsWear() const = 0;
-    /// By sliding: without friction it would never wear.
-    [[nodiscard]] virtual bool needsFriction() const = 0;
-    /// Takes in what a contact of a part of the wall does to it in a step, at a point (m) of the scene. In
-    /// the order of identities, from one thread. Throws RunError where the wall cannot wear there.
+    [[nodiscard]] virtual const WearLaw& wearLaw() const = 0;
+    /// Takes note of what a contact of a part of the wall does to it in a step, at a point (m) of the scene.
+    /// In the order of identities, from one thread. Throws RunError where the wall cannot wear there.
     virtual void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) = 0;
+    /// What was noted in a step that failed is forgotten.
+    virtual void forgetStep() = 0;
+    /// The step has not failed: at its end (s), what was noted counts. Throws RunError, and changes nothing,
+    /// where the shape cannot follow.
+    virtual void finishStep(double time) = 0;
     /// Of a polygon of its surface().
     [[nodiscard]] virtual const SurfaceWear& wearOf(std::size_t polygon) const = 0;
 };
@@ -36,6 +40,7 @@ std::vector<WornWall*> wornWalls(const WallHandler& walls);
 
 /// Throws InputError where a wall keeps its wear and the scene cannot.
 /// @param withLedger the scene keeps the ledger of the energy; @param withFriction its laws have friction
-void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction);
+/// @param withBodies it has rigid bodies
+void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction, bool withBodies);
 
 }  // namespace pendular

@@ -133,7 +133,7 @@ TEST(WornVertices, refuseWhatHasNoSideBehind) {
 
 /// A grain that is thrown along a plate, whose wear is made so fast that it digs.
 std::unique_ptr<PlateScene> digging(double acceleration, int threads = 1) {
-    TriangleWall wall = plate(0.03, 20);
+    TriangleWall wall = plate(0.06, 24);  // they do not come to its rim
     const WearLaw law = WearLaw::archard(coefficient, hardness);
     auto scene = std::make_unique<PlateScene>(
         std::vector<GrainMotion>{{.position = {-3e-3, 1e-4, heightAtRest()}, .velocity = {0.5, 0.1, 0}},
@@ -142,6 +142,15 @@ std::unique_ptr<PlateScene> digging(double acceleration, int threads = 1) {
     scene->worn->keepWear(law, {.interval = 1e-3, .acceleration = acceleration, .smoothing = 0.3});
     scene->setNumberOfThreads(threads);
     return scene;
+}
+
+/// The lowest vertex (m) of a plate.
+Vector<double> deepest(const TriangleWall& wall) {
+    Vector<double> lowest{0, 0, infinity};
+    for (std::size_t t = 0; t < wall.getWear().size(); ++t)
+        for (const Vector<double>& corner : wall.getWear().triangle(t))
+            if (corner.z < lowest.z) lowest = corner;
+    return lowest;
 }
 
 /// m^3, below z = 0 and above the surface.
@@ -170,6 +179,34 @@ TEST(WornVertices, makeTheHollowOfTheVolumeThatAScenesWorkWears) {
                 1e-12 * acceleration * wear.volume);
     // Vertices of a plate that has become wavy move sideways too, so that columns under triangles are exact.
     EXPECT_NEAR(hollow(*scene->worn), moved.removed(), 1e-12 * moved.removed());
+}
+
+TEST(WornVertices, areDeepestUnderThePathOfTheGrain) {
+    TriangleWall wall = plate(0.06, 24);
+    const WearLaw law = WearLaw::archard(coefficient, hardness);
+    PlateScene scene({{.position = {0.01, 5e-3, heightAtRest()}, .velocity = {0.5, 0, 0}}}, std::move(wall),
+                     law);
+    scene.worn->keepWear(law, {.interval = 1e-3, .acceleration = 1e5});
+    scene.initialise();
+    scene.steps(3000);
+    const Vector<double> lowest = deepest(*scene.worn);
+    ASSERT_LT(lowest.z, 0);
+    // Cells are 2.5 mm wide; the grain goes from x = 10 mm to 16 mm.
+    EXPECT_NEAR(lowest.y, 5e-3, 2.5e-3);
+    EXPECT_GT(lowest.x, 7.5e-3);
+    EXPECT_LT(lowest.x, 18.5e-3);
+}
+
+TEST(WornVertices, ofACopyInARunBeginAnew) {
+    const auto scene = digging(1e5);
+    scene->initialise();
+    scene->steps(2000);
+    ASSERT_GT(scene->wear().volume, 0);
+    TriangleWall copy = *scene->worn;
+    const TriangleWall* const added = scene->wallHandler.copyAndAddObject(copy);
+    EXPECT_EQ(added->getWear().sum().volume, 0);
+    EXPECT_EQ(added->getWornVertices().removed(), 0);
+    EXPECT_EQ(added->getWornVertices().pending(), 0);
 }
 
 TEST(WornVertices, haveTheSameBitsForAnyThreadsAndThroughARestart) {
