@@ -56,14 +56,12 @@ public:
         InfiniteWall floor;
         floor.setSpecies(material), floor.set({0, 0, -1}, {0, 0, 0});
         wallHandler.copyAndAddObject(floor);
-        if (!isRestarted()) {
-            Clump rod(shape);
-            rod.setSpecies(material);
-            insert(evenSizes((1 - sizeSpread) * options.diameter, (1 + sizeSpread) * options.diameter),
-                   BoxRegion({0, 0, 0}, {width(), width(), fillHeight()}), Amount::grains(options.number),
-                   rod, {.seed = options.seed});
-        }
         setGravity({0, 0, -gravity});
+        Clump rod(shape);
+        rod.setSpecies(material);
+        insert(evenSizes((1 - sizeSpread) * options.diameter, (1 + sizeSpread) * options.diameter),
+               BoxRegion({0, 0, 0}, {width(), width(), fillHeight()}), Amount::grains(options.number), rod,
+               {.seed = options.seed});
         setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 25));
     }
     void actionsAfterTimeStep() override {
