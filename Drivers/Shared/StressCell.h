@@ -11,13 +11,13 @@
 
 namespace pendular {
 
-/// Grains of nearly one size, with linear contacts, in a box that repeats itself along all axes; the rows of
-/// its table, stress.csv, are means over the states between them.
+/// Grains of nearly one size, with linear contacts, in a box that repeats itself along all axes, or in a volume
+/// of their own; the rows of the table, stress.csv, are means over the states between them.
 class StressCell : public Simulation<LinearViscoelasticSlidingFrictionSpecies> {
 public:
     void actionsAfterTimeStep() override {
         if (getNumberOfTimeSteps() % samplePeriod != 0) return;
-        const MeanStress now = meanStress(*this);
+        const MeanStress now = meanStress(*this, volume());
         for (int k = 0; k < 9; ++k) sums.stress[static_cast<std::size_t>(k)] += now.total()(k / 3, k % 3);
         sums.kinetic += now.kinetic.trace() / 3;
         for (const ObservedContact& seen : interactions()) sums.contacts += seen.touching ? 2 : 0;
@@ -52,6 +52,11 @@ protected:
         double contacts = 0;                               // of a grain
     };
     virtual void writeRow(const Means& means) = 0;
+    /// m^3, of the grains: what stresses are means over. That of the periods, unless a cell has another one.
+    [[nodiscard]] virtual double volume() const {
+        const auto length = getPeriodicBox().length;
+        return length.x * length.y * length.z;
+    }
 
     StressCell(const RunOptions& run, const std::string& columns)
         : path(run.output + "/stress.csv"), table(path, columns) {

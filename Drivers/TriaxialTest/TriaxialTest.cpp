@@ -26,7 +26,7 @@ public:
     void setupInitialConditions() override {
         addMaterial(options.stiffness * pressure * diameter, 0.6, options.friction);
         for (int axis = 0; axis < 3; ++axis) setPeriodic(axis, 0, edge() * spacing);
-        if (!isRestarted()) addGrains();
+        addGrains();  // also of a run that goes on: the step is chosen for them
         setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 25));
         // The time of the servo: some twice that in which sound passes the cell, at
         // diameter x sqrt(stiffness / mass) = 2.2 diameters in a contact time of 25 steps or more.
