@@ -11,8 +11,8 @@
 
 namespace pendular {
 
-/// Grains of nearly one size, with linear contacts, in a box that repeats itself along all axes, or in a volume
-/// of their own; the rows of the table, stress.csv, are means over the states between them.
+/// Grains of nearly one size, with linear contacts, in a box that repeats itself along all axes, or in a
+/// volume of their own; the rows of the table, stress.csv, are means over the states between them.
 class StressCell : public Simulation<LinearViscoelasticSlidingFrictionSpecies> {
 public:
     void actionsAfterTimeStep() override {

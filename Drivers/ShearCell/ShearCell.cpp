@@ -31,7 +31,7 @@ public:
                     options.friction);
         for (int axis = 0; axis < 3; ++axis) setPeriodic(axis, 0, cells() * cell());
         setLeesEdwards(0, 1, rate);
-        if (!isRestarted()) addGrains();
+        addGrains();  // also of a run that goes on: the step is chosen for them
         setTimeStep(shortestContactTime() / 50);
         // The time of the servo: some twice that in which sound passes the cell, at up to
         // diameter x sqrt(stiffness / mass) = 2.2 diameters in a contact time of 50 steps.
