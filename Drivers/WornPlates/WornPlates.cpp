@@ -36,7 +36,7 @@ public:
         material->setSlidingFrictionCoefficient(0.3);
         for (std::size_t k = 0; k < angles.size(); ++k) {
             addPlate(k);
-            if (!isRestarted()) addJet(k);
+            addJet(k);  // also of a run that goes on: the step is chosen for them
         }
         setTimeStep(shortestContactTime() / 15);
         setTimeMax((jetLength() + 1.5 * plateLength()) / options.speed);

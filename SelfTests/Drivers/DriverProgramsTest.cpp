@@ -65,7 +65,7 @@ TEST(Drivers, explainTheirOptions) {
 }
 
 /// Each with options that make its run short.
-TEST(Drivers, printNothingWhereTheyAreQuiet) {
+TEST(Drivers, printNothingWhereTheyAreQuietAndGoOnAtTheirEnd) {
     const std::map<std::string, std::string> shorter{
         {"DryingBed", "--number 100 --begin-s 0.002 --end-time-s 0.004"},
         {"HopperDischarge",
@@ -93,11 +93,16 @@ TEST(Drivers, printNothingWhereTheyAreQuiet) {
         const auto options = shorter.find(name);
         // Where its program lies, and without --output: the folder has another name than the program.
         std::filesystem::create_symlink(std::filesystem::path(drivers) / name / name, folder.path() / name);
-        const auto result = run("cd " + folder.path().string() + " && ./" + name + " --quiet " +
-                                (options == shorter.end() ? "" : options->second));
+        const std::string command = "cd " + folder.path().string() + " && ./" + name + " --quiet " +
+                                    (options == shorter.end() ? "" : options->second);
+        const auto result = run(command);
         EXPECT_EQ(result.exitCode, 0) << name;
         EXPECT_EQ(result.output, "") << name;
         EXPECT_FALSE(std::filesystem::is_empty(folder.path() / (name + "-output"))) << name;
+        if (!Hdf5File::isAvailable()) continue;
+        const auto again = run(command + " --resume");  // it is at its end
+        EXPECT_EQ(again.exitCode, 0) << name;
+        EXPECT_EQ(again.output, "") << name;
     }
 }
 
