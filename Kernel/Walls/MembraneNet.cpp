@@ -63,6 +63,11 @@ MembraneNet::MembraneNet(std::span<const Triangle> given, const MembraneMaterial
     for (std::size_t t = 0; t < faces.size(); ++t)
         for (const Index v : faces[t]) mass[v] += material.density * material.thickness * areas[t] / 3;
     findEdges(material);
+    if (const int folded = collapsed(rest); folded >= 0)
+        throw InputError(
+            fmt::format("Membrane: triangle {} (counted from 0) is folded onto a neighbour, by more than 170 "
+                        "degrees; a net without force must be folded less.",
+                        folded));
 }
 
 void MembraneNet::join(std::span<const Triangle> given) {
@@ -78,6 +83,11 @@ void MembraneNet::join(std::span<const Triangle> given) {
         }
     if (given.empty()) throw InputError("Membrane: there are no triangles.");
     extent = norm(box.highest - box.lowest);
+    if (!(extent > 1e-12))
+        throw InputError(fmt::format(
+            "Membrane: its size = {:.6g} m, the diagonal of the box around all corners; it must be "
+            "more than 1e-12 m.",
+            extent));
     const std::vector<Index> same = joinClose(all, meshTolerance * extent, box.lowest);
     std::vector<Index> number(all.size());
     for (Index v = 0; v < all.size(); ++v) {

@@ -54,8 +54,9 @@ public:
 
     MembraneNet() = default;
     /// The triangles are without force. Vertices nearer than 1e-9 of the net's size are one. Throws
-    /// InputError for a material that is none, triangles without area, edges of more than two triangles, and
-    /// neighbours whose corners run in opposite senses.
+    /// InputError for a material that is none, triangles without area, edges of more than two triangles,
+    /// neighbours whose corners run in opposite senses or that are folded by more than 170 degrees, and a net
+    /// that is smaller than 1e-12 m.
     MembraneNet(std::span<const Triangle> given, const MembraneMaterial& material);
 
     [[nodiscard]] const std::vector<Point>& vertices() const { return rest; }  // m, without force
@@ -74,7 +75,8 @@ public:
     void addPressureForces(Points at, double pressure, std::span<Point> forces) const;
     [[nodiscard]] double stretchingEnergy(Points at) const;  // J
     [[nodiscard]] double bendingEnergy(Points at) const;     // J
-    /// m^3, inside a closed net whose normals point outwards.
+    /// m^3, inside a closed net whose normals point outwards; an open one is closed by cones from its free
+    /// edges to vertex 0.
     [[nodiscard]] double volume(Points at) const;
 
     /// 1/s^2, an upper bound of the squared frequency of small motions about the state without force. The

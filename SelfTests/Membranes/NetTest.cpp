@@ -412,6 +412,9 @@ TEST(MembraneNet, refusesWhatIsNoSheet) {
     EXPECT_TRUE(contains(refusal(net({{{o, x, 2 * x}}})), "triangle 0 (counted from 0) has no area"));
     EXPECT_TRUE(contains(refusal(net({{{o, x, y}}, {{x, o, z}}, {{x, o, -y}}})), "share an edge"));
     EXPECT_TRUE(contains(refusal(net({{{o, x, y}}, {{o, x, -y}}})), "run in opposite senses"));
+    EXPECT_TRUE(contains(refusal(net({{{x, x, x}}})), "its size = 0 m"));
+    const Point overY{0, 1, 0.1};  // 6 degrees above the first one
+    EXPECT_TRUE(contains(refusal(net({{{o, x, y}}, {{x, o, overY}}})), "is folded onto a neighbour"));
     MembraneMaterial wrong = rubber;
     wrong.poissonsRatio = 0.5;
     EXPECT_TRUE(contains(refusal(net({{{o, x, y}}}, wrong)), "Poisson's ratio = 0.5"));
