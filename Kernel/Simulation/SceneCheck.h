@@ -165,15 +165,20 @@ inline SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& 
     return (touchesOfPiston(grains, wall) / drive->asked.mass) * stiffestAt(species, grains, wall);
 }
 
+/// 1/m^2, the grains that may touch a membrane: a hexagonal layer of the smallest on each of its sides.
+inline double mostTouchesOnArea(const GrainSizes& grains) {
+    return 2 / (2 * std::sqrt(3.0) * grains.smallest() * grains.smallest());
+}
+
 /// The same of the vertices of a membrane: a contact's work, k (u - sum w v)^2 with weights w that sum to 1,
 /// is at most k (1/m + 1/M) (m u^2 + M sum w v^2). So a vertex of mass M has the weights of its contacts, n:
-/// those of a hexagonal layer of the smallest grains on its share of the sheet, at least one.
+/// those of a hexagonal layer of the smallest grains on each side of its share of the sheet, at least one on
+/// each. (Grains that are held in place touch no walls.)
 inline SpringAndDashpot membraneRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
     const Membrane* const membrane = wall.membrane();
     if (!membrane || !(membrane->lightestVertex() < infinity) || grains.count == 0) return {};
-    const double radius = grains.smallest();
-    const double onArea = 1 / (2 * std::sqrt(3.0) * radius * radius * membrane->massOfArea());  // 1/kg
-    return std::max(1 / membrane->lightestVertex(), onArea) * stiffestAt(species, grains, wall);
+    const double onMass = mostTouchesOnArea(grains) / membrane->massOfArea();  // 1/kg
+    return std::max(2 / membrane->lightestVertex(), onMass) * stiffestAt(species, grains, wall);
 }
 
 /// The stability limit (s) of the vertices of a membrane: their net, and the grains that touch it, with their
@@ -186,9 +191,9 @@ inline double membraneLimit(const ContactLaws& species, const GrainSizes& grains
     row = row + membraneRow(species, grains, wall);
     for (std::size_t s = 0; s < grains.free.size(); ++s) {
         if (grains.free[s].empty()) continue;
-        const double radius = grains.free[s].smallest, mass = sphereMass(radius, species.density(s));
-        const double touches = std::max(1.0, membrane->lightestVertex() / (2 * std::sqrt(3.0) * radius *
-                                                                           radius * membrane->massOfArea()));
+        const double mass = sphereMass(grains.free[s].smallest, species.density(s));
+        const double touches =
+            std::max(2.0, mostTouchesOnArea(grains) * membrane->lightestVertex() / membrane->massOfArea());
         row = row + (touches / mass) * stiffestAt(species, grains, wall);
     }
     return stabilityMargin * SignChange(integrator).limit(row);
@@ -366,6 +371,12 @@ inline std::optional<std::string> objectionToLengths(const PeriodicBox& box, dou
 /// other.
 inline double checkPeriodicLengths(const ContactLaws& species, const GrainSizes& grains,
                                    const WallHandler& walls, const PeriodicBox& box) {
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (box.any() && !box.imagesMove && walls.getObject(w).membrane())
+            throw InputError(
+                fmt::format("wall {}, a membrane: it has no images, so that in a scene which repeats itself "
+                            "there can be none; leave setPeriodic() out.",
+                            w));
     double reach = 0;
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {
         if (bodies.radius2 < infinity)
