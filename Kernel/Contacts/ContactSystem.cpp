@@ -64,6 +64,9 @@ double ContactSystem::renew(Grains& grains) {
     });
     sumLostForces(grains);
     listAgain(grains, false);
+    // Contacts of a membrane hand their forces to its corners where they touch it.
+    for (const Bucket& bucket : contacts.buckets)
+        if (bucket.wall >= 0 && wallOf(bucket).membrane()) findWallPoints(grains, bucket, 0);
     liquid.clip(contacts, *species, grains);
     return stored;
 }

@@ -38,6 +38,13 @@ public:
         bodies.begin(grains, contacts);
     }
 
+    /// Membranes may have been added and removed in the run: what was stored in them came with them.
+    static void wallsChanged(const WallHandler& walls, EnergyLedger& ledger) {
+        const double now = elasticEnergyOfMembranes(walls);
+        ledger.driver += now - ledger.membraneElastic;
+        ledger.membraneElastic = now;
+    }
+
     /// Where the step failed.
     void takeBack(EnergyLedger& ledger) const { ledger = atBegin; }
 
@@ -172,13 +179,18 @@ private:
                 sum += membrane->getKineticEnergy();
         return sum;
     }
+    static double elasticEnergyOfMembranes(const WallHandler& walls) {
+        double sum = 0;  // J
+        for (std::size_t w = 0; w < walls.getSize(); ++w)
+            if (const Membrane* const membrane = std::as_const(walls.getObject(w)).membrane())
+                sum += membrane->getElasticEnergy();
+        return sum;
+    }
     static void takeInMembranes(const WallHandler& walls, double step, EnergyLedger& ledger) {
-        ledger.membraneElastic = 0;
+        ledger.membraneElastic = elasticEnergyOfMembranes(walls);
         for (std::size_t w = 0; w < walls.getSize(); ++w) {
             const Membrane* const membrane = std::as_const(walls.getObject(w)).membrane();
-            if (!membrane) continue;
-            ledger.membraneElastic += membrane->getElasticEnergy();
-            if (step == 0) continue;
+            if (!membrane || step == 0) continue;
             const MembraneWork& work = membrane->work;
             ledger.pressures += work.byLoads;
             ledger.walls += work.byHolders;

@@ -34,6 +34,7 @@ void takeForces(const Membrane& membrane, std::size_t number, const ContactSyste
                 const ParticleStore& grains, const Vector<double>& gravity, MembraneState& state) {
     const MembraneNet& net = membrane.getNet();
     const Vector<double> none{0, 0, 0};
+    state.gravity = gravity;
     state.ofGrains = forcesOfGrains(membrane, static_cast<int>(number), contacts, grains);
     state.elastic.assign(state.position.size(), none);
     state.ofPressure.assign(state.position.size(), none);
@@ -52,6 +53,7 @@ MembraneWork workOf(const Membrane& membrane, const MembraneState& was, const Me
                     const Step& step) {
     const MembraneNet& net = membrane.getNet();
     MembraneWork work;
+    const Vector<double> gravity = was.gravity + is.gravity;
     double elastic = 0, beyond = 0;  // J
     for (std::size_t v = 0; v < is.position.size(); ++v) {
         const Vector<double> way = (0.25 * step.length) * (was.velocity[v] + is.velocity[v]);
@@ -66,7 +68,7 @@ MembraneWork workOf(const Membrane& membrane, const MembraneState& was, const Me
             continue;
         }
         const double mass = net.masses()[v];
-        const double byWeight = 2 * mass * dot(step.gravity, way);
+        const double byWeight = mass * dot(gravity, way);
         work.byLoads += byWeight;
         const double all = mass * dot(was.acceleration[v] + is.acceleration[v], way);
         work.damped += byGrains + bySprings + byPressure + byWeight - all;
@@ -134,17 +136,26 @@ Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& c
     return forces;
 }
 
-void MembraneMotion::begin(const WallHandler& walls, const ContactSystem& contacts,
-                           const ParticleStore& grains, const Step& step) {
+void MembraneMotion::renewForces(const WallHandler& walls, const ContactSystem& contacts,
+                                 const ParticleStore& grains, const Vector<double>& gravity) {
+    forEachMembrane(walls, [&](std::size_t number, Membrane& membrane) {
+        if (!membrane.hasOldForces()) return;
+        MembraneState now = membrane.state();
+        takeForces(membrane, number, contacts, grains, gravity, now);
+        if (now.earlier.empty()) now.earlier = now.acceleration;
+        membrane.finish(std::move(now));
+    });
+}
+
+void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
     before.clear();
     forEachMembrane(walls, [&](std::size_t number, Membrane& membrane) {
         MembraneState next = membrane.state();
         before.emplace_back(number, next);
-        if (membrane.hasOldForces()) takeForces(membrane, number, contacts, grains, step.gravity, next);
-        before.back().second = next;  // for the account of the step
         const Integrator& s = step.scheme;
         const double h = step.length;
         double farthest2 = 0;
+        bool isFinite = true;
         for (std::size_t v = 0; v < next.position.size(); ++v) {
             Vector<double> shift = h * next.velocity[v];
             if (!membrane.getHeld()[v]) {
@@ -154,10 +165,17 @@ void MembraneMotion::begin(const WallHandler& walls, const ContactSystem& contac
             }
             next.position[v] += shift;
             const double moved2 = squaredNorm(shift);
-            if (!(moved2 <= farthest2)) farthest2 = moved2;
+            farthest2 = std::max(farthest2, moved2);
+            isFinite = isFinite && std::isfinite(moved2);
         }
+        if (!isFinite)
+            throw RunError(
+                fmt::format("At time {:.6g} s the place of a vertex of wall {}, a membrane, is not finite: "
+                            "take a smaller "
+                            "time step, or a smaller pressure.",
+                            step.time, number));
         const double farthest = std::sqrt(farthest2);
-        if (!(farthest <= step.smallestRadius) || !std::isfinite(farthest))
+        if (farthest > step.smallestRadius)
             throw RunError(fmt::format(
                 "At time {:.6g} s a vertex of wall {}, a membrane, moves {:.4g} m in a step of {:.4g} s, "
                 "more "

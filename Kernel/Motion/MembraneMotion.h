@@ -17,9 +17,12 @@ public:
 
     /// A step is about to begin: there is nothing to be taken back.
     void forget() { before.clear(); }
+    /// Where contacts have ended since the last step, or a membrane is new: its forces, at the places where
+    /// grains and vertices are, before they move and before a restart file is written.
+    static void renewForces(const WallHandler& walls, const ContactSystem& contacts,
+                            const ParticleStore& grains, const Vector<double>& gravity);
     /// Before walls move. Throws RunError where a vertex moves too far or a triangle collapses.
-    void begin(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
-               const Step& step);
+    void begin(const WallHandler& walls, const Step& step);
     /// When the forces of contacts are known. A step of no length: at the start of a run.
     /// @param keepsWork for the energy ledger
     void finish(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,

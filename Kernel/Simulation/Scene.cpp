@@ -349,6 +349,7 @@ void Scene::setUp() {
 
 void Scene::advanceByStep(bool another) {
     takeOverChanges();
+    membraneMotion.renewForces(wallHandler, contactSystem, particleHandler.storeInStep(), gravity);
     if (adaptive.isDue()) chooseTimeStep();
     emitDroplets();
     serveStress();
@@ -551,7 +552,10 @@ void Scene::takeOverChanges() {
             if (liquidDensity > 0) weighFilms(particleHandler.store());
             speciesChanged = true;
         }
-        if (changedWalls) sumForcesOnNewDrives();
+        if (changedWalls) {
+            sumForcesOnNewDrives();
+            intoLedger([&] { EnergyAccount::wallsChanged(wallHandler, ledger); });
+        }
         if (newLaws || newBodies || getTimeStep() != checkedStep || isNewToChecks(changes.added)) check();
         ParticleStore& grains = particleHandler.store();
         const bool isRenewed = newLaws || newBodies;
@@ -738,7 +742,10 @@ void Scene::warnOfFedSprings() const {
 
 void Scene::visitAll(StateArchive& archive) {
     // A file holds bodies, laws and contacts that fit together: what hooks have just changed is taken over.
-    if (archive.isWriting() && hasBegun()) takeOverChanges();
+    if (archive.isWriting() && hasBegun()) {
+        takeOverChanges();
+        membraneMotion.renewForces(wallHandler, contactSystem, particleHandler.storeInStep(), gravity);
+    }
     visitScene(archive);
     if (archive.isReading()) prepare();
     archive.group("contacts", [&] { contactSystem.visitState(archive, particleHandler.store()); });
@@ -906,7 +913,7 @@ void Scene::advance(double length, bool another) {
     refuseRunaway(grainShift);
     if (length > 0) {
         planeMotion.begin(wallHandler, contactSystem, grains, planeStep(length));
-        membraneMotion.begin(wallHandler, contactSystem, grains, planeStep(length));
+        membraneMotion.begin(wallHandler, planeStep(length));
     }
     const double wallShift = wallHandler.moveTo(getTime() + length);
     adaptive.moved(grainShift, wallShift, length);

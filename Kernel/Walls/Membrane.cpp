@@ -17,7 +17,7 @@ void Membrane::set(std::span<const Triangle> triangles, const MembraneMaterial& 
     areaDensity = of.density * of.thickness;
     const std::size_t count = net->vertices().size();
     const MembraneState::Column none(count, {0, 0, 0});
-    now = {net->vertices(), none, none, none, none, none, none};
+    now = {net->vertices(), none, none, none, none, none, none, {0, 0, 0}};
     held.assign(count, false);
     std::vector<std::array<std::uint32_t, 2>> neighbours;
     for (const MembraneNet::Hinge& hinge : net->hinges()) neighbours.push_back(hinge.triangles);
@@ -62,7 +62,7 @@ double Membrane::getKineticEnergy() const {
 }
 
 double Membrane::getElasticEnergy() const {
-    return net->stretchingEnergy(now.position) + net->bendingEnergy(now.position);
+    return getNet().stretchingEnergy(now.position) + getNet().bendingEnergy(now.position);
 }
 
 double Membrane::lightestVertex() const {
@@ -94,6 +94,13 @@ double Membrane::moveTo(double time) {
     return std::exchange(shifted, 0);
 }
 
+/// It may be the copy of one that grains touch.
+void Membrane::join(double time) {
+    began = time;
+    now.earlier.clear();
+    forcesAreOld = true;
+}
+
 void Membrane::loseForce(const Vector<double>& force) {
     Wall::loseForce(force);
     forcesAreOld = true;
@@ -117,6 +124,8 @@ void Membrane::visitState(StateArchive& archive) {
     archive.same("shape", "Membrane");
     archive.same("triangles", net->triangles().size());
     archive.same<double>("corners", std::span<const Vector<double>>(net->vertices()));
+    archive.same<std::uint32_t>("cornersOfTriangles",
+                                std::span<const std::array<std::uint32_t, 3>>(net->triangles()));
     archive.same("youngsModulus", material.youngsModulus, "Pa");
     archive.same("thickness", material.thickness, "m");
     archive.same("density", material.density, "kg/m^3");
@@ -138,6 +147,7 @@ void Membrane::visitState(StateArchive& archive) {
     visit("position", now.position), visit("velocity", now.velocity);
     visit("acceleration", now.acceleration), visit("earlier", now.earlier);
     visit("ofGrains", now.ofGrains), visit("elastic", now.elastic), visit("ofPressure", now.ofPressure);
+    archive.finite("gravity", now.gravity);
     if (!archive.isReading()) return;
     archive.require(net->collapsed(now.position) < 0, "position", "has a triangle without area");
     shape.update(now.position);

@@ -13,11 +13,13 @@ namespace pendular {
 struct MembraneState {
     using Column = std::vector<Vector<double>>;
 
-    Column position, velocity;     // m, m/s
-    Column acceleration, earlier;  // m/s^2, at the end of the last step, and at its start; of held ones F / m
-    Column ofGrains;               // N, of the contacts
-    Column elastic;                // N, of springs and hinges
-    Column ofPressure;             // N
+    Column position, velocity;  // m, m/s
+    Column acceleration;        // m/s^2, at the end of the last step; of held ones F / m
+    Column earlier;             // m/s^2, at its start; empty before the first step of one that came in a run
+    Column ofGrains;            // N, of the contacts
+    Column elastic;             // N, of springs and hinges
+    Column ofPressure;          // N
+    Vector<double> gravity{0, 0, 0};  // m/s^2, that accelerations have
 };
 
 /// What forces did in the last step, J; for the energy ledger.
@@ -56,7 +58,11 @@ public:
     /// @param rate 1/s
     void setDamping(double rate);
 
-    [[nodiscard]] const MembraneNet& getNet() const { return *net; }
+    /// These throw InputError before set().
+    [[nodiscard]] const MembraneNet& getNet() const {
+        if (!isSet()) throw InputError("Membrane: call set() or read() before it is asked for its net.");
+        return *net;
+    }
     [[nodiscard]] double getPressure() const { return pressure; }
     [[nodiscard]] double getDamping() const { return damping; }
     [[nodiscard]] const std::vector<bool>& getHeld() const { return held; }
@@ -66,17 +72,19 @@ public:
     [[nodiscard]] Vec3D getForceOfGrains(std::size_t vertex) const {
         return toEigen(now.ofGrains.at(vertex));
     }
-    [[nodiscard]] double getVolume() const { return net->volume(now.position); }  // m^3, of a closed one
-    [[nodiscard]] double getKineticEnergy() const;                                // J, of what is not held
-    [[nodiscard]] double getElasticEnergy() const;                                // J
+    /// m^3, inside a closed one whose normals point outwards; an open one is closed by cones from its free
+    /// edges to vertex 0.
+    [[nodiscard]] double getVolume() const { return getNet().volume(now.position); }
+    [[nodiscard]] double getKineticEnergy() const;  // J, of what is not held
+    [[nodiscard]] double getElasticEnergy() const;  // J
     /// kg, of the lightest vertex that moves; infinite where all are held
     [[nodiscard]] double lightestVertex() const;
-    [[nodiscard]] double squaredFrequency() const { return net->squaredFrequency(held); }  // 1/s^2
-    [[nodiscard]] double massOfArea() const { return areaDensity; }                        // kg/m^2
+    [[nodiscard]] double squaredFrequency() const { return getNet().squaredFrequency(held); }  // 1/s^2
+    [[nodiscard]] double massOfArea() const { return areaDensity; }                            // kg/m^2
 
     using Wall::membrane;
     [[nodiscard]] Membrane* membrane() override { return this; }
-    [[nodiscard]] std::size_t partCount() const override { return net->triangles().size(); }
+    [[nodiscard]] std::size_t partCount() const override { return getNet().triangles().size(); }
     void listParts(const Vector<double>& centre, double reach,
                    std::vector<std::uint32_t>& parts) const override {
         shape.listParts(centre, reach, parts);
@@ -87,7 +95,7 @@ public:
         return shape.isCrossed(from, to);
     }
     double moveTo(double time) override;
-    void join(double time) { began = time; }
+    void join(double time);
     void loseForce(const Vector<double>& force) override;
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const override;
     void visitState(StateArchive& archive) override;

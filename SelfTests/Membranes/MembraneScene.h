@@ -1,9 +1,11 @@
 #pragma once
 
+#include <bit>
 #include <numbers>
 #include <vector>
 
 #include "Kernel/MercuryNames.h"
+#include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Scenes/FewGrains.h"
@@ -66,6 +68,28 @@ inline std::vector<GrainMotion> fallingGrains() {
                           .velocity = {0.05, 0.02 * k - 0.08, -0.1},
                           .spin = {10.0 * k, 5, 3}});
     return grains;
+}
+
+/// A scene with all that has an entry: grains, a rim that moves, pressure, weight, damping.
+struct Trampoline : MembraneScene {
+    explicit Trampoline(double step = 1e-5, double friction = 0.5)
+        : MembraneScene(fallingGrains(), step, material(2e-3, friction)) {
+        sheet = add(wavySheet());
+        sheet->holdRim({0, 0.01, 0.05});
+        sheet->setPressure(40);
+        sheet->setDamping(5);
+        setGravity({0, 0, -9.81});
+    }
+    Membrane* sheet;
+};
+
+inline std::uint64_t wholeHash(const Trampoline& scene) {
+    std::uint64_t hash = stateHash(scene.particleHandler.store());
+    for (const auto* column : {&scene.sheet->state().position, &scene.sheet->state().velocity})
+        for (const Vector<double>& p : *column)
+            for (const double number : {p.x, p.y, p.z})
+                hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3u;
+    return hash;
 }
 
 }  // namespace pendular::membraneTests

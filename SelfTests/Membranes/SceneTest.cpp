@@ -121,19 +121,6 @@ TEST(Membrane, keepsMomentumAndAngularMomentum) {
     EXPECT_LT((angular() - turn).norm(), 1e-12 * before.norm() * 24e-3);
 }
 
-/// A scene with all that has an entry: grains, a rim that moves, pressure, weight, damping.
-struct Trampoline : MembraneScene {
-    explicit Trampoline(double step = 1e-5, double friction = 0.5)
-        : MembraneScene(fallingGrains(), step, material(2e-3, friction)) {
-        sheet = add(wavySheet());
-        sheet->holdRim({0, 0.01, 0.05});
-        sheet->setPressure(40);
-        sheet->setDamping(5);
-        setGravity({0, 0, -9.81});
-    }
-    Membrane* sheet;
-};
-
 /// With friction the error has a part that stays: the couple of a tangential force about the nearest point,
 /// half the overlap away, works on the spin of a triangle, which contacts do not see.
 TEST(Membrane, energyLedgerClosesToRoundOffAndItsErrorFallsWithTheStep) {
@@ -168,15 +155,6 @@ TEST(Membrane, energyLedgerClosesToRoundOffAndItsErrorFallsWithTheStep) {
     // The work of that couple is at most friction x overlap / 2 x the turn of a triangle: 1e-3 of a bounce
     // for overlaps of a hundredth of the radius and turns of 0.2.
     EXPECT_LT(errorOf(1e-5, 0.5, integrators::predictedVelocityVerlet), 1e-3);
-}
-
-std::uint64_t wholeHash(const Trampoline& scene) {
-    std::uint64_t hash = stateHash(scene.particleHandler.store());
-    for (const auto* column : {&scene.sheet->state().position, &scene.sheet->state().velocity})
-        for (const Point& p : *column)
-            for (const double number : {p.x, p.y, p.z})
-                hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3u;
-    return hash;
 }
 
 TEST(Membrane, bitsDoNotDependOnThreadsAndRestarts) {
@@ -253,6 +231,10 @@ TEST(Membrane, stabilityLimitKnowsTheGrainsOnIt) {
     thin.thickness = 3e-6, thin.youngsModulus = 1e4;
     both.add(wavySheet(), thin)->holdRim();
     EXPECT_LT(both.stabilityLimit(), 0.3 * grains.stabilityLimit());
+    // A grain on each side of a vertex that is much lighter than they: omega^2 is at least 2 k / M.
+    both.setIntegrator(integrators::velocityVerlet);
+    const double lightest = both.wallHandler.getObject(0).membrane()->lightestVertex();
+    EXPECT_LT(both.stabilityLimit(), 0.9 * 2 / std::sqrt(2 * 200 / lightest));
 }
 
 TEST(Membrane, aTriangleThatCollapsesEndsTheRun) {
@@ -277,6 +259,10 @@ TEST(Membrane, refusesWhatItCannotDo) {
     EXPECT_TRUE(support::contains(refusalOf([&] { unset.holdRim(); }), "free edges"));
     EXPECT_TRUE(support::contains(refusalOf([&] { unset.setPressure(std::nan("")); }), "pressure"));
     EXPECT_TRUE(support::contains(refusalOf([&] { unset.setDamping(-1); }), "damping"));
+    EXPECT_TRUE(support::contains(refusalOf([&] { static_cast<void>(unset.getNet()); }), "call set()"));
+    EXPECT_TRUE(support::contains(refusalOf([&] { static_cast<void>(unset.getVolume()); }), "call set()"));
+    EXPECT_TRUE(
+        support::contains(refusalOf([&] { static_cast<void>(unset.getElasticEnergy()); }), "call set()"));
     MembraneScene scene(fallingGrains());
     EXPECT_TRUE(support::contains(refusalOf([&] { scene.add(unset); }), "place is not set"));
     Membrane* const sheet = scene.add(wavySheet());
@@ -289,6 +275,15 @@ TEST(Membrane, refusesWhatItCannotDo) {
     for (int axis = 0; axis < 3; ++axis) sheared.setPeriodic(axis, -0.05, 0.05);
     sheared.setLeesEdwards(0, 2, 1);
     EXPECT_TRUE(support::contains(refusalOf([&] { sheared.initialise(); }), "there can be no walls"));
+}
+
+TEST(Membrane, isRefusedInAPeriodicScene) {
+    MembraneScene scene(fallingGrains());
+    scene.add(wavySheet());
+    scene.setPeriodic(0, -0.05, 0.05);
+    const std::string refused = support::refusal([&] { scene.initialise(); });
+    EXPECT_TRUE(support::isOneSentence(refused));
+    EXPECT_TRUE(support::contains(refused, "wall 0, a membrane: it has no images"));
 }
 
 TEST(Membrane, isDrawnAsItIs) {
