@@ -16,6 +16,7 @@ struct ElasticSheetScene : FirstDriver {
         sheet.setPressure(20);  // Pa, along the normals: here upwards
         sheet.setDamping(50);   // 1/s
         membrane = wallHandler.copyAndAddObject(sheet);
+        setTimeStep(stabilityLimit());  // s: vertices are lighter than grains
         // [end]
     }
 };
