@@ -82,10 +82,12 @@ for scene in $scenes; do
         if ((seed == 1)); then choose_skins "$scene"; fi
         for step in $ours; do
             for integrator in default velocity-verlet; do
-                keep "$scene" "pendular-$integrator" "$step" "$seed" "$("${start[@]}" --integrator "$integrator" --step "$step" 2>/dev/null)"
+                row=$("${start[@]}" --integrator "$integrator" --step "$step")  # a wrong option ends the script
+                keep "$scene" "pendular-$integrator" "$step" "$seed" "$row"
             done
         done
-        keep "$scene" pendular-adaptive "$share" "$seed" "$("${start[@]}" --integrator adaptive --step "$share" 2>/dev/null)"
+        row=$("${start[@]}" --integrator adaptive --step "$share")
+        keep "$scene" pendular-adaptive "$share" "$seed" "$row"
         for step in $peers; do
             for code in "${peer_codes[@]}"; do
                 if ! can_run "$scene" "$code"; then continue; fi

@@ -12,6 +12,7 @@
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Particles/GrainSums.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Sizes/SizeLaws.h"
 
 namespace pendular {
@@ -159,6 +160,8 @@ public:
             means.contacts += ends;
             if (pairs.insert(std::minmax(a, b)).second) means.neighbours += ends;
         }
+        if (means.rods == 0)
+            throw RunError("No rod has its centre in the middle half of the bed; take more rods (--number).");
         for (double* sum : {&means.neighbours, &means.contacts, &means.order}) *sum /= means.rods;
         return means;
     }

@@ -208,7 +208,7 @@ void RigidBodies::requireWhole(const StateArchive& archive, const ParticleStore&
                     "numbers", "does not have the number of each body");
     archive.require(numbers.empty() || numbers.back() < next, "next", "is the number of a body");
     archive.require(begins.size() == size() + 1 && begins.front() == 0 && begins.back() == members.size() &&
-                        std::ranges::is_sorted(begins),
+                        std::ranges::adjacent_find(begins, std::ranges::greater_equal{}) == begins.end(),
                     "begins", "does not have the grains of each body");
     for (const BodyMember& member : members)
         archive.require(grains.place.contains(member.grain) &&

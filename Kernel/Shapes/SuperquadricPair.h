@@ -142,8 +142,10 @@ Vector<T> firstNormal(const SuperquadricPair<T>& pair) {
     const Vector<T>& d = pair.shift;
     const T a = yy * zz - yz * yz, b = xz * yz - xy * zz, c = xy * yz - xz * yy, e = xx * zz - xz * xz,
             f = xy * xz - xx * yz, g = xx * yy - xy * xy;
-    return superquadric::unit(
-        Vector<T>{a * d.x + b * d.y + c * d.z, b * d.x + e * d.y + f * d.z, c * d.x + f * d.y + g * d.z});
+    const Vector<T> along{a * d.x + b * d.y + c * d.z, b * d.x + e * d.y + f * d.z,
+                          c * d.x + f * d.y + g * d.z};
+    const MaskOf<T> isKnown = squaredNorm(along) > 0.0;  // not where the centres are the same
+    return superquadric::unit(select(isKnown, along, pair.axes1.x));
 }
 
 /// Whether a plane at right angles to an axis of one of the two lies between their oriented boxes: six of the

@@ -111,6 +111,14 @@ TEST(SuperquadricPair, isASphereInTheLimit) {
     }
 }
 
+TEST(SuperquadricPair, ofOneCentreHasADepth) {
+    const Body ball{{0.5, 0.5, 0.5, 2, 2}, {0, 0, 0}, {0, 0, 0}},
+        block{{1, 2, 3, 4, 4}, {0, 0, 0}, {0, 0, 0}};
+    EXPECT_NEAR(touchOf(pairOf(ball, ball)).depth, 1, 1e-12);
+    EXPECT_TRUE(std::isfinite(touchOf(pairOf(ball, block)).depth));
+    EXPECT_NEAR(norm(touchOf(pairOf(block, ball)).normal), 1, 1e-12);
+}
+
 /// Ellipsoids that meet with their tips or sides, on a common axis: a closed form. Curvatures at the end of a
 /// are a/b^2 and a/c^2, so that Gauss' radius follows.
 TEST(SuperquadricPair, agreesWithTheClosedFormOnAnAxis) {
