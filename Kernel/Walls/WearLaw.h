@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "Kernel/Math/Vector.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
