@@ -174,7 +174,7 @@ MembraneNet closedNet() {
     const MembraneNet open(triangles, rubber);
     const std::size_t count = triangles.size();
     for (std::size_t t = 0; t < count; ++t) {
-        const auto& c = triangles[t];
+        const auto c = triangles[t];  // a copy: the list grows
         for (std::size_t k = 0; k < 3; ++k) {
             const Point a = c[k], b = c[(k + 1) % 3];
             if (a.z != b.z || (a.z > 1e-9 && a.z < 2 - 1e-9)) continue;
