@@ -92,6 +92,17 @@ void refuseCollapse(std::size_t number, const Membrane& membrane, const Step& st
         step.time, triangle, number, middle.x, middle.y, middle.z));
 }
 
+void refuseSelfContact(std::size_t number, Membrane& membrane, const Step& step) {
+    const auto found = membrane.findCrossing();
+    if (!found) return;
+    const auto& [a, b] = membrane.getNet().springs()[found->edge].ends;
+    throw RunError(fmt::format(
+        "At time {:.6g} s wall {}, a membrane, goes through itself at ({:.6g}, {:.6g}, {:.6g}) m: the edge "
+        "between its vertices {} and {} through triangle {}. A membrane does not touch itself: keep its "
+        "parts apart, by tension, by grains between them, or by a lower pressure.",
+        step.time, number, found->place.x, found->place.y, found->place.z, a, b, found->triangle));
+}
+
 }  // namespace
 
 Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& contacts,
@@ -184,6 +195,7 @@ void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
                 step.time, number, farthest, step.length, step.smallestRadius));
         membrane.goOn(std::move(next), farthest);
         refuseCollapse(number, membrane, step);
+        refuseSelfContact(number, membrane, step);
     });
 }
 

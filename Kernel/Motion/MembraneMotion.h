@@ -21,7 +21,8 @@ public:
     /// grains and vertices are, before they move and before a restart file is written.
     static void renewForces(const WallHandler& walls, const ContactSystem& contacts,
                             const ParticleStore& grains, const Vector<double>& gravity);
-    /// Before walls move. Throws RunError where a vertex moves too far or a triangle collapses.
+    /// Before walls move. Throws RunError where a vertex moves too far, a triangle collapses, or a membrane
+    /// goes through itself.
     void begin(const WallHandler& walls, const Step& step);
     /// When the forces of contacts are known. A step of no length: at the start of a run.
     /// @param keepsWork for the energy ledger

@@ -22,6 +22,23 @@ void Membrane::set(std::span<const Triangle> triangles, const MembraneMaterial& 
     std::vector<std::array<std::uint32_t, 2>> neighbours;
     for (const MembraneNet::Hinge& hinge : net->hinges()) neighbours.push_back(hinge.triangles);
     shape = MembraneSurface(net->triangles(), neighbours, now.position);
+    if (const auto found = crossing())
+        throw InputError(
+            fmt::format("Membrane: it goes through itself at ({:.6g}, {:.6g}, {:.6g}) m, at triangle {}; a "
+                        "membrane does not touch itself, so its triangles must be apart.",
+                        found->place.x, found->place.y, found->place.z, found->triangle));
+}
+
+std::optional<MembraneSurface::Crossing> Membrane::crossing() const {
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for (const MembraneNet::Spring& spring : net->springs()) edges.push_back(spring.ends);
+    return shape.findCrossing(edges, now.position);
+}
+
+std::optional<MembraneSurface::Crossing> Membrane::findCrossing() {
+    if (unlooked < 0.25 * net->shortestEdge()) return {};
+    unlooked = 0;
+    return crossing();
 }
 
 void Membrane::hold(const std::function<bool(const Vec3D&)>& where, const Vec3D& velocity) {
@@ -109,6 +126,7 @@ void Membrane::loseForce(const Vector<double>& force) {
 void Membrane::goOn(MembraneState next, double farthest) {
     now = std::move(next);
     shifted = farthest;
+    unlooked += 2 * farthest;
     shape.update(now.position);
 }
 
@@ -151,6 +169,7 @@ void Membrane::visitState(StateArchive& archive) {
     if (!archive.isReading()) return;
     archive.require(net->collapsed(now.position) < 0, "position", "has a triangle without area");
     shape.update(now.position);
+    archive.require(!crossing(), "position", "has a membrane that goes through itself");
 }
 
 }  // namespace pendular

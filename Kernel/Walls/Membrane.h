@@ -34,10 +34,11 @@ struct MembraneWork {
 /// An elastic membrane of triangles (MembraneNet.h) that touches grains from both sides. Contacts are with
 /// its triangles, as at a TriangleWall; their forces and torques go to the corners by barycentric weights.
 /// Its vertices are integrated with the grains. It has no thickness for contacts, and does not touch itself:
-/// a run ends where a triangle collapses or folds onto its neighbour, and nowhere else.
+/// a run ends where a triangle collapses or folds onto its neighbour, or where the membrane goes through
+/// itself.
 class Membrane final : public Wall {
 public:
-    /// Throws InputError as MembraneNet.
+    /// Throws InputError as MembraneNet, and for triangles that go through each other.
     void set(std::span<const Triangle> triangles, const MembraneMaterial& material);
     /// From an STL file or rows of nine numbers (readTriangles). @param scale m for one unit of the file
     void read(const std::filesystem::path& path, const MembraneMaterial& material, double scale = 1) {
@@ -109,9 +110,14 @@ public:
     /// Contacts have ended, or none of its forces are known, since the last step.
     [[nodiscard]] bool hasOldForces() const { return forcesAreOld; }
     [[nodiscard]] TriangleWeights weightsAt(std::size_t triangle, const Vector<double>& point) const;
+    /// Where it goes through itself, if it does. It is looked for only when vertices may have come a quarter
+    /// of the shortest edge nearer to each other since the last look.
+    [[nodiscard]] std::optional<MembraneSurface::Crossing> findCrossing();
     MembraneWork work;
 
 private:
+    [[nodiscard]] std::optional<MembraneSurface::Crossing> crossing() const;
+
     std::shared_ptr<const MembraneNet> net;  // copies share it
     MembraneMaterial material;
     double areaDensity = 0;  // kg/m^2
@@ -121,6 +127,7 @@ private:
     MembraneState now;
     MembraneSurface shape;
     double shifted = 0;    // m, by goOn()
+    double unlooked = 0;   // m, that vertices may have come nearer to each other since findCrossing()
     double began = unset;  // s, of the run; not a number before it
     bool forcesAreOld = true;
 };

@@ -63,6 +63,7 @@ MembraneNet::MembraneNet(std::span<const Triangle> given, const MembraneMaterial
     for (std::size_t t = 0; t < faces.size(); ++t)
         for (const Index v : faces[t]) mass[v] += material.density * material.thickness * areas[t] / 3;
     findEdges(material);
+    shortest = std::ranges::min_element(edges, {}, &Spring::length)->length;
     if (const int folded = collapsed(rest); folded >= 0)
         throw InputError(
             fmt::format("Membrane: triangle {} (counted from 0) is folded onto a neighbour, by more than 170 "

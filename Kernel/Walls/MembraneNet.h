@@ -67,7 +67,8 @@ public:
     /// Of the vertices, whether they lie at a free edge.
     [[nodiscard]] const std::vector<bool>& rim() const { return atRim; }
     [[nodiscard]] bool isClosed() const;
-    [[nodiscard]] double size() const { return extent; }  // m, the diagonal of the box around it
+    [[nodiscard]] double size() const { return extent; }            // m, the diagonal of the box around it
+    [[nodiscard]] double shortestEdge() const { return shortest; }  // m, without force
 
     /// Adds the forces (N) of springs and hinges to those on the vertices.
     void addElasticForces(Points at, std::span<Point> forces) const;
@@ -101,7 +102,7 @@ private:
     std::vector<Spring> edges;
     std::vector<Hinge> folds;
     std::vector<bool> atRim;
-    double extent = 0;
+    double extent = 0, shortest = 0;
 };
 
 /// The angle of a hinge, and its gradients: by how much it grows with a shift of each corner.

@@ -120,18 +120,37 @@ void MembraneSurface::findPoints(const Point& centre, double reach, std::span<co
     });
 }
 
+std::optional<Vector<double>> MembraneSurface::crossing(const Face& face, const Point& from, const Point& to,
+                                                        double tolerance) {
+    const double before = dot(face.normal, from) - face.offset, after = dot(face.normal, to) - face.offset;
+    if ((before < 0) == (after < 0)) return {};
+    const Point at = from + (before / (before - after)) * (to - from);
+    return holds(face, at, tolerance) ? std::optional(at) : std::nullopt;
+}
+
 bool MembraneSurface::isCrossed(const Point& from, const Point& to) const {
-    const Point middle = 0.5 * (from + to), way = to - from;
+    const double length = norm(to - from), tolerance = meshTolerance * size + 1e-9 * length;
     bool crossed = false;
-    tree.forEachNear(middle, 0.5 * norm(way) + meshTolerance * size, [&](std::uint32_t part) {
-        const Face& face = faces[part];
-        const double before = dot(face.normal, from) - face.offset,
-                     after = dot(face.normal, to) - face.offset;
-        if ((before < 0) == (after < 0)) return;
-        const Point at = from + (before / (before - after)) * way;
-        crossed = crossed || holds(face, at, meshTolerance * size + 1e-9 * norm(way));
+    tree.forEachNear(0.5 * (from + to), 0.5 * length + meshTolerance * size, [&](std::uint32_t part) {
+        crossed = crossed || crossing(faces[part], from, to, tolerance);
     });
     return crossed;
+}
+
+std::optional<MembraneSurface::Crossing> MembraneSurface::findCrossing(
+    std::span<const std::array<std::uint32_t, 2>> edges, std::span<const Point> at) const {
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        const std::uint32_t a = edges[e][0], b = edges[e][1];
+        const Point &from = at[a], &to = at[b];
+        std::optional<Crossing> found;
+        tree.forEachNear(0.5 * (from + to), 0.5 * norm(to - from), [&](std::uint32_t part) {
+            const auto hasCorner = [&](std::uint32_t v) { return std::ranges::count(corners[part], v) > 0; };
+            if (hasCorner(a) || hasCorner(b) || (found && found->triangle < part)) return;
+            if (const auto place = crossing(faces[part], from, to, 0)) found = {e, part, *place};
+        });
+        if (found) return found;
+    }
+    return {};
 }
 
 }  // namespace pendular

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,6 +47,16 @@ public:
                     std::span<WallPoint> points) const;
     [[nodiscard]] bool isCrossed(const Point& from, const Point& to) const;
 
+    /// An edge that goes through a triangle of which it has no corner: of any two sheets that go through each
+    /// other an edge of one does that.
+    struct Crossing {
+        std::uint32_t edge, triangle;
+        Point place;  // m
+    };
+    /// The first of these edges that does so, if any. Some 0.3 us an edge.
+    [[nodiscard]] std::optional<Crossing> findCrossing(std::span<const std::array<std::uint32_t, 2>> edges,
+                                                       std::span<const Point> at) const;
+
 private:
     struct Side {
         Point corner, edge;     // m
@@ -61,6 +72,9 @@ private:
     [[nodiscard]] static Face faceOf(const Point& a, const Point& b, const Point& c);
     [[nodiscard]] static WallPoint nearest(const Face& face, const Point& centre);
     [[nodiscard]] static bool holds(const Face& face, const Point& point, double tolerance);
+    /// Where the way between two points goes through a face.
+    [[nodiscard]] static std::optional<Point> crossing(const Face& face, const Point& from, const Point& to,
+                                                       double tolerance);
     [[nodiscard]] bool meetSmoothly(std::uint32_t a, std::uint32_t b) const;
 
     std::vector<Corners> corners;
