@@ -97,9 +97,9 @@ void refuseSelfContact(std::size_t number, Membrane& membrane, const Step& step)
     if (!found) return;
     const auto& [a, b] = membrane.getNet().springs()[found->edge].ends;
     throw RunError(fmt::format(
-        "At time {:.6g} s wall {}, a membrane, goes through itself at ({:.6g}, {:.6g}, {:.6g}) m: the edge "
-        "between its vertices {} and {} through triangle {}. A membrane does not touch itself: keep its "
-        "parts apart, by tension, by grains between them, or by a lower pressure.",
+        "At time {:.6g} s wall {}, a membrane, goes through itself at ({:.6g}, {:.6g}, {:.6g}) m, the edge "
+        "between its vertices {} and {} through triangle {}: it does not touch itself, so keep its parts "
+        "apart by tension, by grains between them, or by a lower pressure.",
         step.time, number, found->place.x, found->place.y, found->place.z, a, b, found->triangle));
 }
 
