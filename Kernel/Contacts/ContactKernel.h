@@ -29,6 +29,12 @@ struct PreparedLaws {
     }
 };
 
+/// A geometry of grains that are no spheres: it says itself what follows from their arms.
+template <class Geometry>
+concept ShapedGeometry = requires(const Geometry& geometry) {
+    geometry.lastNormal();
+};
+
 /// The batched contact kernel: geometry, then the three laws, on eight contacts at a time. It reads grains,
 /// reads and writes the contacts' own memory, and writes a force record for each contact; the particle sum
 /// does the rest.
@@ -113,7 +119,7 @@ public:
                     capillaryNumbers.note(bits(bridged), number);
             }
         }
-        const LastForces last = loadLastForces(block);
+        const LastForces last = loadLastForces(block, geometry);
         const NormalPart normal =
             computeNormal(block, state, g, last, touching, bridged, begins, adhesive, range);
         if constexpr (JumpsAtEnds<Adhesion>) adhesive = normal.adhesive;
@@ -131,7 +137,8 @@ public:
             tangential =
                 tangential + computeDrag(block, g, last, lastTorque, bridged, normal.resistance, tangential);
 
-        writeRecords(block, g.normal, normal.lever, normalForce, tangential);
+        if constexpr (ShapedGeometry<Geometry>) geometry.writeRecords(memory, block, normalForce, tangential);
+        else writeRecords(block, g.normal, normal.lever, normalForce, tangential);
         state.touching = bits(touching);
         state.bridged = bits(bridged);
         state.closing = bits(normal.closing);
@@ -273,7 +280,10 @@ private:
         const Vector<Pack> sideways = fma(-approach, g.normal, g.velocity);
         // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
         // last step; 1/m + r^2/I of a solid sphere is 7/2 of 1/m.
-        const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
+        Pack response;
+        if constexpr (ShapedGeometry<Geometry>)
+            response = Pack(0.5 * implicitStep) * geometry.slidingResponse();
+        else response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
         const Vector<Pack> lever = fma(-response, last.leverless, g.spinLever);
         const double before = timing.timesTouches ? 0.5 : 1;  // steps for which the spring has still to move
         Slip<Pack> slip{.velocity = sideways + cross(lever, g.normal),
@@ -281,8 +291,11 @@ private:
                         .timeAfter = Pack(timeStep * (1 - before)),
                         .response = response};
         auto history = memory.history.load<History>(block);
+        Vector<Pack> normalShift;
+        if constexpr (ShapedGeometry<Geometry>) normalShift = geometry.normalShift();
+        else normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways;
         history.turn({.normal = g.normal,
-                      .normalShift = (Pack(-timeStep) * g.inverseDistance) * sideways,
+                      .normalShift = normalShift,
                       .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
         if (timing.springsInStep) [[unlikely]] {
             const MovedSprings moved =
@@ -396,10 +409,15 @@ private:
         if (writesTorques()) return reinterpret_cast<double*>(&memory.records[block * Pack::lanes]);
         else return reinterpret_cast<double*>(&memory.forces[block * Pack::lanes]);
     }
-    [[nodiscard]] LastForces loadLastForces(std::size_t block) const {
+    template <class Geometry>
+    [[nodiscard]] LastForces loadLastForces(std::size_t block,
+                                            [[maybe_unused]] const Geometry& geometry) const {
         static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
         const double* base = recordsAt(block);
-        if constexpr (S::hasTorque) {
+        if constexpr (S::hasTorque && ShapedGeometry<Geometry>) {
+            const auto [x, y, z] = loadRecords<3>(base, 8, each.data());
+            return {cross(geometry.lastNormal(), {x, y, z}), gatherColumn(base + 7, 8)};
+        } else if constexpr (S::hasTorque) {
             const auto [x, y, z, normal] = loadRecords<4>(base + 4, 8, each.data());
             return {{x, y, z}, normal};
         } else {
@@ -485,7 +503,7 @@ private:
         for (int k = 0; k < Pack::lanes; ++k) {
             if (writesTorques()) memory.records[block * Pack::lanes + k] = {};
             else memory.forces[block * Pack::lanes + k] = {};
-            if constexpr (S::hasContactTorque) memory.torques[block * Pack::lanes + k] = {};
+            if (!memory.torques.empty()) memory.torques[block * Pack::lanes + k] = {};
             if (ledger) memory.energies[block * Pack::lanes + k].now = {};
         }
         state.touching = state.bridged = state.closing = 0;

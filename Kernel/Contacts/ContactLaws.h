@@ -21,6 +21,7 @@ namespace pendular {
 
 class CapillaryWatch;
 class ContactStore;
+class GrainShapes;
 struct Bucket;
 struct PeriodicBox;
 struct TranslationRecord;
@@ -81,6 +82,8 @@ public:
         return ofPair(static_cast<int>(species), static_cast<int>(species)).name;
     }
     [[nodiscard]] bool turnGrains() const final { return layout.hasTorque; }
+    /// Where grains are no spheres, what they are; else null.
+    [[nodiscard]] virtual const GrainShapes* shapes() const { return nullptr; }
     virtual void mixAll() = 0;
     /// Whether a value of a species has been set since mixAll().
     [[nodiscard]] virtual bool hasChanged() const = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Walls/Wall.h"
@@ -25,11 +26,15 @@ struct ObservedContact {
     Vector<double> point;      // m, in the middle of the overlap or of the gap; at a wall on its surface
     std::uint32_t number = 0;  // in the list of contacts
     std::size_t list = 0;      // which list that is
+    Vector<double> ownNormal{0, 0, 0};  // unit, of grains that are no spheres
 
     /// m; negative where the surfaces are apart
     [[nodiscard]] double overlap() const { return -separation; }
     /// Unit, from particle 1 to particle 2 or into the wall.
-    [[nodiscard]] Vector<double> normal() const { return (1 / norm(shift)) * shift; }
+    [[nodiscard]] Vector<double> normal() const {
+        if (ownNormal != Vector<double>{0, 0, 0}) return ownNormal;
+        return (1 / norm(shift)) * shift;
+    }
     /// N, on particle 1
     [[nodiscard]] Vector<double> tangentialForce() const {
         const Vector<double> across = force - dot(force, normal()) * normal();
@@ -72,6 +77,15 @@ inline ObservedContact observeContact(const ContactStore& contacts, const Contac
         seen.separation = point.distance - first.radius;
         seen.shift = point.distance * point.normal;
         seen.point = first.position + seen.shift;
+    }
+    if (const GrainShapes* const shapes = laws.shapes()) {
+        const ShapedTouch touch =
+            wall ? shapes->touchAtPlane(grains, block.first[lane], seen.normal(),
+                                        dot(seen.shift, seen.normal()))
+                 : shapes->touch(grains, block.first[lane], block.second[lane], seen.shift);
+        seen.separation = -touch.depth;
+        seen.ownNormal = touch.normal;
+        seen.point = first.position + touch.arm1;
     }
     if (seen.bridged) {
         ContactNumbers interaction;

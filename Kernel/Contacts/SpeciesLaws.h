@@ -20,7 +20,7 @@ inline constexpr ContactLayout layoutOf{
 
 /// The laws of one species type, for a scene. All that is compiled again for a species is in here.
 template <class S>
-class SpeciesLaws final : public ContactLaws {
+class SpeciesLaws : public ContactLaws {
 public:
     explicit SpeciesLaws(SpeciesHandler<S>& speciesHandler) : species(speciesHandler) {
         layout = layoutOf<S>;
@@ -205,21 +205,8 @@ public:
         });
     }
 
-private:
-    static_assert(std::max({layoutOf<S>.history, layoutOf<S>.normalHistory, layoutOf<S>.interaction}) <=
-                  std::tuple_size_v<ContactNumbers>);
-
-    using Adhesion = typename S::Adhesion;
-    template <class T>
-    using History = typename S::Friction::template History<T>;
-    template <class T>
-    using Interaction = typename Adhesion::template Interaction<T>;
-
-    // What the memory of a busy machine makes the kernel wait for is asked for so many blocks before. What
-    // gave most in large beds, among 1, 2 and 4 (the README).
-    static constexpr std::size_t blocksAheadForBodies = 1, blocksAheadForMemory = 2;
-
-    const typename S::Mixed& of(int a, int b) const { return species.mixture(a, b); }
+protected:
+    /// @param geometryOf (block) its geometry
     template <class GeometryOf>
     bool computeBlocks(const ContactTask& task, const GeometryOf& geometryOf) const {
         const std::uint32_t* const slots = task.store.slots.data();
@@ -239,6 +226,21 @@ private:
         return all;
     }
 
+private:
+    static_assert(std::max({layoutOf<S>.history, layoutOf<S>.normalHistory, layoutOf<S>.interaction}) <=
+                  std::tuple_size_v<ContactNumbers>);
+
+    using Adhesion = typename S::Adhesion;
+    template <class T>
+    using History = typename S::Friction::template History<T>;
+    template <class T>
+    using Interaction = typename Adhesion::template Interaction<T>;
+
+    // What the memory of a busy machine makes the kernel wait for is asked for so many blocks before. What
+    // gave most in large beds, among 1, 2 and 4 (the README).
+    static constexpr std::size_t blocksAheadForBodies = 1, blocksAheadForMemory = 2;
+
+    const typename S::Mixed& of(int a, int b) const { return species.mixture(a, b); }
     template <class Geometry>
     [[gnu::always_inline]] static void prefetchFrom(const ContactTask& task, std::size_t block) {
         const std::size_t bodies = block + blocksAheadForBodies, memory = block + blocksAheadForMemory;

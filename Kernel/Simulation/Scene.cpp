@@ -393,6 +393,11 @@ void Scene::tellEvents() {
 void Scene::check() {
     widestBody = bodyHandler.refuseTooWide();
     refuseForBodies(particleHandler.store().bodies);
+    if (const GrainShapes* const shapes = laws().shapes()) {
+        shapes->check(wallHandler, ledgerKept);
+        if (!inletHandler.isEmpty())
+            throw InputError("Simulation: inlets do not know superquadrics; leave the inlets out.");
+    }
     refuseWear(wallHandler, ledgerKept, laws().layout.hasTorque, !particleHandler.store().bodies.empty());
     GrainSizes sizes = grainSizes(particleHandler.store());
     const bool checksStep = !unstableAccepted && !adaptive.hasChosen();
@@ -1025,7 +1030,7 @@ void Scene::lookForDeepOverlaps(const ParticleStore& grains, double approach) {
     approachUnseen += approach;
     if (approachUnseen < 0.1 * smallestRadius) return;
     approachUnseen = 0;
-    refuseDeepOverlaps(contactSystem.store(), grains, periodic, getTime());
+    refuseDeepOverlaps(contactSystem.store(), grains, periodic, laws(), getTime());
 }
 
 void Scene::refuseRunaway(double shift) const {

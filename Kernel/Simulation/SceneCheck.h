@@ -399,6 +399,11 @@ inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) 
         contact.particle1, other, -contact.separation, 100 * share, 100 * largestSoundOverlap));
 }
 
+/// m, what the overlaps of a grain are held against.
+inline double radiusOrThickness(const ContactLaws& laws, const ParticleStore& grains, std::uint32_t place) {
+    return laws.shapes() ? laws.shapes()->thickness(grains, place) : grains.translation[place].radius;
+}
+
 /// Throws InputError if two bodies of a list overlap by more than a sound share of the smaller radius.
 /// @param isLookedAt (bucket, places of the grains): whether this contact is
 template <class Function>
@@ -409,7 +414,8 @@ void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& g
         const std::uint32_t first = block.first[contact % Pack::lanes];
         const std::uint32_t second = bucket.wall >= 0 ? first : block.second[contact % Pack::lanes];
         if (!isLookedAt(bucket, first, second)) return;
-        const double smaller = std::min(grains.translation[first].radius, grains.translation[second].radius);
+        const double smaller = std::min(radiusOrThickness(contacts.laws(), grains, first),
+                                        radiusOrThickness(contacts.laws(), grains, second));
         refuseOverlap(contacts.observe(grains, bucket, contact), smaller);
     });
 }
@@ -417,14 +423,20 @@ void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& g
 /// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
 /// made for: by half the smaller radius.
 inline void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
-                              const PeriodicBox& box, double time) {
+                              const PeriodicBox& box, const ContactLaws& laws, double time) {
     constexpr double largestShare = 0.5;
     const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
-    const double smaller = std::min(a.radius, b.radius),
+    const double smaller = std::min(radiusOrThickness(laws, grains, first),
+                                    radiusOrThickness(laws, grains, second)),
                  nearest = a.radius + b.radius - largestShare * smaller;
-    const double distance2 = squaredNorm(box.nearest(b.position - a.position));
+    const Vector<double> shift = box.nearest(b.position - a.position);
+    const double distance2 = squaredNorm(shift);
     if (!(distance2 < nearest * nearest)) return;
-    const double overlap = a.radius + b.radius - std::sqrt(distance2);
+    double overlap = a.radius + b.radius - std::sqrt(distance2);
+    if (laws.shapes()) {
+        overlap = laws.shapes()->touch(grains, first, second, shift).depth;
+        if (!(overlap > largestShare * smaller)) return;
+    }
     throw RunError(
         fmt::format("At time {:.6g} s particles {} and {} overlap by {:.4g} m, {:.3g} % of the smaller "
                     "radius and more than {:g} %: "
@@ -436,12 +448,12 @@ inline void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, 
 /// The same for all pairs of a list that was just made. At walls, a grain that has gone half its way is
 /// followed until its centre crosses the surface.
 inline void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,
-                               double time) {
+                               const ContactLaws& laws, double time) {
     store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         if (bucket.wall >= 0) return;
         const ContactBlock& block = store.blocks[contact / Pack::lanes];
         refuseDeepOverlap(grains, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes],
-                          box, time);
+                          box, laws, time);
     });
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Superquadrics/SuperquadricLaws.h"
+
+namespace pendular {
+
+/// What a driver of superquadrics derives from: Simulation<S>, whose grains are all added by
+/// superquadricHandler.
+template <class S>
+class SuperquadricSimulation : public Simulation<S> {
+public:
+    SuperquadricSimulation() { this->setLaws(ownLaws); }
+
+    SuperquadricHandler superquadricHandler{this->particleHandler};
+
+private:
+    SuperquadricLaws<S> ownLaws{this->speciesHandler, superquadricHandler};
+};
+
+}  // namespace pendular

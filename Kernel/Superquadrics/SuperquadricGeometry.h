@@ -1,0 +1,88 @@
+#pragma once
+
+#include <atomic>
+
+#include "Kernel/Contacts/ContactGeometry.h"
+#include "Kernel/Shapes/SuperquadricPair.h"
+
+namespace pendular {
+
+struct ContactTask;
+
+/// Eight superquadrics, each of its own shape.
+struct EightSuperquadrics {
+    SuperquadricLanes<Pack> shape;
+    Axes<Pack> axes;
+    Pack inverseMass;       // 1/kg
+    Vector<Pack> inertia;   // kg m^2, principal
+    Vector<Pack> position;  // m
+    Vector<Pack> velocity;  // m/s, predicted for the end of the step
+    Vector<Pack> spin;      // rad/s
+    Pack radius;            // m, of the sphere around
+
+    /// 1/kg, how much a force along a unit vector moves the point at an arm (m) along it.
+    [[nodiscard]] Pack response(const Vector<Pack>& arm, const Vector<Pack>& along) const {
+        const Vector<Pack> l = axes.turnBack(cross(arm, along));
+        return inverseMass + (l.x * l.x / inertia.x + l.y * l.y / inertia.y + l.z * l.z / inertia.z);
+    }
+};
+
+/// The geometry of eight contacts of superquadrics with each other or with a plane, as the contact kernel
+/// takes it. The velocity is that of the surfaces where they touch, and masses are what the contact feels,
+/// turning included, so that dashpots that are made for a restitution give that of the contact point.
+class SuperquadricGeometry {
+public:
+    /// Hertz's law takes Gauss' radius, which is infinite on flat faces, up to so many times that of the
+    /// spheres around: ellipsoids up to 1 : 4 have their own everywhere, and a contact is at most twice as
+    /// stiff as that of the spheres, which the stability limit counts with.
+    static constexpr double mostRadii = 4;
+
+    /// @param wall points of it, or null
+    SuperquadricGeometry(const ContactTask& task, std::size_t block, const EightSuperquadrics& first,
+                         const EightSuperquadrics& second, const Vector<Pack>& shift,
+                         const Vector<Pack>& imageVelocity, std::atomic<std::uint64_t>& fallbacks);
+    SuperquadricGeometry(const ContactTask& task, std::size_t block, const EightSuperquadrics& first,
+                         const WallPointColumns& wall);
+
+    static void prefetchBodies(const TranslationRecord* /*t*/, const RotationRecord* /*r*/,
+                               const ContactBlock& /*b*/) {}
+
+    [[nodiscard]] Mask overlapping() const { return depth > Pack(0); }
+    [[nodiscard]] Mask isWithin(double gap) const { return depth > Pack(-gap); }
+    [[nodiscard]] ContactGeometry<Pack> complete() const;
+    /// Only for integrators that do not move rigid bodies.
+    [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* /*acceleration*/,
+                                                          Pack /*lever*/) const {
+        const Vector<Pack> zero{Pack(0), Pack(0), Pack(0)};
+        return {zero, zero, zero};
+    }
+
+    /// 1/kg, of the tangential velocity to a tangential force: the mean over all directions.
+    [[nodiscard]] const Pack& slidingResponse() const { return response; }
+    /// Of the last step, if they touched in it; else zero.
+    [[nodiscard]] const Vector<Pack>& lastNormal() const { return normalBefore; }
+    /// What it has changed by since then.
+    [[nodiscard]] Vector<Pack> normalShift() const { return select(touched, normal - normalBefore, zero()); }
+
+    /// The forces, with a lever arm and a torque of the contact's own that make the torques arm x force of
+    /// both bodies, as the particle sum adds them up: (radius - halfOverlap) leverless +- torque.
+    void writeRecords(ContactMemory& memory, std::size_t block, const Pack& normalForce,
+                      const Vector<Pack>& tangential) const;
+
+private:
+    static Vector<Pack> zero() { return {Pack(0), Pack(0), Pack(0)}; }
+    void takeLast(const ContactTask& task, std::size_t block);
+    void setRadius(const Pack& gauss, const Pack& around);
+
+    bool isAtWall;
+    Mask touched, fellBack;
+    Vector<Pack> normalBefore, normal;
+    Pack depth, effectiveRadius;     // m
+    Vector<Pack> arm1, arm2;         // m, from the centres to the middle of the overlap
+    Pack radius1, radius2;           // m, of the spheres around
+    Vector<Pack> velocity, spinSum;  // m/s, rad/s
+    Pack inverseMass, response;      // 1/kg
+    std::atomic<std::uint64_t>* fallbackCount = nullptr;
+};
+
+}  // namespace pendular

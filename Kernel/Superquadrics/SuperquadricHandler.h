@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/Superquadrics/SuperquadricGeometry.h"
+#include "Kernel/Superquadrics/SuperquadricGrain.h"
+
+namespace pendular {
+
+struct ContactTask;
+class StateArchive;
+
+/// The superquadrics of a scene. Each is a rigid body (BodyHandler) of one grain, the sphere around it, whose
+/// principal axes are those of the shape.
+class SuperquadricHandler final : public GrainShapes {
+public:
+    explicit SuperquadricHandler(ParticleHandler& particleHandler) : particles(particleHandler) {}
+
+    /// Adds a grain; returns its body. Throws InputError as copyAndAddObject() of grains does.
+    BodyReference copyAndAddObject(const SuperquadricGrain& grain);
+    /// Of a grain, by its identity. Throws InputError if it is none of these.
+    [[nodiscard]] const Superquadric& shapeOf(std::uint32_t grain) const;
+    /// In how many evaluations of a contact that acted Newton's method has not ended, and the search without
+    /// derivatives went on.
+    [[nodiscard]] std::uint64_t fallbacks() const { return fallbackCount; }
+
+    /// The smallest half length is the radius that overlaps are held against.
+    [[nodiscard]] double thickness(const ParticleStore& grains, std::uint32_t grain) const override;
+    [[nodiscard]] ShapedTouch touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
+                                    const Vector<double>& shift) const override;
+    [[nodiscard]] ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
+                                           const Vector<double>& normal, double distance) const override;
+    void check(const WallHandler& walls, bool ledgerKept) const override;
+
+    /// Of the eight contacts of a block.
+    [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block) const;
+    /// Throws InputError if a grain of the scene has no shape.
+    void requireAll() const;
+    void visitState(StateArchive& archive);
+
+private:
+    [[nodiscard]] const Superquadric& shapeAt(const ParticleStore& grains, std::uint32_t place) const {
+        return shapes[shapeOfBody[grains.bodies.numberOf(grains.bodies.at(place))]];
+    }
+    [[nodiscard]] std::uint32_t numberOf(const Superquadric& shape);
+    void shapesHaveChanged();
+
+    ParticleHandler& particles;
+    std::vector<Superquadric> shapes;        // that differ
+    std::vector<std::uint32_t> shapeOfBody;  // by the number of the body
+    bool areEllipsoids = true;               // all: one way for a whole scene, so that no bit depends on
+                                             // which contacts are in a block
+    mutable std::atomic<std::uint64_t> fallbackCount = 0;
+};
+
+}  // namespace pendular

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "Kernel/Contacts/SpeciesLaws.h"
+#include "Kernel/Superquadrics/SuperquadricHandler.h"
+
+namespace pendular {
+
+/// The laws of one species type for superquadrics. Contacts remember the normal of the last step, with which
+/// the search for the next one begins, behind what the normal law remembers.
+template <class S>
+class SuperquadricLaws final : public SpeciesLaws<S> {
+    static_assert(!S::Adhesion::acts, "Superquadrics do not adhere: take a species without adhesion.");
+    static_assert(!S::hasContactTorque,
+                  "Superquadrics have no rolling or torsion torque: take a species with SlidingFriction or "
+                  "without friction.");
+
+public:
+    SuperquadricLaws(SpeciesHandler<S>& speciesHandler, SuperquadricHandler& superquadricHandler)
+        : SpeciesLaws<S>(speciesHandler), superquadrics(superquadricHandler) {
+        this->layout.normalHistory += 3;
+        this->layout.hasTorque = this->layout.hasContactTorque = true;
+    }
+
+    [[nodiscard]] const GrainShapes* shapes() const override { return &superquadrics; }
+    void visitState(StateArchive& archive, bool& changedInRun) override {
+        SpeciesLaws<S>::visitState(archive, changedInRun);
+        archive.group("superquadrics", [&] { superquadrics.visitState(archive); });
+    }
+    void prepare(const std::vector<Bucket>& buckets) override {
+        superquadrics.requireAll();
+        SpeciesLaws<S>::prepare(buckets);
+    }
+    bool compute(const ContactTask& task) const override {
+        return this->computeBlocks(task,
+                                   [&](std::size_t block) { return superquadrics.geometryOf(task, block); });
+    }
+
+private:
+    SuperquadricHandler& superquadrics;
+};
+
+}  // namespace pendular

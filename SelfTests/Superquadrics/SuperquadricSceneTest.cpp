@@ -1,0 +1,355 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Math/CountedRandom.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Walls/InfiniteCylinder.h"
+#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Superquadrics/FewSuperquadrics.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
+
+// Superquadrics as grains of a scene: their contacts, motion, restart.
+
+namespace pendular {
+namespace {
+
+using scenes::FewGrains;
+using scenes::FewSuperquadrics;
+using scenes::SuperquadricMotion;
+using support::contains;
+using support::refusal;
+
+using Smooth = Species<LinearViscoelastic>;
+using Rough = Species<LinearViscoelastic, SlidingFriction>;
+using Hertz = Species<HertzianViscoelastic>;
+using Mindlins = Species<HertzianViscoelastic, Mindlin>;
+
+constexpr double density = 2500;  // kg/m^3
+
+template <class S = Smooth>
+S elastic(double stiffness) {
+    S s;
+    s.setDensity(density);
+    s.setStiffness(stiffness);
+    s.setDissipation(0);
+    return s;
+}
+Rough rough() {
+    Rough s = elastic<Rough>(1000);
+    s.setDissipation(0.002);
+    s.setSlidingStiffness(300);
+    s.setSlidingDissipation(0.001);
+    s.setSlidingFrictionCoefficient(0.4);
+    return s;
+}
+Mindlins mindlins() {
+    Mindlins s;
+    s.setDensity(density);
+    s.setEffectiveElasticModulus(1e7);
+    s.setDissipation(0.3);
+    s.setEffectiveShearModulus(3e6);
+    s.setSlidingDissipation(0.2);
+    s.setSlidingFrictionCoefficient(0.4);
+    return s;
+}
+Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+/// Two spheres that overlap by 1 % of a radius, one of which also touches a plane, in oblique motion: by
+/// either kernel.
+template <class Scene, class Add>
+void addTouching(Scene& scene, Add&& add) {
+    constexpr double r = 1e-3;
+    add(Superquadric{r, r, r}, Vec3D(0, 0, 0), Vec3D(0.1, 0.05, -0.02), Vec3D(30, -20, 10));
+    add(Superquadric{1.5 * r, 1.5 * r, 1.5 * r}, Vec3D(2.485 * r * Vec3D(0.6, 0, 0.8)), Vec3D(-0.2, 0.1, 0),
+        Vec3D(-10, 40, 25));
+    scene.addPlane({0, 0, -1}, {0, 0, -0.992 * r});
+}
+struct Spheres : FewGrains<Mindlins> {
+    explicit Spheres(double step) : FewGrains(mindlins(), {}, step) {
+        addTouching(*this, [&](const Superquadric& s, const Vec3D& at, const Vec3D& v, const Vec3D& w) {
+            SphericalParticle grain;
+            grain.setSpecies(speciesHandler.getObject(0)), grain.setRadius(s.a);
+            grain.setPosition(at), grain.setVelocity(v), grain.setAngularVelocity(w);
+            particleHandler.copyAndAddObject(grain);
+        });
+    }
+    void addPlane(const Vec3D& normal, const Vec3D& point) {
+        InfiniteWall wall;
+        wall.setSpecies(speciesHandler.getObject(0));
+        wall.set(normal, point);
+        wallHandler.copyAndAddObject(wall);
+    }
+};
+struct SphericalSuperquadrics : FewSuperquadrics<Mindlins> {
+    explicit SphericalSuperquadrics(double step) : FewSuperquadrics(mindlins(), {}, step) {
+        addTouching(*this, [&](const Superquadric& s, const Vec3D& at, const Vec3D& v, const Vec3D& w) {
+            add({s, at, v, w, turned(1.1, {1, 2, 3})});
+        });
+    }
+};
+
+// Depths are round-off of the radius, 2^-53 r, so those of 1 % of it are right to 1e-14, and forces to some
+// tens of that. Springs are turned with the change of the normal, by the sphere kernel with its velocity:
+// that differs by a dt^2 / 2 r = 2e-8 rad in a step (a = 3000 m/s^2), and springs, which are kept in the
+// tangential plane, by its square.
+TEST(SuperquadricScene, spheresHaveTheForcesOfTheSphereKernel) {
+    Spheres spheres(1e-7);
+    SphericalSuperquadrics shapes(1e-7);
+    spheres.initialise(), shapes.initialise();
+    for (int step = 0; step < 20; ++step) {
+        const auto expected = spheres.interactions(), found = shapes.interactions();
+        ASSERT_EQ(expected.size(), 2u);
+        ASSERT_EQ(found.size(), 2u);
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_LT(norm(found[k].force - expected[k].force), 1e-12 * norm(expected[k].force));
+            EXPECT_NEAR(found[k].overlap(), expected[k].overlap(), 1e-12 * expected[k].overlap());
+        }
+        for (std::size_t k = 0; k < 2; ++k) {
+            const auto one = spheres.particleHandler.getObject(k), two = shapes.particleHandler.getObject(k);
+            EXPECT_LT((one.getVelocity() - two.getVelocity()).norm(), 1e-12 * one.getVelocity().norm());
+            EXPECT_LT((one.getAngularVelocity() - two.getAngularVelocity()).norm(),
+                      1e-12 * one.getAngularVelocity().norm());
+        }
+        spheres.step(), shapes.step();
+    }
+}
+
+// The law of impact of a rigid body, J = (1 + e) v_n / (1/m + (arm x n) I^-1 (arm x n)). The contact lasts,
+// and the body turns in it: what is left is of the first order in the overlap, which is 4 times smaller for a
+// modulus that is 32 times larger (Hertz: overlap ~ E^(-2/5)).
+struct Impact {
+    double speed, spin;  // m/s, rad/s, after it
+    double exactSpeed, exactSpin;
+};
+Impact impact(double modulus, double restitution) {
+    Hertz species;
+    species.setDensity(density);
+    species.setEffectiveElasticModulusAndRestitutionCoefficient(modulus, restitution);
+    const double a = 2e-3, c = 1e-3, angle = 0.5, before = 0.1;
+    const double height = std::hypot(a * std::sin(angle), c * std::cos(angle));
+    const double step = 5e-7 * std::pow(modulus / 1e7, -0.5);
+    FewSuperquadrics<Hertz> scene(
+        species, {{{a, c, c}, {0, 0, 1.0001 * height}, {0, 0, -before}, {0, 0, 0}, turned(angle, {0, 1, 0})}},
+        step);
+    scene.addPlane({0, 0, -1}, {0, 0, 0});
+    scene.initialise();
+    int touched = 0;
+    for (int k = 0; k < 20000; ++k) {
+        scene.step();
+        const bool touches = !scene.interactions().empty();
+        touched += touches ? 1 : 0;
+        if (touched > 0 && !touches) break;
+    }
+    EXPECT_GT(touched, 50);
+    const BodyReference body = scene.body(0);
+    const double m = body.getMass(), inertia = m * (a * a + c * c) / 5;
+    // The lowest point: x as it follows from the gradient of the support function.
+    const double x = (a * a - c * c) * std::sin(angle) * std::cos(angle) / height;
+    const double impulse = (1 + restitution) * before / (1 / m + x * x / inertia);
+    return {body.getVelocity().z(), std::abs(body.getAngularVelocity().y()), impulse / m - before,
+            impulse * x / inertia};
+}
+TEST(SuperquadricScene, aTiltedEllipsoidLeavesAPlaneByTheLawOfImpact) {
+    for (const double restitution : {1.0, 0.6}) {
+        const Impact soft = impact(1e7, restitution), hard = impact(32e7, restitution);
+        const double softError = soft.spin / soft.exactSpin - 1, hardError = hard.spin / hard.exactSpin - 1;
+        EXPECT_NEAR(softError / hardError, 4, 0.5) << restitution;
+        EXPECT_LT(std::abs(hardError), 5e-3);
+        EXPECT_NEAR(hard.speed, hard.exactSpeed, 5e-3 * 0.1);
+    }
+}
+
+/// Two blocks with rounded edges that hit each other off their middles.
+std::vector<SuperquadricMotion> collision() {
+    const Superquadric shape{1e-3, 1.4e-3, 0.8e-3, 4, 4}, other{1.2e-3, 0.9e-3, 1.1e-3, 3, 5};
+    return {{shape, {-1.5e-3, 0, 0}, {0.2, 0.02, 0}, {20, 0, -30}, turned(0.7, {1, 1, 0})},
+            {other, {1.5e-3, 0.5e-3, 0.3e-3}, {-0.2, 0, 0.01}, {0, 15, 10}, turned(1.3, {0, 1, 2})}};
+}
+
+// A step rounds momenta by 2^-53 of their parts, with signs at random.
+TEST(SuperquadricScene, collisionsKeepMomentumAndAngularMomentum) {
+    FewSuperquadrics<Rough> scene(rough(), collision(), 2e-6);
+    scene.initialise();
+    const Vec3D p = scene.linearMomentum(), l = scene.angularMomentum();
+    const double size = scene.body(0).getMass() * 0.2, kinetic = scene.kinetic();
+    int touched = 0;
+    for (int k = 0; k < 3000; ++k) {
+        scene.step();
+        touched += scene.interactions().empty() ? 0 : 1;
+    }
+    EXPECT_GT(touched, 20);
+    EXPECT_LT(scene.kinetic(), 0.95 * kinetic);
+    EXPECT_LT((scene.linearMomentum() - p).norm(), 1e-13 * size);
+    EXPECT_LT((scene.angularMomentum() - l).norm(), 1e-13 * size * 3e-3);
+}
+
+/// J / J, what an elastic collision without friction changes.
+double energyError(double step) {
+    FewSuperquadrics<Smooth> scene(elastic(1000), collision(), step);
+    scene.initialise();
+    const double before = scene.kinetic();
+    double largest = 0;
+    for (int k = 0; k < std::lround(6e-3 / step); ++k) {
+        scene.step();
+        double stored = 0;
+        for (const ObservedContact& contact : scene.interactions())
+            stored += 0.5 * 1000 * contact.overlap() * contact.overlap();
+        largest = std::max(largest, std::abs((scene.kinetic() + stored) / before - 1));
+    }
+    EXPECT_TRUE(scene.interactions().empty());
+    return largest;
+}
+TEST(SuperquadricScene, anElasticCollisionKeepsItsEnergyToSecondOrder) {
+    const double coarse = energyError(4e-6), fine = energyError(2e-6);
+    EXPECT_NEAR(coarse / fine, 4, 1);
+    EXPECT_LT(fine, 1e-3);
+}
+
+// An ellipsoid that rocks without slip about y on its flatter side: the height of its centre is the support
+// function sqrt(a^2 sin^2 + c^2 cos^2), so that
+//     omega^2 = m g (a^2 - c^2) / c / (I + m c^2), I = m (a^2 + c^2) / 5.
+TEST(SuperquadricScene, anEllipsoidRocksWithItsPeriod) {
+    const double a = 2e-3, c = 1.5e-3, g = 9.81, amplitude = 0.01;
+    Rough species = elastic<Rough>(2e4);
+    species.setSlidingStiffness(1e4);
+    species.setSlidingFrictionCoefficient(10);
+    FewSuperquadrics<Rough> scene(species, {}, 1e-6);
+    const double m = density * 4 / 3 * std::numbers::pi * a * c * c, sinking = m * g / 2e4;
+    const double height = std::hypot(a * std::sin(amplitude), c * std::cos(amplitude)) - sinking;
+    scene.add({{a, c, c}, {0, 0, height}, {0, 0, 0}, {0, 0, 0}, turned(amplitude, {0, 1, 0})});
+    scene.addPlane({0, 0, -1}, {0, 0, 0});
+    scene.setGravity({0, 0, -g});
+    scene.initialise();
+    const double omega = std::sqrt(g * (a * a - c * c) / c / ((a * a + c * c) / 5 + c * c));
+    const double period = 2 * std::numbers::pi / omega;
+    // Half a period lies between two passages of the upright place.
+    std::vector<double> passages;
+    double before = amplitude;
+    while (passages.size() < 4 && scene.getTime() < 3 * period) {
+        scene.step();
+        const double now = 2 * scene.body(0).getOrientation().y();
+        if ((now < 0) != (before < 0)) passages.push_back(scene.getTime() - 1e-6 * now / (now - before));
+        before = now;
+    }
+    ASSERT_EQ(passages.size(), 4u);
+    // The amplitude changes the period by its square, 1e-4, and the contact sinks in by 1e-5 of the radius.
+    EXPECT_NEAR((passages[3] - passages[1]) / period, 1, 5e-4);
+}
+
+// A block with flat faces falls on a floor. Its face is nearly flat, so that its one contact goes from rim to
+// rim as it tilts by some 1e-6 rad: it does not come to rest entirely, but the mean force over a time T is
+// its weight and m dv / T, a share of dv / (g T) = 2e-5 for 1e-5 m/s and 0.05 s.
+TEST(SuperquadricScene, aBlockLiesOnItsFace) {
+    const Superquadric shape{1e-3, 1.5e-3, 0.8e-3, 8, 8};
+    FewSuperquadrics<Rough> scene(
+        rough(), {{shape, {0, 0, 0.85e-3}, {0, 0, 0}, {0, 0, 0}, turned(0.02, {1, 2, 0})}}, 5e-6);
+    scene.addPlane({0, 0, -1}, {0, 0, 0});
+    scene.setGravity({0, 0, -9.81});
+    scene.run(50000);
+    const BodyReference body = scene.body(0);
+    const double weight = 9.81 * body.getMass(), sinking = weight / 1000;
+    const Vec3D before = body.getPosition();
+    double sum = 0;
+    for (int k = 0; k < 10000; ++k) {
+        scene.step();
+        const auto contacts = scene.interactions();
+        sum += contacts.empty() ? 0 : contacts[0].force.z;
+    }
+    EXPECT_NEAR(sum / 10000, weight, 1e-4 * weight);
+    EXPECT_LT(body.getVelocity().norm(), 1e-5);
+    EXPECT_NEAR(body.getPosition().z(), shape.c - sinking, 0.1 * sinking);
+    EXPECT_LT((body.getPosition() - before).norm(), 0.1 * sinking);
+    EXPECT_GT((body.getOrientation() * Vec3D(0, 0, 1)).z(), 1 - 1e-9);
+    EXPECT_LT(scene.kinetic(), 0.1 * weight * sinking);
+}
+
+/// Blocks, lenses and rods that fall into a box.
+struct Box : FewSuperquadrics<Rough> {
+    explicit Box(int perSide) : FewSuperquadrics(rough(), {}, 4e-6) {
+        const double spacing = 3.4e-3, edge = perSide * spacing;
+        const std::vector<Superquadric> all{{1e-3, 1e-3, 0.6e-3, 2, 2},
+                                            {0.9e-3, 0.9e-3, 0.9e-3, 6, 6},
+                                            {0.7e-3, 0.7e-3, 1.4e-3, 4, 2},
+                                            {1e-3, 1e-3, 1e-3, 2, 2}};
+        const CountedRandom random(7);
+        std::uint32_t k = 0;
+        for (int x = 0; x < perSide; ++x)
+            for (int y = 0; y < perSide; ++y)
+                for (int z = 0; z < perSide; ++z, ++k) {
+                    const auto even = [&](std::uint32_t n) { return random.uniform(-1, 1, k, n); };
+                    add({all[k % all.size()],
+                         spacing * Vec3D(x + 0.5, y + 0.5, z + 0.5),
+                         0.3 * Vec3D(even(0), even(1), even(2)),
+                         100 * Vec3D(even(3), even(4), even(5)),
+                         {even(6), even(7), even(8), even(9)}});
+                }
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double sign : {-1.0, 1.0})
+                addPlane(sign * Vec3D::Unit(axis), (sign > 0 ? edge : 0) * Vec3D::Unit(axis));
+        setGravity({0, 0, -9.81});
+    }
+};
+
+TEST(SuperquadricScene, givesTheSameBitsForAnyThreadsAndRestarts) {
+    const support::TestFolder folder;
+    Box half(4);
+    half.run(3000);
+    half.writeRestart(folder.path() / "half.h5");
+    for (int k = 0; k < 3000; ++k) half.step();
+    half.writeRestart(folder.path() / "whole.h5");
+    EXPECT_GT(half.contacts().store().blocks.size(), 10u);
+    Box resumed(4);
+    resumed.restartFrom(folder.path() / "half.h5");
+    resumed.run(3000);
+    resumed.writeRestart(folder.path() / "resumed.h5");
+    support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
+    Box threaded(4);
+    threaded.setNumberOfThreads(3);
+    threaded.run(6000);
+    threaded.writeRestart(folder.path() / "threaded.h5");
+    support::expectSameState(folder.path() / "whole.h5", folder.path() / "threaded.h5");
+    EXPECT_EQ(half.superquadricHandler.fallbacks(), threaded.superquadricHandler.fallbacks());
+}
+
+TEST(SuperquadricScene, refusesWhatItDoesNotKnow) {
+    const auto sentence = [](auto&& change) {
+        FewSuperquadrics<Smooth> scene(elastic(1000), {{{1e-3, 1e-3, 2e-3}, {0, 0, 0}}}, 1e-6);
+        return refusal([&] { change(scene), scene.initialise(); });
+    };
+    EXPECT_TRUE(contains(sentence([](auto& scene) { scene.add({{1e-3, 1e-3, 1e-3, 1, 2}}); }), "exponent"));
+    EXPECT_TRUE(contains(sentence([](auto& scene) { scene.keepEnergyLedger(); }), "energy ledger"));
+    EXPECT_TRUE(contains(sentence([](auto& scene) {
+                             SphericalParticle grain;
+                             grain.setSpecies(scene.speciesHandler.getObject(0)), grain.setRadius(1e-3);
+                             grain.setPosition({0.01, 0, 0});
+                             scene.particleHandler.copyAndAddObject(grain);
+                         }),
+                         "particle 1 is no superquadric"));
+    EXPECT_TRUE(contains(sentence([](auto& scene) {
+                             InfiniteCylinder wall;
+                             wall.setSpecies(scene.speciesHandler.getObject(0));
+                             wall.set({0, 0, 1}, {0, 0, 0}, 0.01, CylinderSide::Inside);
+                             scene.wallHandler.copyAndAddObject(wall);
+                         }),
+                         "not plane"));
+    // The spheres around them overlap by half, but they do not; and they do if they are turned.
+    const auto beside = [&](double angle) {
+        return sentence([&](auto& scene) {
+            scene.add({{1e-3, 1e-3, 2e-3}, {2.05e-3, 0, 0}, {0, 0, 0}, {0, 0, 0}, turned(angle, {0, 1, 0})});
+        });
+    };
+    EXPECT_EQ(beside(0), "");
+    EXPECT_TRUE(contains(beside(0.5 * std::numbers::pi), "initial overlap"));
+}
+
+}  // namespace
+}  // namespace pendular
