@@ -126,8 +126,10 @@ public:
         Pack normalForce = normal.repulsion - adhesive;
         if constexpr (resists != BridgeResists::Nothing)
             normalForce = normalForce + select(bridged, normal.viscous, Pack(0));
-        if (ledger) [[unlikely]]
+        if (ledger) [[unlikely]] {
             writeSamples(block, g, normal, adhesive, touching, bridged);
+            if constexpr (ShapedGeometry<Geometry>) geometry.writeArms(memory, block);
+        }
         Vector<Pack> tangential = zero, lastTorque = zero;
         if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
         if constexpr (Friction::acts) {

@@ -29,6 +29,8 @@ struct ContactSample {
     Vector<double> normal{0, 0, 0};        // unit, from body 1 to body 2
     Vector<double> wallVelocity{0, 0, 0};  // m/s, of a wall's surface
     Vector<double> wallSpin{0, 0, 0};      // rad/s, of a wall
+    Vector<double> arm1{0, 0, 0};          // m, of body 1 to the contact, if it is no sphere; else zero
+    Vector<double> arm2{0, 0, 0};          // m, of body 2
     double halfOverlap = 0;                // m
     double effectiveRadius = 0;            // m
     double elasticForce = 0;               // N, repulsion of the normal law
@@ -39,6 +41,7 @@ struct ContactSample {
     SliderSample rolling, torsion;  // torques on body 1 over the effective radius
     BridgeSample bridge;
 
+    [[nodiscard]] bool isShaped() const { return arm1 != Vector<double>{0, 0, 0}; }
     [[nodiscard]] bool acts() const { return touching + bridged > 0; }
 };
 

@@ -8,6 +8,7 @@ namespace pendular {
 
 class ParticleStore;
 class WallHandler;
+struct Superquadric;
 
 /// How two grains that are no spheres touch, or a grain and a plane.
 struct ShapedTouch {
@@ -29,10 +30,13 @@ public:
     /// @param normal unit, into the plane; @param distance m, of the centre
     [[nodiscard]] virtual ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
                                                    const Vector<double>& normal, double distance) const = 0;
+    /// Its axes in space are those of its body (Axes(orientation)).
+    [[nodiscard]] virtual const Superquadric& shapeAt(const ParticleStore& grains,
+                                                      std::uint32_t place) const = 0;
     /// m, the smallest half length of a grain.
     [[nodiscard]] virtual double thickness(const ParticleStore& grains, std::uint32_t grain) const = 0;
     /// Throws InputError for what the scene has besides and shapes do not know.
-    virtual void check(const WallHandler& walls, bool ledgerKept) const = 0;
+    virtual void check(const WallHandler& walls) const = 0;
 };
 
 }  // namespace pendular

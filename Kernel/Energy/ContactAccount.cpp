@@ -12,8 +12,22 @@ struct RelativeMotion {
     Vector<double> turning;  // m/s, effective radius times relative spin
 };
 
+/// m/s, of a wall where a grain touches it. The wall's velocity is that of its point below the centre, which
+/// is not where a grain that is no sphere touches.
+Vector<double> wallVelocityAt(const ContactSample& s) {
+    if (!s.isShaped()) return s.wallVelocity;
+    const double below = dot(s.arm1, s.normal) + s.halfOverlap;
+    return s.wallVelocity + cross(s.wallSpin, s.arm1 - below * s.normal);
+}
+
 RelativeMotion relativeMotion(const ContactSample& sample, const BodyMotion& first, const BodyMotion& second,
                               bool isWall) {
+    if (sample.isShaped()) {
+        Vector<double> velocity = first.velocity + cross(first.spin, sample.arm1);
+        velocity -= isWall ? wallVelocityAt(sample)
+                           : second.velocity + second.slide + cross(second.spin, sample.arm2);
+        return {dot(velocity, sample.normal), velocity, {0, 0, 0}};
+    }
     const Vector<double> velocity =
         first.velocity - (isWall ? sample.wallVelocity : second.velocity + second.slide);
     Vector<double> lever = (first.radius - sample.halfOverlap) * first.spin;
@@ -37,7 +51,7 @@ double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMo
     const Vector<double> leverless = cross(s.normal, tangential);
     const Vector<double> own = s.effectiveRadius * (s.rolling.spring + s.rolling.rest + s.torsion.spring +
                                                     s.torsion.rest + s.bridge.torque);
-    if (isWall) return dot(force, s.wallVelocity) + dot(own, s.wallSpin);
+    if (isWall) return dot(force, wallVelocityAt(s)) + dot(own, s.wallSpin);
     double given = 0;
     if (first.isHeld)
         given -=

@@ -10,6 +10,7 @@ void ParaViewFrames::add(SceneFrame frame, int threads) {
     write("particles", frame.grains);
     if (frame.contacts) write("contacts", *frame.contacts);
     if (frame.walls) write("walls", *frame.walls);
+    if (frame.shapes) write("shapes", *frame.shapes);
     series.write();
 }
 

@@ -5,7 +5,8 @@
 
 namespace pendular {
 
-/// NAME.pvd, and of each frame NAME-particles-STEP.vtp, NAME-contacts-STEP.vtp and NAME-walls-STEP.vtp.
+/// NAME.pvd, and of each frame NAME-particles-STEP.vtp, NAME-contacts-STEP.vtp and NAME-walls-STEP.vtp; of
+/// grains that are no spheres NAME-shapes-STEP.vtp, their surfaces.
 class ParaViewFrames {
 public:
     ParaViewFrames(const std::string& name, double keptUntil) : series(name, keptUntil) {}

@@ -12,7 +12,9 @@
 #include "Kernel/InputError.h"
 #include "Kernel/Output/BoxFields.h"
 #include "Kernel/Output/PolyData.h"
+#include "Kernel/Output/ShapeFields.h"
 #include "Kernel/Particles/SphericalParticle.h"
+#include "Kernel/Shapes/Superquadric.h"
 
 namespace pendular {
 
@@ -130,10 +132,10 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
 template <std::floating_point Real = float>
 PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains) {
     std::vector<std::array<double, 9>> sums(grains.size());  // of the grain at each place
-    const auto add = [&](std::uint32_t identity, double sign, double half, const Vector<double>& normal,
+    const GrainShapes* const shapes = contacts.laws().shapes();
+    const auto add = [&](std::uint32_t identity, double sign, const Vector<double>& branch,
                          const Vector<double>& force) {
         const std::uint32_t place = grains.place[identity];
-        const Vector<double> branch = sign * ((grains.translation[place].radius + half) * normal);
         const double parts[] = {sign * force.x, sign * force.y, sign * force.z};
         for (std::size_t k = 0; k < 3; ++k) {
             sums[place][k] += branch.x * parts[k];
@@ -143,14 +145,24 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
     };
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
+        if (shapes) {
+            const Vector<double> arm = seen.point - grains.translation[grains.place[seen.particle1]].position;
+            add(seen.particle1, 1, arm, seen.force);
+            if (bucket.wall < 0) add(seen.particle2, -1, arm - seen.shift, seen.force);
+            return;
+        }
         const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
         const double half = 0.5 * seen.separation;
-        add(seen.particle1, 1, half, normal, seen.force);
-        if (bucket.wall < 0) add(seen.particle2, -1, half, normal, seen.force);
+        const auto branchOf = [&](std::uint32_t identity, double sign) {
+            return sign * ((grains.translation[grains.place[identity]].radius + half) * normal);
+        };
+        add(seen.particle1, 1, branchOf(seen.particle1, 1), seen.force);
+        if (bucket.wall < 0) add(seen.particle2, -1, branchOf(seen.particle2, -1), seen.force);
     });
     std::vector<Real> numbers;
     for (const std::uint32_t place : grains.place) {
-        const double volume = sphereMass(grains.translation[place].radius, 1);
+        const double volume = shapes ? shapes->shapeAt(grains, place).volume()
+                                     : sphereMass(grains.translation[place].radius, 1);
         for (const double sum : sums[place]) numbers.push_back(static_cast<Real>(sum / volume));
     }
     return {"stress_Pa", 9, std::move(numbers)};
@@ -235,6 +247,7 @@ struct SceneFrame {
     double time = 0;  // s
     PolyData grains;
     std::optional<PolyData> contacts, walls;
+    std::optional<PolyData> shapes;  // of grains that are no spheres
 };
 
 /// Which fields a frame has.
@@ -278,12 +291,20 @@ private:
     template <class Real, class Scene>
     [[nodiscard]] SceneFrame frameOf(const Scene& scene) const {
         const auto& store = scene.particleHandler.store();
-        SceneFrame frame{
-            scene.getNumberOfTimeSteps(), scene.getTime(), grainPoints<Real>(store, scene.laws()), {}, {}};
+        SceneFrame frame{scene.getNumberOfTimeSteps(),
+                         scene.getTime(),
+                         grainPoints<Real>(store, scene.laws()),
+                         {},
+                         {},
+                         {}};
         for (const auto& field : added) frame.grains.pointFields.push_back(field(store, doubles));
         if (stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
         if (contacts)
             frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws(), contactPoints);
+        if (const GrainShapes* const shapes = scene.laws().shapes()) {
+            addShapeFields(store, *shapes, frame.grains);
+            frame.shapes = shapeSurfaces(store, *shapes);
+        }
         frame.grains.wholeFields = boxFields(scene.contacts().periodicBox());
         requireDistinctNames(frame.grains.pointFields, "grains");
         if (frame.contacts) requireDistinctNames(frame.contacts->cellFields, "contacts");

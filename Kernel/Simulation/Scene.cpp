@@ -394,7 +394,7 @@ void Scene::check() {
     widestBody = bodyHandler.refuseTooWide();
     refuseForBodies(particleHandler.store().bodies);
     if (const GrainShapes* const shapes = laws().shapes()) {
-        shapes->check(wallHandler, ledgerKept);
+        shapes->check(wallHandler);
         if (!inletHandler.isEmpty())
             throw InputError("Simulation: inlets do not know superquadrics; leave the inlets out.");
     }

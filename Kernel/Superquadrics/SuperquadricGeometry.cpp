@@ -132,4 +132,16 @@ void SuperquadricGeometry::writeRecords(ContactMemory& memory, std::size_t block
                                  std::memory_order_relaxed);
 }
 
+void SuperquadricGeometry::writeArms(ContactMemory& memory, std::size_t block) const {
+    const auto laneOf = [](const Vector<Pack>& v, std::size_t k) {
+        return Vector<double>{v.x[k], v.y[k], v.z[k]};
+    };
+    for (std::size_t k = 0; k < Pack::lanes; ++k) {
+        ContactSample& sample = memory.energies[block * Pack::lanes + k].now;
+        if (!sample.acts()) continue;
+        sample.arm1 = laneOf(arm1, k);
+        if (!isAtWall) sample.arm2 = laneOf(arm2, k);
+    }
+}
+
 }  // namespace pendular

@@ -69,6 +69,9 @@ public:
     void writeRecords(ContactMemory& memory, std::size_t block, const Pack& normalForce,
                       const Vector<Pack>& tangential) const;
 
+    /// What the ledger of the energy reads besides.
+    void writeArms(ContactMemory& memory, std::size_t block) const;
+
 private:
     static Vector<Pack> zero() { return {Pack(0), Pack(0), Pack(0)}; }
     void takeLast(const ContactTask& task, std::size_t block);

@@ -104,12 +104,8 @@ void SuperquadricHandler::requireAll() const {
     }
 }
 
-void SuperquadricHandler::check(const WallHandler& walls, bool ledgerKept) const {
+void SuperquadricHandler::check(const WallHandler& walls) const {
     requireAll();
-    if (ledgerKept)
-        throw InputError(
-            "Simulation: the energy ledger does not know superquadrics; leave keepEnergyLedger() out (in "
-            "drivers, --energy-interval-s).");
     for (std::size_t w = 0; w < walls.getSize(); ++w)
         if (!walls.isRemoved(w) && dynamic_cast<const InfiniteWall*>(&walls.getObject(w)) == nullptr)
             throw InputError(fmt::format(
@@ -125,16 +121,15 @@ double SuperquadricHandler::thickness(const ParticleStore& grains, std::uint32_t
 
 ShapedTouch SuperquadricHandler::touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                        const Vector<double>& shift) const {
-    const SuperquadricPair<double> pair =
-        pairOf(shapeAt(grains, first), grains.bodies[grains.bodies.at(first)], shapeAt(grains, second),
-               grains.bodies[grains.bodies.at(second)], shift);
+    const SuperquadricPair<double> pair = pairOf(shapeAt(grains, first), bodyAt(grains, first),
+                                                 shapeAt(grains, second), bodyAt(grains, second), shift);
     const SuperquadricTouch<double> found = findTouch(pair, firstNormal(pair), false);
     return {found.normal, found.depth, found.arm1};
 }
 
 ShapedTouch SuperquadricHandler::touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
                                               const Vector<double>& normal, double distance) const {
-    const Axes<double> axes(grains.bodies[grains.bodies.at(grain)].orientation);
+    const Axes<double> axes(bodyAt(grains, grain).orientation);
     const SupportPoint<double> lowest =
         supportPoint(SuperquadricLanes<double>::from(shapeAt(grains, grain)), axes.turnBack(normal));
     const double depth = lowest.height - distance;

@@ -27,13 +27,17 @@ public:
     /// derivatives went on.
     [[nodiscard]] std::uint64_t fallbacks() const { return fallbackCount; }
 
+    [[nodiscard]] const Superquadric& shapeAt(const ParticleStore& grains,
+                                              std::uint32_t place) const override {
+        return shapes[shapeOfBody[grains.bodies.bodyOf(grains.identity[place])]];
+    }
     /// The smallest half length is the radius that overlaps are held against.
     [[nodiscard]] double thickness(const ParticleStore& grains, std::uint32_t grain) const override;
     [[nodiscard]] ShapedTouch touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                     const Vector<double>& shift) const override;
     [[nodiscard]] ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
                                            const Vector<double>& normal, double distance) const override;
-    void check(const WallHandler& walls, bool ledgerKept) const override;
+    void check(const WallHandler& walls) const override;
 
     /// Of the eight contacts of a block.
     [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block) const;
@@ -42,8 +46,8 @@ public:
     void visitState(StateArchive& archive);
 
 private:
-    [[nodiscard]] const Superquadric& shapeAt(const ParticleStore& grains, std::uint32_t place) const {
-        return shapes[shapeOfBody[grains.bodies.numberOf(grains.bodies.at(place))]];
+    [[nodiscard]] static const RigidBody& bodyAt(const ParticleStore& grains, std::uint32_t place) {
+        return grains.bodies[grains.bodies.find(grains.bodies.bodyOf(grains.identity[place]))];
     }
     [[nodiscard]] std::uint32_t numberOf(const Superquadric& shape);
     void shapesHaveChanged();

@@ -150,12 +150,37 @@ inline std::vector<Polygon> wallsOf(const PolyData& walls, const View& view, dou
     return found;
 }
 
+/// What the grains of a frame are, if they are no balls.
+class Solids {
+public:
+    explicit Solids(const PolyData& grains)
+        : lengths(grains.pointField("half_lengths_m")),
+          first(grains.pointField("n1")),
+          second(grains.pointField("n2")),
+          turns(grains.pointField("orientation")) {}
+
+    [[nodiscard]] std::optional<Solid> operator[](std::size_t grain) const {
+        if (!lengths || !first || !second || !turns || lengths->components != 3 || turns->components != 9)
+            return {};
+        Solid solid{{}, first->at(grain), second->at(grain)};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto part = [&](std::size_t row) { return turns->at(9 * grain + 3 * row + axis); };
+            solid.axes[axis] = lengths->at(3 * grain + axis) * Vector<double>{part(0), part(1), part(2)};
+        }
+        return solid;
+    }
+
+private:
+    const PolyDataField *lengths, *first, *second, *turns;
+};
+
 /// The picture of a frame, with colours between the ends of `span`.
 inline Picture compose(const Frame& frame, const View& view, const Span& span) {
     Picture picture;
     picture.wallTransparency = view.wallTransparency;
     const Scalar scalar = shownScalar(frame, view);
     const PolyDataField* radii = frame.grains.pointField("radius_m");
+    const Solids solids(frame.grains);
     double largest = 0;
     for (std::size_t k = 0; radii && k < radii->size(); ++k) largest = std::max(largest, radii->at(k));
     if (view.contacts == "forces") {
@@ -166,7 +191,7 @@ inline Picture compose(const Frame& frame, const View& view, const Span& span) {
             const Colour colour = view.field == "none" ? Colour{0.82, 0.72, 0.53}
                                   : scalar.areNames    ? namedColour(scalar.values[k])
                                                        : mapOf(view).at(span.share(scalar.values[k]));
-            picture.balls.push_back({frame.grains.points[k], radii->at(k), colour});
+            picture.balls.push_back({frame.grains.points[k], radii->at(k), colour, solids[k]});
         }
         if (view.contacts == "bridges") addBridges(picture, frame, view);
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +13,16 @@
 
 namespace pendular::snapshot {
 
+/// What a grain is instead of a ball: a superquadric (Kernel/Shapes/Superquadric.h).
+struct Solid {
+    std::array<Vector<double>, 3> axes;  // m, the half axes in space
+    double n1, n2;                       // exponents
+};
 struct Ball {
     Vector<double> centre;  // m
     double radius;          // m
     Colour colour;
+    std::optional<Solid> solid = {};
 };
 struct Rod {
     Vector<double> begin, end;  // m
@@ -93,14 +100,32 @@ private:
             "#declare Flat = finish {{ ambient 0 diffuse 0 emission 1 }}\n");
     }
     void writeGrains() {
-        for (const Ball& ball : picture.balls)
+        for (const Ball& ball : picture.balls) {
+            if (ball.solid) {
+                writeSolid(ball);
+                continue;
+            }
             put("sphere {{ {},{:.7g} pigment {{ {} }} finish {{ Grain }} }}\n", point(ball.centre),
                 ball.radius / picture.size, colour(ball.colour));
+        }
         for (const Rod& rod : picture.rods)
             if (norm(rod.end - rod.begin) > 0)
                 put("cylinder {{ {},{},{:.7g} pigment {{ {} transmit {:.3f} }} finish {{ Grain }} }}\n",
                     point(rod.begin), point(rod.end), rod.radius / picture.size, colour(rod.colour),
                     rod.transparency);
+    }
+    /// POV-Ray's superellipsoid <e, n> has the exponents 2/e across its axis and 2/n along it.
+    void writeSolid(const Ball& ball) {
+        const Solid& solid = *ball.solid;
+        const auto scaled = [&](std::size_t k) {
+            const Vector<double> axis = (1 / picture.size) * solid.axes[k];
+            return fmt::format("{:.7g},{:.7g},{:.7g}", axis.x, axis.y, axis.z);
+        };
+        const Vector<double> centre = (1 / picture.size) * (ball.centre - camera.eye);
+        if (solid.n1 == 2 && solid.n2 == 2) put("sphere {{ 0,1");
+        else put("superellipsoid {{ <{:.7g},{:.7g}>", 2 / solid.n2, 2 / solid.n1);
+        put(" pigment {{ {} }} finish {{ Grain }} matrix <{},{},{},{:.7g},{:.7g},{:.7g}> }}\n",
+            colour(ball.colour), scaled(0), scaled(1), scaled(2), centre.x, centre.y, centre.z);
     }
     void writeWalls() {
         if (picture.walls.empty()) return;

@@ -1,0 +1,90 @@
+#include "Kernel/Output/ShapeFields.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Shapes/SuperquadricSupport.h"
+
+namespace pendular {
+namespace {
+
+constexpr int circles = 12, corners = 20;  // of latitude, without the poles; on each of them
+
+Axes<double> axesAt(const ParticleStore& grains, std::uint32_t place) {
+    const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
+    return Axes<double>(grains.bodies[grains.bodies.find(body)].orientation);
+}
+
+/// Unit, from one pole to the other: that one, the circles, the other one. Not on the axes between, where
+/// edges of sharp shapes are nearest to them.
+std::vector<Vector<double>> normals() {
+    std::vector<Vector<double>> all{{0, 0, 1}};
+    for (int k = 0; k < circles; ++k)
+        for (int j = 0; j < corners; ++j) {
+            const double down = std::numbers::pi * (k + 1) / (circles + 1);
+            const double around = 2 * std::numbers::pi * (j + 0.5) / corners;
+            all.push_back(
+                {std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down)});
+        }
+    all.push_back({0, 0, -1});
+    return all;
+}
+
+/// Outward polygons on the points of normals(), which begin at a place.
+void addPolygons(PolyData& data, std::int32_t first) {
+    const auto at = [&](int circle, int corner) { return first + 1 + circle * corners + corner % corners; };
+    const auto add = [&](std::initializer_list<std::int32_t> polygon) {
+        data.corners.insert(data.corners.end(), polygon);
+        data.ends.push_back(static_cast<std::int32_t>(data.corners.size()));
+    };
+    const std::int32_t last = first + 1 + circles * corners;
+    for (int j = 0; j < corners; ++j) {
+        add({first, at(0, j), at(0, j + 1)});
+        for (int k = 0; k + 1 < circles; ++k) add({at(k, j), at(k + 1, j), at(k + 1, j + 1), at(k, j + 1)});
+        add({last, at(circles - 1, j + 1), at(circles - 1, j)});
+    }
+}
+
+}  // namespace
+
+void addShapeFields(const ParticleStore& grains, const GrainShapes& shapes, PolyData& points) {
+    std::vector<float> lengths, orientation;
+    std::vector<std::int32_t> first, second;
+    for (const std::uint32_t place : grains.place) {
+        const Superquadric& shape = shapes.shapeAt(grains, place);
+        const Axes<double> axes = axesAt(grains, place);
+        for (const double length : {shape.a, shape.b, shape.c}) lengths.push_back(static_cast<float>(length));
+        first.push_back(shape.n1), second.push_back(shape.n2);
+        for (const auto part : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z})
+            for (const Vector<double>* axis : {&axes.x, &axes.y, &axes.z})
+                orientation.push_back(static_cast<float>((*axis).*part));
+    }
+    points.pointFields.push_back({"half_lengths_m", 3, std::move(lengths)});
+    points.pointFields.push_back({"n1", 1, std::move(first)});
+    points.pointFields.push_back({"n2", 1, std::move(second)});
+    points.pointFields.push_back({"orientation", 9, std::move(orientation)});
+}
+
+PolyData shapeSurfaces(const ParticleStore& grains, const GrainShapes& shapes) {
+    PolyData data;
+    data.kind = PolyData::Cells::Polygons;
+    std::vector<std::int32_t> identity, body;
+    const std::vector<Vector<double>> directions = normals();
+    for (const std::uint32_t place : grains.place) {
+        const auto lanes = SuperquadricLanes<double>::from(shapes.shapeAt(grains, place));
+        const Axes<double> axes = axesAt(grains, place);
+        const auto first = static_cast<std::int32_t>(data.points.size());
+        for (const Vector<double>& n : directions)
+            data.points.push_back(grains.translation[place].position +
+                                  axes.turn(supportPoint(lanes, n).point));
+        addPolygons(data, first);
+        const std::uint32_t own = grains.identity[place];
+        identity.resize(data.ends.size(), static_cast<std::int32_t>(own));
+        body.resize(data.ends.size(), static_cast<std::int32_t>(grains.bodies.bodyOf(own)));
+    }
+    data.cellFields = {{"identity", 1, std::move(identity)}, {"body", 1, std::move(body)}};
+    return data;
+}
+
+}  // namespace pendular
