@@ -23,6 +23,7 @@ struct Options {
 void setUp(bulk::PeerScene& scene, const Options& o) {
     const double rayleigh = bulk::PeerMaterial::rayleighTime();
     scene.setTimeStep(o.step * rayleigh);
+    if (o.integrator == "at-limit") return scene.setTimeStep(o.step * scene.stabilityLimit());
     if (o.integrator == "adaptive") {
         scene.setTimeStep(0.5 * scene.stabilityLimit());
         scene.setAdaptiveTimeStep(o.step);
@@ -32,9 +33,9 @@ void setUp(bulk::PeerScene& scene, const Options& o) {
     if (o.integrator == "springs-in-step") scene.setIntegrator(integrators::springsInStep);
     else if (o.integrator == "velocity-verlet") scene.setIntegrator(integrators::velocityVerlet);
     else if (o.integrator != "default")
-        unknownName(
-            "integrator", o.integrator,
-            std::vector<std::string_view>{"default", "springs-in-step", "velocity-verlet", "adaptive"});
+        unknownName("integrator", o.integrator,
+                    std::vector<std::string_view>{"default", "at-limit", "springs-in-step", "velocity-verlet",
+                                                  "adaptive"});
 }
 
 /// The figures of a run, and the time of the processor (s) that its steps have taken.
@@ -76,7 +77,7 @@ void run(const Options& o) {
     else {
         std::size_t steps = 0;
         seconds = runOurs(start, o, figures, steps);
-        if (o.integrator == "adaptive") step = start.endTime / static_cast<double>(steps);
+        step = start.endTime / static_cast<double>(steps);
     }
     fmt::print("{:.4g},{},{:.5g}", step, figures.survived() ? 1 : 0, seconds / start.endTime);
     if (figures.survived())
@@ -95,8 +96,12 @@ int main(int argc, char** argv) {
     app.option_defaults()->always_capture_default();
     app.add_option("--scene", o.scene, "bed, drum, hopper or impact");
     app.add_option("--seed", o.seed, "of the grains");
-    app.add_option("--integrator", o.integrator, "default, springs-in-step, velocity-verlet or adaptive");
-    app.add_option("--step", o.step, "over Rayleigh's time of the largest grain; of adaptive: its share");
+    app.add_option("--integrator", o.integrator,
+                   "default, at-limit (the default, by its stability limit), springs-in-step, "
+                   "velocity-verlet or adaptive");
+    app.add_option("--step", o.step,
+                   "over Rayleigh's time of the largest grain; of at-limit and adaptive: the share");
+    app.add_option("--modulus-Pa", bulk::PeerMaterial::elasticModulus, "Young's; the others have 5e6");
     auto* data = app.add_option("--data", o.data,
                                 "write the start to this file, for read_data of the others, and print "
                                 "Rayleigh's time, the end, the time between frames (s) and the grains");
@@ -107,6 +112,7 @@ int main(int argc, char** argv) {
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
     return runProgram([&] {
         checkValue("bulk-figures", "step", o.step, "", positive);
+        checkValue("bulk-figures", "modulus", bulk::PeerMaterial::elasticModulus, "Pa", positive);
         run(o);
         return 0;
     });

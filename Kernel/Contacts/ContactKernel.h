@@ -262,8 +262,8 @@ private:
     };
     /// @param steps of that time
     template <class Geometry>
-    [[gnu::noinline, gnu::cold]] MovedSprings moveSprings(Geometry geometry, ContactGeometry<Pack> g,
-                                                          Pack lever, Pack steps) const {
+    [[gnu::noinline]] MovedSprings moveSprings(Geometry geometry, ContactGeometry<Pack> g, Pack lever,
+                                               Pack steps) const {
         const ContactAcceleration<Pack> a = geometry.accelerations(acceleration, lever);
         const Pack time = Pack(timeStep) * steps, half = Pack(-0.5) * time;
         const Vector<Pack> velocity =

@@ -121,6 +121,8 @@ public:
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
     /// Of all contacts since the scene began.
     [[nodiscard]] const OverlapWatch& overlaps() const { return overlapWatch; }
+    /// Of the effective radius: see OverlapWatch::expect().
+    void expectOverlaps(double largest) { overlapWatch.expect(largest); }
     [[nodiscard]] const CapillaryWatch& capillaryNumbers() const { return capillaryWatch; }
 
     /// Calls function(bucket, contact) for each contact that has a force, in the order of identities: of body

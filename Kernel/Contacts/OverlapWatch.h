@@ -30,6 +30,7 @@ public:
             const double share = overlap[k] / effectiveRadius[k];
             largest = std::max(largest, share);
             above += share > limit ? 1 : 0;
+            expectedWasSmaller |= share > expected;
         }
         setThreshold();
     }
@@ -37,6 +38,7 @@ public:
     [[nodiscard]] OverlapWatch part() const {
         OverlapWatch fresh = *this;
         fresh.above = 0;
+        fresh.expectedWasSmaller = false;
         return fresh;
     }
     /// The same for laws of their own limit, over the effective radius.
@@ -49,8 +51,18 @@ public:
     void add(const OverlapWatch& part) {
         largest = std::max(largest, part.largest);
         above += part.above;
+        expectedWasSmaller |= part.expectedWasSmaller;
         setThreshold();
     }
+
+    /// Larger overlaps (of the effective radius) than this are not expected from now on.
+    void expect(double largestOverlap) {
+        expected = largestOverlap;
+        expectedWasSmaller = false;
+        setThreshold();
+    }
+    /// Whether one has come since then.
+    [[nodiscard]] bool isSurprised() const { return expectedWasSmaller; }
 
     /// Of the effective radius.
     [[nodiscard]] double largestOverlap() const { return largest; }
@@ -67,9 +79,11 @@ public:
 private:
     /// A little below the number that it stands for: the quotient of note() decides, not the rounding of a
     /// product.
-    void setThreshold() { threshold = std::min(largest, limit) * (1 - 0x1p-50); }
+    void setThreshold() { threshold = std::min({largest, limit, expected}) * (1 - 0x1p-50); }
 
     double limit = infinity;
+    double expected = infinity;
+    bool expectedWasSmaller = false;
     double largest = 0;
     double threshold = 0;
     std::uint64_t above = 0;

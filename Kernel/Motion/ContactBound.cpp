@@ -74,11 +74,19 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
         ends.push_back(terms.size());
     }
     summarise(found);
-    const double approach = std::max(outlook.approach, found.fastestApproach);
-    std::size_t begin = 0;
-    for (std::size_t k = 0; k < ends.size(); begin = ends[k++])
-        press(contacts.laws(), contacts.store().buckets[k], std::span(terms).subspan(begin, ends[k] - begin),
-              outlook, approach);
+    const auto forEachBucket = [&](auto&& function) {
+        std::size_t begin = 0;
+        for (std::size_t k = 0; k < ends.size(); begin = ends[k++])
+            function(contacts.store().buckets[k], std::span(terms).subspan(begin, ends[k] - begin));
+    };
+    forEachBucket([&](const Bucket& bucket, std::span<Term> ofBucket) {
+        for (Term& term : ofBucket) {
+            term.reached = reachedOverlap(contacts.laws(), bucket, term, outlook);
+            found.supposedOverlap = std::max(
+                found.supposedOverlap, outlook.margin * term.reached / term.pair.bodies.effectiveRadius());
+        }
+        press(contacts.laws(), bucket, ofBucket, outlook, found.meanOverlap);
+    });
     blocks.assign(grains.size(), {});
     chooseWeights(grains);
     for (const Term& term : terms) {
@@ -230,7 +238,6 @@ void ContactBounds::keep(const ContactSystem& contacts, const Bucket& bucket, st
 
 void ContactBounds::summarise(ContactBound& found) const {
     for (const Term& term : terms) {
-        found.fastestApproach = std::max(found.fastestApproach, term.approach);
         if (!(term.gap < 0)) continue;
         const double overlap = -term.gap / term.smallerRadius;
         ++found.touching;
@@ -240,15 +247,31 @@ void ContactBounds::summarise(ContactBound& found) const {
     if (found.touching > 0) found.meanOverlap /= static_cast<double>(found.touching);
 }
 
-/// The stiffness of the contacts of a bucket at the overlaps that they have, or may come to. What a pair does
-/// by itself it may do; what others do to it is taken up to the largest sound overlap.
+/// By the way that it goes in the time, and by its energy, whichever is less. A spring whose stiffness k
+/// grows with the overlap d at most as its square root (Hertz) has at d an energy of at least k d^2 / 3.75,
+/// and one of d^(5/2) or d^2 at smaller overlaps: so an energy that is a share e of that is met at
+/// e^(2/5) d at the latest. An overlap that is there already only makes it stiffer. Dashpots help;
+/// attraction, springs that yield, and what others do are left to the margin and to the watch of overlaps.
+double ContactBounds::reachedOverlap(const ContactLaws& laws, const Bucket& bucket, const Term& term,
+                                     const ContactOutlook& outlook) {
+    const double now = std::max(-term.gap, 0.0), approach = std::max(term.approach + outlook.falling, 0.0);
+    const double way = approach * outlook.time - std::max(term.gap, 0.0);  // m, of the overlap
+    if (!(way > 0)) return now;
+    const double spring = laws.ofPair(bucket.species1, bucket.species2)
+                              .normalStiffness(bucket.species1, bucket.species2, term.pair.bodies, way);
+    const double share = 0.5 * term.pair.effectiveMass * approach * approach / (spring * way * way / 3.75);
+    return now + (share < 1 ? std::pow(share, 0.4) : 1) * way;
+}
+
+/// The stiffness of the contacts of a bucket at the overlaps that they have, or are supposed to have: with
+/// the margin what they can reach, and the mean of all, which those that others press have sooner or later.
+/// @param mean of the smaller radius
 void ContactBounds::press(const ContactLaws& laws, const Bucket& bucket, std::span<Term> ofBucket,
-                          const ContactOutlook& outlook, double approach) {
+                          const ContactOutlook& outlook, double mean) {
+    const double others = outlook.time > 0 ? outlook.margin * mean : 0;
     std::vector<PressedPair> pairs;
     for (Term& term : ofBucket) {
-        const double own = std::max(term.approach, 0.0) * outlook.time - term.gap,
-                     sound = largestSoundOverlap * term.smallerRadius;
-        double overlap = std::max(own, std::min(own + approach * outlook.time, sound));
+        double overlap = std::max(outlook.margin * term.reached, others * term.smallerRadius);
         if (overlap > 0) overlap = std::max(overlap, outlook.leastOverlap * term.smallerRadius);
         term.gap = -overlap;
         term.pair.overlap = std::max(overlap, smallestOverlap * term.smallerRadius);

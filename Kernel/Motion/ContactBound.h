@@ -13,8 +13,9 @@ namespace pendular {
 /// How contacts are taken: as they are, or as they may become.
 struct ContactOutlook {
     double time = 0;          // s, for which they may come nearer to each other
-    double approach = 0;      // m/s, that a pair may at least approach faster than it does now
+    double falling = 0;       // m/s, that a pair may approach faster than it does now
     double reach = 0;         // m, of surfaces that may come to touch; they must be listed
+    double margin = 1;        // on the overlaps that they reach in that time by themselves
     double leastOverlap = 0;  // of the smaller radius, of contacts that touch
     bool sticking = true;     // friction; else it has no springs
 };
@@ -25,7 +26,7 @@ struct ContactBound {
     std::uint32_t grain = 0;
     std::size_t contactsOfGrain = 0;  // that touch, or may come to
     double overlapOfGrain = 0;        // the largest, of the smaller radius
-    double fastestApproach = 0;       // m/s, of all pairs within reach
+    double supposedOverlap = 0;       // of the effective radius, the largest with the margin
     double largestOverlap = 0;        // of all contacts that touch, of the smaller radius
     double meanOverlap = 0;
     std::size_t touching = 0;  // contacts
@@ -68,6 +69,7 @@ private:
         PressedPair pair{};
         ContactStiffness stiffness{};
         double gap = 0;            // m
+        double reached = 0;        // m, overlap
         double approach = 0;       // m/s
         double smallerRadius = 0;  // m
         bool drags = false;        // a bridge
@@ -91,8 +93,11 @@ private:
                     const Bucket& bucket, std::size_t begin, std::size_t end, const ContactOutlook& outlook);
     void keep(const ContactSystem& contacts, const Bucket& bucket, std::size_t contact, Term& term,
               const ContactOutlook& outlook);
-    void press(const ContactLaws& laws, const Bucket& bucket, std::span<Term> ofBucket,
-               const ContactOutlook& outlook, double approach);
+    /// m: what a pair that touches, or may come to, can reach by its own approach.
+    [[nodiscard]] static double reachedOverlap(const ContactLaws& laws, const Bucket& bucket,
+                                               const Term& term, const ContactOutlook& outlook);
+    static void press(const ContactLaws& laws, const Bucket& bucket, std::span<Term> ofBucket,
+                      const ContactOutlook& outlook, double mean);
     void summarise(ContactBound& found) const;
     void chooseWeights(const ParticleStore& grains);
     /// t, of the grain at a place in a contact with another one.

@@ -48,17 +48,18 @@ AdaptiveStep::Outlook AdaptiveStep::lookAhead(const ParticleStore& grains, doubl
     supposedSpeed = speeds.largest + meeting + falling;
     supposedWallSpeed = 2 * wallSpeed;
     wallSpeed = 0;
-    const double reach = meeting * time;
-    return {{.time = time, .approach = approachBefore + falling, .reach = reach},
-            !(reach < 0.5 * smallestRadius)};
+    const double near = nearness * smallestRadius;
+    return {{.time = time, .falling = falling, .reach = std::min(meeting * time, near), .margin = margin},
+            near / meeting};
 }
 
 double AdaptiveStep::choose(double step, double most, const Outlook& outlook, const ContactBound& bound,
                             double limit) {
     stepsSince = 0;
     surprised = false;
-    approachBefore = outlook.isFar ? 0 : bound.fastestApproach;
-    const double stable = outlook.isFar ? limit : bound.step;
+    const double before = overlap < infinity ? memory * overlap : 0;
+    overlap = outlook.isKnown() ? std::max(bound.supposedOverlap, before) : infinity;
+    const double stable = outlook.isKnown() ? std::min(bound.step, outlook.longest / share) : limit;
     const double chosen = std::min(share * stable, longest(step, most));
     ++choices;
     smallestChosen = std::min(smallestChosen, chosen);
@@ -72,14 +73,15 @@ void AdaptiveStep::visitState(StateArchive& archive) {
     archive.same("largest", largest, "s");
     archive.value("stepsSince", stepsSince);
     archive.value("surprised", surprised);
-    const auto speed = [&](std::string_view name, double& value) {  // infinite where an endless wall tilts
+    const auto notNegative = [&](std::string_view name,
+                                 double& value) {  // infinite where an endless wall tilts
         archive.value(name, value);
         archive.require(value >= 0, name, "is negative or not a number");
     };
-    speed("wallSpeed", wallSpeed);
-    speed("supposedSpeed", supposedSpeed);
-    speed("supposedWallSpeed", supposedWallSpeed);
-    archive.finite("approachBefore", approachBefore);
+    notNegative("wallSpeed", wallSpeed);
+    notNegative("supposedSpeed", supposedSpeed);
+    notNegative("supposedWallSpeed", supposedWallSpeed);
+    notNegative("supposedOverlap", overlap);
     archive.value("choices", choices);
     archive.value("smallestChosen", smallestChosen);
     archive.finite("largestChosen", largestChosen);

@@ -754,6 +754,7 @@ void Scene::visitAll(StateArchive& archive) {
     visitScene(archive);
     if (archive.isReading()) prepare();
     archive.group("contacts", [&] { contactSystem.visitState(archive, particleHandler.store()); });
+    contactSystem.expectOverlaps(adaptive.supposedOverlap());
     if (contactSystem.movesLiquid()) {
         archive.same("liquidDensity", liquidDensity, "kg/m^3");
         archive.group("sprays", [&] { sprayHandler.visitState(archive, particleHandler.films()); });
@@ -933,6 +934,7 @@ void Scene::advance(double length, bool another) {
     contactSystem.computePairForces(grains, length, timing);
     enter(StepTimes::Part::Walls);
     contactSystem.computeWallForces(grains, length, timing);
+    if (contactSystem.overlaps().isSurprised()) adaptive.pressed();
     if (contactSystem.movesLiquid()) {
         enter(StepTimes::Part::Liquid);
         contactSystem.moveLiquid(grains, getTime() + length, length);

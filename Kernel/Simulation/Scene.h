@@ -230,9 +230,9 @@ public:
     [[nodiscard]] double stableStepOfContacts();
     /// Which assumption of stabilityLimit() binds, and what is there instead. After initialise().
     [[nodiscard]] StabilityAdvice stabilityAdvice();
-    /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1) of what they and those
-    /// that may come stand, at most the largest step (s). Unless that is given, it is 0.9 over the highest
-    /// frequency of two grains (shortestContactTime() 0.9 / pi), which keeps bulk figures to 1 %. The run
+    /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; 0.9 keeps bulk figures to
+    /// their noise of 1 to 2 %) of what they and those that may come stand, at most 0.9 over the highest
+    /// frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The run
     /// begins with setTimeStep(). At set-up; not with moving images (shear, strain), rigid bodies, walls that
     /// forces move, viscous bridges or integrators that remember a step.
     void setAdaptiveTimeStep(double share, double largestStep = unset);

@@ -105,12 +105,14 @@ void Scene::chooseTimeStep() {
     const AdaptiveStep::Outlook outlook =
         adaptive.lookAhead(grains, step, most, norm(gravity), sizes.smallest());
     ContactBound bound;
-    if (!outlook.isFar) {
+    if (outlook.isKnown()) {
         contactSystem.listWithin(grains, outlook.contacts.reach);
         bound = bounds.find(contactSystem, wallHandler, grains, scheme(), outlook.contacts);
     }
-    const double limit = outlook.isFar ? sceneStabilityLimit(laws(), sizes, wallHandler, scheme()) : infinity;
+    const double limit =
+        outlook.isKnown() ? infinity : sceneStabilityLimit(laws(), sizes, wallHandler, scheme());
     setTimeStep(adaptive.choose(step, most, outlook, bound, limit));
+    contactSystem.expectOverlaps(adaptive.supposedOverlap());
     checkedStep = getTimeStep();
     enter(before);
 }

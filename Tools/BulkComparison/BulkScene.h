@@ -15,8 +15,8 @@ namespace pendular::bulk {
 
 /// One for all grains and walls; only the drum's wall has another friction.
 struct PeerMaterial {
-    static constexpr double density = 2500;        // kg/m^3
-    static constexpr double elasticModulus = 5e6;  // Pa, Young's
+    static constexpr double density = 2500;     // kg/m^3
+    static inline double elasticModulus = 5e6;  // Pa, Young's; bulk-figures --modulus-Pa
     static constexpr double poissonRatio = 0.2;
     static constexpr double restitution = 0.5;
     static constexpr double friction = 0.5;
