@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "Kernel/Math/ElementaryFunctions.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Walls/PartCover.h"
 
@@ -237,14 +239,15 @@ void ContactBounds::keep(const ContactSystem& contacts, const Bucket& bucket, st
 }
 
 void ContactBounds::summarise(ContactBound& found) const {
+    ExactSum sum;  // whatever the order of the list
     for (const Term& term : terms) {
         if (!(term.gap < 0)) continue;
         const double overlap = -term.gap / term.smallerRadius;
         ++found.touching;
         found.largestOverlap = std::max(found.largestOverlap, overlap);
-        found.meanOverlap += overlap;
+        sum.add(overlap);
     }
-    if (found.touching > 0) found.meanOverlap /= static_cast<double>(found.touching);
+    if (found.touching > 0) found.meanOverlap = sum.value() / static_cast<double>(found.touching);
 }
 
 /// By the way that it goes in the time, and by its energy, whichever is less. A spring whose stiffness k
@@ -260,7 +263,7 @@ double ContactBounds::reachedOverlap(const ContactLaws& laws, const Bucket& buck
     const double spring = laws.ofPair(bucket.species1, bucket.species2)
                               .normalStiffness(bucket.species1, bucket.species2, term.pair.bodies, way);
     const double share = 0.5 * term.pair.effectiveMass * approach * approach / (spring * way * way / 3.75);
-    return now + (share < 1 ? std::pow(share, 0.4) : 1) * way;
+    return now + (share < 1 ? exponential2(0.4 * logarithm2(std::max(share, 1e-300))) : 1) * way;
 }
 
 /// The stiffness of the contacts of a bucket at the overlaps that they have, or are supposed to have: with
