@@ -121,6 +121,39 @@ TEST(AdaptiveStep, isBelowTheBoundAtEachStepOfAnImpact) {
     }
 }
 
+// A heavy grain presses a light one into the floor, deeper than the light one could by itself: as soon as a
+// contact is deeper than was supposed, the step is chosen anew, before the next one.
+TEST(AdaptiveStep, isChosenAnewWhereAContactIsDeeperThanSupposed) {
+    const double light = 1e-3, heavy = 4e-3;  // m
+    scenes::FewGrains<Hertz> scene(
+        hertz(),
+        {{.radius = light, .position = {0, 0, light}},
+         {.radius = heavy, .position = {0, 0, 2 * light + heavy + 1e-6}, .velocity = {0, 0, -0.3}}},
+        1e-7, {{{0, 0, -1}, {0, 0, 0}}});
+    scene.setQuiet();
+    scene.setAdaptiveTimeStep(0.5);
+    scene.initialise();
+    const auto deepest = [&] {  // over the effective radius
+        double most = 0;
+        for (const ObservedContact& seen : scene.interactions())
+            most =
+                std::max(most, seen.overlap() / (seen.wall >= 0 ? light : light * heavy / (light + heavy)));
+        return most;
+    };
+    int surprises = 0;
+    for (int k = 0; k < 3000; ++k) {
+        const std::size_t choices = scene.adaptiveTimeStep().choiceCount();
+        // The kernel's overlap has another rounding than the observer's.
+        const bool isDeeper = deepest() > scene.adaptiveTimeStep().supposedOverlap() * (1 + 1e-9);
+        scene.step();
+        if (!isDeeper) continue;
+        ++surprises;
+        EXPECT_EQ(scene.adaptiveTimeStep().choiceCount(), choices + 1);
+    }
+    EXPECT_GT(surprises, 0);
+    EXPECT_GT(scene.motion(1).velocity.z(), 0);  // it has come back
+}
+
 // A wall that begins to move is seen in the step in which it does so, by what it moves. The grain lies on the
 // floor with its weight, an overlap of 0.04 %, 3.4 times softer than at 5 %.
 TEST(AdaptiveStep, isChosenAnewWhenAWallBeginsToMove) {
