@@ -262,7 +262,8 @@ double ContactBounds::reachedOverlap(const ContactLaws& laws, const Bucket& buck
     if (!(way > 0)) return now;
     const double spring = laws.ofPair(bucket.species1, bucket.species2)
                               .normalStiffness(bucket.species1, bucket.species2, term.pair.bodies, way);
-    const double share = 0.5 * term.pair.effectiveMass * approach * approach / (spring * way * way / 3.75);
+    const double last = approach + outlook.falling;  // m/s, at the end of the time: `falling` is the mean
+    const double share = 0.5 * term.pair.effectiveMass * last * last / (spring * way * way / 3.75);
     return now + (share < 1 ? exponential2(0.4 * logarithm2(std::max(share, 1e-300))) : 1) * way;
 }
 

@@ -8,7 +8,7 @@ struct AdaptiveTimeStepScene : FirstDriver {
 
         // [snippet]
         setTimeStep(stabilityLimit());  // s, the first one
-        setAdaptiveTimeStep(0.5);       // of what the contacts stand
+        setAdaptiveTimeStep(0.9);       // of what the contacts stand
         // [end]
     }
 };

@@ -154,6 +154,29 @@ TEST(AdaptiveStep, isChosenAnewWhereAContactIsDeeperThanSupposed) {
     EXPECT_GT(scene.motion(1).velocity.z(), 0);  // it has come back
 }
 
+// What a grain reaches by itself is never more than was supposed: it is let go above a floor and falls, rests
+// and is pressed by its weight alone, or comes with a speed.
+TEST(AdaptiveStep, supposesAtLeastTheOverlapsOfALoneGrain) {
+    for (const double speed : {0.0, 0.05, 0.5}) {
+        scenes::FewGrains<Hertz> scene(
+            hertz(), {{.radius = 1e-3, .position = {0, 0, 1e-3 + 2e-5}, .velocity = {0, 0, -speed}}}, 1e-6,
+            {{{0, 0, -1}, {0, 0, 0}}});
+        scene.setQuiet();
+        scene.setGravity({0, 0, -9.81});
+        scene.setAdaptiveTimeStep(0.9);
+        scene.initialise();
+        double deepest = 0;
+        for (int k = 0; k < 2000; ++k) {
+            scene.step();
+            for (const ObservedContact& seen : scene.interactions()) {
+                EXPECT_LE(seen.overlap() / 1e-3, scene.adaptiveTimeStep().supposedOverlap()) << speed;
+                deepest = std::max(deepest, seen.overlap());
+            }
+        }
+        EXPECT_GT(deepest, 1e-7) << speed;  // m
+    }
+}
+
 // A wall that begins to move is seen in the step in which it does so, by what it moves. The grain lies on the
 // floor with its weight, an overlap of 0.04 %, 3.4 times softer than at 5 %.
 TEST(AdaptiveStep, isChosenAnewWhenAWallBeginsToMove) {
