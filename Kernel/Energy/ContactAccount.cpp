@@ -16,7 +16,7 @@ struct RelativeMotion {
 /// is not where a grain that is no sphere touches.
 Vector<double> wallVelocityAt(const ContactSample& s) {
     if (!s.isShaped()) return s.wallVelocity;
-    const double below = dot(s.arm1, s.normal) + s.halfOverlap;
+    const double below = dot(s.arm1, s.normal) - s.halfOverlap;
     return s.wallVelocity + cross(s.wallSpin, s.arm1 - below * s.normal);
 }
 

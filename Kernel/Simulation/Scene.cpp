@@ -561,7 +561,10 @@ void Scene::takeOverChanges() {
             sumForcesOnNewDrives();
             intoLedger([&] { EnergyAccount::wallsChanged(wallHandler, ledger); });
         }
-        if (newLaws || newBodies || getTimeStep() != checkedStep || isNewToChecks(changes.added)) check();
+        const bool withShapes = laws().shapes() && !changes.added.empty();
+        if (newLaws || newBodies || withShapes || getTimeStep() != checkedStep ||
+            isNewToChecks(changes.added))
+            check();
         ParticleStore& grains = particleHandler.store();
         const bool isRenewed = newLaws || newBodies;
         if (!isRenewed && contactSystem.takeIn(grains, changes.added)) return;

@@ -114,9 +114,11 @@ void SuperquadricGeometry::writeRecords(ContactMemory& memory, std::size_t block
     const Mask touching = depth > Pack(0);
     const Vector<Pack> force = select(touching, fma(-normalForce, normal, tangential), zero());
     const Vector<Pack> torque1 = select(touching, cross(arm1, force), zero());
-    const Vector<Pack> both = torque1 - select(touching, cross(arm2, force), zero());
     // At a wall as for a sphere, since the sum of the forces on it takes the force to act under the centre.
-    const Vector<Pack> leverless = isAtWall ? cross(normal, force) : (Pack(1) / (radius1 + radius2)) * both;
+    Vector<Pack> leverless = cross(normal, force);
+    if (!isAtWall)
+        leverless =
+            (Pack(1) / (radius1 + radius2)) * (torque1 - select(touching, cross(arm2, force), zero()));
     const Vector<Pack> own = torque1 - radius1 * leverless;
     storeRecords(reinterpret_cast<double*>(&memory.records[block * Pack::lanes]),
                  std::array<Pack, 8>{force.x, force.y, force.z, Pack(0), leverless.x, leverless.y,

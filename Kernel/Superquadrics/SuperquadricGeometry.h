@@ -61,8 +61,11 @@ public:
     [[nodiscard]] const Pack& slidingResponse() const { return response; }
     /// Of the last step, if they touched in it; else zero.
     [[nodiscard]] const Vector<Pack>& lastNormal() const { return normalBefore; }
-    /// What it has changed by since then.
-    [[nodiscard]] Vector<Pack> normalShift() const { return select(touched, normal - normalBefore, zero()); }
+    /// What it has changed by since then, in the tangent plane of today.
+    [[nodiscard]] Vector<Pack> normalShift() const {
+        const Vector<Pack> shift = normal - normalBefore;
+        return select(touched, shift - dot(normal, shift) * normal, zero());
+    }
 
     /// The forces, with a lever arm and a torque of the contact's own that make the torques arm x force of
     /// both bodies, as the particle sum adds them up: (radius - halfOverlap) leverless +- torque.

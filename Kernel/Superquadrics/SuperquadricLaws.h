@@ -31,6 +31,7 @@ public:
         SpeciesLaws<S>::prepare(buckets);
     }
     bool compute(const ContactTask& task) const override {
+        if (superquadrics.isEmpty()) return true;  // blocks of grains that have all gone
         return this->computeBlocks(task,
                                    [&](std::size_t block) { return superquadrics.geometryOf(task, block); });
     }

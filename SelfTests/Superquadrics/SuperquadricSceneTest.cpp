@@ -3,7 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/CoarseGraining/FieldOutput.h"
 #include "Kernel/Math/CountedRandom.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/SlidingFriction.h"
@@ -385,6 +387,11 @@ TEST(SuperquadricScene, refusesWhatItDoesNotKnow) {
                              scene.wallHandler.copyAndAddObject(wall);
                          }),
                          "not plane"));
+    EXPECT_TRUE(contains(sentence([](auto& scene) {
+                             scene.addOutput(FieldOutput(FieldGrid("Z", {0, 0, 0}, {1e-2, 1e-2, 1e-2}, 1e-3),
+                                                         KernelShape::Gauss, 1e-3));
+                         }),
+                         "take grains for spheres"));
     // The spheres around them overlap by half, but they do not; and they do if they are turned.
     const auto beside = [&](double angle) {
         return sentence([&](auto& scene) {
@@ -393,6 +400,39 @@ TEST(SuperquadricScene, refusesWhatItDoesNotKnow) {
     };
     EXPECT_EQ(beside(0), "");
     EXPECT_TRUE(contains(beside(0.5 * std::numbers::pi), "initial overlap"));
+}
+
+/// Two that touch.
+struct Touching : FewSuperquadrics<Smooth> {
+    Touching() : FewSuperquadrics(elastic(1000), {}, 1e-6) {
+        for (const double x : {0.0, 1.99e-3}) add({{1e-3, 1e-3, 1e-3}, {x, 0, 0}});
+        initialise();
+        step(5);
+    }
+};
+
+// Before the step, as at set-up.
+TEST(SuperquadricScene, refusesAPlainGrainInTheRun) {
+    Touching scene;
+    SphericalParticle plain;
+    plain.setSpecies(scene.speciesHandler.getObject(0));
+    plain.setRadius(1e-3);
+    plain.setPosition({0.1, 0, 0});
+    scene.particleHandler.copyAndAddObject(plain);
+    try {
+        scene.step();
+        FAIL() << "it was taken in";
+    } catch (const RunError& error) {
+        EXPECT_TRUE(contains(error.what(), "is no superquadric")) << error.what();
+    }
+}
+
+// Blocks of contacts whose grains have all gone are left alone.
+TEST(SuperquadricScene, goesOnWithoutGrains) {
+    Touching scene;
+    for (const std::size_t k : {0u, 1u}) scene.bodyHandler.removeObject(k);
+    scene.step(5);
+    EXPECT_EQ(scene.particleHandler.getSize(), 0u);
 }
 
 }  // namespace
