@@ -128,10 +128,11 @@ TEST(AdaptiveStep, isChosenAnewWhereAContactIsDeeperThanSupposed) {
     scenes::FewGrains<Hertz> scene(
         hertz(),
         {{.radius = light, .position = {0, 0, light}},
-         {.radius = heavy, .position = {0, 0, 2 * light + heavy + 1e-6}, .velocity = {0, 0, -0.3}}},
+         {.radius = heavy, .position = {0, 0, 2 * light + heavy + 4e-5}, .velocity = {0, 0, -0.3}}},
         1e-7, {{{0, 0, -1}, {0, 0, 0}}});
     scene.setQuiet();
-    scene.setAdaptiveTimeStep(0.5);
+    scene.setTimeStep(0.9 * scene.stabilityLimit());
+    scene.setAdaptiveTimeStep(0.9);
     scene.initialise();
     const auto deepest = [&] {  // over the effective radius
         double most = 0;
