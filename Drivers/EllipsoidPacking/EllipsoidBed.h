@@ -24,7 +24,7 @@ struct EllipsoidBedOptions {
     int exponent = 2;        // of the shape; 2: ellipsoids
     double friction = 0;
     double stiffness = 1e4;  // of a contact, over m g / d
-    double endTime = 1;      // s, at most
+    double endTime = 3;      // s, at most
     std::uint64_t seed = 1;
     RunOptions run{.output = "EllipsoidPacking-output"};
 };
@@ -81,7 +81,7 @@ public:
     }
 
     void setupInitialConditions() override {
-        auto* const material = addMaterial();
+        auto* const material = speciesHandler.copyAndAddObject(materialOf(options));
         for (int axis = 0; axis < 2; ++axis) setPeriodic(axis, 0, width());
         InfiniteWall floor;
         floor.setSpecies(material), floor.set({0, 0, -1}, {0, 0, 0});
@@ -104,7 +104,7 @@ public:
         if (getNumberOfTimeSteps() % 200 != 0 ||
             getTime() < std::sqrt(2 * placeOf(lastNumber()).z() / gravity))
             return;
-        isAtRest = restlessness() < 1e-4 ? 1 : 0;
+        isAtRest = restlessness() < 5e-4 ? 1 : 0;
     }
     [[nodiscard]] bool continueSolve() const override { return isAtRest == 0; }
     void visitState(StateArchive& archive) override { archive.value("isAtRest", isAtRest); }
@@ -113,7 +113,23 @@ public:
     /// Kinetic energy of a grain, on average, over m g d.
     [[nodiscard]] double restlessness() {
         return kineticEnergy(particleHandler.store()) /
-               (static_cast<double>(options.number) * meanMass() * gravity * options.diameter);
+               (static_cast<double>(options.number) * meanMass(options) * gravity * options.diameter);
+    }
+
+    /// kg
+    static double meanMass(const EllipsoidBedOptions& options) {
+        return density * constants::pi / 6 * std::pow(options.diameter, 3);
+    }
+    static LinearViscoelasticSlidingFrictionSpecies materialOf(const EllipsoidBedOptions& options) {
+        LinearViscoelasticSlidingFrictionSpecies material;
+        const double mass = meanMass(options);
+        material.setDensity(density);
+        material.setStiffnessAndRestitutionCoefficient(options.stiffness * mass * gravity / options.diameter,
+                                                       0.3, mass);
+        material.setSlidingStiffness(2.0 / 7 * material.getStiffness());
+        material.setSlidingDissipation(material.getDissipation());
+        material.setSlidingFrictionCoefficient(options.friction);
+        return material;
     }
 
     /// What is between a quarter and three quarters of the height of the bed, which is twice that of its
@@ -151,8 +167,6 @@ public:
 private:
     static constexpr double density = 2500, gravity = 9.81;  // kg/m^3, m/s^2
 
-    [[nodiscard]] double meanVolume() const { return constants::pi / 6 * std::pow(options.diameter, 3); }
-    [[nodiscard]] double meanMass() const { return density * meanVolume(); }
     [[nodiscard]] std::uint32_t lastNumber() const { return static_cast<std::uint32_t>(options.number - 1); }
     /// m, on a lattice on which no two can touch.
     [[nodiscard]] Vec3D placeOf(std::uint32_t k) const {
@@ -161,17 +175,6 @@ private:
         const double spacing = width() / row;
         return {(k % row + 0.5) * spacing, (k / row % row + 0.5) * spacing, (k / (row * row) + 0.5) * cell};
     }
-    LinearViscoelasticSlidingFrictionSpecies* addMaterial() {
-        auto* const material = speciesHandler.copyAndAddObject({});
-        material->setDensity(density);
-        material->setStiffnessAndRestitutionCoefficient(
-            options.stiffness * meanMass() * gravity / options.diameter, 0.3, meanMass());
-        material->setSlidingStiffness(2.0 / 7 * material->getStiffness());
-        material->setSlidingDissipation(material->getDissipation());
-        material->setSlidingFrictionCoefficient(options.friction);
-        return material;
-    }
-
     EllipsoidBedOptions options;
     double aspect;
     Superquadric shape;  // of volume 1

@@ -10,6 +10,7 @@ set y2label "contacts of a grain"
 set ytics nomirror
 set y2tics
 set logscale x
+set xrange [0.4:3]
 set xtics (0.5, 0.7, 1, 1.5, 2, 3)
 set yrange [0.55:0.8]
 set y2range [0:15]

@@ -34,7 +34,7 @@ class SuperquadricGeometry {
 public:
     /// Hertz's law takes Gauss' radius, which is infinite on flat faces, up to so many times that of the
     /// spheres around: ellipsoids up to 1 : 4 have their own everywhere, and a contact is at most twice as
-    /// stiff as that of the spheres, which the stability limit counts with.
+    /// stiff as that of the spheres.
     static constexpr double mostRadii = 4;
 
     /// @param wall points of it, or null

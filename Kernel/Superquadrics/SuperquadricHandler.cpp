@@ -17,21 +17,16 @@ namespace {
 
 /// kg, of the largest free sphere of a body, as the stability limit takes it (RigidBodies::response): it
 /// compares the mass with which the body's contacts move, 1 / max(1/m, R^2 / (5/2 I)) with the smallest
-/// moment I, with that of this sphere. A normal force at an arm turns a superquadric as well, by at most
-/// (R^2 - r^2) / I with the radius r of the sphere inside: the support point at a normal n has
-/// |arm x n|^2 = |arm|^2 - h(n)^2. Contacts are up to sqrt(mostRadii) as stiff as those of spheres.
-double freeMass(const RigidBody& body, const Superquadric& shape, double massOfSphere) {
-    const double r = std::min({shape.a, shape.b, shape.c}), radius = shape.boundingRadius();
+/// moment I, with that of this sphere. A normal force at an arm turns a superquadric as well.
+double freeMass(const RigidBody& body, const Superquadric& shape, double turning, double massOfSphere) {
+    const double radius = shape.boundingRadius();
     const double moment = std::min({body.inertia.x, body.inertia.y, body.inertia.z});
     const double ofSpheres = std::max(1 / body.mass, radius * radius / (2.5 * moment));
-    const double turning = (radius * radius - r * r) / moment;
-    if (!(turning > 0)) return massOfSphere;
-    const double own = std::max(1 / body.mass + turning, ofSpheres);
-    return massOfSphere * std::sqrt(SuperquadricGeometry::mostRadii) * own / ofSpheres;
+    return massOfSphere * std::max((1 + turning) / body.mass, ofSpheres) / ofSpheres;
 }
 
 /// The axes of the shape are the principal ones: no search for them, which might change their order.
-RigidBody bodyOf(const SuperquadricGrain& grain, double density, double massOfSphere) {
+RigidBody bodyOf(const SuperquadricGrain& grain, double density, double turning, double massOfSphere) {
     const MassProperties solid = grain.getShape().mass();
     const Eigen::Quaterniond& q = grain.getOrientation();
     const SphericalParticle& around = grain.around();
@@ -41,7 +36,7 @@ RigidBody bodyOf(const SuperquadricGrain& grain, double density, double massOfSp
                    .velocity = toVector(around.getVelocity()),
                    .orientation = {q.w(), toVector(Vec3D(q.vec()))}};
     body.setSpin(toVector(around.getAngularVelocity()));
-    body.largestFreeMass = freeMass(body, grain.getShape(), massOfSphere);
+    body.largestFreeMass = freeMass(body, grain.getShape(), turning, massOfSphere);
     return body;
 }
 
@@ -54,20 +49,31 @@ SuperquadricPair<double> pairOf(const Superquadric& one, const RigidBody& first,
 }  // namespace
 
 std::uint32_t SuperquadricHandler::numberOf(const Superquadric& shape) {
-    const auto isSame = [&](const Superquadric& other) {
-        return shape.a == other.a && shape.b == other.b && shape.c == other.c && shape.n1 == other.n1 &&
-               shape.n2 == other.n2;
-    };
-    // The last ones first: grains of a shape come together.
-    const auto found = std::ranges::find_if(shapes.rbegin(), shapes.rend(), isSame);
-    if (found != shapes.rend()) return static_cast<std::uint32_t>(shapes.rend() - found - 1);
-    shapes.push_back(shape);
-    shapesHaveChanged();
-    return static_cast<std::uint32_t>(shapes.size() - 1);
+    const auto [found, isNew] =
+        numbers.try_emplace({shape.a, shape.b, shape.c, 1.0 * shape.n1, 1.0 * shape.n2},
+                            static_cast<std::uint32_t>(shapes.size()));
+    if (isNew) addShape(shape);
+    return found->second;
 }
 
-void SuperquadricHandler::shapesHaveChanged() {
-    areEllipsoids = std::ranges::all_of(shapes, &Superquadric::isEllipsoid);
+void SuperquadricHandler::addShape(const Superquadric& shape) {
+    shapes.push_back(shape);
+    areEllipsoids &= shape.isEllipsoid();
+    largestRadii = std::max(largestRadii, contactOf(shape).radii);
+}
+
+const ExtremeContact& SuperquadricHandler::contactOf(const Superquadric& shape) {
+    const auto isScaled = [&](const auto& known) {
+        const double scale = shape.a / known.first.a;
+        const auto isNear = [&](double own, double other) {
+            return std::abs(own - scale * other) < 1e-9 * own;
+        };
+        return isNear(shape.b, known.first.b) && isNear(shape.c, known.first.c) &&
+               shape.n1 == known.first.n1 && shape.n2 == known.first.n2;
+    };
+    const auto found = std::ranges::find_if(extremes, isScaled);
+    if (found != extremes.end()) return found->second;
+    return extremes.emplace_back(shape, extremeContact(shape)).second;
 }
 
 BodyReference SuperquadricHandler::copyAndAddObject(const SuperquadricGrain& grain) {
@@ -77,7 +83,8 @@ BodyReference SuperquadricHandler::copyAndAddObject(const SuperquadricGrain& gra
         particles.massOf(grain.around().getRadius(), grain.around().getSpeciesIndex());
     const double density = massOfSphere / sphereMass(grain.around().getRadius(), 1);
     const BodyMember member{identity, {0, 0, 0}};
-    const std::uint32_t number = grains.bodies.add(bodyOf(grain, density, massOfSphere), {&member, 1});
+    const std::uint32_t number = grains.bodies.add(
+        bodyOf(grain, density, contactOf(grain.getShape()).turning, massOfSphere), {&member, 1});
     grains.bodies.place(grains, grains.bodies.size() - 1);
     particles.noteJoined({&identity, 1});
     shapeOfBody.resize(number, RigidBodies::none);
@@ -152,7 +159,9 @@ void SuperquadricHandler::visitState(StateArchive& archive) {
     fallbackCount = count;
     archive.require(exponents.size() == 2 * halfLengths.size(), "exponents",
                     "does not have two of each shape");
-    shapes.clear();
+    shapes.clear(), numbers.clear();
+    areEllipsoids = true;
+    largestRadii = 1;
     for (std::size_t k = 0; k < halfLengths.size(); ++k) {
         const Vector<double>& lengths = halfLengths[k];
         for (const std::uint32_t n : {exponents[2 * k], exponents[2 * k + 1]})
@@ -161,15 +170,15 @@ void SuperquadricHandler::visitState(StateArchive& archive) {
         archive.require(
             lengths.x > 0 && lengths.y > 0 && lengths.z > 0 && lengths.x + lengths.y + lengths.z < infinity,
             "halfLengths", "has one that is not positive");
-        shapes.push_back({lengths.x, lengths.y, lengths.z, static_cast<int>(exponents[2 * k]),
-                          static_cast<int>(exponents[2 * k + 1])});
+        static_cast<void>(numberOf({lengths.x, lengths.y, lengths.z, static_cast<int>(exponents[2 * k]),
+                                    static_cast<int>(exponents[2 * k + 1])}));
+        archive.require(shapes.size() == k + 1, "halfLengths", "has a shape twice");
     }
     archive.require(std::ranges::all_of(shapeOfBody,
                                         [&](std::uint32_t shape) {
                                             return shape < shapes.size() || shape == RigidBodies::none;
                                         }),
                     "shapeOfBody", "has one that is not there");
-    shapesHaveChanged();
 }
 
 // Eight at a time

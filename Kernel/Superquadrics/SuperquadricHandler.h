@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <map>
 #include <vector>
 
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/Superquadrics/ExtremeContact.h"
 #include "Kernel/Superquadrics/SuperquadricGeometry.h"
 #include "Kernel/Superquadrics/SuperquadricGrain.h"
 
@@ -40,6 +43,9 @@ public:
                                            const Vector<double>& normal, double distance) const override;
     void check(const WallHandler& walls) const override;
 
+    /// By which Gauss' radius at a contact may be larger than that of the spheres around, at most: for the
+    /// stability limit.
+    [[nodiscard]] double largestRadiusRatio() const { return largestRadii; }
     /// Of the eight contacts of a block.
     [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block) const;
     /// Throws InputError if a grain of the scene has no shape.
@@ -51,13 +57,17 @@ private:
         return grains.bodies[grains.bodies.find(grains.bodies.bodyOf(grains.identity[place]))];
     }
     [[nodiscard]] std::uint32_t numberOf(const Superquadric& shape);
-    void shapesHaveChanged();
+    void addShape(const Superquadric& shape);
+    [[nodiscard]] const ExtremeContact& contactOf(const Superquadric& shape);
 
     ParticleHandler& particles;
-    std::vector<Superquadric> shapes;        // that differ
-    std::vector<std::uint32_t> shapeOfBody;  // by the number of the body
-    bool areEllipsoids = true;               // all: one way for a whole scene, so that no bit depends on
-                                             // which contacts are in a block
+    std::vector<Superquadric> shapes;                        // that differ
+    std::map<std::array<double, 5>, std::uint32_t> numbers;  // of shapes, by lengths and exponents
+    std::vector<std::uint32_t> shapeOfBody;                  // by the number of the body
+    bool areEllipsoids = true;  // all: one way for a whole scene, so that no bit depends on
+                                // which contacts are in a block
+    double largestRadii = 1;
+    std::vector<std::pair<Superquadric, ExtremeContact>> extremes;  // of shapes that are not scaled others
     mutable std::atomic<std::uint64_t> fallbackCount = 0;
 };
 

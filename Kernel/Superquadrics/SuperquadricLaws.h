@@ -21,6 +21,12 @@ public:
         this->layout.hasTorque = this->layout.hasContactTorque = true;
     }
 
+    /// At Gauss' radius R where it is largest: a stiffness that goes with sqrt(R x overlap), of an overlap
+    /// that is a share of the radius, goes with the root of R when both lengths do.
+    [[nodiscard]] ContactStiffness stiffness(int a, int b, const Bodies& bodies, double mass) const override {
+        const double factor = std::sqrt(superquadrics.largestRadiusRatio());
+        return SpeciesLaws<S>::stiffness(a, b, {factor * bodies.radius1, factor * bodies.radius2}, mass);
+    }
     [[nodiscard]] const GrainShapes* shapes() const override { return &superquadrics; }
     void visitState(StateArchive& archive, bool& changedInRun) override {
         SpeciesLaws<S>::visitState(archive, changedInRun);

@@ -45,7 +45,7 @@ TEST(EllipsoidPacking, writesARowForEachAspectRatio) {
     const auto rows = rowsOf(folder.path() / "packing.csv");
     ASSERT_EQ(rows.size(), 2u);
     for (const auto& row : rows) {
-        EXPECT_LT(row[8], 1e-4);           // at rest
+        EXPECT_LT(row[8], 5e-4);           // at rest
         EXPECT_GT(row[3], 0.45);           // looser than any bed at rest without friction
         EXPECT_LT(row[3], 0.7405 + 0.03);  // about the densest of equal spheres
         EXPECT_GT(row[4], 3);

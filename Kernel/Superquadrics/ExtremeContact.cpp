@@ -1,0 +1,36 @@
+#include "Kernel/Superquadrics/ExtremeContact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Shapes/SuperquadricSupport.h"
+#include "Kernel/Superquadrics/SuperquadricGeometry.h"
+
+namespace pendular {
+
+ExtremeContact extremeContact(const Superquadric& shape) {
+    constexpr int intervals = 64;
+    const auto lanes = SuperquadricLanes<double>::from(shape);
+    const MassProperties solid = shape.mass();
+    const Eigen::Vector3d moments = solid.inertia.diagonal() / solid.volume;  // m^2, over the mass
+    ExtremeContact most{0, 1};
+    for (int i = 0; i <= intervals; ++i)
+        for (int j = 0; j <= intervals; ++j) {
+            const double down = 0.5 * std::numbers::pi * i / intervals,
+                         around = 0.5 * std::numbers::pi * j / intervals;
+            const Vector<double> n{std::sin(down) * std::cos(around), std::sin(down) * std::sin(around),
+                                   std::cos(down)};
+            const SupportPoint<double> at = supportPoint(lanes, n);
+            const Vector<double> l = cross(at.point, n);
+            most.turning = std::max(
+                most.turning, l.x * l.x / moments.x() + l.y * l.y / moments.y() + l.z * l.z / moments.z());
+            const TangentPlane<double> plane(n);
+            const double gauss = curvature(at, plane.u, plane.v).determinant();
+            const double radius = gauss > 0 ? 1 / std::sqrt(gauss) : infinity;
+            most.radii = std::max(most.radii, radius / shape.boundingRadius());
+        }
+    return {1.01 * most.turning, std::min(1.01 * most.radii, SuperquadricGeometry::mostRadii)};
+}
+
+}  // namespace pendular
