@@ -39,14 +39,15 @@ TEST(EllipsoidPacking, writesARowForEachAspectRatio) {
     const support::TestFolder folder;
     const auto result =
         support::run(driverRuns::drivers +
-                     "/EllipsoidPacking/EllipsoidPacking --quiet --number 30 --aspects 1 1.4 --width 4 " +
+                     "/EllipsoidPacking/EllipsoidPacking --quiet --number 30 --aspects 1 1.4 --width 4 "
+                     "--friction 0.5 " +
                      folder.option());
     ASSERT_EQ(result.exitCode, 0) << result.output;
     const auto rows = rowsOf(folder.path() / "packing.csv");
     ASSERT_EQ(rows.size(), 2u);
     for (const auto& row : rows) {
-        EXPECT_LT(row[8], 5e-4);           // at rest
-        EXPECT_GT(row[3], 0.45);           // looser than any bed at rest without friction
+        EXPECT_LT(row[8], 5e-4);           // at rest: of few grains without friction some go on to slide
+        EXPECT_GT(row[3], 0.45);           // looser than any bed at rest
         EXPECT_LT(row[3], 0.7405 + 0.03);  // about the densest of equal spheres
         EXPECT_GT(row[4], 3);
         EXPECT_EQ(row[6], 0);  // fallbacks
