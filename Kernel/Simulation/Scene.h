@@ -230,8 +230,8 @@ public:
     [[nodiscard]] double stableStepOfContacts();
     /// Which assumption of stabilityLimit() binds, and what is there instead. After initialise().
     [[nodiscard]] StabilityAdvice stabilityAdvice();
-    /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; 0.9 keeps bulk figures to
-    /// their noise of 1 to 2 %) of what they and those that may come stand, at most 0.9 over the highest
+    /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; with 0.9 bulk figures
+    /// were the same to 2.4 %) of what they and those that may come stand, at most 0.9 over the highest
     /// frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The run
     /// begins with setTimeStep(). At set-up; not with moving images (shear, strain), rigid bodies, walls that
     /// forces move, viscous bridges or integrators that remember a step.
