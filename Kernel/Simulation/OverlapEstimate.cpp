@@ -1,0 +1,112 @@
+#include "Kernel/Simulation/OverlapEstimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Simulation/Scene.h"
+
+namespace pendular {
+namespace {
+
+/// What a normal law does at an overlap, by the integrals of its slope.
+class NormalCurve {
+public:
+    NormalCurve(const PairLaws& laws, const Bodies& of) : pair(laws), bodies(of) {}
+
+    [[nodiscard]] double stiffness(double overlap) const {  // N/m
+        return pair.laws.normalStiffness(pair.a, pair.b, bodies, overlap);
+    }
+    [[nodiscard]] double force(double overlap) const {  // N
+        return integral(overlap, [](double) { return 1.0; });
+    }
+    [[nodiscard]] double energy(double overlap) const {  // J
+        return integral(overlap, [&](double x) { return overlap - x; });
+    }
+    /// m, where a function of the overlap that grows reaches a value; at most the smaller radius.
+    template <class Function>
+    [[nodiscard]] double overlapAt(double value, Function&& function) const {
+        double low = 0, high = std::min(bodies.radius1, bodies.radius2);
+        for (int k = 0; k < 60; ++k) {
+            const double middle = 0.5 * (low + high);
+            (function(middle) < value ? low : high) = middle;
+        }
+        return high;
+    }
+
+private:
+    /// By the middles of intervals that grow from the touch on, as s^2: Hertz's slope is smooth in s.
+    template <class Weight>
+    [[nodiscard]] double integral(double overlap, Weight&& weight) const {
+        constexpr int intervals = 64;
+        double sum = 0;
+        for (int k = 0; k < intervals; ++k) {
+            const double s = (k + 0.5) / intervals, x = s * s * overlap;
+            sum += 2 * s * overlap / intervals * stiffness(x) * weight(x);
+        }
+        return sum;
+    }
+
+    PairLaws pair;
+    Bodies bodies;
+};
+
+struct Loads {
+    double pressure, speed;  // Pa, m/s
+};
+Loads loadsOf(const Scene& scene, const ParticleStore& grains, const GrainSizes& sizes, double pressure) {
+    const Vector<double> gravity = toVector(scene.getGravity()), side = sizes.highest - sizes.lowest;
+    const double g = norm(gravity);
+    double mass = 0, fastest = 0;
+    for (const std::uint32_t at : grains.place) {
+        const TranslationRecord& grain = grains.translation[at];
+        if (grain.inverseMass > 0) mass += 1 / grain.inverseMass;
+        fastest = std::max(fastest, norm(grain.velocity));
+    }
+    if (!(g > 0)) return {pressure, fastest};
+    const Vector<double> n = (1 / g) * gravity;
+    const double shadow =
+        side.y * side.z * std::abs(n.x) + side.x * side.z * std::abs(n.y) + side.x * side.y * std::abs(n.z);
+    const double height = side.x * std::abs(n.x) + side.y * std::abs(n.y) + side.z * std::abs(n.z);
+    return {pressure + mass * g / shadow, fastest + std::sqrt(2 * g * height)};
+}
+
+}  // namespace
+
+OverlapEstimate estimateOverlaps(Scene& scene, double pressure) {
+    checkValue("Simulation", "pressure for the estimate of overlaps", pressure, "Pa", notNegative);
+    OverlapEstimate found{.limit = scene.stabilityLimit()};
+    const ParticleStore& grains = scene.particleHandler.store();
+    if (grains.count() == 0)
+        throw InputError("Simulation: overlaps are estimated for grains that are there; add them first.");
+    const GrainSizes sizes = scene.grainSizes(grains);
+    const Loads loads = loadsOf(scene, grains, sizes, pressure);
+    double shortest = infinity;  // over the limit
+    forEachExtremePair(
+        scene.laws(), sizes, scene.wallHandler, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+            const NormalCurve curve(laws, bodies);
+            const double smaller = std::min(bodies.radius1, bodies.radius2),
+                         diameter = (bodies.radius2 < infinity ? 4 : 2) * bodies.effectiveRadius();
+            const double load = std::numbers::pi * diameter * diameter * loads.pressure / (6 * 0.6);
+            const double byWeight = curve.overlapAt(load, [&](double x) { return curve.force(x); }),
+                         bySpeed = curve.overlapAt(0.5 * mass * loads.speed * loads.speed,
+                                                   [&](double x) { return curve.energy(x); });
+            found.byWeight = std::max(found.byWeight, byWeight / smaller);
+            found.bySpeed = std::max(found.bySpeed, bySpeed / smaller);
+            const double here = curve.stiffness(std::max(byWeight, bySpeed));
+            shortest = std::min(shortest, std::sqrt(curve.stiffness(largestSoundOverlap * smaller) / here));
+        });
+    found.step = shortest * found.limit;
+    return found;
+}
+
+std::string OverlapEstimate::text() const {
+    return fmt::format(
+        "Expected overlaps: {:.2g} % of the radius by weight and pressure, {:.2g} % by speed. The stability "
+        "limit of {:.3g} s supposes 5 %; at these it would be about {:.3g} s.",
+        100 * byWeight, 100 * bySpeed, limit, step);
+}
+
+}  // namespace pendular
