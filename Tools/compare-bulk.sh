@@ -99,11 +99,11 @@ for scene in $scenes; do
     done
 done
 
+cp "$raw" "$output/bulk-runs.csv"
 {
     "$tools/describe-machine.sh" "$command_line; one thread each; user time of the processor (of Pendular with system time), medians of the seeds, in turn"
     awk -F, -f "$tools/Peers/bulk-table.awk" "$raw"
 } >"$output/bulk-peers.csv"
-cp "$raw" "$output/bulk-runs.csv"
 cat "$output/bulk-peers.csv"
 if command -v gnuplot >/dev/null; then
     gnuplot -c "$tools/Peers/bulk.gp" "$output/bulk-peers.csv" "$output/bulk-peers.png"

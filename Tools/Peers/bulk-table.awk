@@ -22,6 +22,13 @@ function reference(scene, code) { return scene SUBSEP first[scene, code ~ /^pend
     }
 }
 END {
+    for (c = 1; c <= count; c++) {
+        run = reference(scene[c], code[c])
+        if (alive[run] == runs[run]) continue
+        split(first[scene[c], code[c] ~ /^pendular/ ? "pendular-default" : code[c]], parts, ",")
+        printf "%s: %s lost grains at its smallest step, %s of Rayleigh's time, which its others are compared with; begin with a smaller one.\n", scene[c], parts[1], parts[2] >"/dev/stderr"
+        exit 1
+    }
     print "scene,code,step_over_rayleigh_time_or_share,step_s,runs,runs_that_survived,processor_s_per_s,figure,mean,standard_error,deviation_percent,deviation_standard_error_percent"
     for (c = 1; c <= count; c++) {
         run = order[c]
