@@ -57,8 +57,9 @@ double admissiblePart(const DelaunayArc& arc, const Eigen::Vector4d& step) {
     return std::min(1.0, most / relativeSize(arc, step));
 }
 
-std::optional<ConvergedArc> convergeArc(const BridgeEquations& equations, double gap, DelaunayArc guess) {
-    int nodes = coarseNodes, evaluations = 1;
+std::optional<ConvergedArc> convergeArc(const BridgeEquations& equations, double gap, DelaunayArc guess,
+                                        int nodes) {
+    int evaluations = 1;
     Trial trial{guess, equations.at(guess, gap, nodes)};
     while (evaluations < mostEvaluations) {
         const double size = trial.value.residual.norm();

@@ -14,7 +14,10 @@ struct ConvergedArc {
 };
 
 /// The arc that Newton's method, damped, reaches from a first guess; nothing if it fails.
-std::optional<ConvergedArc> convergeArc(const BridgeEquations& equations, double gap, DelaunayArc guess);
+/// @param nodes of the quadrature to begin with. Few are fast from a poor guess; from a good one near a fold
+/// they lead away, as by them the fold is at another gap.
+std::optional<ConvergedArc> convergeArc(const BridgeEquations& equations, double gap, DelaunayArc guess,
+                                        int nodes = coarseQuadratureNodes);
 
 /// The arc moved by a step in its four parameters.
 DelaunayArc moved(const DelaunayArc& arc, const Eigen::Vector4d& step);

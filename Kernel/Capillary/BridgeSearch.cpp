@@ -22,13 +22,20 @@ bool goesOnSmoothly(const BranchPoint& from, const BranchPoint& to) {
     return to.direction.dot(from.direction) > 0.95;
 }
 
-/// The point where a function becomes zero, between a point of the branch and one further on where the
-/// function has the other sign: regula falsi, Illinois variant (Dowell and Jarratt, BIT 11 (1971) 168-174).
-/// Nothing if the function jumps, or if the branch turns much on the way: then the two points are not on one
-/// branch, or too far apart.
+/// A step along the stable branch.
+struct Stretch {
+    BranchPoint to;  // its end, or the last stable point if the branch loses its stability before
+    double distance;
+    bool ends;
+};
+
+/// The stretch up to where a function becomes zero, between a point of the branch and one further on where
+/// the function has the other sign: regula falsi, Illinois variant (Dowell and Jarratt, BIT 11 (1971)
+/// 168-174). Nothing if the function jumps, or if the branch turns much on the way: then the two points are
+/// not on one branch, or too far apart.
 template <class Function>
-std::optional<BranchPoint> zeroBetween(const BridgeBranch& branch, const BranchPoint& from,
-                                       const BranchPoint& to, double distance, Function function) {
+std::optional<Stretch> zeroBetween(const BridgeBranch& branch, const BranchPoint& from, const BranchPoint& to,
+                                   double distance, Function function) {
     double low = 0, high = distance;
     double lowValue = function(from), highValue = function(to);
     const double scale = std::abs(lowValue) + std::abs(highValue);
@@ -37,8 +44,10 @@ std::optional<BranchPoint> zeroBetween(const BridgeBranch& branch, const BranchP
         const auto point = branch.after(from, next);
         if (!point || !goesOnSmoothly(from, *point)) return {};
         const double value = function(*point);
-        if (std::abs(value) < 1e-13 * scale || std::abs(next - high) < 1e-13 * distance)
-            return std::abs(value) < 1e-6 * scale ? point : std::nullopt;
+        if (std::abs(value) < 1e-13 * scale || std::abs(next - high) < 1e-13 * std::abs(distance)) {
+            if (std::abs(value) < 1e-6 * scale) return Stretch{*point, next, true};
+            return {};
+        }
         if (value * highValue < 0) {
             low = high;
             lowValue = highValue;
@@ -51,13 +60,6 @@ std::optional<BranchPoint> zeroBetween(const BridgeBranch& branch, const BranchP
     return {};
 }
 
-/// A step along the stable branch.
-struct Stretch {
-    BranchPoint to;  // its end, or the last stable point if the branch loses its stability before
-    double distance;
-    bool ends;
-};
-
 /// The next stretch, of the given length or less; backwards, if negative.
 std::optional<Stretch> advance(const BridgeBranch& branch, const BranchPoint& from, double distance) {
     const auto product = [](const BranchPoint& at) { return at.stability.product(); };
@@ -66,8 +68,7 @@ std::optional<Stretch> advance(const BridgeBranch& branch, const BranchPoint& fr
         if (!to || !goesOnSmoothly(from, *to)) continue;
         if (isStable(*to)) return Stretch{*to, distance, false};
         if (product(*to) < 0)  // else two modes became unstable in one step
-            if (const auto zero = zeroBetween(branch, from, *to, distance, product))
-                return Stretch{*zero, distance, true};
+            if (const auto zero = zeroBetween(branch, from, *to, distance, product)) return zero;
     }
     return {};
 }
@@ -83,6 +84,15 @@ struct Walk {
     std::optional<BranchEnd> end;        // or the end of the branch, before
 };
 
+/// The point of a stretch at a gap that it reaches. The gap grows all along a stable stretch; near its end at
+/// a fold it does so as a parabola with its top there, so that it is followed by distance along the branch.
+std::optional<BranchPoint> pointAtGap(const BridgeBranch& branch, const BranchPoint& from,
+                                      const Stretch& stretch, double gap) {
+    const auto arrived = zeroBetween(branch, from, stretch.to, stretch.distance,
+                                     [gap](const BranchPoint& at) { return at.gap - gap; });
+    return arrived ? std::optional(arrived->to) : std::nullopt;
+}
+
 /// Goes up or down to the given gap.
 Walk walk(const BridgeBranch& branch, BranchPoint point, double gap) {
     const double sense = gap < point.gap ? -1 : 1;
@@ -91,11 +101,7 @@ Walk walk(const BridgeBranch& branch, BranchPoint point, double gap) {
         const auto stretch = advance(branch, point, sense * distance);
         if (!stretch || contactRadius(point) < detachedRadius * point.arc.length())
             return {{}, BranchEnd{point, RuptureMode::Detachment}};
-        if (sense * (stretch->to.gap - gap) >= 0) {
-            // The gap is monotonic all along a stable stretch, so Newton's method needs no bracket.
-            const double share = (gap - point.gap) / (stretch->to.gap - point.gap);
-            return {branch.after(point, share * stretch->distance), {}};
-        }
+        if (sense * (stretch->to.gap - gap) >= 0) return {pointAtGap(branch, point, *stretch, gap), {}};
         if (stretch->ends) {
             const bool turns = std::abs(stretch->to.direction[4]) < 1e-4;
             return {{}, BranchEnd{stretch->to, turns ? RuptureMode::Fold : RuptureMode::SymmetryLoss}};
@@ -174,8 +180,9 @@ std::optional<DelaunayArc> findAlongBranch(const BridgeConditions& conditions, d
     if (!start) return {};
     const Walk result = walk(branch, *start, gap);
     if (!result.arrived) return {};
-    const auto converged = convergeArc(branch.equations(), gap, result.arrived->arc);
-    return converged ? std::optional(converged->arc) : std::nullopt;
+    // To rounding error, and at this very gap.
+    return stableOrNothing(branch.equations(), convergeArc(branch.equations(), gap, result.arrived->arc,
+                                                           mostQuadratureNodes));
 }
 
 std::optional<BranchPoint> nextPoint(const BridgeBranch& branch, const BranchPoint& from) {

@@ -134,6 +134,11 @@ private:
             rows.addNumber(fmt::format("energy: {}", entry.name), ledger.*entry.member, "J");
         rows.addNumber("energy lost", ledger.lost(), "J");
         rows.addNumber("energy unaccounted for", scene.energyUnaccountedFor(), "J");
+        // Only friction whose springs keep their stretch has this entry.
+        if (ledger.stiffening != 0)
+            rows.add("note on friction",
+                     "its springs gain energy where contacts are pressed deeper (energy: lost_in_stiffening "
+                     "has the sum) and with MindlinIncremental they would not");
     }
 
     template <class Scene>

@@ -12,7 +12,8 @@ struct Mindlin : MindlinSpring<Mindlin> {
     static constexpr std::string_view summary =
         "tangential spring after Mindlin, damped, cut at Coulomb's limit";
     static constexpr std::string_view domain =
-        "overlap small against the radius; no partial slip below the limit";
+        "overlap small against the radius; no partial slip below the limit; a contact that is pressed deeper "
+        "while its spring is stretched gains energy, with MindlinIncremental it does not";
 
     template <class T>
     [[gnu::always_inline]] static SliderForce<T> slide(const Prepared& p, const Contact<T>& contact,

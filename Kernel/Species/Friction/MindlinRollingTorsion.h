@@ -12,7 +12,8 @@ struct MindlinRollingTorsion : RollingTorsionFriction<MindlinRollingTorsion, Min
     static constexpr std::string_view summary =
         "tangential spring after Mindlin, with linear springs against rolling and torsion";
     static constexpr std::string_view domain =
-        "overlap small against the radius; no partial slip below the limit";
+        "overlap small against the radius; no partial slip below the limit; a contact that is pressed deeper "
+        "while its sliding spring is stretched gains energy, as with Mindlin";
 };
 
 }  // namespace pendular

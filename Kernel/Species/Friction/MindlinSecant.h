@@ -17,7 +17,8 @@ struct MindlinSecant : MindlinSpring<MindlinSecant> {
         "tangential spring after Mindlin over the whole way since the first touch, not cut at sliding";
     static constexpr std::string_view domain =
         "short contacts of one sense of slip, as single collisions; not for lasting contacts, in which it "
-        "stores ways that a real contact has lost";
+        "stores ways that a real contact has lost, and one that is pressed deeper while its spring is "
+        "stretched gains energy, as with Mindlin";
 
     /// The spring takes the velocity with the force as it is after the cut.
     template <class T>

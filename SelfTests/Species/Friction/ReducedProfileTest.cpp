@@ -7,6 +7,7 @@
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinIncremental.h"
 #include "Kernel/Species/Friction/MindlinPartialSlip.h"
+#include "Kernel/Species/Friction/MindlinSecant.h"
 #include "SelfTests/Support/Draw.h"
 
 namespace pendular {
@@ -25,9 +26,10 @@ struct Moved {
         law.setSlidingDissipation(0);
         law.setSlidingFrictionCoefficient(friction);
     }
-    double move(double depth, double normalForce, double way) {  // returns the force against it, N
+    /// @return the force against it, N
+    double move(double depth, double normalForce, double way, double effectiveRadius = radius) {
         const Slip<double> slip{.velocity = {way, 0, 0}, .timeBefore = 1, .timeAfter = 0};
-        const Contact<double> contact(depth, radius, 1e-6);
+        const Contact<double> contact(depth, effectiveRadius, 1e-6);
         return -Law::force(law.prepare(AnyNormalLaw{}), contact, normalForce, slip, springs).x;
     }
     /// N/m, at an overlap, without factor.
@@ -82,6 +84,55 @@ TYPED_TEST(ReducedProfiles, giveTwoThirdsOfTheStiffnessToSlipInProportionToTheOv
     for (int k = 1; k <= steps; ++k) force = contact.move(k * overlap / steps, load, slip / steps);
     EXPECT_NEAR(force / (2.0 / 3.0 * contact.law.getSpringFactor() * contact.stiffness(overlap) * slip), 1,
                 2.0 / steps);
+}
+
+/// What a contact gains (J) that is shifted at an overlap, pressed deeper, shifted back and let go: nothing is
+/// put in but the work of the shifts.
+template <class Law>
+double gainedByPressing(double overlap, double deeper, double shift, double shearModulus, double radius) {
+    Moved<Law> contact;
+    contact.law.setEffectiveShearModulus(shearModulus);
+    contact.law.setSlidingFrictionCoefficient(1e6);  // nothing slides
+    const int steps = 100;
+    double work = 0;  // of the trapezoidal rule, exact for a spring
+    const auto shiftBy = [&](double depth, double way) {
+        double before = contact.move(depth, load, 0, radius);
+        for (int k = 0; k < steps; ++k) {
+            const double after = contact.move(depth, load, way / steps, radius);
+            work += 0.5 * (before + after) * way / steps;
+            before = after;
+        }
+    };
+    shiftBy(overlap, shift);
+    shiftBy(deeper, -shift);
+    return -work;
+}
+
+// Mindlin's spring keeps its stretch while its stiffness k goes with the root of the overlap: the shifts put
+// in k_1 s^2 / 2 and take out k_2 s^2 / 2. Increments keep the force: the same spring is at +k_1 s when the
+// way back begins and at k_1 s - k_2 s after it. 1e-12: rounding of the sums.
+TEST(ReducedProfile, ofOneSpringGainsNothingWherePressingAStretchedContactFeedsMindlin) {
+    const double r = 1e-3, modulus = 3.75e6, s = 1e-6;  // m, Pa, m
+    for (const double ratio : {1.0, 2.0, 4.0, 9.0}) {
+        const double shallow = 0.01 * r, deep = ratio * shallow, effectiveRadius = 0.5 * r;
+        const auto stored = [&](double factor, double overlap) {
+            return 0.5 * factor * 8 * modulus * std::sqrt(effectiveRadius * overlap) * s * s;
+        };
+        const double first = stored(2.0 / 3, shallow), second = stored(2.0 / 3, deep);
+        const auto gained = [&]<class Law>() {
+            return gainedByPressing<Law>(shallow, deep, s, modulus, effectiveRadius);
+        };
+        EXPECT_NEAR(gained.operator()<Mindlin>(), second - first, 1e-12 * second);
+        EXPECT_NEAR(gained.operator()<MindlinSecant>(), second - first, 1e-12 * second);
+        const double root = std::sqrt(ratio), ofIncrements = stored(5.0 / 6, shallow);
+        // In: 1. Out: force 1 times the way 2, less root of the spring.
+        EXPECT_NEAR(gained.operator()<MindlinIncremental>(), (2 - root - 1) * ofIncrements,
+                    1e-12 * root * ofIncrements);
+        EXPECT_LE(gained.operator()<MindlinPartialSlip>(), 1e-12 * second);
+        if (ratio == 4) {
+            EXPECT_NEAR(second - first, 7.07e-10, 0.005e-10);  // J
+        }
+    }
 }
 
 /// What a cycle of the force between +most and -most (of the limit) loses, in units of the limit times the
