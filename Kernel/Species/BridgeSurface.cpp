@@ -45,7 +45,9 @@ BridgeSurface solveBridgeSurface(const BridgeLiquid& bridge, double separation) 
     BridgeSurface found{.area = bridgeArea(bridge, separation)};
     if (!(bridge.volume > 0)) return found;
     const auto [radius, shape, gap] = scaled(bridge, separation);
-    const auto solved = solveBridge(shape.conditions(), gap);
+    auto solved = solveBridge(shape.conditions(), gap);
+    if (!solved)
+        if (const auto rupture = findRupture(shape.conditions())) solved = rupture->last;
     if (!solved) return found;
     return {.area = radius * radius * solved->lateralArea(),
             .pressure = bridge.surfaceTension / radius * solved->pressure(),

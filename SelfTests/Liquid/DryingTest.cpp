@@ -69,6 +69,33 @@ TEST(Drying, bridgesHaveTheirExactArea) {
     }
 }
 
+/// The pressure goes on to the rupture, where it ends with the root of the distance to it, and is held beyond.
+TEST(Drying, bridgesHaveTheirPressureUpToTheRupture) {
+    for (const Bodies& bodies : {equal, plane})
+        for (const double angle : {0.0, 0.3, 0.9}) {
+            const double radius = std::isinf(bodies.radius2) ? 0.5 : 1, volume = 0.01;
+            const WettedBody first{radius, angle}, second{std::isinf(bodies.radius2) ? infinity : 1, angle};
+            const auto rupture = findRupture({first, second, volume});
+            ASSERT_TRUE(rupture);
+            const double end = rupture->last.gap(), last = gamma / r * rupture->last.pressure();
+            const auto surface = [&](double share) {
+                return solveBridgeSurface(bridgeOf(bodies, volume, angle), share * end * r);
+            };
+            double before = std::abs(surface(0.9).pressure / last - 1);
+            for (const double share : {0.99, 0.999, 0.9999, 1 - 1e-6}) {
+                const double now = std::abs(surface(share).pressure / last - 1);
+                EXPECT_GT(now, 0);
+                EXPECT_LT(now, before) << share;
+                before = now;
+            }
+            EXPECT_LT(before, 0.01);
+            for (const double share : {1 + 1e-6, 1.01, 2.0}) {
+                EXPECT_NEAR(surface(share).pressure / last, 1, 1e-12) << share;
+                EXPECT_GT(surface(share).fillingAngle1, 0);
+            }
+        }
+}
+
 /// Below the volumes of the table: A/R^2 = C V*^(3/4) for V* -> 0 between spheres that touch, C = pi (pi - 2
 /// theta)/cos(theta) (2/pi)^(3/4). The next term is smaller by V*^(1/2), the area of the table is right to 1
 /// %.

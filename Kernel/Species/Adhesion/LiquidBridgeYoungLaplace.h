@@ -31,8 +31,8 @@ struct LiquidBridgeYoungLaplace : LiquidBridge<LiquidBridgeYoungLaplace> {
         "V* from 1e-7 to 0.5, all contact angles, all radii and walls: up to 0.95 of the true rupture "
         "distance the force is exact to 0.2 % up to 60 degrees (0.6 % below V* = 1e-6), beyond to 0.3 % of "
         "the bridge's largest, but from 85 to 95 degrees, where it passes through zero, to 1 % of that (3.5 "
-        "% below V* = 1e-6); then up to 0.985 of the rupture distance to 3.5 %, and up to 0.999 of it mostly "
-        "to 8 %, at worst to 25 %";
+        "% below V* = 1e-6); then up to 60 degrees to 3.5 % up to 0.985 of the rupture distance, to 11 % up "
+        "to 0.999 of it, and to 16 % at it";
 
     /// Beyond the rupture distance there is no solution, as there is a value of a fit.
     static constexpr bool endsAtRupture = true;

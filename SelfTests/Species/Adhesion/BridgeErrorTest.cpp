@@ -84,9 +84,7 @@ TEST(BridgePopulation, drawsWithinItsRanges) {
 }
 
 // The exact law itself: its force is solved here without the neighbouring gap as a guess (1e-9, of the
-// rupture distance too), its work by quadrature against the difference of energies. 1e-4: for some nearly
-// equal spheres the solver finds nothing in the last ten-thousandth of the rupture distance, where the force
-// is below its mean.
+// rupture distance too), its work by quadrature against the difference of energies.
 TEST(BridgeError, isZeroForTheExactLaw) {
     ASSERT_EQ(exactBridges().size(), 20u);
     const BridgeErrors errors = bridgeErrors(exactBridges(), DistortedLaw{});
