@@ -20,14 +20,15 @@ struct BridgeSurface {
     double fillingAngle1 = 0, fillingAngle2 = 0;  // rad, at the smaller and at the larger body; a plane has 0
 };
 
-/// The lateral area of the exact bridge (Young-Laplace), from the table of Kernel/Capillary: to 1 %. Below
-/// the volumes of the table the bridge is a small one that keeps its shape, with lengths as the square root
+/// The lateral area of the exact bridge (Young-Laplace), from the table of Kernel/Capillary: to 1.3 % up to
+/// 0.985 of the rupture distance, where the area begins to fall as a root: to 7 % up to 0.999 of it, to 11 %
+/// at it (up to 60 degrees; above to 0.6 %). Below the volumes of the table the bridge is a small one that keeps its shape, with lengths as the square root
 /// of the volume; where the bodies are farther apart than the rupture distance, it is that at this distance.
 /// @param separation m; negative where the bodies overlap, which counts as 0
 double bridgeArea(const BridgeLiquid& bridge, double separation);
 
-/// The same with pressure and filling angles, for which the equation is solved: some 5 us. Where no bridge is
-/// found, beyond the rupture distance, these are 0.
+/// The same with pressure and filling angles, for which the equation is solved: some 5 us, up to 60 us near
+/// the rupture. Beyond the rupture distance all are those of the bridge at it (0.2 ms). 0 if there is none.
 BridgeSurface solveBridgeSurface(const BridgeLiquid& bridge, double separation);
 
 /// V / R^3 (2/R = 1/r1 + 1/r2) of the bridge between two equal spheres that touch at which its half-filling
