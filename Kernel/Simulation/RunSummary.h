@@ -11,6 +11,9 @@
 #include "Kernel/Simulation/StepTimes.h"
 #include "Kernel/Simulation/SummaryFile.h"
 #include "Kernel/Simulation/SummaryRows.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Species/Friction/MindlinSecant.h"
 
 namespace pendular {
 
@@ -134,11 +137,19 @@ private:
             rows.addNumber(fmt::format("energy: {}", entry.name), ledger.*entry.member, "J");
         rows.addNumber("energy lost", ledger.lost(), "J");
         rows.addNumber("energy unaccounted for", scene.energyUnaccountedFor(), "J");
-        // Only friction whose springs keep their stretch has this entry.
-        if (ledger.stiffening != 0)
+        if (gainsByPressing(scene.laws().friction))
             rows.add("note on friction",
-                     "its springs gain energy where contacts are pressed deeper (energy: lost_in_stiffening "
-                     "has the sum) and with MindlinIncremental they would not");
+                     "springs of Mindlin gain energy where contacts are pressed deeper (see energy: "
+                     "lost_in_stiffening); those of MindlinIncremental do not");
+    }
+
+    /// Whether one of these laws has springs that keep their stretch while their stiffness follows the overlap.
+    /// @param friction names, joined by " + "
+    static bool gainsByPressing(std::string_view friction) {
+        const std::string names = fmt::format(" {} ", friction);
+        for (const std::string_view law : {Mindlin::name, MindlinRollingTorsion::name, MindlinSecant::name})
+            if (names.find(fmt::format(" {} ", law)) != names.npos) return true;
+        return false;
     }
 
     template <class Scene>

@@ -11,6 +11,7 @@
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
 #include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/MindlinIncremental.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
@@ -99,9 +100,29 @@ TEST(Summary, saysWhatRunsAndHowFar) {
           fmt::format("species,{},", Rough::name), std::string("evaluations out of domain,0,"),
           fmt::format("lists of contacts made,{},", scene.contacts().rebuildCount())})
         EXPECT_TRUE(contains(text, "\n" + line + "\n"));
+    EXPECT_TRUE(contains(text, "\nnote on friction,springs of Mindlin gain energy"));
     const auto shown = show(folder);
     EXPECT_EQ(shown.exitCode, 0) << shown.output;
     EXPECT_TRUE(contains(shown.output, "healthy, and at its end"));
+}
+
+template <class S>
+bool hasNoteOnFriction(bool withLedger) {
+    const TestFolder folder;
+    Watched<S> scene(folder.name());
+    scene.keepEnergyLedger(withLedger);
+    scene.softly().solve();
+    return contains(contentOf(folder.name() + "-summary.csv"), "note on friction");
+}
+
+// Only of springs that keep their stretch while the overlap changes, and where a ledger tells.
+TEST(Summary, saysThatSpringsGainEnergyOnlyWhereTheyDo) {
+    EXPECT_TRUE(hasNoteOnFriction<Rough>(true));
+    EXPECT_FALSE(hasNoteOnFriction<Rough>(false));
+    using Incremental = Species<HertzianViscoelastic, MindlinIncremental>;
+    EXPECT_FALSE(hasNoteOnFriction<Incremental>(true));
+    using Smooth = Species<HertzianViscoelastic>;
+    EXPECT_FALSE(hasNoteOnFriction<Smooth>(true));
 }
 
 // With the adaptive step the scene moves springs in the step, whose limit is another one.

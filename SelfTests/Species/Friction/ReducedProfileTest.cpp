@@ -104,6 +104,9 @@ double gainedByPressing(double overlap, double deeper, double shift, double shea
         }
     };
     shiftBy(overlap, shift);
+    const int presses = 10000;
+    for (int k = 1; k <= presses; ++k)
+        contact.move(overlap + (deeper - overlap) * k / presses, load, 0, radius);
     shiftBy(deeper, -shift);
     return -work;
 }
