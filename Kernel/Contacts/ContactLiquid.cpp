@@ -35,6 +35,7 @@ void ContactLiquid::prepareChanged(ContactStore& store, const ContactLaws& laws,
         if (!byMigration && !byDrying) continue;
         ContactNumbers before{};
         store.memory.interaction.get(slot, before.data());
+        store.memory.preparedVolumeOf(slot) = volume;
         prepareAgain(store, laws, store.bucketOf(contact / Pack::lanes), contact, grains, before.data());
         if (prepared != 0) bookChange(store, laws, grains, contact, before.data(), byMigration);
     }

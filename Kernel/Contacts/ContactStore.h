@@ -123,7 +123,8 @@ public:
     std::vector<EnergyRecord> energies;      // empty unless a ledger is kept
     std::vector<std::uint32_t> blockOf;      // the block of contacts that has this block of memory
 
-    /// Of a bridge whose liquid moves: its volume, and the one for which it was prepared.
+    /// Of a bridge whose liquid moves: its volume, and the one for which it was prepared, negative (or -0) if
+    /// it is to be prepared again for whatever change.
     static constexpr std::size_t liquidNumbers = 2;
     [[nodiscard]] double& volumeOf(std::size_t slot) { return liquid.at(slot, 0); }
     [[nodiscard]] double volumeOf(std::size_t slot) const { return liquid.at(slot, 0); }

@@ -63,12 +63,16 @@ double ContactSystem::renew(Grains& grains) {
         stored += endContact(grains, contact);
     });
     sumLostForces(grains);
-    listAgain(grains, false);
+    listNow(grains, false);
+    liquid.clip(contacts, *species, grains);
+    return stored;
+}
+
+void ContactSystem::listNow(Grains& grains, bool keepsBridges) {
+    listAgain(grains, keepsBridges);
     // Contacts of a membrane hand their forces to its corners where they touch it.
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall >= 0 && wallOf(bucket).membrane()) findWallPoints(grains, bucket, 0);
-    liquid.clip(contacts, *species, grains);
-    return stored;
 }
 
 /// Its bridge forgets how the bodies moved if the change has put them somewhere else.

@@ -49,7 +49,10 @@ public:
     /// distance of the nearest of them to all others, so that most need no list of their own. False if one is
     /// so near that contacts must be listed at once, and the first time: lists keep their cells from then on.
     bool takeIn(const Grains& grains, std::span<const std::uint32_t> identities);
-    /// Bodies or laws have changed: contacts are listed again at once, and their bridges prepared again.
+    /// Lists contacts again at once, where takeIn() says so.
+    void listNow(Grains& grains) { listNow(grains, true); }
+    /// Bodies or laws have changed: contacts are listed again at once, and their bridges prepared again, for
+    /// the volumes for which they were prepared: what has not changed keeps its bits.
     /// Those that the change takes apart end, also where both bodies are held now, and those whose pair has
     /// other laws now, which know nothing of what the contact remembers. Returns the energy (J) that was
     /// stored in what has ended, where a ledger is kept.
@@ -209,6 +212,7 @@ private:
         const std::uint32_t contact = contacts.contactAt(slot);
         if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
     }
+    void listNow(Grains& grains, bool keepsBridges);
     void listAgain(Grains& grains, bool keepsBridges = true, double reach = 0);
     /// The same with contacts whose memory is in the store; returns how many of them are listed again.
     std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Particles/ParticleStore.h"
 
@@ -15,21 +17,18 @@ inline Bodies bodiesOf(const ContactStore& store, const Bucket& bucket, std::siz
     return {std::min(r1, r2), std::max(r1, r2)};
 }
 
-/// Prepares the bridge of a contact again, for the volume that it has; it goes on with what it remembers of
-/// its motion.
+/// Prepares the bridge of a contact again, where liquid moves for its preparedVolumeOf(), which a drying
+/// bridge has had a while ago; it goes on with what it remembers of its motion.
 /// @param before what its interaction was
 inline void prepareAgain(ContactStore& store, const ContactLaws& laws, const Bucket& bucket,
                          std::size_t contact, const ParticleStore& grains, const double* before) {
     const std::size_t slot = store.slotOf(contact);
     const Bodies bodies = bodiesOf(store, bucket, contact, grains);
     ContactNumbers bridge{};
-    if (laws.liquidRules(bucket.species1, bucket.species2)) {
-        store.memory.preparedVolumeOf(slot) = store.memory.volumeOf(slot);
-        laws.prepareBridge(bucket.species1, bucket.species2, bodies, store.memory.volumeOf(slot),
-                           bridge.data());
-    } else {
-        laws.prepareBridge(bucket.species1, bucket.species2, bodies, bridge.data());
-    }
+    if (laws.liquidRules(bucket.species1, bucket.species2))
+        laws.prepareBridge(bucket.species1, bucket.species2, bodies,
+                           std::abs(store.memory.preparedVolumeOf(slot)), bridge.data());
+    else laws.prepareBridge(bucket.species1, bucket.species2, bodies, bridge.data());
     laws.takeBridgeState(bucket.species1, bucket.species2, bridge.data(), before);
     store.memory.interaction.set(slot, bridge.data());
 }

@@ -27,7 +27,6 @@ public:
                const Vector<double>& gravity, double step, EnergyLedger& ledger) {
         atBegin = ledger;
         potential = potentialEnergy(grains, gravity);
-        if (step == 0) ledger.gravityBefore = gravity;
         if (step > 0)
             ledger.driver += kineticEnergy(grains) - ledger.kinetic +
                              (energyOfPistons(walls) - ledger.pistons) +
@@ -92,8 +91,7 @@ public:
         rank.resize(grains.size());
         std::uint32_t next = 0;
         for (const std::uint32_t place : grains.place) rank[place] = next++;
-        ledger.stepError -=
-            workBesidesContacts(grains, contacts.store(), gravity, step, scheme, ledger.gravityBefore);
+        ledger.stepError -= workBesidesContacts(grains, contacts.store(), gravity, step, scheme);
         const PeriodicBox& box = contacts.periodicBox();
         const std::vector<WornWall*> wornOf = wornWalls(walls);
         for (WornWall* const worn : wornOf)
@@ -140,7 +138,6 @@ public:
         takeInMembranes(walls, step, ledger);
         ledger.kinetic = kineticEnergy(grains);
         ledger.potential = ledger.carried + potentialEnergy(grains, gravity);
-        ledger.gravityBefore = gravity;
     }
 
 private:
@@ -238,14 +235,13 @@ private:
     /// J, of the field of gravity, and of what an integrator other than velocity Verlet adds to the mean of
     /// the two accelerations.
     double workBesidesContacts(const Grains& grains, const ContactStore& contacts,
-                               const Vector<double>& gravity, double step, const Integrator& scheme,
-                               const Vector<double>& gravityBefore) const {
+                               const Vector<double>& gravity, double step, const Integrator& scheme) const {
         ExactSum sum;
         for (std::size_t k = 0; k < grains.size(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
             if (!grains.isFree(k)) continue;
             const BodyMotion mean = meanMotion(grains, k);
-            sum.add(0.5 * step / grain.inverseMass * dot(gravityBefore + gravity, mean.velocity));
+            sum.add(step / grain.inverseMass * dot(gravity, mean.velocity));
             if (!scheme.remembersEarlier()) continue;
             const Motion &then = before[rank[k]], now = motionOf(grains, k);
             const Vector<double> gained =

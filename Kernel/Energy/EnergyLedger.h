@@ -54,7 +54,6 @@ struct EnergyLedger {
     double stepError = 0;
 
     double carried = 0;  // of the potential energy, by grains that have gone round a periodic scene
-    Vector<double> gravityBefore{0, 0, 0};  // m/s^2, in the last step
 
     /// In all springs.
     [[nodiscard]] double springs() const {

@@ -239,6 +239,18 @@ double TimeIntegration::finishAndBegin(ParticleStore& grains, const ContactStore
 void TimeIntegration::takeBack(ParticleStore& grains, double step, const Integrator& scheme) {
     withLoops(grains.hasSpin, false, false, [&]<class L>() { L::takeBack(grains, step, scheme); });
 }
+void TimeIntegration::renewAccelerations(ParticleStore& grains, const ContactStore& store,
+                                         const Vector<double>& gravity,
+                                         std::span<const std::uint32_t> places) {
+    for (const std::uint32_t at : places) {
+        if (!grains.isFree(at)) continue;
+        const TranslationRecord& grain = grains.translation[at];
+        const ContactSum sum = contactSum(store, at, grain.radius);
+        grains.acceleration[at] = grain.inverseMass * sum.force + gravity;
+        if (grains.hasSpin)
+            grains.rotation[at].angularAcceleration = grains.rotation[at].inverseInertia * sum.torque;
+    }
+}
 void TimeIntegration::start(ParticleStore& grains, const Integrator& scheme) {
     withLoops(grains.hasSpin, false, false, [&]<class L>() { L::start(grains, scheme); });
 }

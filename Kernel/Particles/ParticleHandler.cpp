@@ -26,18 +26,21 @@ void setAcceleration(ParticleStore& grains, std::uint32_t at, const Vector<doubl
 }
 
 /// Of a solid sphere, as the store has it: 5/2 of 1 / (m r^2).
-void setMass(ParticleStore& grains, std::uint32_t at, double inverseMass) {
-    TranslationRecord& grain = grains.translation[at];
-    grain.inverseMass = inverseMass;
-    if (grains.hasSpin)
-        grains.rotation[at].inverseInertia = 2.5 * inverseMass / (grain.radius * grain.radius);
+GrainInertia ofSolidSphere(double mass, double radius) {
+    return {1 / mass, 2.5 * (1 / mass) / (radius * radius)};
+}
+
+void setInertia(ParticleStore& grains, std::uint32_t at, const GrainInertia& inertia) {
+    grains.translation[at].inverseMass = inertia.inverseMass;
+    if (grains.hasSpin) grains.rotation[at].inverseInertia = inertia.inverseMoment;
 }
 
 /// Of a free grain of which forces and torques stay, while its mass, and with it their accelerations, change.
-void changeMass(ParticleStore& grains, std::uint32_t at, double inverseMass, const Vector<double>& gravity) {
-    const double before = grains.translation[at].inverseMass, ratio = inverseMass / before;
+void changeInertia(ParticleStore& grains, std::uint32_t at, const GrainInertia& inertia,
+                   const Vector<double>& gravity) {
+    const double before = grains.translation[at].inverseMass, ratio = inertia.inverseMass / before;
     const double turningBefore = grains.hasSpin ? grains.rotation[at].inverseInertia : 1;
-    setMass(grains, at, inverseMass);
+    setInertia(grains, at, inertia);
     const auto scale = [&](Vector<double>& acceleration) {
         acceleration = gravity + ratio * (acceleration - gravity);
     };
@@ -74,7 +77,9 @@ Vec3D GrainReference::getForce() const {
 double GrainReference::getLiquidVolume() const { return handler->liquidFilms.of(handler->grains, place()); }
 void GrainReference::setLiquidVolume(double volume) {
     checkValue(fmt::format("particle {}", number), "liquid volume", volume, "m^3", notNegative);
+    handler->finishStep();  // with the mass that the grain had
     handler->liquidFilms.set(handler->grains, place(), volume);
+    if (handler->liquidDensity > 0) handler->renewMass(place());
 }
 
 void GrainReference::requireOwnBody(std::string_view what) const {
@@ -118,7 +123,7 @@ void GrainReference::fixParticle(bool fix) {
     const std::uint32_t at = place();
     const bool isLetGo = isFixed() && !fix;
     ParticleStore& grains = handler->store();
-    setMass(grains, at, fix ? 0 : 1 / handler->massOf(getRadius(), getSpeciesIndex()));
+    setInertia(grains, at, fix ? GrainInertia{0, 0} : handler->inertiaAt(at));
     if (fix) {  // it keeps no motion, and no force of its own
         grains.translation[at].velocity = grains.acceleration[at] = {0, 0, 0};
         if (grains.hasSpin) grains.rotation[at].spin = grains.rotation[at].angularAcceleration = {0, 0, 0};
@@ -180,7 +185,10 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
     const std::uint32_t identity = grains.add(record, toVector(grain.getAngularVelocity()),
                                               static_cast<std::uint16_t>(grain.getSpeciesIndex()));
     if (!grain.isFixed()) setAcceleration(grains, grains.place[identity], gravity);
-    if (grain.getLiquidVolume() > 0) liquidFilms.set(grains, grains.place[identity], grain.getLiquidVolume());
+    if (grain.getLiquidVolume() > 0) {
+        liquidFilms.set(grains, grains.place[identity], grain.getLiquidVolume());
+        if (liquidDensity > 0) renewMass(grains.place[identity]);
+    }
     changes.added.push_back(identity);
     return {*this, identity};
 }
@@ -229,10 +237,18 @@ GrainColumnReference ParticleHandler::addColumn(const std::string& name, const s
 }
 
 void ParticleHandler::renewMass(std::uint32_t at) {
-    const TranslationRecord& grain = grains.translation[at];
-    if (grain.inverseMass == 0) return;
-    const double inverseMass = 1 / massOf(grain.radius, grains.species[at]);
-    if (inverseMass != grain.inverseMass) changeMass(grains, at, inverseMass, gravity);
+    if (!grains.isFree(at)) return;
+    const GrainInertia inertia = inertiaAt(at);
+    if (inertia.inverseMass != grains.translation[at].inverseMass)
+        changeInertia(grains, at, inertia, gravity);
+}
+
+/// A film is a thin shell, of which the moment of inertia is 2/3 m r^2.
+GrainInertia ParticleHandler::inertiaAt(std::uint32_t at) const {
+    const double radius = grains.translation[at].radius, solid = massOf(radius, grains.species[at]);
+    const double film = liquidDensity > 0 ? liquidDensity * liquidFilms.of(grains, at) : 0;
+    if (film == 0) return ofSolidSphere(solid, radius);
+    return {1 / (solid + film), 1 / ((2.0 / 5 * solid + 2.0 / 3 * film) * radius * radius)};
 }
 
 void ParticleHandler::renewMasses() {
@@ -245,8 +261,23 @@ void ParticleHandler::renewMasses() {
                             "it are part of "
                             "rigid bodies, which keep their mass.",
                             species->typeName(index), index, density, species->density(index)));
-    for (const std::uint32_t at : grains.place)
-        if (grains.isFree(at)) renewMass(at);
+    weighFilms();
+}
+
+void ParticleHandler::weighFilms() {
+    for (const std::uint32_t at : grains.place) renewMass(at);
+}
+
+void ParticleHandler::setGravity(const Vector<double>& acceleration) {
+    finishStep();  // with the gravity that it had
+    const Vector<double> change = acceleration - std::exchange(gravity, acceleration);
+    if (change == Vector<double>{0, 0, 0}) return;
+    for (const std::uint32_t at : grains.place) {
+        if (!grains.isFree(at)) continue;
+        grains.acceleration[at] += change;
+        if (!grains.earlier.empty()) grains.earlier[at].acceleration += change;
+    }
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) grains.bodies[k].acceleration += change;
 }
 
 void ParticleHandler::noteDensityOfJoined(std::uint32_t identity) {

@@ -82,6 +82,11 @@ private:
     std::size_t number;
 };
 
+/// What a grain sets against forces and torques.
+struct GrainInertia {
+    double inverseMass, inverseMoment;  // 1/kg, 1/(kg m^2)
+};
+
 /// What a handler's grains have gone through since the scene last looked.
 struct GrainChanges {
     // Identities.
@@ -100,8 +105,12 @@ public:
     ParticleHandler() = default;
     ParticleHandler(const ParticleHandler&) = delete;
     void setSpecies(const GrainSpecies& of);
-    /// m/s^2: the acceleration of a grain that is added or let go, of which no step has found another yet.
-    void setGravity(const Vector<double>& acceleration) { gravity = acceleration; }
+    /// m/s^2: it is the acceleration of a grain that is added or let go, of which no step has found another
+    /// yet, and part of that of all others: in a run, these change with it.
+    void setGravity(const Vector<double>& acceleration);
+    /// kg/m^3, of films: their mass is part of that of their grains, as renewMasses() and all changes of a
+    /// grain count it. 0: they have none.
+    void setLiquidDensity(double density) { liquidDensity = density; }
     /// When the laws are known: grains of a scene without friction have no spin.
     void settleSpin();
 
@@ -160,8 +169,11 @@ public:
     /// kg, of the grain at a place: of a solid sphere; in a rigid body its share of that one's mass, which is
     /// parted as masses of free spheres are.
     [[nodiscard]] double massAt(std::uint32_t place) const;
-    /// Gives all grains the mass of their species' density.
+    /// Gives all grains that move by themselves the mass of their species' density, and of their films where
+    /// these are weighed. Forces and velocities stay.
     void renewMasses();
+    /// The same where only films have changed.
+    void weighFilms();
     /// The scene begins: no column is added from now on.
     void closeColumns() { columnsAreClosed = true; }
 
@@ -209,8 +221,11 @@ private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
-    /// At the density that its species has now; its forces stay.
+    /// At the density that its species has now, with the film that it has; its forces stay. Not of a grain
+    /// that is held.
     void renewMass(std::uint32_t place);
+    /// Of a grain that moves by itself.
+    [[nodiscard]] GrainInertia inertiaAt(std::uint32_t place) const;
     void noteDensityOfJoined(std::uint32_t identity);
 
     const GrainSpecies* species = nullptr;
@@ -220,6 +235,7 @@ private:
     GrainFilms liquidFilms;
     GrainChanges changes;
     Vector<double> gravity{0, 0, 0};  // m/s^2
+    double liquidDensity = 0;         // kg/m^3
     std::function<void(std::uint32_t)> beforeRemoval;
     std::function<void()> finishing;
     mutable std::atomic<bool> unfinished = false;

@@ -400,6 +400,7 @@ void Scene::check() {
     }
     refuseWear(wallHandler, ledgerKept, laws().layout.hasTorque, !particleHandler.store().bodies.empty());
     GrainSizes sizes = grainSizes(particleHandler.store());
+    if (hasBegun() && getTimeStep() != checkedStep) refuseOtherStep();
     const bool checksStep = !unstableAccepted && !adaptive.hasChosen();
     checkScene(laws(), sizes, wallHandler, checksStep ? getTimeStep() : 0, scheme());
     springsInStep =
@@ -454,6 +455,13 @@ void Scene::refuseForMovingImages() const {
             shear.isSet ? "shear (setLeesEdwards())" : "strain (setStrainRate(), setTargetStress())", what));
     };
     if (wallHandler.getSize() > 0) refuse("walls");
+    const ParticleStore& grains = particleHandler.store();
+    for (const std::uint32_t place : grains.place)
+        if (grains.translation[place].inverseMass == 0)
+            refuse(
+                fmt::format("grains that are held in place, which particle {} is: they would not go with the "
+                            "flow as their images do; let it go by fixParticle(false), or make it heavy",
+                            grains.identity[place]));
     if (strain.isSet && gravity != Vector<double>{0, 0, 0}) refuse("gravity");
     if (shear.isSet && gravity.*LeesEdwards::axes[shear.gradient] != 0) refuse("gravity along the gradient");
     if (!sprayHandler.isEmpty()) refuse("sprays");
@@ -554,7 +562,6 @@ void Scene::takeOverChanges() {
                     "friction "
                     "where no others have; add it before the run begins.");
             particleHandler.renewMasses();
-            if (liquidDensity > 0) weighFilms(particleHandler.store());
             speciesChanged = true;
         }
         if (changedWalls) {
@@ -566,13 +573,28 @@ void Scene::takeOverChanges() {
             isNewToChecks(changes.added))
             check();
         ParticleStore& grains = particleHandler.store();
-        const bool isRenewed = newLaws || newBodies;
-        if (!isRenewed && contactSystem.takeIn(grains, changes.added)) return;
-        bookEnded(contactSystem.renew(grains));
+        if (newLaws || newBodies) {
+            bookEnded(contactSystem.renew(grains));
+            renewAccelerations(changes);
+        } else if (!contactSystem.takeIn(grains, changes.added)) {
+            contactSystem.listNow(grains);
+        } else {
+            return;
+        }
         refuseOverlapsOf(changes, firstNewWall);
     } catch (const InputError& refusal) {
         throw RunError(refusal.what());
     }
+}
+
+/// The forces that contacts had at the end of the last step act on in the first half of the next one, on the
+/// masses and at the arms that grains have now, so that the account of the energy closes.
+void Scene::renewAccelerations(const GrainChanges& changes) {
+    ParticleStore& grains = particleHandler.store();
+    std::vector<std::uint32_t> places;
+    for (const auto* identities : {&changes.placed, &changes.altered})
+        for (const std::uint32_t identity : *identities) places.push_back(grains.place[identity]);
+    Motion::renewAccelerations(grains, contactSystem.store(), gravity, places);
 }
 
 bool Scene::isNewToChecks(std::span<const std::uint32_t> added) const {
@@ -581,6 +603,7 @@ bool Scene::isNewToChecks(std::span<const std::uint32_t> added) const {
     return std::ranges::any_of(added, [&](std::uint32_t identity) {
         const std::uint32_t place = grains.place[identity];
         const TranslationRecord& grain = grains.translation[place];
+        if (periodic.imagesMove && grain.inverseMass == 0) return true;
         return !checkedSizes.hold(grains.species[place], grain.radius, grain.inverseMass > 0);
     });
 }
@@ -663,28 +686,14 @@ void Scene::beginLiquid() {
     GrainFilms& films = particleHandler.films();
     films.begin(particleHandler.store(), toCome);
     sprayHandler.begin(films.quantum());
-    if (liquidDensity > 0) weighFilms(particleHandler.store());
+    if (liquidDensity > 0) particleHandler.weighFilms();  // rounded to quanta
 }
 
 void Scene::setLiquidDensity(double density) {
     requireSetUp("density of the liquid");
     checkValue("Simulation", "density of the liquid", density, "kg/m^3", notNegative);
     liquidDensity = density;
-}
-
-/// Of grains that move by themselves.
-void Scene::weighFilms(ParticleStore& grains) const {
-    const GrainFilms& films = particleHandler.films();
-    for (const std::uint32_t at : grains.place) {
-        if (!grains.isFree(at)) continue;
-        TranslationRecord& grain = grains.translation[at];
-        const double solid = particleHandler.massOf(grain.radius, grains.species[at]);
-        const double film = liquidDensity * films.of(grains, at);
-        grain.inverseMass = 1 / (solid + film);
-        if (grains.hasSpin)
-            grains.rotation[at].inverseInertia =
-                1 / ((2.0 / 5 * solid + 2.0 / 3 * film) * grain.radius * grain.radius);
-    }
+    particleHandler.setLiquidDensity(density);
 }
 
 void Scene::setEvaporation(const Evaporation& law) {
@@ -896,6 +905,7 @@ double Scene::move(ParticleStore& grains, double length) {
     if (const auto objection = objectionToLengths(periodic, largestReach))
         throw RunError(fmt::format("At time {:.6g} s the {}", getTime(), *objection));
     if (hasBodies) refuseWideBodies();
+    if (grains.count() == 0) return 0;
     return std::sqrt(farthest) +
            0.5 * rate * length * (largestReach + contactSystem.filmReach() + smallestRadius);
 }
@@ -953,7 +963,7 @@ void Scene::advance(double length, bool another) {
     intoLedger(
         [&] { account.finish(grains, contactSystem, wallHandler, gravity, length, integrator, ledger); });
     if (!sprayHandler.isEmpty()) flyDroplets(grains, length, grainShift);
-    if (liquidDensity > 0) weighFilms(grains);
+    if (liquidDensity > 0) particleHandler.weighFilms();
     enter(StepTimes::Part::Other);
 }
 

@@ -305,6 +305,7 @@ private:
     void visitShear(StateArchive& archive);
     /// Whether the checks must be made again for grains that were added.
     [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
+    void renewAccelerations(const GrainChanges& changes);
     void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
     /// What was stored (J) in contacts that the driver has ended.
     void bookEnded(double stored);
@@ -312,6 +313,10 @@ private:
     void warnOfFedSprings() const;
     void refuseBoundForBodies(std::string_view call) const;
     void refuseForAdaptiveStep() const;
+    /// Why the time step stays what it was at the start of the run; empty if it need not.
+    [[nodiscard]] std::string whyStepsOfOneLength() const;
+    /// Throws InputError where the time step was changed in a run that needs steps of one length.
+    void refuseOtherStep() const;
     /// The step (s) from now on, where a new one is due.
     void chooseTimeStep();
     /// The same where grains have come: until the next choice.
@@ -322,7 +327,6 @@ private:
     /// The films of the grains begin to be counted.
     void beginLiquid();
     void refuseLiquidThatCannotMove() const;
-    void weighFilms(ParticleStore& grains) const;
     /// Droplets of the step to come. Throws RunError where they are too many to be counted.
     void emitDroplets();
     void flyDroplets(ParticleStore& grains, double length, double grainShift);

@@ -6,6 +6,9 @@
 
 namespace pendular {
 
+static constexpr std::string_view orOtherIntegrator =
+    ", or take integrators::predictedVelocityVerlet or velocityVerlet";
+
 double Scene::stableStepOfContacts() {
     requireBegun("stableStepOfContacts()");
     refuseBoundForBodies("stableStepOfContacts()");
@@ -70,17 +73,27 @@ void Scene::refuseForAdaptiveStep() const {
                 "wall {}: the adaptive time step does not know walls that forces move (setPiston(), "
                 "setTargetForce()) and membranes; leave setAdaptiveTimeStep() out.",
                 w));
+    if (const std::string reason = whyStepsOfOneLength(); !reason.empty())
+        throw InputError(fmt::format("Simulation: {}; leave setAdaptiveTimeStep() out{}.", reason,
+                                     laws().resistsMotion ? "" : orOtherIntegrator));
+}
+
+/// A bridge pays for the drift of the step that comes, and Adams' formulas have the weights of equal steps.
+std::string Scene::whyStepsOfOneLength() const {
     if (laws().resistsMotion)
-        throw InputError(
-            fmt::format("Simulation: the viscous bridges of {} need steps of one length; leave "
-                        "setAdaptiveTimeStep() out.",
-                        laws().name));
+        return fmt::format("the viscous bridges of {} need steps of one length", laws().name);
     if (integrator.remembersEarlier())
+        return fmt::format("the integrator {} needs steps of one length", integrator.name);
+    return {};
+}
+
+void Scene::refuseOtherStep() const {
+    if (const std::string reason = whyStepsOfOneLength(); !reason.empty())
         throw InputError(
-            fmt::format("Simulation: the integrator {} needs steps of one length; leave "
-                        "setAdaptiveTimeStep() out, or take integrators::predictedVelocityVerlet or "
-                        "velocityVerlet.",
-                        integrator.name));
+            fmt::format("Simulation: time step = {:.6g} s cannot be changed to {:.6g} s in the run: {}; set "
+                        "it before the "
+                        "run begins{}.",
+                        checkedStep, getTimeStep(), reason, laws().resistsMotion ? "" : orOtherIntegrator));
 }
 
 double Scene::largestStepOf(const GrainSizes& sizes) const {

@@ -12,6 +12,7 @@
 #include "Kernel/State/RestartFile.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/AnyMaterial.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular {
@@ -343,6 +344,47 @@ TEST(TimeStepThatAnEventSets, holdsFromTheNextStepOn) {
     again->steps(100);
     EXPECT_EQ(again->getTime(), whole->getTime());
     EXPECT_EQ(stateHash(again->particleHandler.store()), stateHash(whole->particleHandler.store()));
+}
+
+/// The sentence with which a pair's run ends that takes another step, and whether one with the adaptive step
+/// is refused for the same reason.
+template <class S>
+std::string endOfOtherStep(const S& species, const Integrator& scheme, double other, bool& refusesAdaptive) {
+    const auto make = [&] {
+        auto scene = std::make_unique<Hooked<S>>(
+            species, std::vector<GrainMotion>{{}, {.position = {1.99 * r, 0, 0}}}, step);
+        scene->setIntegrator(scheme);
+        scene->setQuiet();
+        return scene;
+    };
+    auto adaptive = make(), changed = make();
+    adaptive->setAdaptiveTimeStep(0.9);
+    refusesAdaptive = contains(refusal([&] { adaptive->initialise(); }), "steps of one length");
+    return endOf<S>(*changed, [=](auto& s) { s.setTimeStep(other); });
+}
+
+// Adams' formulas have the weights of equal steps, and a viscous bridge pays for the step to come: in steps
+// of other lengths both would be wrong without a word.
+TEST(TimeStepOfOneLength, staysWhatItWas) {
+    const auto wet = scenes::boxMaterial<Wet>(0);
+    Species<HertzianViscoelastic, Mindlin, ViscousLiquidBridgeWillett> viscous;
+    viscous = support::anyMaterial<decltype(viscous)>();
+    bool refusesAdaptive = false;
+    const auto expectRefused = [&](const std::string& text) {
+        EXPECT_TRUE(isOneSentence(text));
+        EXPECT_TRUE(contains(text, "time step = 1e-06 s cannot be changed to 5e-07 s in the run"));
+        EXPECT_TRUE(contains(text, "steps of one length"));
+        EXPECT_TRUE(refusesAdaptive);
+    };
+    expectRefused(endOfOtherStep(wet, integrators::adamsMoulton, 0.5 * step, refusesAdaptive));
+    expectRefused(endOfOtherStep(viscous, integrators::predictedVelocityVerlet, 0.5 * step, refusesAdaptive));
+    // The same length is none other.
+    EXPECT_EQ(endOfOtherStep(viscous, integrators::predictedVelocityVerlet, step, refusesAdaptive), "");
+    for (const Integrator& scheme :
+         {integrators::predictedVelocityVerlet, integrators::springsInStep, integrators::velocityVerlet}) {
+        EXPECT_EQ(endOfOtherStep(wet, scheme, 0.5 * step, refusesAdaptive), "") << scheme.name;
+        EXPECT_FALSE(refusesAdaptive);
+    }
 }
 
 TEST(TimeStep, thatIsSetBeforeTheFirstStepOfARunSurvivesARestart) {

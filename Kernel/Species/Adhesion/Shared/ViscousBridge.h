@@ -95,7 +95,10 @@ struct ViscousInteraction {
     /// Of a bridge that is prepared again, perhaps for another volume: what is still to be charged stays.
     template <class Law>
     void takeState(const Law& law, const ViscousInteraction& before) {
-        if (squaredReach == 0) return;   // there is no liquid
+        if (squaredReach == 0) {  // there is no liquid, or it has not come yet where films have met
+            if (before.squaredReach == 0) lastGap = before.lastGap, charged = before.charged;
+            return;
+        }
         if (before.squaredReach == 0) {  // it is a new bridge
             if (before.lastGap >= never) return;
             lastGap = before.lastGap;  // of films that have met
