@@ -14,7 +14,7 @@ namespace {
 using scenes::HookedGrains;
 
 constexpr double r = 1e-3;              // m
-constexpr double step = 4e-7;           // s
+constexpr double dt = 2e-6;             // s
 constexpr int before = 20, after = 40;  // steps
 
 /// A chain of three grains of different sizes on a floor, with spins, one of which touches a grain that is
@@ -26,22 +26,24 @@ public:
     static constexpr bool isWet = MovesLiquid<typename S::Adhesion>;
 
     explicit Chain(const Integrator& scheme)
-        : HookedGrains<S>(material(1), {}, step, {{{0, 0, -1}, {0, 0, 0}}}) {
+        : HookedGrains<S>(material(1), {}, dt, {{{0, 0, -1}, {0, 0, 0}}}) {
         this->speciesHandler.copyAndAddObject(material(1.7));
         const double radii[] = {r, 0.8 * r, 1.2 * r};
         double x = 0;
-        for (const double radius : radii) {
-            x += radius * (x > 0 ? 1 : 0);
-            add(radius, {x, 0, 0.999 * radius}, false);
-            x += radius - 2e-3 * r;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (k > 0)  // centres on a floor are at different heights
+                x += std::sqrt(std::pow(radii[k - 1] + radii[k] - 2e-3 * r, 2) -
+                               std::pow(0.999 * (radii[k - 1] - radii[k]), 2));
+            add(radii[k], {x, 0, 0.999 * radii[k]}, false);
         }
-        add(0.9 * r, {-1.899 * r, 0, 1e-4 * r}, true);
+        add(0.9 * r, {-1.899 * r, 0, 0.95 * r}, true);
         add(r, {0, 30 * r, 5 * r}, false);
         this->setGravity({0.5, -1, -9.81});
         this->setIntegrator(scheme);
         this->keepEnergyLedger();
         this->setQuiet();
         this->setTimeMax(1);
+        this->acceptUnstableTimeStep();  // denser grains come, where none are packed
         if constexpr (isWet) {
             this->setLiquidDensity(1000);
             Evaporation law;
@@ -53,7 +55,7 @@ public:
 
 private:
     static S material(double heavier) {
-        S species = support::anyMaterial<S>();
+        S species = support::anyMaterial<S>({.youngModulus = 5e6, .stiffness = 500});
         species.setDensity(2500 * heavier);
         return species;
     }
@@ -121,10 +123,10 @@ std::vector<Change<S>> changesOf(const Integrator& scheme) {
          [=](Scene& s) { scaleRadius(s, 1, 0.9995), s.particleHandler.removeObject(2); }},
         {"the floor goes", [=](Scene& s) { scaleRadius(s, 1, 1.0003), s.wallHandler.removeObject(0); }},
         {"the floor moves", [](Scene& s) {
-             s.wallHandler.getObject(0).setVelocity({0.2, 0, 0});
+             dynamic_cast<InfiniteWall&>(s.wallHandler.getObject(0)).setVelocity({0.2, 0, 0});
          }}};
     if (!scheme.remembersEarlier()) {
-        all.push_back({"time step", [](Scene& s) { s.setTimeStep(0.6 * step); }});
+        all.push_back({"time step", [](Scene& s) { s.setTimeStep(0.6 * dt); }});
         if (!scheme.contacts.springsInStep)
             all.push_back({"a body", [](Scene& s) { s.bodyHandler.join(std::vector<std::uint32_t>{1, 4}); }});
     }
@@ -150,10 +152,11 @@ double largestOf(const EnergyLedger& ledger) {
 // entry: 200 roundings of 2^-53 of it.
 constexpr double roundingsOfStep = 200 * 0x1p-53;
 
-/// The largest change of the closed account over so many steps, over what round-off allows.
+/// The largest change of the closed account by a change and over so many steps, over what round-off allows.
 template <class Scene>
-double openness(Scene& scene, int steps) {
+double openness(Scene& scene, const std::function<void(Scene&)>& change, int steps) {
     const double closed = scene.energyLedger().closed();
+    change(scene);
     double largest = 0, scale = largestOf(scene.energyLedger());
     for (int k = 1; k <= steps; ++k) {
         scene.step();
@@ -185,8 +188,7 @@ TYPED_TEST(ChangeLedger, closesOverEveryChange) {
             Chain<TypeParam> scene(scheme);
             scene.run(before);
             ASSERT_GE(scene.interactions().size(), 6u);
-            change.make(scene);
-            EXPECT_LT(openness(scene, after), 1);
+            EXPECT_LT(openness(scene, change.make, after), 1);
         }
 }
 
@@ -195,6 +197,7 @@ TYPED_TEST(ChangeLedger, closesOverEveryChange) {
 TYPED_TEST(ChangeLedger, closesOverRandomChanges) {
     for (const Integrator& scheme : schemes) {
         const std::vector<Change<TypeParam>> all = changesOf<TypeParam>(scheme);
+        std::size_t done = 0;
         for (unsigned seed = 0; seed < 5; ++seed) {
             std::mt19937 random(seed);
             Chain<TypeParam> scene(scheme);
@@ -202,15 +205,17 @@ TYPED_TEST(ChangeLedger, closesOverRandomChanges) {
             std::string made;
             for (int k = 0; k < 12; ++k) {
                 const Change<TypeParam>& change = all[random() % all.size()];
-                try {
-                    change.make(scene);
-                } catch (const InputError&) {  // of a grain that has gone, or is part of a body
-                    continue;
-                }
                 made += fmt::format(" {},", change.name);
-                EXPECT_LT(openness(scene, 5), 1) << scheme.name << made;
+                try {
+                    EXPECT_LT(openness(scene, change.make, 5), 1) << scheme.name << made;
+                    ++done;
+                } catch (const InputError&) {  // of a grain that has gone, or is part of a body
+                } catch (const RunError&) {    // they overlap too far
+                    break;
+                }
             }
         }
+        EXPECT_GT(done, 30u) << scheme.name;
     }
 }
 

@@ -38,7 +38,7 @@ public:
         for (const double x : {0.0, 3 * r})
             this->particleHandler.copyAndAddObject(this->grain(r, far + Vec3D(x, 0, 0)));
         Evaporation law;
-        law.setFlux(3e-5);
+        law.setFlux(2e-3);
         law.setInterval(1);
         this->setEvaporation(law);
         this->setQuiet();

@@ -16,12 +16,12 @@ using scenes::endOf;
 using scenes::GrainMotion;
 using Smooth = Species<LinearViscoelastic>;
 
-constexpr double r = 1e-3, side = 0.02, step = 1e-6;  // m, m, s
+constexpr double r = 1e-3, side = 0.02, dt = 1e-6;  // m, m, s
 
 class Cube : public scenes::HookedGrains<Smooth> {
 public:
     explicit Cube(const std::vector<GrainMotion>& grains)
-        : HookedGrains<Smooth>(boxMaterial<Smooth>(0), grains, step) {
+        : HookedGrains<Smooth>(boxMaterial<Smooth>(0), grains, dt) {
         for (int axis = 0; axis < 3; ++axis) setPeriodic(axis, 0, side);
         setQuiet();
         setTimeMax(1);
