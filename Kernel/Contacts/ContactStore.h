@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -261,6 +262,11 @@ public:
         const std::size_t slot = slotOf(contact);
         return memory.getLayout().hasTorque ? memory.records[slot].normalForce
                                             : memory.forces[slot].normalForce;
+    }
+    /// Whether another contact of the grain stands for this one with a wall.
+    [[nodiscard]] bool isLeftOut(std::size_t contact) const {
+        return std::isinf(
+            wallPoints[contact / Pack::lanes - firstWallBlock()].distance.lane[contact % Pack::lanes]);
     }
     [[nodiscard]] std::size_t firstWallBlock() const { return blocks.size() - wallPoints.size(); }
 

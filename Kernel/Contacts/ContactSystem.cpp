@@ -48,8 +48,7 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
 void ContactSystem::listWithin(Grains& grains, double reach) {
     if (!(reach > std::min(skin.width(), listBefore) - unlisted)) return;
     listAgain(grains, true, reach);
-    for (const Bucket& bucket : contacts.buckets)
-        if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
+    findWallPoints(grains, 0);
 }
 
 double ContactSystem::renew(Grains& grains) {
@@ -119,6 +118,7 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
                      std::max(reach, largestFilmContactGap()), filmsReach);
     const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
     if (takesInGrains) cells = list.takeSearch();
+    wallPatches.listed(contacts, *species, grains);
     skin.listed(contacts, grains.size());
     idleLanes.listed();
     species->prepare(contacts.buckets);
@@ -141,14 +141,15 @@ double ContactSystem::largestFilmContactGap() const {
 
 void ContactSystem::join(Grains& grains, double gap) {
     listAgain(grains, true, gap);
+    findWallPoints(grains, 0);
     for (const Bucket& bucket : contacts.buckets) {
         const int a = bucket.species1, b = bucket.species2;
         if (!species->ofPair(a, b).formsAtContact || species->liquidRules(a, b)) continue;
-        if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
         contactEvents.before(contacts, bucket);
         for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
             const std::size_t block = c / Pack::lanes;
             if (!ContactStore::bitOf(contacts.states[block].listed, c)) continue;
+            if (bucket.wall >= 0 && contacts.isLeftOut(c)) continue;
             const double separation = observe(grains, bucket, c).separation;
             const double range = species->range(a, b, bodiesOf(contacts, bucket, c, grains));
             if (!(separation <= gap && separation < range)) continue;
@@ -309,8 +310,7 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     archive.require(listAgain(grains, remembered) == remembered.size(), "pairs",
                     "has a contact of bodies that are out of reach");
     if (liquid.moves()) liquid.requireWhole(archive, contacts);
-    for (const Bucket& bucket : contacts.buckets)
-        if (bucket.wall >= 0) findWallPoints(grains, bucket, 0);
+    findWallPoints(grains, 0);
     sumWallForces(grains);  // also those that the run of the file did not keep
 }
 
@@ -320,6 +320,7 @@ void ContactSystem::computePairForces(const Grains& grains, double step, Contact
     compute(grains, step, timing, 0, firstWallBucket());
 }
 void ContactSystem::computeWallForces(const Grains& grains, double step, ContactTiming timing) {
+    findWallPoints(grains, step);
     compute(grains, step, timing, firstWallBucket(), contacts.buckets.size());
     if (!liquid.moves()) contactEvents.finish();
     sumWallForces(grains);
@@ -381,7 +382,6 @@ std::size_t ContactSystem::firstWallBucket() const {
 void ContactSystem::compute(const Grains& grains, double step, ContactTiming timing, std::size_t first,
                             std::size_t end) {
     for (std::size_t k = first; k < end; ++k) {
-        if (contacts.buckets[k].wall >= 0) findWallPoints(grains, contacts.buckets[k], step);
         contactEvents.before(contacts, contacts.buckets[k]);
         computeBucket(grains, step, timing, k);
         contactEvents.after(contacts, contacts.buckets[k], grains.identity);
@@ -463,6 +463,12 @@ void ContactSystem::wake(std::size_t block, const Bucket& bucket, const Grains& 
 void ContactSystem::findWallPoints(const Grains& grains, const Bucket& bucket, double step) {
     wallPoints.find(contacts, grains, bucket, wallOf(bucket), *species, step, threads,
                     [&](std::size_t block) { wake(block, bucket, grains); });
+}
+void ContactSystem::findWallPoints(const Grains& grains, double step) {
+    for (const Bucket& bucket : contacts.buckets)
+        if (bucket.wall >= 0) findWallPoints(grains, bucket, step);
+    wallPatches.join(contacts, *species, grains, *walls, threads,
+                     [&](std::size_t block) { wake(block, contacts.bucketOf(block), grains); });
 }
 void ContactSystem::sumWallForces(const Grains& grains) {
     for (std::size_t w = 0; w < walls->getSize(); ++w)

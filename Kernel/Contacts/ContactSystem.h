@@ -13,6 +13,7 @@
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Contacts/SkinChoice.h"
+#include "Kernel/Contacts/WallPatches.h"
 #include "Kernel/Contacts/WallPointSearch.h"
 #include "Kernel/Particles/NamedColumn.h"
 #include "Kernel/Walls/WallHandler.h"
@@ -232,6 +233,8 @@ private:
     void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number);
     void wake(std::size_t block, const Bucket& bucket, const Grains& grains);
     void findWallPoints(const Grains& grains, const Bucket& bucket, double step);
+    /// The same of all walls, of which one may stand for another: what is one contact is left once.
+    void findWallPoints(const Grains& grains, double step);
     void sumWallForces(const Grains& grains);
 
     ContactLaws* species = nullptr;
@@ -257,6 +260,7 @@ private:
     int threads = 1;
     std::size_t rebuilds = 0;
     WallPointSearch wallPoints;
+    WallPatches wallPatches;
     OverlapWatch overlapWatch;
     ContactEvents contactEvents;
     ContactLiquid liquid;

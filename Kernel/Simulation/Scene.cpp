@@ -8,6 +8,7 @@
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/StressServo.h"
+#include "Kernel/Walls/WallSeams.h"
 #include "Kernel/Walls/WornWall.h"
 
 namespace pendular {
@@ -650,6 +651,7 @@ void Scene::prepare() {
     for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, wallHandler))
         logger(LogLevel::Warn, "{}.", broken.text());
     warnOfFedSprings();
+    warnOfSeams();
 }
 
 void Scene::setLiquidToCome(double volume) {
@@ -755,6 +757,16 @@ void Scene::warnOfFedSprings() const {
            "{}: its springs have too weak dashpots for a time step of {:.3g} s, at which motions of grains "
            "at rest may double in {}; {}.",
            laws().friction, getTimeStep(), time, advice);
+}
+
+void Scene::warnOfSeams() const {
+    const ParticleStore& grains = particleHandler.store();
+    double largest = 0;
+    for (const std::uint32_t place : grains.place)
+        largest = std::max(largest, grains.translation[place].radius);
+    if (!(largest > 0) || laws().shapes()) return;
+    for (const std::string& sentence : doubtfulSeams(wallHandler, smallestRadius, largest))
+        logger(LogLevel::Warn, "{}.", sentence);
 }
 
 void Scene::visitAll(StateArchive& archive) {

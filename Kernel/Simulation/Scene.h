@@ -311,6 +311,7 @@ private:
     void bookEnded(double stored);
 
     void warnOfFedSprings() const;
+    void warnOfSeams() const;
     void refuseBoundForBodies(std::string_view call) const;
     void refuseForAdaptiveStep() const;
     /// Why the time step stays what it was at the start of the run; empty if it need not.

@@ -95,6 +95,9 @@ public:
     [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const override {
         return shape.isCrossed(from, to);
     }
+    [[nodiscard]] std::optional<Vector<double>> facetNormal(std::uint32_t part) const override {
+        return shape.normalOf(part);
+    }
     double moveTo(double time) override;
     void join(double time);
     void loseForce(const Vector<double>& force) override;

@@ -43,6 +43,8 @@ public:
     void update(std::span<const Point> at);
     // As those of Wall; points get no velocity.
     void listParts(const Point& centre, double reach, std::vector<std::uint32_t>& parts) const;
+    /// Unit, of a triangle.
+    [[nodiscard]] const Point& normalOf(std::uint32_t part) const { return faces[part].normal; }
     void findPoints(const Point& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const;
     [[nodiscard]] bool isCrossed(const Point& from, const Point& to) const;

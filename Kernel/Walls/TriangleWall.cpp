@@ -230,6 +230,34 @@ std::size_t TriangleWall::getNumberOfTriangles() const { return mesh ? mesh->tri
 std::size_t TriangleWall::getNumberOfParts() const { return mesh ? mesh->faces.size() : 0; }
 std::size_t TriangleWall::getNumberLeftOut() const { return mesh ? mesh->leftOut : 0; }
 
+std::optional<Vector<double>> TriangleWall::facetNormal(std::uint32_t part) const {
+    return getPose().turn(mesh->faces[part].normal);
+}
+
+std::vector<OpenEdge> TriangleWall::openEdges() const {
+    struct Use {
+        std::array<std::uint32_t, 2> ends;
+        std::uint32_t triangle;
+    };
+    const MeshTriangles& triangles = mesh->triangles;
+    std::vector<Use> uses;
+    for (std::uint32_t t = 0; t < triangles.corners.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = triangles.corners[t][k], b = triangles.corners[t][(k + 1) % 3];
+            uses.push_back({{std::min(a, b), std::max(a, b)}, t});
+        }
+    std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.ends < b.ends; });
+    std::vector<OpenEdge> open;
+    for (std::size_t k = 0; k < uses.size(); ++k) {
+        const auto& [ends, triangle] = uses[k];
+        if ((k > 0 && uses[k - 1].ends == ends) || (k + 1 < uses.size() && uses[k + 1].ends == ends))
+            continue;
+        open.push_back({triangles.partOf[triangle], getPose().place(triangles.vertices[ends[0]]),
+                        getPose().place(triangles.vertices[ends[1]])});
+    }
+    return open;
+}
+
 void TriangleWall::listInBody(const Vector<double>& centre, double reach,
                               std::vector<std::uint32_t>& parts) const {
     const std::size_t before = parts.size();

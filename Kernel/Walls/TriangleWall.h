@@ -27,6 +27,8 @@ public:
     [[nodiscard]] std::size_t getNumberOfTriangles() const;
     [[nodiscard]] std::size_t getNumberOfParts() const;
     [[nodiscard]] std::size_t partCount() const override { return getNumberOfParts(); }
+    [[nodiscard]] std::optional<Vector<double>> facetNormal(std::uint32_t part) const override;
+    [[nodiscard]] std::vector<OpenEdge> openEdges() const override;
     /// Triangles without area, and repeated ones.
     [[nodiscard]] std::size_t getNumberLeftOut() const;
 

@@ -23,6 +23,12 @@ struct WallPoint {
     int coveredBy = -1;       // of an infinite distance: the place of the point that stands for it
 };
 
+/// A side of a facet that no other one shares: where a mesh ends, or has a crack.
+struct OpenEdge {
+    std::uint32_t part;
+    Vector<double> begin, end;  // m
+};
+
 /// A plane that does not move, whose surface may run along it.
 struct PlaneAtRest {
     HalfSpace grains;                // the side where they are
@@ -71,6 +77,13 @@ public:
     /// A wall that is nothing but a plane at rest: its points are found for eight grains at once, which gives
     /// the same bits as findPoints().
     [[nodiscard]] virtual std::optional<PlaneAtRest> planeAtRest() const { return {}; }
+
+    /// Unit, of a part that is a facet of a mesh, which may stand for a curved surface; none of others.
+    [[nodiscard]] virtual std::optional<Vector<double>> facetNormal(std::uint32_t /*part*/) const {
+        return {};
+    }
+    /// Where its facets, if it has any, do not share their sides.
+    [[nodiscard]] virtual std::vector<OpenEdge> openEdges() const { return {}; }
 
     /// Whether a centre that moves straight from one point to the other goes through the surface.
     [[nodiscard]] virtual bool isCrossed(const Vector<double>& /*from*/, const Vector<double>& /*to*/) const {

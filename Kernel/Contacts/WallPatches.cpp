@@ -1,0 +1,194 @@
+#include "Kernel/Contacts/WallPatches.h"
+
+#include "Kernel/Contacts/ContactPatch.h"
+#include "Kernel/Contacts/WallContacts.h"
+#include "Kernel/Parallel.h"
+#include "Kernel/Walls/PartCover.h"
+
+namespace pendular {
+
+namespace {
+
+constexpr std::size_t worthAThread = 256;  // grains near several parts
+/// Of the radius: surfaces in one plane are at distances that differ by round-off. The wall with the lower
+/// number counts there, instead of one or the other by chance; the second one is taken to lie this much
+/// deeper.
+constexpr double orderOfWalls = 1e-10;
+
+double distanceOf(const ContactStore& store, std::uint32_t contact) {
+    return store.wallPoints[contact / Pack::lanes - store.firstWallBlock()]
+        .distance.lane[contact % Pack::lanes];
+}
+void setDistance(ContactStore& store, std::uint32_t contact, double distance) {
+    store.wallPoints[contact / Pack::lanes - store.firstWallBlock()].distance.lane[contact % Pack::lanes] =
+        distance;
+}
+Vector<double> normalOf(const ContactStore& store, std::uint32_t contact) {
+    const auto& n = store.wallPoints[contact / Pack::lanes - store.firstWallBlock()].normal;
+    const std::size_t lane = contact % Pack::lanes;
+    return {n[0].lane[lane], n[1].lane[lane], n[2].lane[lane]};
+}
+std::uint32_t partOf(const ContactStore& store, std::uint32_t contact) {
+    return store.blocks[contact / Pack::lanes].second[contact % Pack::lanes];
+}
+
+/// A part of a wall, of which the point nearest to another one can be asked.
+struct Facet {
+    const Wall& wall;
+    std::uint32_t part;
+
+    [[nodiscard]] Vector<double> nearestTo(const Vector<double>& place, double reach) const {
+        WallPoint found;
+        wall.findPoints(place, reach, {&part, 1}, {&found, 1});
+        return place + found.distance * found.normal;
+    }
+};
+
+/// m, between two facets, near to where a grain touches them at p and q: not less than it is. It is looked
+/// for from q, which lies at the edge where the surface is flat, and from where the planes across the normals
+/// meet, which is the edge of a groove.
+double gapBetween(const Facet& nearFacet, const Facet& farFacet, const Vector<double>& p,
+                  const Vector<double>& q, const Vector<double>& normalP, const Vector<double>& normalQ,
+                  double radius) {
+    const double direct = norm(nearFacet.nearestTo(q, radius) - q);
+    const double c = dot(normalP, normalQ), sine2 = 1 - c * c;
+    if (!(sine2 > 1e-12)) return direct;
+    // x = m + a n_p + b n_q with n_p (x - p) = n_q (x - q) = 0, m in the middle of p and q.
+    const Vector<double> half = 0.5 * (q - p);
+    const double u = -dot(normalP, half), v = dot(normalQ, half);
+    const Vector<double> shift = ((u - c * v) / sine2) * normalP + ((v - c * u) / sine2) * normalQ;
+    if (!(squaredNorm(shift) < radius * radius)) return direct;
+    const Vector<double> edge = p + half + shift;
+    return std::min(direct, norm(nearFacet.nearestTo(edge, radius) - farFacet.nearestTo(edge, radius)));
+}
+
+}  // namespace
+
+void WallPatches::listed(const ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains) {
+    several.clear(), members.clear(), ranges.clear();
+    if (contacts.wallPoints.empty() || laws.shapes()) return;  // shapes are not told by distances
+    std::vector<std::uint32_t> next(grains.size() + 1);        // first counts, then where members go
+    const auto forEachAtWalls = [&](auto&& function) {
+        for (std::size_t k = 0; k < contacts.buckets.size(); ++k) {
+            const Bucket& bucket = contacts.buckets[k];
+            for (std::uint32_t c = bucket.begin * Pack::lanes;
+                 bucket.wall >= 0 && c < bucket.end * Pack::lanes; ++c)
+                if (ContactStore::bitOf(contacts.states[c / Pack::lanes].listed, c))
+                    function(k, c, contacts.blocks[c / Pack::lanes].first[c % Pack::lanes]);
+        }
+    };
+    forEachAtWalls([&](std::size_t, std::uint32_t, std::uint32_t place) { ++next[place]; });
+    std::uint32_t count = 0;
+    constexpr std::uint32_t alone = ~std::uint32_t{0};
+    for (std::uint32_t place = 0; place < grains.size(); ++place) {
+        const std::uint32_t own = std::exchange(next[place], alone);
+        if (own < 2) continue;
+        several.push_back({place, count});
+        next[place] = count;
+        count += own;
+    }
+    if (several.empty()) return;
+    several.push_back({0, count});
+    members.resize(count);
+    if (laws.layout.interaction > 0) ranges.resize(count);
+    forEachAtWalls([&](std::size_t bucket, std::uint32_t contact, std::uint32_t place) {
+        if (next[place] == alone) return;
+        const std::uint32_t at = next[place]++;
+        members[at] = {contact, static_cast<std::int32_t>(bucket)};
+        if (ranges.empty()) return;
+        const Bucket& of = contacts.buckets[bucket];
+        ranges[at] = laws.range(of.species1, of.species2, {grains.translation[place].radius});
+    });
+}
+
+void WallPatches::join(ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains,
+                       const WallHandler& walls, int threads, const std::function<void(std::size_t)>& wake) {
+    if (several.empty()) return;
+    handOvers.resize(static_cast<std::size_t>(threads));
+    for (std::vector<HandOver>& own : handOvers) own.clear();
+    inParts(
+        several.size() - 1, threads,
+        [&](int part, std::size_t begin, std::size_t end) {
+            std::vector<Point> points;
+            for (std::size_t k = begin; k < end; ++k)
+                joinOf(k, contacts, grains, walls, points, handOvers[static_cast<std::size_t>(part)]);
+        },
+        worthAThread);
+    for (const auto& part : handOvers)
+        for (const HandOver& h : part) {
+            if (!contacts.acts(h.from)) continue;
+            if (contacts.slots[h.to / Pack::lanes] == ContactStore::asleep) wake(h.to / Pack::lanes);
+            handOver(contacts, laws, contacts.bucketOf(h.to / Pack::lanes), h.from, h.to, h.oldNormal,
+                     h.newNormal);
+        }
+}
+
+void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const ParticleStore& grains,
+                         const WallHandler& walls, std::vector<Point>& points,
+                         std::vector<HandOver>& found) const {
+    const TranslationRecord& body = grains.translation[several[grain].place];
+    const std::uint32_t begin = several[grain].begin, end = several[grain + 1].begin;
+    const auto reachOf = [&](std::uint32_t m) {
+        return ranges.empty() ? body.radius : body.radius + ranges[m];
+    };
+    std::uint32_t near = 0;
+    for (std::uint32_t m = begin; m < end; ++m)
+        near += distanceOf(contacts, members[m].contact) < reachOf(m) ? 1 : 0;
+    if (near < 2) return;
+
+    points.clear();
+    for (std::uint32_t m = begin; m < end; ++m) {
+        const std::uint32_t contact = members[m].contact;
+        const double distance = distanceOf(contacts, contact);
+        if (!(distance < reachOf(m))) continue;
+        if (!ContactStore::bitOf(contacts.states[contact / Pack::lanes].listed, contact)) continue;
+        const Bucket& bucket = contacts.buckets[static_cast<std::size_t>(members[m].bucket)];
+        points.push_back({contact, &bucket, normalOf(contacts, contact), distance, reachOf(m),
+                          distance + orderOfWalls * body.radius * bucket.wall, 1});
+    }
+    std::stable_sort(points.begin(), points.end(),
+                     [](const Point& a, const Point& b) { return a.order < b.order; });
+    // A point takes from those behind it by how far it counts itself, so that nothing jumps where two of
+    // several change places.
+    for (std::size_t far = 1; far < points.size(); ++far) {
+        Point& point = points[far];
+        double most = 0;
+        const Point* cover = nullptr;
+        for (std::size_t k = 0; k < far; ++k) {
+            const Point& other = points[k];
+            if (other.share == 0) continue;
+            const double taken =
+                other.share * (1 - ownShare(contacts, walls, other, point, body.position, body.radius));
+            if (taken > most) most = taken, cover = &other;
+            point.share *= 1 - taken;
+        }
+        if (!cover) continue;
+        if (point.share > 0) {
+            setDistance(contacts, point.contact,
+                        point.share * point.distance + (1 - point.share) * point.reach);
+            continue;
+        }
+        setDistance(contacts, point.contact, infinity);
+        // Another material begins a contact of its own.
+        if (cover->bucket->species2 == point.bucket->species2)
+            found.push_back({point.contact, cover->contact, point.normal, cover->normal});
+    }
+}
+
+double WallPatches::ownShare(const ContactStore& contacts, const WallHandler& walls, const Point& near,
+                             const Point& far, const Vector<double>& centre, double radius) {
+    const double cosine = dot(near.normal, far.normal);
+    const double depth = patchDepth(radius, near.distance, near.reach - radius);
+    const double byRise = ownShareByRise(near.distance - far.distance * cosine, depth);
+    if (byRise == 0 || !(cosine > smoothCosine)) return byRise;
+    const Facet a{walls.getObject(static_cast<std::size_t>(near.bucket->wall)),
+                  partOf(contacts, near.contact)};
+    const Facet b{walls.getObject(static_cast<std::size_t>(far.bucket->wall)), partOf(contacts, far.contact)};
+    const auto normalA = a.wall.facetNormal(a.part), normalB = b.wall.facetNormal(b.part);
+    if (!normalA || !normalB || !(std::abs(dot(*normalA, *normalB)) > smoothCosine)) return byRise;
+    const Vector<double> p = centre + near.distance * near.normal, q = centre + far.distance * far.normal;
+    const double gap = gapBetween(a, b, p, q, near.normal, far.normal, radius);
+    return std::min(byRise, ownShareByGap(gap, radius, depth));
+}
+
+}  // namespace pendular
