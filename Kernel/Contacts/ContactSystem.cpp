@@ -70,8 +70,10 @@ double ContactSystem::renew(Grains& grains) {
 void ContactSystem::listNow(Grains& grains, bool keepsBridges) {
     listAgain(grains, keepsBridges);
     // Contacts of a membrane hand their forces to its corners where they touch it.
-    for (const Bucket& bucket : contacts.buckets)
-        if (bucket.wall >= 0 && wallOf(bucket).membrane()) findWallPoints(grains, bucket, 0);
+    if (std::ranges::any_of(contacts.buckets, [&](const Bucket& bucket) {
+            return bucket.wall >= 0 && wallOf(bucket).membrane();
+        }))
+        findWallPoints(grains, 0);
 }
 
 /// Its bridge forgets how the bodies moved if the change has put them somewhere else.

@@ -17,7 +17,7 @@ public:
     std::vector<std::string> sentences() {
         for (number = 0; number < walls.getSize(); ++number)
             for (const OpenEdge& edge : walls.getObject(number).openEdges()) {
-                if (told[number]) break;
+                if (told[number] || asked > mostAsked) break;
                 look(edge);
             }
         return std::move(found);
@@ -37,6 +37,7 @@ private:
             if (walls.isRemoved(w)) continue;
             parts.clear();
             walls.getObject(w).listParts(place, distance, parts);
+            asked += 1 + parts.size();
             for (const std::uint32_t part : parts) {
                 WallPoint point;
                 walls.getObject(w).findPoints(place, distance, {&part, 1}, {&point, 1});
@@ -104,8 +105,12 @@ private:
         told[number] = told[other] = true;
     }
 
+    /// Some seconds; for meshes of many triangles that share no sides and are far smaller than grains.
+    static constexpr std::size_t mostAsked = 20'000'000;
+
     const WallHandler& walls;
-    double joined, apart;  // m, gaps that are none, and that are edges
+    std::size_t asked = 0;  // walls and parts
+    double joined, apart;   // m, gaps that are none, and that are edges
     std::size_t number = 0;
     std::vector<bool> told;  // of each wall
     std::vector<std::string> found;
