@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "Kernel/Contacts/ContactList.h"
+#include "Kernel/Contacts/FacePassage.h"
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Math/ExactSum.h"
@@ -131,6 +132,26 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
     late.clear();
     ++rebuilds;
     return recalled;
+}
+
+double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32_t> places,
+                                     const std::vector<bool>& hasEnds, double time,
+                                     const std::function<void()>& bringBack) {
+    for (const Bucket& bucket : contacts.buckets)
+        if (bucket.wall >= 0 && hasEnds[static_cast<std::size_t>(bucket.wall)])
+            findWallPoints(grains, bucket, 0);
+    FacePassage passage(contacts, *walls, *species, hasEnds);
+    passage.leave(grains, places);
+    bringBack();
+    passage.arrive(grains, filmReach() + skin.width(), time);
+    if (!passage.needsList()) return 0;
+    double stored = 0;
+    for (const std::uint32_t contact : passage.toEnd()) stored += endContact(grains, contact);
+    RememberedContacts remembered;
+    remembered.take(contacts, grains.identity, threads);
+    passage.rename(remembered);
+    listAgain(grains, remembered);
+    return stored;
 }
 
 double ContactSystem::largestFilmContactGap() const {

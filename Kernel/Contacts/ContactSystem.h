@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -70,6 +71,13 @@ public:
     bool refresh(Grains& grains, double grainShift, double wallShift);
     /// Sees to it that all bodies are listed whose surfaces are not farther apart than the reach (m).
     void listWithin(Grains& grains, double reach);
+    /// Brings grains back into a periodic scene whose walls have ends: contacts at walls go on at what the
+    /// walls have behind the face. After refresh(), at the same places of the grains. Returns the energy (J)
+    /// that was stored in contacts that have ended by it, where a ledger is kept.
+    /// @param places of these grains; @param hasEnds of each wall; @param bringBack changes their positions
+    double goThroughFaces(Grains& grains, std::span<const std::uint32_t> places,
+                          const std::vector<bool>& hasEnds, double time,
+                          const std::function<void()>& bringBack);
     /// What contacts remember, by who they join: how they are listed is not kept. After prepare(); the
     /// species, the walls and the grains are visited by themselves, before.
     void visitState(StateArchive& archive, Grains& grains);

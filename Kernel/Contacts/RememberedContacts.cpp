@@ -73,6 +73,21 @@ std::uint32_t RememberedContacts::find(std::uint32_t place, std::uint32_t wall, 
     return begins[place] + static_cast<std::uint32_t>(found - own.begin());
 }
 
+void RememberedContacts::goOn(std::uint32_t place, std::span<const NewPart> parts) {
+    std::vector<std::pair<Entry, std::uint32_t>> own;
+    for (std::uint32_t k = begins[place]; k < begins[place + 1]; ++k) {
+        Entry entry = entries[k];
+        const auto found = std::ranges::find_if(parts, [&](const NewPart& part) {
+            return entry.wall == part.wall + 1 && entry.other == part.before;
+        });
+        if (found != parts.end()) entry.other = found->now;
+        own.emplace_back(entry, slots[k]);
+    }
+    std::ranges::sort(own, {}, [](const auto& pair) { return orderOf(pair.first); });
+    for (std::size_t k = 0; k < own.size(); ++k)
+        std::tie(entries[begins[place] + k], slots[begins[place] + k]) = own[k];
+}
+
 void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory, bool ledger,
                                     const ParticleStore& grains,
                                     const std::vector<std::size_t>& partsOfWalls) {

@@ -39,6 +39,12 @@ public:
     [[nodiscard]] std::span<const Entry> of(std::uint32_t place) const {
         return {entries.data() + begins[place], entries.data() + begins[place + 1]};
     }
+    /// A contact goes on with another part of a wall.
+    struct NewPart {
+        std::uint32_t wall, before, now;  // the number of the wall
+    };
+    /// Some contacts of the grain that was at a place when they were taken go on with other parts.
+    void goOn(std::uint32_t place, std::span<const NewPart> parts);
     /// Sets the bits of an entry in the state of a block.
     static void setState(const Entry& entry, std::size_t lane, BlockState& state);
     /// The number of an entry; `none` if there is none.

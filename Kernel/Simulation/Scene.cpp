@@ -335,6 +335,7 @@ void Scene::setUp() {
     beginLiquid();
     prepare();
     ParticleStore& grains = particleHandler.store();
+    if (periodicWalls.haveEnds()) wrapAll(grains);
     contactSystem.refresh(grains, 0, 0);
     if (gapOfFirstBridges > 0) {
         refuseUnlessBridgesJoin(laws(), gapOfFirstBridges);
@@ -413,9 +414,11 @@ void Scene::check() {
     largestReach = checkPeriodicLengths(laws(), sizes, wallHandler, periodic);
     refuseForMovingImages();
     refuseForDrivenPlanes();
+    const double smallest = sizes.smallest();
+    periodicWalls.check(wallHandler, wallHandler.hasChanges(), periodic, laws(), sizes, widestBody,
+                        std::min(smallestRadius, smallest));
     checkedStep = getTimeStep();
     wallHandler.changesAreKnown();
-    const double smallest = sizes.smallest();
     checkedSizes = std::move(sizes);
     if (hasBegun() && smallest < smallestRadius) contactSystem.setSmallestRadius(smallest);
     smallestRadius = std::min(smallestRadius, smallest);
@@ -569,11 +572,12 @@ void Scene::takeOverChanges() {
             sumForcesOnNewDrives();
             intoLedger([&] { EnergyAccount::wallsChanged(wallHandler, ledger); });
         }
-        const bool withShapes = laws().shapes() && !changes.added.empty();
+        const bool withShapes = laws().shapes() && !changes.added.empty(), hadEnds = periodicWalls.haveEnds();
         if (newLaws || newBodies || withShapes || getTimeStep() != checkedStep ||
             isNewToChecks(changes.added))
             check();
         ParticleStore& grains = particleHandler.store();
+        if (periodicWalls.haveEnds()) wrapPlaced(grains, changes, hadEnds);
         if (newLaws || newBodies) {
             bookEnded(contactSystem.renew(grains));
             renewAccelerations(changes);
@@ -947,11 +951,13 @@ void Scene::advance(double length, bool another) {
         membraneMotion.begin(wallHandler, planeStep(length));
     }
     const double wallShift = wallHandler.moveTo(getTime() + length);
+    periodicWalls.follow(wallHandler, wallShift, getTime() + length);
     adaptive.moved(grainShift, wallShift, length);
     enter(StepTimes::Part::Search);
     intoLedger([&] { account.moved(grains, gravity, ledger); });
     bringBack(grains);
     contactSystem.refresh(grains, grainShift, wallShift);
+    if (periodicWalls.haveEnds()) bringBackAtWalls(grains, grainShift, getTime() + length);
     lookForDeepOverlaps(grains, 2 * grainShift);
     enter(StepTimes::Part::Contacts);
     ContactTiming timing = scheme().contacts;
@@ -1042,15 +1048,40 @@ void Scene::serveStress() {
 }
 
 void Scene::bringBack(ParticleStore& grains) {
-    if (!periodic.any() || getNumberOfTimeSteps() % stepsBetweenBringingBack != 0) return;
+    if (!periodic.any() || periodicWalls.haveEnds() || getNumberOfTimeSteps() % stepsBetweenBringingBack != 0)
+        return;
     // Grains that have left a scene whose images move go over to the velocity of their image inside.
     if (periodic.imagesMove)
         changeVelocities(grains, [&](const Vector<double>& place) { return periodic.velocityOfWrap(place); });
+    wrapAll(grains);
+    intoLedger([&] { account.wentRound(grains, gravity, ledger); });
+}
+
+void Scene::bringBackAtWalls(ParticleStore& grains, double shift, double time) {
+    if (!periodicWalls.isBringingBackDue(grains, shift)) return;
+    bookEnded(contactSystem.goThroughFaces(grains, periodicWalls.outside(grains), periodicWalls.endsOfWalls(),
+                                           time, [&] { wrapAll(grains); }));
+    intoLedger([&] { account.wentRound(grains, gravity, ledger); });
+}
+
+void Scene::wrapAll(ParticleStore& grains) const {
     for (TranslationRecord& grain : grains.translation) grain.position = periodic.wrap(grain.position);
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         grains.bodies[k].position = periodic.wrap(grains.bodies[k].position);
     grains.bodies.placeAll(grains);  // each body stays whole
-    intoLedger([&] { account.wentRound(grains, gravity, ledger); });
+}
+
+void Scene::wrapPlaced(ParticleStore& grains, const GrainChanges& changes, bool hadEnds) {
+    const double before = potentialEnergy(grains, gravity);
+    if (!hadEnds) wrapAll(grains);  // no contact is at a part of a wall
+    for (const auto* identities : {&changes.added, &changes.placed})
+        for (const std::uint32_t identity : *identities)
+            if (!grains.bodies.contains(identity)) {
+                Vector<double>& position = grains.translation[grains.place[identity]].position;
+                position = periodic.wrap(position);
+            }
+    intoLedger([&] { ledger.carried += before - potentialEnergy(grains, gravity); });
+    periodicWalls.lookAgain();
 }
 
 void Scene::lookForDeepOverlaps(const ParticleStore& grains, double approach) {

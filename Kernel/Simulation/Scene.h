@@ -19,6 +19,7 @@
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/AdaptiveStep.h"
 #include "Kernel/Simulation/DomainBox.h"
+#include "Kernel/Simulation/PeriodicWalls.h"
 #include "Kernel/Simulation/Run.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/StabilityAdvice.h"
@@ -355,6 +356,12 @@ private:
     /// Brings grains that have left a periodic scene back into it; at fixed steps, so that no bit depends on
     /// when contacts are listed.
     void bringBack(ParticleStore& grains);
+    /// The same where walls have ends (see PeriodicWalls), after contacts have been listed.
+    void bringBackAtWalls(ParticleStore& grains, double shift, double time);
+    void wrapAll(ParticleStore& grains) const;
+    /// Grains that were put outside, and all of them where the first wall with ends has come, are inside
+    /// before contacts with walls are listed.
+    void wrapPlaced(ParticleStore& grains, const GrainChanges& changes, bool hadEnds);
     /// Grains whose images move otherwise from now on get another velocity.
     /// @param changeAt (place, m): by how much, m/s
     template <class Function>
@@ -374,6 +381,7 @@ private:
     EnergyLedger ledger;
     EnergyAccount account;
     PeriodicBox periodic;
+    PeriodicWalls periodicWalls;
     PeriodicBox boxAtStep;                                          // before the step
     Vector<double> lowestAtSetUp{0, 0, 0}, lengthAtSetUp{0, 0, 0};  // m
     LeesEdwards shear, shearAtSetUp;

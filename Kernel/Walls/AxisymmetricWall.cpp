@@ -154,6 +154,36 @@ SurfaceExtent AxisymmetricWall::extent() const {
     return {SurfaceExtent::Symmetry::Axis, origin + middle * axis, radius, axis};
 }
 
+/// Along the axis it is alike where its profile is: this is looked at as a strip of the profile's form.
+SurfaceAtFaces AxisymmetricWall::atFaces(const PeriodicFaces& faces) const {
+    const Vector<double> direction = getPose().turn(axis), place = getPose().place(origin);
+    const double cosine = dot(direction, faces.along), sine = norm(cross(direction, faces.along)),
+                 middle = dot(place, faces.along);
+    double low = infinity, high = -infinity, widest = 0;  // m
+    for (const Point& p : profile) {
+        low = std::min(low, middle + cosine * p.height - sine * p.radius);
+        high = std::max(high, middle + cosine * p.height + sine * p.radius);
+        widest = std::max(widest, p.radius);
+    }
+    // A circle that is inclined by this leaves its plane by less than the tolerance.
+    if (sine * (widest + faces.length) > faces.tolerance) return intervalAtFaces(low, high, faces);
+    const Vector<double> outward = anyAcross(faces.along), across = cross(faces.along, outward);
+    std::vector<Polygon> strip;
+    for (std::size_t k = 1; k < profile.size(); ++k) {
+        const auto at = [&](const Point& p, double along) {
+            const double height = cosine < 0 ? -p.height : p.height;
+            return (middle + height) * faces.along + p.radius * outward + along * across;
+        };
+        const Point &begin = profile[k - 1], &end = profile[k];
+        strip.push_back({at(begin, 0), at(end, 0), at(end, faces.length), at(begin, faces.length)});
+    }
+    PeriodicFaces own = faces;
+    own.others.clear();
+    SurfaceAtFaces found = polygonsAtFaces(strip, own);
+    if (found.place) *found.place += place - middle * faces.along - dot(*found.place, across) * across;
+    return found;
+}
+
 void FiniteCylinder::set(const Vec3D& direction, const Vec3D& point, double radius, double length) {
     checkValue("FiniteCylinder", "radius", radius, "m", positive);
     checkValue("FiniteCylinder", "length", length, "m", positive);

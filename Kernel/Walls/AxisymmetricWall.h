@@ -22,6 +22,7 @@ public:
     /// @param polyline at least two points; consecutive ones differ
     void set(const Vec3D& direction, const Vec3D& point, std::vector<ProfilePoint> polyline);
     [[nodiscard]] std::size_t partCount() const override { return 2 * (profile.size() - 1); }
+    [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override;
 
 protected:
     void listInBody(const Vector<double>& centre, double reach,

@@ -22,6 +22,10 @@ public:
         takePlace();
     }
 
+    [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override {
+        return cylinderAtFaces(getPose().turn(axis), getPose().place(origin), cylinderRadius, faces);
+    }
+
 protected:
     void listInBody(const Vector<double>& centre, double reach,
                     std::vector<std::uint32_t>& parts) const override {

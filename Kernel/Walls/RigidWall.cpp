@@ -16,6 +16,12 @@ constexpr Range finiteRange{-infinity, infinity, false, false};
 /// s, between the poses of which velocities are differences. A power of two, so that times are not rounded.
 constexpr double differenceInterval = 0x1p-24;
 
+/// What of a velocity is along a surface with this normal: the rest would do work on grains that the surface,
+/// which stays where it is, cannot do.
+Vector<double> alongSurface(const Vector<double>& velocity, const Vector<double>& normal) {
+    return velocity - dot(velocity, normal) * normal;
+}
+
 std::string shown(const Vector<double>& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
 
 }  // namespace
@@ -251,6 +257,12 @@ double RigidWall::placeAt(double time) {
     return given ? extent().displacement(last, pose) : 0;
 }
 
+std::optional<PlaneAtRest> RigidWall::planeAtRest() const {
+    const std::optional<HalfSpace> plane = atRest ? planeInBody() : std::nullopt;
+    if (!plane) return {};
+    return PlaneAtRest{*plane, alongSurface(surfaceVelocity, plane->normal)};
+}
+
 void RigidWall::listParts(const Vector<double>& centre, double reach,
                           std::vector<std::uint32_t>& parts) const {
     listInBody(atRest ? centre : pose.placeBack(centre), reach, parts);
@@ -260,7 +272,7 @@ void RigidWall::findPoints(const Vector<double>& centre, double reach, std::span
                            std::span<WallPoint> points) const {
     if (atRest) {
         findInBody(centre, reach, parts, points);
-        for (WallPoint& point : points) point.velocity = surfaceVelocity;
+        for (WallPoint& point : points) point.velocity = alongSurface(surfaceVelocity, point.normal);
         return;
     }
     findInBody(pose.placeBack(centre), reach, parts, points);
@@ -268,12 +280,23 @@ void RigidWall::findPoints(const Vector<double>& centre, double reach, std::span
     for (WallPoint& point : points) {
         point.normal = pose.turn(point.normal);
         const double distance = std::isfinite(point.distance) ? point.distance : 0;
-        point.velocity = velocity.at(centre + distance * point.normal) + belt;
+        point.velocity = velocity.at(centre + distance * point.normal) + alongSurface(belt, point.normal);
     }
 }
 
 bool RigidWall::isCrossed(const Vector<double>& from, const Vector<double>& to) const {
     return atRest ? isCrossedInBody(from, to) : isCrossedInBody(pose.placeBack(from), pose.placeBack(to));
+}
+
+SurfaceAtFaces RigidWall::atFaces(const PeriodicFaces& faces) const {
+    const SurfaceExtent own = extent();
+    const Vector<double> centre = pose.place(own.centre), axis = pose.turn(own.axis);
+    if (own.symmetry == SurfaceExtent::Symmetry::Plane) return planeAtFaces(axis, centre, faces);
+    if (own.symmetry == SurfaceExtent::Symmetry::Cylinder)
+        return cylinderAtFaces(axis, centre, own.radius, faces);
+    const double middle = dot(faces.along, centre);
+    const SurfaceAtFaces found = intervalAtFaces(middle - own.radius, middle + own.radius, faces);
+    return found.passes ? SurfaceAtFaces{.passes = true} : found;
 }
 
 WallSurface RigidWall::surface(const SceneSphere& around) const {

@@ -29,9 +29,12 @@ public:
     /// MHz, and 3e-9 m/s for each metre from the origin (README of this folder).
     void setMotion(std::function<Eigen::Isometry3d(double)> pose);
     /// The surface runs with this velocity (m/s, in the body's frame) while the shape stays: a conveyor belt.
+    /// Grains feel what of it is along the surface where they touch it. Its part along the normal would push
+    /// without end and give them energy, as the surface does not go anywhere, so it is left out.
     void setSurfaceVelocity(const Vec3D& velocity);
 
     /// m/s, of the wall's material at a point (m) of the scene.
+    /// On a belt with the whole surface velocity, also the part that grains do not feel.
     [[nodiscard]] Vec3D getVelocityAt(const Vec3D& point) const;
     [[nodiscard]] const Pose& getPose() const { return pose; }
 
@@ -48,13 +51,12 @@ public:
     void listParts(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const final;
-    [[nodiscard]] std::optional<PlaneAtRest> planeAtRest() const final {
-        const std::optional<HalfSpace> plane = atRest ? planeInBody() : std::nullopt;
-        return plane ? std::optional(PlaneAtRest{*plane, surfaceVelocity}) : std::nullopt;
-    }
+    [[nodiscard]] std::optional<PlaneAtRest> planeAtRest() const final;
     [[nodiscard]] Vector<double> angularVelocity() const final { return velocity.spin; }
     [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const final;
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const final;
+    /// By its extent: one that goes through a face is not looked at closer.
+    [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override;
 
 protected:
     // As those of Wall, in the body's own frame and at rest.

@@ -49,6 +49,10 @@ public:
     [[nodiscard]] const SurfaceWear& wearOf(std::size_t triangle) const override {
         return worn->of(triangle);
     }
+    [[nodiscard]] bool movesVertices() const override { return moving.has_value(); }
+    [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override {
+        return polygonsAtFaces(surface({}).polygons, faces);
+    }
     void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) override;
     void forgetStep() override { noted.clear(); }
     void finishStep(double time) override;

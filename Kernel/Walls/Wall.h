@@ -9,6 +9,7 @@
 #include "Kernel/InputError.h"
 #include "Kernel/Particles/SphericalParticle.h"
 #include "Kernel/Walls/PlaneDrive.h"
+#include "Kernel/Walls/SurfaceAtFaces.h"
 #include "Kernel/Walls/WallSurface.h"
 
 namespace pendular {
@@ -88,6 +89,12 @@ public:
     /// Whether a centre that moves straight from one point to the other goes through the surface.
     [[nodiscard]] virtual bool isCrossed(const Vector<double>& /*from*/, const Vector<double>& /*to*/) const {
         return false;
+    }
+
+    /// What grains see of it that go through the faces of a scene which repeats itself. A shape that cannot
+    /// tell says that it goes through them: then only the run finds out.
+    [[nodiscard]] virtual SurfaceAtFaces atFaces(const PeriodicFaces& /*faces*/) const {
+        return {.passes = true};
     }
 
     /// Moves the wall to where it is at a time (s); returns how far (m) any point of its surface can have

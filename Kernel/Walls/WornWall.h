@@ -23,6 +23,8 @@ public:
 
     [[nodiscard]] virtual bool keepsWear() const = 0;
     [[nodiscard]] virtual const WearLaw& wearLaw() const = 0;
+    /// Whether its shape follows what is worn off.
+    [[nodiscard]] virtual bool movesVertices() const = 0;
     /// Takes note of what a contact of a part of the wall does to it in a step, at a point (m) of the scene.
     /// In the order of identities, from one thread. Throws RunError where the wall cannot wear there.
     virtual void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) = 0;

@@ -1,0 +1,126 @@
+#include "Kernel/Contacts/FacePassage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "Kernel/RunError.h"
+
+namespace pendular {
+
+namespace {
+
+/// What a grain sees before and behind a face may differ by this share of its radius. Walls are checked to a
+/// tenth of it, and the nearest point of a part may shift by a few times what the part does.
+constexpr double tolerance = 1e-3;
+
+}  // namespace
+
+double FacePassage::rangeAt(const Grains& grains, std::uint32_t place, std::uint32_t wall) const {
+    if (laws.layout.interaction == 0) return 0;
+    return laws.range(grains.species[place], walls.getObject(wall).species,
+                      {grains.translation[place].radius});
+}
+
+FacePassage::Seen FacePassage::seenAt(const Grains& grains, std::uint32_t place, std::uint32_t wall,
+                                      std::uint32_t part, bool isCovered) const {
+    const TranslationRecord& grain = grains.translation[place];
+    std::array<WallPoint, 1> point{};  // of one part alone no other one covers it
+    walls.getObject(wall).findPoints(grain.position, infinity, std::array{part}, point);
+    return {.wall = wall,
+            .part = part,
+            .foot = point[0].distance * point[0].normal,
+            .distance = point[0].distance,
+            .isCovered = isCovered,
+            .contact = 0};
+}
+
+void FacePassage::leave(const Grains& grains, std::span<const std::uint32_t> places) {
+    for (const std::uint32_t place : places) {
+        Passing& passing = grainsThatPass.emplace_back();
+        passing.place = place;
+        if (place >= store.sides.grainCount()) continue;  // it came after the list
+        for (const std::uint32_t side : store.sides.of(place))
+            note(grains, store.contactAt(side / 2), passing);
+        for (const std::uint32_t side : store.sides.asleepOf(place)) note(grains, side / 2, passing);
+    }
+}
+
+void FacePassage::note(const Grains& grains, std::uint32_t contact, Passing& passing) const {
+    const std::size_t block = contact / Pack::lanes, lane = contact % Pack::lanes;
+    if (block < store.firstWallBlock() || !ContactStore::bitOf(store.states[block].listed, contact)) return;
+    const auto wall = static_cast<std::uint32_t>(store.bucketOf(block).wall);
+    if (!isFollowed[wall]) return;
+    const double distance = store.wallPoints[block - store.firstWallBlock()].distance.lane[lane];
+    passing.before.push_back(
+        seenAt(grains, passing.place, wall, store.blocks[block].second[lane], !std::isfinite(distance)));
+    passing.before.back().contact = contact;
+}
+
+std::vector<FacePassage::Seen> FacePassage::allSeenAt(const Grains& grains, std::uint32_t place,
+                                                      std::uint32_t number, double listReach) const {
+    const Wall& wall = walls.getObject(number);
+    const TranslationRecord& grain = grains.translation[place];
+    const double range = rangeAt(grains, place, number);
+    std::vector<std::uint32_t> parts;
+    wall.listParts(grain.position, grain.radius + std::max(range, listReach), parts);
+    std::vector<WallPoint> points(parts.size());
+    if (!parts.empty()) wall.findPoints(grain.position, grain.radius + range, parts, points);
+    std::vector<Seen> found;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        found.push_back(seenAt(grains, place, number, parts[k], !std::isfinite(points[k].distance)));
+    return found;
+}
+
+void FacePassage::arrive(const Grains& grains, double reach, double time) {
+    for (Passing& passing : grainsThatPass) {
+        if (grains.translation[passing.place].inverseMass == 0) continue;  // held grains touch no walls
+        for (std::uint32_t wall = 0; wall < walls.getSize(); ++wall)
+            if (isFollowed[wall] && !findPartners(grains, passing, wall, reach))
+                throw RunError(fmt::format(
+                    "At time {:.6g} s particle {} goes through a face of the periodic scene where wall {} is "
+                    "not the same on both sides: walls are not repeated, so let this one go on through the "
+                    "faces, or keep grains away from where it does not.",
+                    time, grains.identity[passing.place], wall));
+    }
+}
+
+bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint32_t wall, double reach) {
+    std::vector<Seen> now = allSeenAt(grains, passing.place, wall, reach);
+    meetsWalls |= !now.empty();
+    const double radius = grains.translation[passing.place].radius, touch = (1 - tolerance) * radius,
+                 range = rangeAt(grains, passing.place, wall);
+    const auto partnerOf = [&](const Seen& before) -> Seen* {
+        const auto apart = [&](const Seen& each) {
+            const bool isNone =
+                each.isTaken || each.isCovered != before.isCovered || !(each.distance < infinity);
+            return isNone ? infinity : norm(each.foot - before.foot);
+        };
+        const auto nearest = std::ranges::min_element(now, {}, apart);
+        if (nearest == now.end() || !(apart(*nearest) <= tolerance * radius)) return nullptr;
+        return &*nearest;
+    };
+    for (const Seen& before : passing.before) {
+        if (before.wall != wall) continue;
+        const bool acts = store.acts(before.contact);
+        if (Seen* const partner = partnerOf(before)) {
+            partner->isTaken = true;
+            if (acts) passing.parts.push_back({wall, before.part, partner->part});
+            continue;
+        }
+        if (!before.isCovered && before.distance < touch + (acts ? range : 0)) return false;
+        if (acts) contactsToEnd.push_back(before.contact);
+    }
+    meetsWalls |= !passing.parts.empty();
+    return std::ranges::none_of(
+        now, [&](const Seen& each) { return !each.isTaken && !each.isCovered && each.distance < touch; });
+}
+
+void FacePassage::rename(RememberedContacts& remembered) const {
+    for (const Passing& passing : grainsThatPass)
+        if (!passing.parts.empty()) remembered.goOn(passing.place, passing.parts);
+}
+
+}  // namespace pendular

@@ -1,0 +1,225 @@
+#include "Kernel/Simulation/PeriodicWalls.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Walls/WornWall.h"
+
+namespace pendular {
+
+namespace {
+
+constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+constexpr std::array<Vector<double>, 3> units{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr std::array names{'x', 'y', 'z'};
+
+/// Of the smallest radius: how far outside a grain may be. A list of contacts lasts about as long as grains
+/// need for it, so that bringing them back makes at most about twice as many lists.
+constexpr double band = 0.2;
+/// Of the smallest radius: steps in a surface that are smaller count as none. A file with numbers of single
+/// precision is rounded to 6e-8 of its lengths.
+constexpr double tolerance = 1e-4;
+
+double reachOf(double needed) { return needed * (1 - 1e-6); }  // what a sentence asks for is rounded
+
+bool movesVertices(const Wall& wall) {
+    const auto* const worn = dynamic_cast<const WornWall*>(&wall);
+    return worn && worn->keepsWear() && worn->movesVertices();
+}
+
+bool areSame(const Pose& a, const Pose& b) {
+    return a.shift == b.shift && std::ranges::equal(a.column, b.column);
+}
+
+}  // namespace
+
+double PeriodicWalls::neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes) const {
+    double farthest = 0;
+    for (std::size_t s = 0; s < sizes.free.size(); ++s) {
+        if (sizes.free[s].empty()) continue;
+        const auto species = static_cast<int>(s);
+        for (const double radius : {sizes.free[s].smallest, sizes.free[s].largest}) {
+            const double range = std::max(laws.range(species, wall.species, {radius, infinity}),
+                                          laws.filmContactGap(species, wall.species));
+            farthest = std::max(farthest, std::max(radius, bodyReach) + range);
+        }
+    }
+    return farthest > 0 ? farthest + band * smallest : 0;
+}
+
+PeriodicFaces PeriodicWalls::facesOf(std::size_t axis, double needed) const {
+    PeriodicFaces faces{.along = units[axis],
+                        .lowest = periodic.lowest.*along[axis],
+                        .length = periodic.length.*along[axis],
+                        .width = std::min(2 * needed, 0.5 * periodic.length.*along[axis]),
+                        .tolerance = tolerance * smallest,
+                        .others = {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double length = periodic.length.*along[k], low = periodic.lowest.*along[k];
+        if (k == axis || length == 0) continue;
+        faces.others.push_back({units[k], low + length + needed});
+        faces.others.push_back({-units[k], needed - low});
+    }
+    return faces;
+}
+
+std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const SurfaceAtFaces& seen) const {
+    const double needed = 1.001 * looks[wall].needed, low = periodic.lowest.*along[axis],
+                 high = low + periodic.length.*along[axis];
+    const std::string advice = fmt::format(
+        "walls are not repeated, and grains that go through a face meet them up to {:.4g} m beyond it: let "
+        "it "
+        "go on alike for {:.6g} m beyond both faces, or end {:.6g} m before them.",
+        looks[wall].needed, needed, needed);
+    const auto ending = [&](std::string_view how, double end, double face) {
+        const double beyond = how == "ends" ? end - face : face - end;
+        return fmt::format("wall {} {} at {} = {:.6g} m, {:.4g} m {} the periodic face at {:.6g} m; {}", wall,
+                           how, names[axis], end, std::abs(beyond), beyond < 0 ? "before" : "beyond", face,
+                           advice);
+    };
+    if (std::abs(seen.highest - high) < needed) return ending("ends", seen.highest, high);
+    if (std::abs(seen.lowest - low) < needed) return ending("begins", seen.lowest, low);
+    const std::string where =
+        seen.place ? fmt::format(
+                         "what it has at ({:.6g}, {:.6g}, {:.6g}) m, {:.4g} m from a face, it has not "
+                         "at the other one",
+                         seen.place->x, seen.place->y, seen.place->z, seen.margin)
+                   : "it goes through a face, and not alike through the other one";
+    return fmt::format("wall {} is not the same after a period of {:.6g} m along {}: {}; {}", wall,
+                       high - low, names[axis], where, advice);
+}
+
+void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size_t axis) {
+    const Wall& wall = walls.getObject(number);
+    const PeriodicFaces faces = facesOf(axis, looks[number].needed);
+    const SurfaceAtFaces seen = wall.atFaces(faces);
+    if (seen.margin < reachOf(looks[number].needed)) throw InputError(sentence(number, axis, seen));
+    if (seen.passes && movesVertices(wall))
+        throw InputError(fmt::format(
+            "wall {} goes through a periodic face, and its vertices move with its wear, on each side as "
+            "grains wear them there, so that they would no longer fit; keep its wear without a motion of "
+            "vertices, or let it end before the faces.",
+            number));
+    const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);
+    looks[number].along[axis] = {.isEndless = seen.isEndless,
+                                 .passes = seen.passes,
+                                 .width = faces.width,
+                                 .margin = seen.margin,
+                                 .pose = rigid ? rigid->getPose() : Pose(),
+                                 .moved = 0};
+}
+
+void PeriodicWalls::forgetChecks(std::size_t walls) {
+    looks.clear();
+    hasEnds.assign(walls, false);
+    anyHasEnds = false;
+}
+
+void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const PeriodicBox& box,
+                          const ContactLaws& laws, const GrainSizes& sizes, double widestBody,
+                          double smallestRadius) {
+    const bool isOther = haveChanged || smallest != smallestRadius || looks.size() != walls.getSize();
+    periodic = box;
+    smallest = smallestRadius;
+    bodyReach = 0.5 * widestBody;
+    nearest = 0;
+    if (!box.any() || box.imagesMove || !(smallest < infinity)) return forgetChecks(walls.getSize());
+    looks.resize(walls.getSize());
+    for (std::size_t w = 0; w < looks.size(); ++w) {
+        if (walls.isRemoved(w)) {
+            looks[w] = {};
+            continue;
+        }
+        const double needed = looks[w].needed = neededOf(walls.getObject(w), laws, sizes);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Look& known = looks[w].along[axis];
+            if (periodic.length.*along[axis] > 0 && (isOther || needed > std::min(known.width, known.margin)))
+                look(walls, w, axis);
+        }
+    }
+    collectEnds();
+}
+
+void PeriodicWalls::collectEnds() {
+    hasEnds.clear();
+    for (const WallLooks& each : looks) hasEnds.push_back(!std::ranges::all_of(each.along, &Look::isEndless));
+    anyHasEnds = std::ranges::find(hasEnds, true) != hasEnds.end();
+}
+
+/// Turns about the axis and shifts carry what is alike at both faces along: then only the shift along the
+/// axis brings an end nearer.
+bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks& of, double shift) const {
+    const double length = periodic.length.*along[axis];
+    if (length == 0) return false;
+    Look& last = of.along[axis];
+    const double spare = last.margin - reachOf(of.needed);
+    const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);
+    if (!rigid || movesVertices(wall)) {
+        last.moved += shift;
+        return !(last.moved <= spare);
+    }
+    const Pose since = rigid->getPose().after(last.pose.inverse());
+    const double tilt = norm(since.turn(units[axis]) - units[axis]);
+    if (last.isEndless) return tilt > 0;
+    if (last.passes)
+        return !(length * tilt <= 0.1 * tolerance * smallest && std::abs(since.shift.*along[axis]) <= spare);
+    if (!areSame(rigid->getPose(), last.pose)) last.moved += shift;
+    return !(last.moved <= spare);
+}
+
+void PeriodicWalls::follow(const WallHandler& walls, double shift, double time) {
+    if (shift == 0 || looks.empty()) return;
+    bool lookedAgain = false;
+    for (std::size_t w = 0; w < looks.size(); ++w)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (walls.isRemoved(w) || !mustBeLookedAt(walls.getObject(w), axis, looks[w], shift)) continue;
+            try {
+                look(walls, w, axis);
+            } catch (const InputError& refusal) {
+                throw RunError(fmt::format("At time {:.6g} s {}", time, refusal.what()));
+            }
+            lookedAgain = true;
+        }
+    if (lookedAgain) collectEnds();
+}
+
+void PeriodicWalls::approach(const Vector<double>& centre) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double length = periodic.length.*along[axis],
+                     above = centre.*along[axis] - periodic.lowest.*along[axis];
+        if (length > 0) nearest = std::min(nearest, band * smallest + std::min(above, length - above));
+    }
+}
+
+bool PeriodicWalls::isBringingBackDue(const ParticleStore& grains, double shift) {
+    // The centre of a body may move farther than its grains.
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) approach(grains.bodies[k].position);
+    nearest -= shift;
+    if (nearest > 0) return false;
+    nearest = infinity;
+    for (std::size_t k = 0; k < grains.size(); ++k)
+        if (!grains.isGap(k) && !grains.bodies.contains(grains.identity[k]))
+            approach(grains.translation[k].position);
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) approach(grains.bodies[k].position);
+    if (nearest < 0) return true;
+    nearest *= 1 - 1e-9;  // sums of shifts are rounded
+    return false;
+}
+
+std::vector<std::uint32_t> PeriodicWalls::outside(const ParticleStore& grains) const {
+    std::vector<std::uint32_t> places;
+    for (const std::uint32_t place : grains.place) {
+        const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
+        const Vector<double>& centre = body == RigidBodies::none
+                                           ? grains.translation[place].position
+                                           : grains.bodies[grains.bodies.find(body)].position;
+        if (!(periodic.wrap(centre) == centre)) places.push_back(place);
+    }
+    return places;
+}
+
+}  // namespace pendular

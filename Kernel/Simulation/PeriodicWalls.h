@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Walls/WallHandler.h"
+
+namespace pendular {
+
+struct GrainSizes;
+
+/// The walls of a scene that repeats itself. They are not repeated, so grains that go through a face must see
+/// the same of them behind it: what a wall has within their reach of one face it must have at the other one,
+/// too. Where walls have ends, grains are brought back as soon as one of them is beyond a face by a fifth of
+/// the smallest radius, and nowhere else: so walls are looked at from there at most, and no bit depends on
+/// when contacts are listed.
+class PeriodicWalls {
+public:
+    /// Looks at the walls. Throws InputError where one is not alike at both faces.
+    /// @param haveChanged walls have been added or removed since the last time; @param widestBody m; @param
+    /// smallestRadius m, infinite without grains
+    void check(const WallHandler& walls, bool haveChanged, const PeriodicBox& box, const ContactLaws& laws,
+               const GrainSizes& sizes, double widestBody, double smallestRadius);
+    /// The same where walls have moved by at most a shift (m) since the last time. Throws RunError.
+    void follow(const WallHandler& walls, double shift, double time);
+
+    /// Whether there is a wall that is not the same after any shift along the periods.
+    [[nodiscard]] bool haveEnds() const { return anyHasEnds; }
+    /// Of each wall: whether it is such a one.
+    [[nodiscard]] const std::vector<bool>& endsOfWalls() const { return hasEnds; }
+
+    /// Whether a grain is too far outside, when grains have moved by at most a shift (m) since the last time.
+    [[nodiscard]] bool isBringingBackDue(const ParticleStore& grains, double shift);
+    /// Grains have been put somewhere else.
+    void lookAgain() { nearest = 0; }
+    /// The places of all grains that are outside.
+    [[nodiscard]] std::vector<std::uint32_t> outside(const ParticleStore& grains) const;
+
+private:
+    /// What was found of a wall along an axis.
+    struct Look {
+        bool isEndless = true, passes = false;
+        double width = infinity;   // m, from the faces, as far as it was looked at
+        double margin = infinity;  // m, as far as it is alike at both faces
+        Pose pose;                 // where it was then
+        double moved = 0;          // m, since then
+    };
+    struct WallLooks {
+        double needed = 0;  // m, from the faces, as far as grains see it
+        std::array<Look, 3> along;
+    };
+    void look(const WallHandler& walls, std::size_t wall, std::size_t axis);
+    void forgetChecks(std::size_t walls);
+    [[nodiscard]] double neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes) const;
+    [[nodiscard]] PeriodicFaces facesOf(std::size_t axis, double needed) const;
+    [[nodiscard]] std::string sentence(std::size_t wall, std::size_t axis, const SurfaceAtFaces& seen) const;
+    /// Whether a wall that may have moved (m) must be looked at again.
+    [[nodiscard]] bool mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks& of, double shift) const;
+    void collectEnds();
+    void approach(const Vector<double>& centre);
+
+    PeriodicBox periodic;
+    double smallest = infinity;  // m, radius
+    double bodyReach = 0;        // m, of the widest body around its centre
+    std::vector<WallLooks> looks;
+    std::vector<bool> hasEnds;
+    bool anyHasEnds = false;
+    double nearest = 0;  // m, by which grains must move until one of them is too far outside
+};
+
+}  // namespace pendular

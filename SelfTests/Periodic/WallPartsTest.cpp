@@ -1,0 +1,287 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "Kernel/Particles/ClumpTemplate.h"
+#include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "SelfTests/Liquid/WetScenes.h"
+#include "SelfTests/Periodic/ThroughFaces.h"
+#include "SelfTests/Support/TestFolder.h"
+
+// Grains go through the faces of a periodic scene on walls of several parts, as on walls of one part.
+
+namespace pendular::periodic {
+namespace {
+
+using scenes::GrainMotion;
+
+using Smooth = Species<HertzianViscoelastic>;
+using Dry = Species<HertzianViscoelastic, Mindlin>;
+using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
+using Migrating = Species<HertzianViscoelastic, Mindlin, LiquidMigrationWillett>;
+
+constexpr double reach = 2 * r;  // m, of walls beyond the faces
+
+/// Of a species that has them.
+template <class S>
+S material() {
+    S species = scenes::boxMaterial<S>(0);
+    if constexpr (requires { species.setLiquidBridgeVolume(1.0); }) {
+        species.setLiquidBridgeVolume(0.01 * r * r * r);
+        species.setContactAngle(0.2);
+        species.setSurfaceTension(0.07);
+    }
+    if constexpr (requires { species.setLiquidBridgeVolumeMax(1.0); }) species = wet::boxMaterial<S>(0);
+    return species;
+}
+
+/// At 2 m/s and less a grain goes through a face every 2000 steps.
+std::vector<GrainMotion> rollingGrains() {
+    return {{.radius = r, .position = {0.5 * length, 0.3 * length, r}, .velocity = {1.9, 0.7, 0}},
+            {.radius = r, .position = {0.2 * length, 0.8 * length, 1.5 * r}, .velocity = {-1.3, 0.4, 0}},
+            {.radius = 0.8 * r,
+             .position = {0.7 * length, 0.1 * length, 0.8 * r},
+             .velocity = {0.2, -1.6, 0},
+             .spin = {300, 0, 100}}};
+}
+
+template <class S>
+void expectSameMotion(ThroughFaces<S>& found, ThroughFaces<S>& expected, double tolerance) {
+    const PeriodicBox& box = found.getPeriodicBox();
+    for (std::size_t g = 0; g < expected.particleHandler.getSize(); ++g) {
+        const GrainMotion a = found.motion(g), b = expected.motion(g);
+        EXPECT_LT(norm(box.nearest(toVector(Vec3D(a.position - b.position)))), tolerance * r) << g;
+        EXPECT_LT((a.velocity - b.velocity).norm(), tolerance) << g;
+        EXPECT_LT((a.spin - b.spin).norm(), tolerance / r) << g;
+    }
+}
+
+template <class S>
+class WallParts : public testing::Test {};
+using SpeciesOfAllKinds = testing::Types<Smooth, Dry, Wet, Migrating>;
+TYPED_TEST_SUITE(WallParts, SpeciesOfAllKinds);
+
+template <class S>
+std::unique_ptr<ThroughFaces<S>> onFloor(bool isMesh, int threads = 1) {
+    auto scene =
+        std::make_unique<ThroughFaces<S>>(rollingGrains(), std::initializer_list<int>{0, 1}, material<S>());
+    scene->setNumberOfThreads(threads);
+    scene->listenToContacts();
+    scene->keepEnergyLedger();
+    if constexpr (requires(S s) { s.setLiquidBridgeVolumeMax(1.0); })
+        for (auto&& grain : scene->particleHandler) grain.setLiquidVolume(2e-12);
+    if (isMesh) {
+        const TriangleWall* const mesh = scene->add(meshOf(bricks(-reach, length + reach)));
+        EXPECT_EQ(mesh->getNumberOfParts(), 12u * 13u);
+        scene->wallHandler.getObject(0).keepForces();
+        return scene;
+    }
+    InfiniteWall plane;
+    plane.set({0, 0, -1}, {0, 0, 0});
+    scene->add(plane)->keepForces();
+    return scene;
+}
+
+/// Positions are rounded to 2^-60 m a step, and the steps of a touch amplify that to some 1e-10 m/s (as in
+/// FaceTest.cpp); friction damps what it changes, so a hundred touches add up to less than 1e-8 of 1 m/s.
+constexpr double roundOff = 1e-8;
+
+// The former code lost a touch, its spring and its bridge at each face, until contacts were listed again.
+TYPED_TEST(WallParts, aFloorOfBricksIsThePlane) {
+    auto found = onFloor<TypeParam>(true), expected = onFloor<TypeParam>(false);
+    found->initialise();
+    expected->initialise();
+    int heard = 0;
+    for (int k = 0; k < 60; ++k) {
+        found->steps(500);
+        expected->steps(500);
+        EXPECT_NEAR(found->wallHandler.getObject(0).getForce().z(),
+                    expected->wallHandler.getObject(0).getForce().z(), 1e-6);
+        heard += static_cast<int>(expected->heard.size());
+    }
+    EXPECT_GT(found->crossings, 20);
+    EXPECT_GT(heard, 0);
+    expectSameMotion(*found, *expected, roundOff);
+    EXPECT_EQ(found->heard.size(), expected->heard.size());  // no start and end besides those of the plane
+    const EnergyLedger &a = found->energyLedger(), &b = expected->energyLedger();
+    EXPECT_NEAR(a.closed(), a.total() + a.stepError, 0);
+    for (const auto& entry : EnergyLedger::entries())
+        EXPECT_NEAR(a.*entry.member, b.*entry.member, 1e-6 * b.kinetic) << entry.name;
+    if constexpr (requires(TypeParam s) { s.setLiquidBridgeVolumeMax(1.0); }) {
+        EXPECT_EQ(found->liquidLedger().unaccounted(), 0);
+        EXPECT_EQ(found->liquidLedger().bridges, expected->liquidLedger().bridges);
+    }
+}
+
+TYPED_TEST(WallParts, aTubeOfRingsIsTheCylinder) {
+    const auto make = [](bool isRings) {
+        // Two that slide and roll along and around, and one that sticks to the other through the face.
+        auto scene = std::make_unique<ThroughFaces<TypeParam>>(
+            std::vector<GrainMotion>{
+                {.radius = r, .position = {0.4 * length, 0, -2.9 * r}, .velocity = {1.7, 0.6, 0}},
+                {.radius = 0.9 * r, .position = {0.9 * length, 0, 2 * r}, .velocity = {-1.2, 0.9, 0}}},
+            std::initializer_list<int>{0}, material<TypeParam>());
+        if constexpr (requires(TypeParam s) { s.setLiquidBridgeVolumeMax(1.0); })
+            for (auto&& grain : scene->particleHandler) grain.setLiquidVolume(2e-12);
+        scene->listenToContacts();
+        if (isRings) {
+            AxisymmetricWall tube;
+            std::vector<ProfilePoint> profile;
+            for (int k = 0; k <= 12; ++k) profile.push_back({4 * r, -reach + k * (length + 2 * reach) / 12});
+            tube.set({1, 0, 0}, {0, 0, 0}, profile);
+            scene->add(tube);
+        } else {
+            InfiniteCylinder tube;
+            tube.set({1, 0, 0}, {0, 0, 0}, 4 * r, CylinderSide::Inside);
+            scene->add(tube);
+        }
+        scene->initialise();
+        return scene;
+    };
+    auto found = make(true), expected = make(false);
+    found->steps(20000);
+    expected->steps(20000);
+    EXPECT_GT(found->crossings, 10);
+    EXPECT_EQ(found->heard.size(), expected->heard.size());
+    expectSameMotion(*found, *expected, roundOff);
+}
+
+/// A floor with waves of the period, in a scene that repeats itself, is a floor with many waves in one that
+/// does not.
+TYPED_TEST(WallParts, wavesThatRepeatThemselvesAreALongFloor) {
+    const auto wave = [](double x) { return 0.3 * r * std::cos(2 * std::numbers::pi * x / length); };
+    const auto make = [&](bool isPeriodic) {
+        const std::vector<GrainMotion> grains{
+            {.radius = r, .position = {0.4 * length, 0.5 * length, 1.4 * r}, .velocity = {1.5, 0, 0}}};
+        auto scene = std::make_unique<ThroughFaces<TypeParam>>(grains, std::initializer_list<int>{},
+                                                               material<TypeParam>());
+        if constexpr (requires(TypeParam s) { s.setLiquidBridgeVolumeMax(1.0); })
+            for (auto&& grain : scene->particleHandler) grain.setLiquidVolume(2e-12);
+        if (isPeriodic) scene->setPeriodic(0, 0, length);
+        // 16 strips a wave, of which three go on beyond a face.
+        scene->add(meshOf(isPeriodic ? strips(-0.1875 * length, 1.1875 * length, 22, wave)
+                                     : strips(-length, 8 * length, 144, wave)));
+        scene->initialise();
+        scene->steps(16000);
+        return scene;
+    };
+    auto found = make(true), expected = make(false);
+    EXPECT_GT(found->crossings, 3);
+    EXPECT_GT(expected->motion(0).position.x(), 4 * length);
+    // Edges of strips scatter what differs a little more than a plane does.
+    expectSameMotion(*found, *expected, 100 * roundOff);
+}
+
+/// Steps until a grain has been brought back for the so-manieth time.
+template <class S>
+std::size_t stepOfCrossing(int number) {
+    auto scene = onFloor<S>(true);
+    scene->initialise();
+    while (scene->crossings < number) scene->steps(1);
+    return scene->getNumberOfTimeSteps();
+}
+
+TYPED_TEST(WallParts, restartsAtAFaceHaveTheSameBits) {
+    const support::TestFolder folder;
+    for (const int number : {1, 3}) {
+        const std::size_t at = stepOfCrossing<TypeParam>(number), last = at + 2500;
+        const auto file = [&](std::size_t step) { return folder.path() / (std::to_string(step) + ".h5"); };
+        auto whole = onFloor<TypeParam>(true);
+        whole->initialise();
+        for (std::size_t step = 1; step <= last; ++step) {
+            whole->step();
+            if (step + 3 >= at && step <= at + 3) whole->writeRestart(file(step));
+        }
+        for (std::size_t step = at - 3; step <= at + 3; ++step) {
+            auto half = onFloor<TypeParam>(true, step % 2 == 0 ? 3 : 1);
+            half->restartFrom(file(step));
+            half->initialise();
+            while (half->getNumberOfTimeSteps() < last) half->step();
+            EXPECT_EQ(stateHash(half->particleHandler.store()), stateHash(whole->particleHandler.store()))
+                << "from " << step << ", brought back in " << at;
+        }
+    }
+}
+
+TYPED_TEST(WallParts, haveTheSameBitsForAnyThreads) {
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 3}) {
+        auto scene = onFloor<TypeParam>(true, threads);
+        scene->initialise();
+        scene->steps(4000);
+        EXPECT_GT(scene->crossings, 2);
+        hashes.push_back(stateHash(scene->particleHandler.store()));
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+/// Grains of a body go through the face with its centre, though they are beyond it before or after.
+TEST(WallPartsOfBodies, clumpsRollOnBricksAsOnThePlane) {
+    const auto make = [](bool isMesh) {
+        auto scene =
+            std::make_unique<ThroughFaces<Dry>>(std::vector<GrainMotion>{}, std::initializer_list<int>{0, 1});
+        Clump clump(ClumpTemplate({{{-0.6, 0, 0}, 1}, {{0.6, 0, 0}, 1}}));
+        clump.setScale(r);
+        clump.setSpecies(scene->speciesHandler.getObject(0));
+        for (const double side : {-1.0, 1.0}) {
+            clump.setPosition({0.5 * length, (0.5 + 0.25 * side) * length, 1.3 * r});
+            clump.setVelocity({1.5 * side, 0.4, 0});
+            clump.setAngularVelocity({20, 100 * side, 200});
+            scene->bodyHandler.copyAndAddObject(clump);
+        }
+        if (isMesh) {
+            scene->add(meshOf(bricks(-reach, length + reach)));
+        } else {
+            InfiniteWall plane;
+            plane.set({0, 0, -1}, {0, 0, 0});
+            scene->add(plane);
+        }
+        scene->initialise();
+        scene->steps(12000);
+        return scene;
+    };
+    auto found = make(true), expected = make(false);
+    EXPECT_GT(found->crossings, 4);
+    expectSameMotion(*found, *expected, roundOff);
+}
+
+/// A bar across the scene: a grain that goes through the face meets it as it would without a period, a period
+/// farther. The former code saw it only when the grain had been brought back.
+TEST(WallParts, aGrainMeetsWhatStandsBehindTheFace) {
+    for (const bool isMesh : {true, false})
+        for (const double speed : {0.5, 1.0, 20.0}) {
+            const auto make = [&](bool isPeriodic) {
+                auto scene = std::make_unique<ThroughFaces<Dry>>(
+                    std::vector<GrainMotion>{{.radius = r,
+                                              .position = {0.93 * length, 0.02 * r, 0.4 * r},
+                                              .velocity = {speed, 0.1, 0.05}}},
+                    std::initializer_list<int>{});
+                scene->setGravity({0, 0, 0});
+                scene->setTimeStep(timeStep / std::max(1.0, speed / 2));
+                const double place = (isPeriodic ? 0 : length) + 2.5 * r;
+                if (isPeriodic) scene->setPeriodic(0, 0, length);
+                if (isMesh) {
+                    const Vector<double> a{place, -5 * r, -5 * r}, b{place, 5 * r, -5 * r},
+                        c{place + r, 0, 5 * r};
+                    scene->add(meshOf({{a, b, c}}));
+                } else {
+                    InfiniteCylinder rod;
+                    rod.set({0, 1, 0}, {place + 0.5 * r, 0, 0}, 0.5 * r, CylinderSide::Outside);
+                    scene->add(rod);
+                }
+                scene->initialise();
+                scene->steps(static_cast<int>(4 * r / speed / scene->getTimeStep()));
+                return scene;
+            };
+            auto found = make(true), expected = make(false);
+            EXPECT_GT(found->crossings, 0);
+            EXPECT_LT(expected->motion(0).velocity.x(), 0);
+            expectSameMotion(*found, *expected, speed * roundOff);
+        }
+}
+
+}  // namespace
+}  // namespace pendular::periodic
