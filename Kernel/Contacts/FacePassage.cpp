@@ -92,15 +92,18 @@ bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint
     meetsWalls |= !now.empty();
     const double radius = grains.translation[passing.place].radius, touch = (1 - tolerance) * radius,
                  range = rangeAt(grains, passing.place, wall);
+    // Of two parts that the grain sees in the same place, as above their common edge, one is covered: that
+    // goes on as such. In a shallow groove round-off may cover the other one; the contact is handed over
+    // then.
+    const double most = tolerance * radius;  // m
     const auto partnerOf = [&](const Seen& before) -> Seen* {
         const auto apart = [&](const Seen& each) {
-            const bool isNone =
-                each.isTaken || each.isCovered != before.isCovered || !(each.distance < infinity);
-            return isNone ? infinity : norm(each.foot - before.foot);
+            if (each.isTaken || !(each.distance < infinity)) return infinity;
+            const double between = norm(each.foot - before.foot);
+            return between <= most ? between + (each.isCovered != before.isCovered ? most : 0) : infinity;
         };
         const auto nearest = std::ranges::min_element(now, {}, apart);
-        if (nearest == now.end() || !(apart(*nearest) <= tolerance * radius)) return nullptr;
-        return &*nearest;
+        return nearest != now.end() && apart(*nearest) < infinity ? &*nearest : nullptr;
     };
     for (const Seen& before : passing.before) {
         if (before.wall != wall) continue;

@@ -17,22 +17,18 @@ constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<doubl
 constexpr std::array<Vector<double>, 3> units{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 constexpr std::array names{'x', 'y', 'z'};
 
-/// Of the smallest radius: how far outside a grain may be. A list of contacts lasts about as long as grains
-/// need for it, so that bringing them back makes at most about twice as many lists.
-constexpr double band = 0.2;
+/// Of the smallest radius: how far outside a grain may be at most. A list of contacts lasts about as long as
+/// grains need for it, so that bringing them back makes at most about twice as many lists.
+constexpr double widestBand = 0.2;
 /// Of the smallest radius: steps in a surface that are smaller count as none. A file with numbers of single
 /// precision is rounded to 6e-8 of its lengths.
 constexpr double tolerance = 1e-4;
 
-double reachOf(double needed) { return needed * (1 - 1e-6); }  // what a sentence asks for is rounded
+constexpr double rounded = 1 - 1e-6;  // what a sentence asks for is
 
 bool movesVertices(const Wall& wall) {
     const auto* const worn = dynamic_cast<const WornWall*>(&wall);
     return worn && worn->keepsWear() && worn->movesVertices();
-}
-
-bool areSame(const Pose& a, const Pose& b) {
-    return a.shift == b.shift && std::ranges::equal(a.column, b.column);
 }
 
 }  // namespace
@@ -48,10 +44,11 @@ double PeriodicWalls::neededOf(const Wall& wall, const ContactLaws& laws, const 
             farthest = std::max(farthest, std::max(radius, bodyReach) + range);
         }
     }
-    return farthest > 0 ? farthest + band * smallest : 0;
+    return farthest;
 }
 
-PeriodicFaces PeriodicWalls::facesOf(std::size_t axis, double needed) const {
+PeriodicFaces PeriodicWalls::facesOf(std::size_t axis, double least) const {
+    const double needed = least + widestBand * smallest;
     PeriodicFaces faces{.along = units[axis],
                         .lowest = periodic.lowest.*along[axis],
                         .length = periodic.length.*along[axis],
@@ -67,14 +64,14 @@ PeriodicFaces PeriodicWalls::facesOf(std::size_t axis, double needed) const {
     return faces;
 }
 
-std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const SurfaceAtFaces& seen) const {
-    const double needed = 1.001 * looks[wall].needed, low = periodic.lowest.*along[axis],
+std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const SurfaceAtFaces& seen,
+                                    double met) const {
+    const double needed = 1.001 * met, low = periodic.lowest.*along[axis],
                  high = low + periodic.length.*along[axis];
     const std::string advice = fmt::format(
-        "walls are not repeated, and grains that go through a face meet them up to {:.4g} m beyond it: let "
-        "it "
-        "go on alike for {:.6g} m beyond both faces, or end {:.6g} m before them.",
-        looks[wall].needed, needed, needed);
+        "walls are not repeated, and grains at a face meet them up to {:.4g} m beyond it: let it go "
+        "on alike for {:.6g} m beyond both faces, or end {:.6g} m before them.",
+        met, needed, needed);
     const auto ending = [&](std::string_view how, double end, double face) {
         const double beyond = how == "ends" ? end - face : face - end;
         return fmt::format("wall {} {} at {} = {:.6g} m, {:.4g} m {} the periodic face at {:.6g} m; {}", wall,
@@ -93,11 +90,13 @@ std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const Su
                        high - low, names[axis], where, advice);
 }
 
-void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size_t axis) {
+void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size_t axis, double outside) {
     const Wall& wall = walls.getObject(number);
-    const PeriodicFaces faces = facesOf(axis, looks[number].needed);
+    const double needed = looks[number].needed;
+    const PeriodicFaces faces = facesOf(axis, needed);
     const SurfaceAtFaces seen = wall.atFaces(faces);
-    if (seen.margin < reachOf(looks[number].needed)) throw InputError(sentence(number, axis, seen));
+    const double met = needed + outside;
+    if (seen.margin < met * rounded) throw InputError(sentence(number, axis, seen, met));
     if (seen.passes && movesVertices(wall))
         throw InputError(fmt::format(
             "wall {} goes through a periodic face, and its vertices move with its wear, on each side as "
@@ -107,8 +106,8 @@ void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size
     const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);
     looks[number].along[axis] = {.isEndless = seen.isEndless,
                                  .passes = seen.passes,
-                                 .width = faces.width,
-                                 .margin = seen.margin,
+                                 .needed = needed,
+                                 .margin = seen.passes ? std::min(seen.margin, faces.width) : seen.margin,
                                  .pose = rigid ? rigid->getPose() : Pose(),
                                  .moved = 0};
 }
@@ -126,28 +125,45 @@ void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const Peri
     periodic = box;
     smallest = smallestRadius;
     bodyReach = 0.5 * widestBody;
-    nearest = 0;
     if (!box.any() || box.imagesMove || !(smallest < infinity)) return forgetChecks(walls.getSize());
     looks.resize(walls.getSize());
+    double spare = infinity;
     for (std::size_t w = 0; w < looks.size(); ++w) {
         if (walls.isRemoved(w)) {
             looks[w] = {};
             continue;
         }
-        const double needed = looks[w].needed = neededOf(walls.getObject(w), laws, sizes);
+        const Wall& wall = walls.getObject(w);
+        const double needed = looks[w].needed = neededOf(wall, laws, sizes);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Look& known = looks[w].along[axis];
-            if (periodic.length.*along[axis] > 0 && (isOther || needed > std::min(known.width, known.margin)))
-                look(walls, w, axis);
+            if (periodic.length.*along[axis] == 0) continue;
+            if (isOther || needed != known.needed || !isWhereItWas(wall, known)) look(walls, w, axis, 0);
+            spare = std::min(spare, known.margin - needed);
         }
     }
+    // The other half is left to walls that move.
+    band = std::clamp(0.5 * spare, 0.0, widestBand * smallest);
     collectEnds();
 }
 
+void PeriodicWalls::visitState(StateArchive& archive) {
+    archive.finite("band", band);
+    archive.require(band >= 0 && band <= widestBand * smallest, "band",
+                    "is no distance to which grains may be outside");
+}
+
 void PeriodicWalls::collectEnds() {
+    nearest = 0;
     hasEnds.clear();
     for (const WallLooks& each : looks) hasEnds.push_back(!std::ranges::all_of(each.along, &Look::isEndless));
     anyHasEnds = std::ranges::find(hasEnds, true) != hasEnds.end();
+}
+
+bool PeriodicWalls::isWhereItWas(const Wall& wall, const Look& last) {
+    const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);
+    return rigid && !movesVertices(wall) && rigid->getPose().shift == last.pose.shift &&
+           std::ranges::equal(rigid->getPose().column, last.pose.column);
 }
 
 /// Turns about the axis and shifts carry what is alike at both faces along: then only the shift along the
@@ -156,7 +172,7 @@ bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks
     const double length = periodic.length.*along[axis];
     if (length == 0) return false;
     Look& last = of.along[axis];
-    const double spare = last.margin - reachOf(of.needed);
+    const double spare = last.margin - (of.needed + band) * rounded;
     const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);
     if (!rigid || movesVertices(wall)) {
         last.moved += shift;
@@ -167,7 +183,7 @@ bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks
     if (last.isEndless) return tilt > 0;
     if (last.passes)
         return !(length * tilt <= 0.1 * tolerance * smallest && std::abs(since.shift.*along[axis]) <= spare);
-    if (!areSame(rigid->getPose(), last.pose)) last.moved += shift;
+    if (!isWhereItWas(wall, last)) last.moved += shift;
     return !(last.moved <= spare);
 }
 
@@ -178,7 +194,7 @@ void PeriodicWalls::follow(const WallHandler& walls, double shift, double time) 
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (walls.isRemoved(w) || !mustBeLookedAt(walls.getObject(w), axis, looks[w], shift)) continue;
             try {
-                look(walls, w, axis);
+                look(walls, w, axis, band);
             } catch (const InputError& refusal) {
                 throw RunError(fmt::format("At time {:.6g} s {}", time, refusal.what()));
             }
@@ -191,7 +207,7 @@ void PeriodicWalls::approach(const Vector<double>& centre) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double length = periodic.length.*along[axis],
                      above = centre.*along[axis] - periodic.lowest.*along[axis];
-        if (length > 0) nearest = std::min(nearest, band * smallest + std::min(above, length - above));
+        if (length > 0) nearest = std::min(nearest, band + std::min(above, length - above));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -14,9 +15,10 @@ struct GrainSizes;
 
 /// The walls of a scene that repeats itself. They are not repeated, so grains that go through a face must see
 /// the same of them behind it: what a wall has within their reach of one face it must have at the other one,
-/// too. Where walls have ends, grains are brought back as soon as one of them is beyond a face by a fifth of
-/// the smallest radius, and nowhere else: so walls are looked at from there at most, and no bit depends on
-/// when contacts are listed.
+/// too. Where walls have ends, grains are brought back as soon as one of them is outside by more than a band,
+/// and nowhere else: so no wall is looked at from farther outside, and no bit depends on when contacts are
+/// listed. The band is a fifth of the smallest radius where walls are alike for so much farther, and twice
+/// that; where they are not, it is narrower, and contacts are listed more often.
 class PeriodicWalls {
 public:
     /// Looks at the walls. Throws InputError where one is not alike at both faces.
@@ -39,24 +41,30 @@ public:
     /// The places of all grains that are outside.
     [[nodiscard]] std::vector<std::uint32_t> outside(const ParticleStore& grains) const;
 
+    /// After check().
+    void visitState(StateArchive& archive);
+
 private:
     /// What was found of a wall along an axis.
     struct Look {
         bool isEndless = true, passes = false;
-        double width = infinity;   // m, from the faces, as far as it was looked at
-        double margin = infinity;  // m, as far as it is alike at both faces
+        double needed = 0;         // m, when it was looked at
+        double margin = infinity;  // m, from the faces, as far as it is known to be alike at both
         Pose pose;                 // where it was then
         double moved = 0;          // m, since then
     };
     struct WallLooks {
-        double needed = 0;  // m, from the faces, as far as grains see it
+        double needed = 0;  // m, from a grain on a face, as far as it meets the wall
         std::array<Look, 3> along;
     };
-    void look(const WallHandler& walls, std::size_t wall, std::size_t axis);
+    /// @param outside m, how far grains are outside
+    void look(const WallHandler& walls, std::size_t wall, std::size_t axis, double outside);
+    [[nodiscard]] static bool isWhereItWas(const Wall& wall, const Look& last);
     void forgetChecks(std::size_t walls);
     [[nodiscard]] double neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes) const;
-    [[nodiscard]] PeriodicFaces facesOf(std::size_t axis, double needed) const;
-    [[nodiscard]] std::string sentence(std::size_t wall, std::size_t axis, const SurfaceAtFaces& seen) const;
+    [[nodiscard]] PeriodicFaces facesOf(std::size_t axis, double least) const;
+    [[nodiscard]] std::string sentence(std::size_t wall, std::size_t axis, const SurfaceAtFaces& seen,
+                                       double met) const;
     /// Whether a wall that may have moved (m) must be looked at again.
     [[nodiscard]] bool mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks& of, double shift) const;
     void collectEnds();
@@ -65,6 +73,7 @@ private:
     PeriodicBox periodic;
     double smallest = infinity;  // m, radius
     double bodyReach = 0;        // m, of the widest body around its centre
+    double band = 0;             // m, as far as grains may be outside
     std::vector<WallLooks> looks;
     std::vector<bool> hasEnds;
     bool anyHasEnds = false;

@@ -781,6 +781,7 @@ void Scene::visitAll(StateArchive& archive) {
     }
     visitScene(archive);
     if (archive.isReading()) prepare();
+    if (periodicWalls.haveEnds()) archive.group("periodicWalls", [&] { periodicWalls.visitState(archive); });
     archive.group("contacts", [&] { contactSystem.visitState(archive, particleHandler.store()); });
     contactSystem.expectOverlaps(adaptive.supposedOverlap());
     if (contactSystem.movesLiquid()) {

@@ -26,11 +26,11 @@ struct PeriodicFaces {
 struct SurfaceAtFaces {
     static constexpr double none = std::numeric_limits<double>::infinity();
 
-    bool isEndless = false;                 // it is the same after any shift along the axis
-    bool passes = false;                    // it goes through a face
-    double margin = none;                   // m, from a face to the nearest point that has no partner
-    std::optional<Vector<double>> place;    // m, this point, where it is known
-    double lowest = -none, highest = none;  // m, between which the wall lies along the axis
+    bool isEndless = false;                    // it is the same after any shift along the axis
+    bool passes = false;                       // it goes through a face
+    double margin = none;                      // m, from a face to the nearest point that has no partner
+    std::optional<Vector<double>> place = {};  // m, this point, where it is known
+    double lowest = -none, highest = none;     // m, between which the wall lies along the axis
 };
 
 /// Of a wall that lies between two places (m) along the axis, and is not alike at both faces where it goes

@@ -18,8 +18,8 @@ using scenes::GrainMotion;
 using Dry = Species<HertzianViscoelastic, Mindlin>;
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
 
-/// m, from a face: a grain that is brought back a fifth of its radius beyond it touches a wall up to there.
-constexpr double needed = 1.2 * r;
+constexpr double needed = r;      // m, from a face: so far a grain on it meets a wall
+constexpr double band = 0.2 * r;  // m, as far as grains may be outside where walls go on for long
 
 template <class S = Dry>
 std::unique_ptr<ThroughFaces<S>> sceneWith(std::initializer_list<int> axes = {0},
@@ -47,7 +47,7 @@ TEST(WallEnds, aMeshMustGoOnBeyondBothFacesAsFarAsGrainsMeetIt) {
     for (const double beyond : {needed * 1.002, 1.5 * r, 2 * r, 0.4 * length, 3 * length})
         EXPECT_EQ(refusalOfFloor(-beyond, length + beyond), "") << beyond / r;
     // Exactly at the faces, and a little beyond, where the former code let grains fall in silence.
-    for (const double beyond : {0.0, 1e-9 * r, 0.5 * r, 1.01 * r, 0.999 * needed}) {
+    for (const double beyond : {0.0, 1e-9 * r, 0.5 * r, 0.9 * r, 0.999 * needed}) {
         for (const bool isLower : {false, true}) {
             const std::string text =
                 refusalOfFloor(isLower ? -beyond : -2 * r, isLower ? length + 2 * r : length + beyond);
@@ -116,7 +116,7 @@ TEST(WallEnds, alongEachPeriodOfTwo) {
     };
     EXPECT_EQ(refusalOfBricks(-2 * r, length + 2 * r, {0, 1}), "");
     EXPECT_EQ(refusalOfBricks(3 * r, length - 3 * r, {0, 1}), "");
-    EXPECT_TRUE(support::contains(refusalOfBricks(-2 * r, length + r, {0, 1}), "wall 0 ends at x"));
+    EXPECT_TRUE(support::contains(refusalOfBricks(-2 * r, length + 0.9 * r, {0, 1}), "wall 0 ends at x"));
     // As wide as the scene along y, which is enough unless it repeats itself along y.
     std::vector<Triangle> narrow = strips(
         -2 * r, length + 2 * r, 12, [](double) { return 0.0; }, length);
@@ -143,7 +143,8 @@ TEST(WallEnds, surfacesOfRevolution) {
         };
         EXPECT_EQ(along(-2 * r, length + 2 * r), "");
         EXPECT_EQ(along(3 * r, length - 3 * r), "");
-        EXPECT_TRUE(support::contains(along(-2 * r, length + r), "wall 0 ends at x = 0.016625 m, 0.001 m"));
+        EXPECT_TRUE(
+            support::contains(along(-2 * r, length + 0.9 * r), "wall 0 ends at x = 0.016525 m, 0.0009 m"));
         EXPECT_TRUE(support::contains(along(0, length), "wall 0 ends at x"));
         EXPECT_TRUE(support::contains(along(-2 * r, length + 2 * r, false), "is not the same"));
     }
@@ -273,7 +274,7 @@ TEST(WallEnds, wallsThatMoveAreFollowed) {
 
 TEST(WallEnds, whatComesInTheRunIsLookedAt) {
     const auto flat = [](double) { return 0.0; };
-    for (const double beyond : {r, 2 * r}) {  // a wall
+    for (const double beyond : {0.9 * r, 2 * r}) {  // a wall
         auto scene = sceneWith<>();
         scene->hook = [&](auto& s) {
             if (s.getNumberOfTimeSteps() == 10)

@@ -85,7 +85,9 @@ TEST(Belt, runsAlongItsSurfaceAtEachPoint) {
                         expected = beltVelocity - beltVelocity.dot(normal) * normal;
             EXPECT_GT(std::abs(beltVelocity.dot(normal)), 0.01);
             EXPECT_LT((toEigen(points[0].velocity) - expected).norm(), 1e-15);
-            if (const auto plane = wall->planeAtRest()) EXPECT_EQ(plane->surfaceVelocity, points[0].velocity);
+            if (const auto plane = wall->planeAtRest()) {
+                EXPECT_EQ(plane->surfaceVelocity, points[0].velocity);
+            }
         }
     }
 }
