@@ -11,8 +11,10 @@
 
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Files/CsvFile.h"
+#include "Kernel/Logger.h"
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Shapes/MeshSolid.h"
+#include "Kernel/Shapes/SphereGroups.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/Clump/MeshFilling.h"
@@ -160,6 +162,7 @@ int run(const Options& o) {
     }
     const MassProperties made = unionOfSpheres(spheres, spheres.size() > 16 ? tolerance : 1e-10);
     const double area = surfaceOfUnion(spheres, tolerance);
+    if (const auto gap = gapInClump(spheres)) writeToLog(fmt::format("Warning: {}: {}.\n", program, *gap));
     fmt::print("# the spheres\n");
     describe(made, spheres.size(), area, o.density);
     if (!mesh.empty()) {

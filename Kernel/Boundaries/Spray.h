@@ -39,8 +39,9 @@ public:
     void setSpeed(double value);
     /// s: droplets come out between these times; 0 and the end of the run, if this is not called.
     void setTimes(double first, double last);
-    /// Droplets hand over their momentum: a grain that catches one gets (m v + m_d v_d)/(m + m_d). The mass
-    /// of the film stays uncounted.
+    /// Droplets hand over their momentum: a grain that catches one gets (m v + m_d v_d)/(m + m_d), and does
+    /// not turn by it. A rigid body gets momentum and angular momentum at the place of the droplet, so that
+    /// this place and the droplet have one velocity. The mass of the film stays uncounted.
     /// @param liquidDensity kg/m^3
     void setMomentum(double liquidDensity);
     void setSeed(std::uint64_t value) { seed = value; }

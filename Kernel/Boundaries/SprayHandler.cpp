@@ -4,6 +4,7 @@
 
 #include "Kernel/InputError.h"
 #include "Kernel/Parallel.h"
+#include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {
 
@@ -149,12 +150,11 @@ void SprayHandler::hitGrain(const SprayStep& step, const Droplet& droplet, const
     const std::uint32_t place = flight.hit.grain;
     step.films.wet(step.grains, place, droplet.volume);
     const double density = sprays[static_cast<std::size_t>(droplet.spray)].liquidDensity();
-    if (density == 0 || !step.grains.isFree(place)) return;
-    TranslationRecord& grain = step.grains.translation[place];
-    const Vector<double> velocity = flight.velocity + (flight.hit.share * flight.sweep.time) * step.gravity;
-    const double mass = density * droplet.volume;
-    grain.velocity +=
-        (mass * grain.inverseMass / (1 + mass * grain.inverseMass)) * (velocity - grain.velocity);
+    if (density == 0) return;
+    const double share = flight.hit.share;
+    const Vector<double> at = flight.sweep.from + share * (flight.sweep.to - flight.sweep.from);
+    catchMomentum(step.grains, place, step.periodic, density * droplet.volume, at,
+                  flight.velocity + (share * flight.sweep.time) * step.gravity);
 }
 
 void SprayHandler::addTo(LiquidLedger& ledger) const {

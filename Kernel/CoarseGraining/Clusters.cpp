@@ -56,7 +56,9 @@ public:
             std::size_t& number = numberOf[root.node];
             if (number == unnumbered) {
                 number = found.list.size();
-                found.list.push_back({.size = nodes[root.node].size, .isEndless = endless[root.node]});
+                found.list.push_back({.size = nodes[root.node].size,
+                                      .bodies = nodes[root.node].size,
+                                      .isEndless = endless[root.node]});
                 sums.push_back({0, 0, 0});
                 squares.push_back(0);
             }
@@ -119,6 +121,19 @@ std::size_t rankOf(const std::vector<std::size_t>& identities, std::size_t ident
     return static_cast<std::size_t>(std::ranges::lower_bound(identities, identity) - identities.begin());
 }
 
+/// The grains of a rigid body are where its arms have them.
+void joinBodies(JoinedPoints& joined, const ParticleStore& grains,
+                const std::vector<std::size_t>& identities) {
+    const std::vector<Vector<double>> arms = grains.bodies.armsInSpace(grains);
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        const auto members = grains.bodies.membersOf(k);
+        const std::uint32_t first = members[0].grain;
+        for (const BodyMember& member : members.subspan(1))
+            joined.join(rankOf(identities, first), rankOf(identities, member.grain),
+                        arms[grains.place[member.grain]] - arms[grains.place[first]]);
+    }
+}
+
 void addLiquid(Clusters& clusters, const std::vector<ObservedContact>& contacts) {
     for (const ObservedContact& seen : contacts) {
         if (seen.particle2 == ObservedContact::none) continue;
@@ -128,14 +143,39 @@ void addLiquid(Clusters& clusters, const std::vector<ObservedContact>& contacts)
     }
 }
 
+/// What needs more than the points.
+Clusters finished(const JoinedPoints& joined, const ParticleStore& grains,
+                  std::vector<std::size_t> identities, const std::vector<ObservedContact>& contacts) {
+    Clusters found = joined.clusters();
+    found.ids = std::move(identities);
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        const auto members = grains.bodies.membersOf(k);
+        found.list[found.of[rankOf(found.ids, members[0].grain)]].bodies -= members.size() - 1;
+    }
+    addLiquid(found, contacts);
+    return found;
+}
+
 }  // namespace
+
+std::size_t Clusters::countBodies() const {
+    std::size_t sum = 0;
+    for (const Cluster& cluster : list) sum += cluster.bodies;
+    return sum;
+}
+
+double Clusters::shareOfAlone(std::size_t all) const {
+    const auto alone = std::ranges::count(list, std::size_t{1}, &Cluster::bodies);
+    return all == 0 ? 0 : static_cast<double>(alone) / static_cast<double>(all);
+}
 
 std::size_t Clusters::count(std::size_t size) const {
     return static_cast<std::size_t>(std::ranges::count(list, size, &Cluster::size));
 }
 
-Clusters clustersOfPoints(const std::vector<Vector<double>>& points, const PeriodicBox& box,
-                          double distance) {
+namespace {
+
+JoinedPoints joinNear(const std::vector<Vector<double>>& points, const PeriodicBox& box, double distance) {
     checkValue("Clusters", "distance", distance, "m", positive);
     if (!(distance <= 0.5 * shortestPeriod(box)))
         throw InputError(fmt::format(
@@ -151,17 +191,24 @@ Clusters clustersOfPoints(const std::vector<Vector<double>>& points, const Perio
         search.forEachPartner(k, [&](std::uint32_t other) {
             joined.join(k, other, box.nearest(records[other].position - records[k].position));
         });
-    return joined.clusters();
+    return joined;
+}
+
+}  // namespace
+
+Clusters clustersOfPoints(const std::vector<Vector<double>>& points, const PeriodicBox& box,
+                          double distance) {
+    return joinNear(points, box, distance).clusters();
 }
 
 Clusters clustersOfGrains(const ParticleStore& grains, const PeriodicBox& box,
                           const std::vector<ObservedContact>& contacts, double distance) {
     std::vector<Vector<double>> centres;
     for (const std::uint32_t place : grains.place) centres.push_back(grains.translation[place].position);
-    Clusters found = clustersOfPoints(centres, box, distance);
-    found.ids = identitiesOf(grains);
-    addLiquid(found, contacts);
-    return found;
+    JoinedPoints joined = joinNear(centres, box, distance);
+    const std::vector<std::size_t> identities = identitiesOf(grains);
+    joinBodies(joined, grains, identities);
+    return finished(joined, grains, identities, contacts);
 }
 
 Clusters clustersOfGrains(const ParticleStore& grains, const PeriodicBox& box,
@@ -171,10 +218,8 @@ Clusters clustersOfGrains(const ParticleStore& grains, const PeriodicBox& box,
     for (const ObservedContact& seen : contacts)
         if (seen.particle2 != ObservedContact::none && (seen.touching || seen.bridged))
             joined.join(rankOf(identities, seen.particle1), rankOf(identities, seen.particle2), seen.shift);
-    Clusters found = joined.clusters();
-    found.ids = identities;
-    addLiquid(found, contacts);
-    return found;
+    joinBodies(joined, grains, identities);
+    return finished(joined, grains, identities, contacts);
 }
 
 }  // namespace pendular

@@ -9,13 +9,15 @@ namespace pendular {
 
 /// Points, or grains, that are joined to each other in pairs.
 struct Cluster {
-    std::size_t size = 0;
+    std::size_t size = 0;       // of its points, or grains
+    std::size_t bodies = 0;     // as size, but a rigid body counts as one
     double gyrationRadius = 0;  // m, root mean square distance from the middle; no sense where it is endless
     bool isEndless = false;     // it is joined to an image of itself, so that it spans a periodic scene
     double bridgeVolume = 0;    // m^3, of the bridges between its grains; 0 for points
 };
 
-/// All clusters of a set of points or grains; one that is joined to no other is a cluster of one.
+/// All clusters of a set of points or grains; one that is joined to no other is a cluster of one. The grains
+/// of a rigid body are joined.
 struct Clusters {
     std::vector<Cluster> list;    // from the largest on; of one size, in the order of their first members
     std::vector<std::size_t> of;  // place in the list, of each point, or of grains in the order of identities
@@ -24,14 +26,14 @@ struct Clusters {
     [[nodiscard]] std::size_t largest() const { return list.empty() ? 0 : list.front().size; }
     /// How many clusters have this size.
     [[nodiscard]] std::size_t count(std::size_t size) const;
-    /// The two shares of what is alone that are in use: of all members, and of all clusters.
-    [[nodiscard]] double aloneOfMembers() const { return share(of.size()); }
-    [[nodiscard]] double aloneOfClusters() const { return share(list.size()); }
+    /// The two shares of what is alone that are in use: of all members, and of all clusters. A rigid body
+    /// that touches no other is alone.
+    [[nodiscard]] double aloneOfMembers() const { return shareOfAlone(countBodies()); }
+    [[nodiscard]] double aloneOfClusters() const { return shareOfAlone(list.size()); }
 
 private:
-    [[nodiscard]] double share(std::size_t all) const {
-        return all == 0 ? 0 : static_cast<double>(count(1)) / static_cast<double>(all);
-    }
+    [[nodiscard]] std::size_t countBodies() const;
+    [[nodiscard]] double shareOfAlone(std::size_t all) const;
 };
 
 /// Points that are nearer to each other than a distance, of their nearest images, are joined.

@@ -30,6 +30,14 @@ void addSquare(double factor, const Vector<double>& a, double* sums) {
         for (std::size_t j = i; j < 3; ++j) sums[at++] += factor * p[i] * p[j];
 }
 
+/// Adds the symmetric part of a b to xx xy xz yy yz zz.
+void addSymmetric(const Vector<double>& a, const Vector<double>& b, double* sums) {
+    const Place p = partsOf(a), q = partsOf(b);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i; j < 3; ++j) sums[at++] += 0.5 * (p[i] * q[j] + p[j] * q[i]);
+}
+
 /// The directions of r and theta at a place beside an axis along z.
 struct RoundFrame {
     double r, cosine, sine;
@@ -271,8 +279,12 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) values[3 * i + j] = f[i] * b[j];
     if (contact.adhesiveForce != 0) {
-        addSquare(-contact.adhesiveForce * norm(branch) / squaredNorm(contact.shift), contact.shift,
-                  values.data() + 9);
+        if (state.branches.empty())
+            addSquare(-contact.adhesiveForce * norm(branch) / squaredNorm(contact.shift), contact.shift,
+                      values.data() + 9);
+        else
+            addSymmetric((contact.adhesiveForce / norm(contact.shift)) * contact.shift, branch,
+                         values.data() + 9);
         items.isAdhesive = true;
     }
     const Vector<double> other = end + branch;
@@ -338,24 +350,38 @@ void FieldSums::addRoundLine(const Vector<double>& end, const Vector<double>& br
     }
 }
 
-void FieldSums::addContact(const GrainState& state, const GrainState::Contact& contact, Items& items) const {
+void FieldSums::addTraction(const GrainState& state, const Vector<double>& end, const Vector<double>& on,
+                            std::uint32_t group, Items& items) const {
+    forImages(state.periodic, end, end, [&](const Vector<double>& shift, const Vector<double>&) {
+        PointItem item{partsOf(end + shift), group, {}};
+        Vector<double> force = on;
+        if (points.isCylindrical()) {
+            const RoundFrame frame(end.x - points.centre().x, end.y - points.centre().y);
+            item.at[0] = frame.r;
+            force = frame.turned(force);
+        }
+        item.values[0] = force.x, item.values[1] = force.y, item.values[2] = force.z;
+        items.tractions.push_back(item);
+    });
+}
+
+void FieldSums::addContact(const GrainState& state, std::size_t number, Items& items) const {
+    const GrainState::Contact& contact = state.contacts[number];
     const GrainState::Grain& first = state.grains[contact.first];
     const std::uint32_t group = kinds.of(first);
-    const Vector<double> end = first.position + contact.shift;
-    if (contact.second == GrainState::Contact::wall) {
-        addLine(state, end, -contact.shift, contact, group, items);
-        forImages(state.periodic, end, end, [&](const Vector<double>& shift, const Vector<double>&) {
-            PointItem item{partsOf(end + shift), group, {}};
-            Vector<double> force = contact.force;
-            if (points.isCylindrical()) {
-                const RoundFrame frame(end.x - points.centre().x, end.y - points.centre().y);
-                item.at[0] = frame.r;
-                force = frame.turned(force);
-            }
-            item.values[0] = force.x, item.values[1] = force.y, item.values[2] = force.z;
-            items.tractions.push_back(item);
-        });
+    const bool atWall = contact.second == GrainState::Contact::wall;
+    if (!state.branches.empty()) {
+        const auto& [toFirst, toSecond] = state.branches[number];
+        const Vector<double> point = first.position - toFirst;
+        addLine(state, point, toFirst, contact, group, items);
+        if (atWall) return addTraction(state, point, contact.force, group, items);
+        addLine(state, point + toSecond, -toSecond, contact, kinds.of(state.grains[contact.second]), items);
         return;
+    }
+    const Vector<double> end = first.position + contact.shift;
+    if (atWall) {
+        addLine(state, end, -contact.shift, contact, group, items);
+        return addTraction(state, end, contact.force, group, items);
     }
     const GrainState::Grain& second = state.grains[contact.second];
     const std::uint32_t other = kinds.of(second);
@@ -504,7 +530,7 @@ void FieldSums::makeItems(const GrainState& state, std::size_t share, Items& of)
         addGrain(state, k, of);
     if (!hasContacts()) return;
     for (std::size_t k = contacts * share / shares; k < contacts * (share + 1) / shares; ++k)
-        addContact(state, state.contacts[k], of);
+        addContact(state, k, of);
 }
 
 void FieldSums::spread(const Items& of, const Slab& slab) const {

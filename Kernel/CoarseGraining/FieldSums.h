@@ -42,8 +42,11 @@ private:
 ///   mass      sum m phi_i                contact stress  sum f b psi, psi the mean of phi over the branch
 ///   momentum  sum m v phi_i              traction        sum f phi(r - contact point), at walls
 ///   flux      sum m v v phi_i            fabric          sum n n (V_i phi_i + V_j phi_j), without walls
-/// Stress is positive in compression. A contact of two groups is divided at the contact point. Where the
-/// images of a scene move against each other (shear, strain) each has its own velocity.
+/// Stress is positive in compression. A rigid body is a grain at its centre of mass, to which its branches go
+/// from the contact points: only so what holds the body together is in the stress, and momentum is balanced.
+/// The adhesive stress, which has six parts, is then the symmetric part. A contact of two groups is divided
+/// at the contact point. Where the images of a scene move against each other (shear, strain) each has its own
+/// velocity.
 class FieldSums {
 public:
     /// What is summed, by its first place.
@@ -128,7 +131,9 @@ private:
     void gatherContactsOfGrains(const GrainState& state, int threads);
     void makeItems(const GrainState& state, std::size_t share, Items& items) const;
     void addGrain(const GrainState& state, std::size_t number, Items& items) const;
-    void addContact(const GrainState& state, const GrainState::Contact& contact, Items& items) const;
+    void addContact(const GrainState& state, std::size_t number, Items& items) const;
+    void addTraction(const GrainState& state, const Vector<double>& point, const Vector<double>& force,
+                     std::uint32_t group, Items& items) const;
     void addLine(const GrainState& state, Vector<double> end, Vector<double> branch,
                  const GrainState::Contact& contact, std::uint32_t group, Items& items) const;
     void addRoundLine(const Vector<double>& end, const Vector<double>& branch,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "Kernel/Math/Vector.h"
@@ -11,7 +12,8 @@ namespace pendular {
 /// Whether fields are made of grains and contacts, or of grains alone.
 enum class FieldContent { All, WithoutContacts };
 
-/// What fields are made of: the grains and contacts of a scene at one time, from a run or from a file.
+/// What fields are made of: the grains and contacts of a scene at one time, from a run or from a file. A
+/// rigid body is one of its grains: at its centre of mass, with the radius of a sphere of its volume.
 struct GrainState {
     struct Grain {
         Vector<double> position, velocity;  // m, m/s
@@ -32,10 +34,33 @@ struct GrainState {
         bool touching = true;
     };
 
+    /// Of a contact, m: from its point to the centres of its two bodies. Of two single grains both are parts
+    /// of the shift.
+    struct Branches {
+        Vector<double> toFirst, toSecond;
+    };
+
     double time = 0;  // s
     std::vector<Grain> grains;
     std::vector<Contact> contacts;
+    std::vector<Branches> branches;  // of each contact; empty without rigid bodies
     PeriodicBox periodic;
 };
+
+/// A rigid body of a state whose grains are still single ones.
+struct BodyState {
+    Vector<double> position, velocity;  // m, m/s, of the centre of mass
+    double mass = 0, volume = 0;        // kg, m^3
+};
+/// Which body a grain is part of, if any.
+struct MemberState {
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    std::uint32_t body = none;    // place among the bodies
+    Vector<double> arm{0, 0, 0};  // m, from the centre of mass to the centre of the grain
+};
+/// Puts the bodies of a state in the place of their grains, behind all others. Each has the films of its
+/// grains, and the species of the first.
+/// @param members of each grain of the state
+void joinBodies(GrainState& state, std::span<const MemberState> members, std::span<const BodyState> bodies);
 
 }  // namespace pendular

@@ -2,19 +2,23 @@
 
 #include <Eigen/Core>
 
-#include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {
 
 /// The mean stress of a scene (Pa, compression positive) by what makes it, as of the last step:
-/// sum over grains of m C_a C_b, with the velocity C against the flow of setLeesEdwards() or a strain and the
+/// sum over bodies of m C_a C_b, with the velocity C against the flow of setLeesEdwards() or a strain and the
 /// mean of all, and over contacts of f_a b_b, with the force f on one body and b from the centre of the other
-/// (at a wall, from its surface) to that of the first; over the volume. Source: Irving and Kirkwood (1950),
-/// J. Chem. Phys. 18, 817, its mean over a volume; the sum over contacts is that of Love and Weber. With
-/// friction it is symmetric only in the mean over time: the difference is the torque on grains whose turning
-/// changes. The forces that hold rigid bodies together are not known: scenes with them are refused.
+/// (at a wall, from the contact point) to that of the first; over the volume. A rigid body is one with its
+/// centre of mass: so what holds it together is in the stress. (At an instant the stress of a body that turns
+/// has besides
+/// -([dw/dt] + [w]^2) J, with J the integral of rho r r; this is d/dt of [w] J, whose mean over time is 0.)
+/// Source: Irving and Kirkwood (1950), J. Chem. Phys. 18, 817, its mean over a volume; the sum over contacts
+/// is that of Love and Weber. With friction it is symmetric only in the mean over time: the difference is the
+/// torque on grains whose turning changes.
 struct MeanStress {
     Eigen::Matrix3d kinetic = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d contact = Eigen::Matrix3d::Zero();  // of bodies that touch, without bridges and adhesion
@@ -35,14 +39,11 @@ template <class Scene>
     };
     const PeriodicBox& box = scene.getPeriodicBox();
     const ParticleStore& grains = scene.particleHandler.store();
-    if (!grains.bodies.empty())
-        throw InputError("meanStress: the forces that hold rigid bodies together are in no stress.");
     const auto forEachFree = [&](auto&& use) {  // mass (kg), velocity against the flow (m/s)
-        for (const std::uint32_t place : grains.place) {
-            const TranslationRecord& grain = grains.translation[place];
-            if (grain.inverseMass > 0)
-                use(1 / grain.inverseMass, grain.velocity - box.flowAt(grain.position));
-        }
+        forEachMovingBodyInOrder(
+            grains, [&](double mass, const Vector<double>& position, const Vector<double>& velocity) {
+                use(mass, velocity - box.flowAt(position));
+            });
     };
     Vector<double> momentum{0, 0, 0};  // kg m/s
     double mass = 0;                   // kg
@@ -54,10 +55,11 @@ template <class Scene>
         const Vector<double> fluctuation = velocity - (1 / mass) * momentum;
         add(stress.kinetic, own * fluctuation, fluctuation);
     });
+    const BodyArms arms(grains);
     for (const ObservedContact& seen : scene.interactions()) {
-        const Vector<double> pull = seen.adhesiveForce * seen.normal();
-        add(stress.capillary, pull, -seen.shift);
-        add(seen.touching ? stress.contact : stress.viscous, seen.force - pull, -seen.shift);
+        const Vector<double> pull = seen.adhesiveForce * seen.normal(), branch = -arms.shiftOf(seen);
+        add(stress.capillary, pull, branch);
+        add(seen.touching ? stress.contact : stress.viscous, seen.force - pull, branch);
     }
     return stress;
 }

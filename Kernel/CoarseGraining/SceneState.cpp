@@ -1,6 +1,8 @@
 #include "Kernel/CoarseGraining/SceneState.h"
 
+#include <cmath>
 #include <map>
+#include <numbers>
 
 namespace pendular {
 
@@ -21,7 +23,99 @@ Vector<double> vectorAt(const PolyDataField& field, std::size_t k) {
     return {field.at(3 * k), field.at(3 * k + 1), field.at(3 * k + 2)};
 }
 
+/// From the centre of the first grain to the point of a contact, m: in the middle of the overlap or of the
+/// gap, at a wall on its surface.
+Vector<double> toPoint(const GrainState& state, const GrainState::Contact& contact) {
+    if (contact.second == GrainState::Contact::wall) return contact.shift;
+    const double length = norm(contact.shift), radius = state.grains[contact.first].radius,
+                 gap = length - radius - state.grains[contact.second].radius;
+    return ((radius + 0.5 * gap) / length) * contact.shift;
+}
+
+/// Of the rigid bodies in a frame. Without any, or where each is a single grain, nothing changes.
+void joinBodies(GrainState& state, const PolyData& grains) {
+    const PolyDataField* const body = grains.pointField("body");
+    if (!body) return;
+    const std::size_t count = state.grains.size();
+    std::map<std::int64_t, std::uint32_t> numbers;  // of the body with a number
+    std::size_t members = 0;
+    for (std::size_t k = 0; k < count; ++k)
+        if (body->at(k) >= 0) {
+            ++members;
+            numbers.emplace(static_cast<std::int64_t>(body->at(k)),
+                            static_cast<std::uint32_t>(numbers.size()));
+        }
+    if (members == numbers.size() && !grains.pointField("body_arm_m")) return;
+    const PolyDataField &arm = needed(grains.pointField("body_arm_m"), "body_arm_m", 3, count),
+                        &velocity = needed(grains.pointField("body_velocity_m_per_s"),
+                                           "body_velocity_m_per_s", 3, count),
+                        &volume = needed(grains.pointField("body_volume_m3"), "body_volume_m3", 1, count);
+    std::vector<MemberState> memberOf(count);
+    std::vector<BodyState> bodies(numbers.size());
+    for (std::size_t k = 0; k < count; ++k) {
+        if (body->at(k) < 0) continue;
+        memberOf[k] = {numbers[static_cast<std::int64_t>(body->at(k))], vectorAt(arm, k)};
+        BodyState& own = bodies[memberOf[k].body];
+        own.position = state.grains[k].position - memberOf[k].arm;
+        own.velocity = vectorAt(velocity, k);
+        own.mass += state.grains[k].mass;
+        own.volume = volume.at(k);
+    }
+    joinBodies(state, memberOf, bodies);
+}
+
 }  // namespace
+
+void joinBodies(GrainState& state, std::span<const MemberState> members, std::span<const BodyState> bodies) {
+    using Contact = GrainState::Contact;
+    state.branches.clear();
+    for (const Contact& c : state.contacts) {
+        const Vector<double> point = toPoint(state, c);
+        const Vector<double> toFirst = -members[c.first].arm - point;
+        state.branches.push_back(
+            {toFirst, c.second == Contact::wall ? -point : c.shift - members[c.second].arm - point});
+    }
+    std::vector<GrainState::Grain> grains;
+    std::vector<std::uint32_t> number(state.grains.size());
+    for (std::size_t k = 0; k < state.grains.size(); ++k)
+        if (members[k].body == MemberState::none) {
+            number[k] = static_cast<std::uint32_t>(grains.size());
+            grains.push_back(state.grains[k]);
+        }
+    const std::size_t single = grains.size();
+    for (const BodyState& b : bodies)
+        grains.push_back(
+            {b.position, b.velocity, std::cbrt(0.75 / std::numbers::pi * b.volume), b.mass, 0, -1});
+    for (std::size_t k = 0; k < state.grains.size(); ++k) {
+        if (members[k].body == MemberState::none) continue;
+        number[k] = static_cast<std::uint32_t>(single + members[k].body);
+        GrainState::Grain& body = grains[number[k]];
+        body.liquid += state.grains[k].liquid;
+        if (body.species < 0) body.species = state.grains[k].species;
+    }
+    for (Contact& c : state.contacts) {
+        c.first = number[c.first];
+        if (c.second != Contact::wall) c.second = number[c.second];
+    }
+    state.grains.swap(grains);
+}
+
+void joinBodies(GrainState& state, const ParticleStore& grains, const std::vector<std::uint32_t>& places) {
+    if (grains.bodies.empty()) return;
+    const std::vector<Vector<double>> arms = grains.bodies.armsInSpace(grains);
+    std::vector<BodyState> bodies;
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        const RigidBody& body = grains.bodies[k];
+        bodies.push_back({body.position, body.velocity, body.mass, grains.bodies.volumeOf(k)});
+    }
+    std::vector<MemberState> members;
+    for (const std::uint32_t place : places) {
+        const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
+        members.push_back(body == RigidBodies::none ? MemberState{}
+                                                    : MemberState{grains.bodies.find(body), arms[place]});
+    }
+    joinBodies(state, members, bodies);
+}
 
 GrainState stateOf(const PolyData& grains, const PolyData& contacts, const PeriodicBox& periodic) {
     GrainState state;
@@ -42,7 +136,10 @@ GrainState stateOf(const PolyData& grains, const PolyData& contacts, const Perio
                                 film ? film->at(k) : 0, static_cast<int>(species.at(k))});
     }
     const std::size_t pairs = contacts.ends.size();
-    if (pairs == 0) return state;
+    if (pairs == 0) {
+        joinBodies(state, grains);
+        return state;
+    }
     const auto ofContacts = [&](std::string_view name, std::size_t components) -> const PolyDataField& {
         return needed(contacts.cellField(name), name, components, pairs);
     };
@@ -68,6 +165,7 @@ GrainState stateOf(const PolyData& grains, const PolyData& contacts, const Perio
                                   periodic.nearest(cornerOf(2 * k + 1) - cornerOf(2 * k)), vectorAt(force, k),
                                   adhesive.at(k), volume ? volume->at(k) : 0, overlap.at(k) >= 0});
     }
+    joinBodies(state, grains);
     return state;
 }
 

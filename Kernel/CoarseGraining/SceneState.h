@@ -43,12 +43,16 @@ inline void takeFlowAway(GrainState& state) {
     state.periodic.imageVelocity = state.periodic.strainRate = {0, 0, 0};
 }
 
+/// Puts the rigid bodies of a scene in the place of their grains.
+/// @param places of the grains, in the order of the state
+void joinBodies(GrainState& state, const ParticleStore& grains, const std::vector<std::uint32_t>& places);
+
 /// The grains and contacts of a scene, as of the last step: all contacts that have a force.
 /// @param state keeps its memory from one time to the next
 template <class Scene>
 void takeState(const Scene& scene, GrainState& state, FieldContent content = FieldContent::All) {
     const ParticleStore& grains = scene.particleHandler.store();
-    state.grains.clear(), state.contacts.clear();
+    state.grains.clear(), state.contacts.clear(), state.branches.clear();
     state.time = scene.getTime();
     state.periodic = scene.contacts().periodicBox();
     const GrainColumn* film = nullptr;
@@ -75,7 +79,7 @@ void takeState(const Scene& scene, GrainState& state, FieldContent content = Fie
             }
         },
         1024);
-    if (content == FieldContent::WithoutContacts) return;
+    if (content == FieldContent::WithoutContacts) return joinBodies(state, grains, places);
     // Each thread takes the contacts whose first body is one of its grains; put together they are in the
     // order of identities.
     std::vector<std::vector<GrainState::Contact>> ofOthers(static_cast<std::size_t>(std::max(threads, 1)));
@@ -88,6 +92,7 @@ void takeState(const Scene& scene, GrainState& state, FieldContent content = Fie
         },
         1024);
     for (const auto& own : ofOthers) state.contacts.insert(state.contacts.end(), own.begin(), own.end());
+    joinBodies(state, grains, places);
 }
 
 template <class Scene>
@@ -98,7 +103,8 @@ GrainState stateOf(const Scene& scene, FieldContent content = FieldContent::All)
 }
 
 /// The same of a frame for ParaView: its grains and contacts. In periodic directions (a length above 0) a
-/// contact leads to the nearest image. Throws InputError where a field is missing that is needed.
+/// contact leads to the nearest image. Throws InputError where a field is missing that is needed: with rigid
+/// bodies, those that tell where their grains are in them.
 GrainState stateOf(const PolyData& grains, const PolyData& contacts, const PeriodicBox& periodic);
 
 }  // namespace pendular

@@ -105,16 +105,10 @@ bool ContactLiquid::formsAtFilms(const ContactLaws& laws) const {
     return false;
 }
 
-/// m, of a film that is spread evenly
-static double thicknessOf(const GrainFilms& films, const ParticleStore& grains, std::uint32_t place) {
-    const double radius = grains.translation[place].radius;
-    return films.of(grains, place) / (4 * std::numbers::pi * radius * radius);
-}
-
 double ContactLiquid::largestFilmContact(const ParticleStore& grains) const {
     double largest = 0;
     for (const std::uint32_t place : grains.place)
-        largest = std::max(largest, thicknessOf(*filmsOfGrains, grains, place));
+        largest = std::max(largest, filmsOfGrains->thicknessOf(grains, place));
     return 2 * largest;
 }
 
@@ -161,7 +155,7 @@ void ContactLiquid::lookForFilms(const ContactStore& store, const ContactLaws& l
     const std::size_t block = contact / Pack::lanes, lane = contact % Pack::lanes;
     const std::uint32_t first = store.blocks[block].first[lane], second = store.blocks[block].second[lane];
     const TranslationRecord& grain = grains.translation[first];
-    double films = thicknessOf(*filmsOfGrains, grains, first), gap = -grain.radius;
+    double films = filmsOfGrains->thicknessOf(grains, first), gap = -grain.radius;
     Vector<double> normal, motion = grain.velocity;  // m/s, of body 1 against body 2
     if (bucket.wall >= 0) {
         const WallPointColumns& points = store.wallPoints[block - store.firstWallBlock()];
@@ -170,7 +164,7 @@ void ContactLiquid::lookForFilms(const ContactStore& store, const ContactLaws& l
         normal = {points.normal[0].lane[lane], points.normal[1].lane[lane], points.normal[2].lane[lane]};
     } else {
         const TranslationRecord& other = grains.translation[second];
-        films += thicknessOf(*filmsOfGrains, grains, second);
+        films += filmsOfGrains->thicknessOf(grains, second);
         const Vector<double> apart = other.position - grain.position, shift = periodic->nearest(apart);
         const double distance = norm(shift);
         gap += distance - other.radius;
@@ -256,10 +250,10 @@ double ContactLiquid::lost(double volume, std::uint64_t whose, std::uint32_t pur
 void ContactLiquid::dryFilms(ParticleStore& grains, double time) {
     const double depth = drying.flux() * time;
     for (const std::uint32_t place : grains.place) {
-        const double film = filmsOfGrains->of(grains, place), radius = grains.translation[place].radius;
+        const double film = filmsOfGrains->of(grains, place);
         if (film == 0) continue;
         const double loss =
-            lost(std::min(4 * std::numbers::pi * radius * radius * depth, film), grains.identity[place], 0);
+            lost(std::min(GrainFilms::areaOf(grains, place) * depth, film), grains.identity[place], 0);
         filmsOfGrains->add(grains, place, -loss);
         evaporated += loss;
     }

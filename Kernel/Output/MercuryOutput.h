@@ -39,7 +39,8 @@ public:
         };
         frame(data, [&] { writeData(grains, box, scene.getTime()); });
         if (contactsToo)
-            frame(contacts, [&] { writeContacts(scene.contacts(), grains, box, scene.getTime()); });
+            frame(contacts,
+                  [&] { writeContacts(scene.contacts(), grains, scene.wallHandler, box, scene.getTime()); });
         if (!energiesToo) return;
         if (!scene.keepsEnergyLedger())
             throw InputError(
@@ -99,11 +100,28 @@ private:
         }
     }
 
+    /// MercuryDPM's indices: of the grain at each place its row in the frame of the .data file, and of each
+    /// wall its place among those that there are. Neither has gaps after a removal, as identities have.
+    struct Indices {
+        std::vector<std::uint32_t> ofGrain;  // by place
+        std::vector<std::int64_t> ofWall;    // by number
+
+        Indices(const ParticleStore& grains, const WallHandler& walls) : ofGrain(grains.size()) {
+            std::uint32_t row = 0;
+            for (const std::uint32_t place : grains.place) ofGrain[place] = row++;
+            std::int64_t wall = 0;
+            for (std::size_t w = 0; w < walls.getSize(); ++w)
+                ofWall.push_back(walls.isRemoved(w) ? wall : wall++);
+        }
+    };
+
     /// Three lines of header, then time i j cx cy cz delta deltat fn ft nx ny nz tx ty tz: for grains a line
-    /// for each of the two. The force on i is fn n + ft t, where n points from j to i. At wall number w, j is
-    /// -w - 1, and n and t are reversed, as MercuryDPM does it ("an old bug").
-    void writeContacts(const ContactSystem& system, const ParticleStore& grains, const Domain& box,
-                       double time) {
+    /// for each of the two, by their indices. The force on i is fn n + ft t, where n points from j to i. At
+    /// the wall with the index w, j is -w - 1, and n and t are reversed, as MercuryDPM does it ("an old
+    /// bug").
+    void writeContacts(const ContactSystem& system, const ParticleStore& grains, const WallHandler& walls,
+                       const Domain& box, double time) {
+        const Indices index(grains, walls);
         double largest = 0;
         for (const TranslationRecord& grain : grains.translation) largest = std::max(largest, grain.radius);
         contacts.text(fmt::format("# {} 1\n# {} {}\n# {} {} 0 0 0 0\n", time, words(box.lowest),
@@ -127,12 +145,14 @@ private:
             };
             const bool moves = first.inverseMass > 0;
             if (bucket.wall >= 0) {
-                if (moves) line(seen.particle1, -std::int64_t{seen.wall} - 1, -1);
+                if (moves)
+                    line(index.ofGrain[place], -index.ofWall[static_cast<std::size_t>(seen.wall)] - 1, -1);
                 return;
             }
-            if (moves) line(seen.particle1, seen.particle2, 1);
-            if (grains.translation[grains.place[seen.particle2]].inverseMass > 0)
-                line(seen.particle2, seen.particle1, -1);
+            const std::uint32_t place2 = grains.place[seen.particle2];
+            if (moves) line(index.ofGrain[place], index.ofGrain[place2], 1);
+            if (grains.translation[place2].inverseMass > 0)
+                line(index.ofGrain[place2], index.ofGrain[place], -1);
         });
     }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Output/BoxFields.h"
@@ -67,8 +68,36 @@ inline void requireDistinctNames(const std::vector<PolyDataField>& fields, std::
                     fields[k].name, owners));
 }
 
+/// With rigid bodies, of each grain: the number of its body, or -1; where it is in it (body_arm, from the
+/// centre of mass); the velocity and the volume of the body. Zeros for grains in none. Grains that are no
+/// spheres are bodies by themselves, about their centres: they have the number only.
+template <std::floating_point Real>
+void addBodyFields(const ParticleStore& grains, bool areSpheres, PolyData& data) {
+    if (grains.bodies.empty()) return;
+    const std::vector<Vector<double>> arms = grains.bodies.armsInSpace(grains);
+    std::vector<std::int32_t> body;
+    std::vector<Real> arm, velocity, volume;
+    const auto append = [](std::vector<Real>& column, const Vector<double>& v) {
+        for (const double part : {v.x, v.y, v.z}) column.push_back(static_cast<Real>(part));
+    };
+    for (const std::uint32_t place : grains.place) {
+        const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
+        body.push_back(static_cast<std::int32_t>(number));
+        const bool isMember = number != RigidBodies::none;
+        const std::size_t k = isMember ? grains.bodies.find(number) : 0;
+        append(arm, arms[place]);
+        append(velocity, isMember ? grains.bodies[k].velocity : Vector<double>{0, 0, 0});
+        volume.push_back(isMember ? static_cast<Real>(grains.bodies.volumeOf(k)) : 0);
+    }
+    data.pointFields.push_back({"body", 1, std::move(body)});
+    if (!areSpheres) return;
+    data.pointFields.push_back({"body_arm_m", 3, std::move(arm)});
+    data.pointFields.push_back({"body_velocity_m_per_s", 3, std::move(velocity)});
+    data.pointFields.push_back({"body_volume_m3", 1, std::move(volume)});
+}
+
 /// The grains as points: radius, mass, velocity, spin, force (of contacts and weight), species, whether they
-/// are held in place (fixed), identity; with rigid bodies the number of each grain's, or -1.
+/// are held in place (fixed), identity; with rigid bodies what addBodyFields() has.
 /// @tparam Real of the fields; positions are doubles
 template <std::floating_point Real = float>
 PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
@@ -105,13 +134,7 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
     if (grains.hasSpin) data.pointFields.push_back({"spin_rad_per_s", 3, std::move(spin)});
     data.pointFields.push_back({"force_N", 3, std::move(force)});
     data.pointFields.push_back({"species", 1, std::move(species)});
-    if (!grains.bodies.empty()) {
-        std::vector<std::int32_t> body;  // its number, or -1
-        for (const std::int32_t grain : identity)
-            body.push_back(
-                static_cast<std::int32_t>(grains.bodies.bodyOf(static_cast<std::uint32_t>(grain))));
-        data.pointFields.push_back({"body", 1, std::move(body)});
-    }
+    addBodyFields<Real>(grains, laws.shapes() == nullptr, data);
     data.pointFields.push_back({"fixed", 1, std::move(fixed)});
     data.pointFields.push_back({"identity", 1, std::move(identity)});
     for (const GrainColumn& column : grains.columns) {
@@ -128,11 +151,13 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
 /// sigma = sum over its contacts of l f / V, with the branch l (m) from the centre to the contact point, the
 /// force f (N) on the grain and its volume V (m^3). Source: Love, "A Treatise on the Mathematical Theory of
 /// Elasticity" (1927); Weber, Bull. Liaison Ponts Chauss. 20 (1966). The contact point lies in the middle of
-/// the overlap or of the gap.
+/// the overlap or of the gap. The grains of a rigid body have the mean stress of the body: with the branches
+/// from its centre of mass, over its volume.
 template <std::floating_point Real = float>
 PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains) {
     std::vector<std::array<double, 9>> sums(grains.size());  // of the grain at each place
     const GrainShapes* const shapes = contacts.laws().shapes();
+    const BodyArms arms(grains);
     const auto add = [&](std::uint32_t identity, double sign, const Vector<double>& branch,
                          const Vector<double>& force) {
         const std::uint32_t place = grains.place[identity];
@@ -154,15 +179,26 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
         const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
         const double half = 0.5 * seen.separation;
         const auto branchOf = [&](std::uint32_t identity, double sign) {
-            return sign * ((grains.translation[grains.place[identity]].radius + half) * normal);
+            const std::uint32_t place = grains.place[identity];
+            return sign * ((grains.translation[place].radius + half) * normal) + arms.at(place);
         };
         add(seen.particle1, 1, branchOf(seen.particle1, 1), seen.force);
         if (bucket.wall < 0) add(seen.particle2, -1, branchOf(seen.particle2, -1), seen.force);
     });
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        std::array<double, 9> whole{};
+        const auto members = grains.bodies.membersOf(k);
+        for (const BodyMember& member : members)
+            for (std::size_t part = 0; part < 9; ++part)
+                whole[part] += sums[grains.place[member.grain]][part];
+        for (const BodyMember& member : members) sums[grains.place[member.grain]] = whole;
+    }
     std::vector<Real> numbers;
     for (const std::uint32_t place : grains.place) {
-        const double volume = shapes ? shapes->shapeAt(grains, place).volume()
-                                     : sphereMass(grains.translation[place].radius, 1);
+        const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
+        const double volume = shapes                      ? shapes->shapeAt(grains, place).volume()
+                              : body != RigidBodies::none ? grains.bodies.volumeOf(grains.bodies.find(body))
+                                                          : sphereMass(grains.translation[place].radius, 1);
         for (const double sum : sums[place]) numbers.push_back(static_cast<Real>(sum / volume));
     }
     return {"stress_Pa", 9, std::move(numbers)};

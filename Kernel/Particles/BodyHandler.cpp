@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "Kernel/InputError.h"
+#include "Kernel/Shapes/UnionOfSpheres.h"
 
 namespace pendular {
 
@@ -141,8 +142,12 @@ void BodyReference::setAngularVelocity(const Vec3D& spin) {
     if (grains.hasSpin) grains.rotation[handler->placeOf(getGrains()[0])].spin = toVector(spin);
 }
 
+BodyHandler::Solid BodyHandler::solidOf(const std::vector<Ball>& spheres) {
+    return {unionOfSpheres(spheres).volume, exposedShares(spheres)};
+}
+
 BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
-                                const std::optional<BodyMass>& mass) {
+                                const std::optional<BodyMass>& mass, const Solid* known) {
     requireJoinable(particles, identities);
     const std::vector<Sphere> spheres = spheresOf(particles, periodic, identities);
     const SphereSums sums = sumSpheres(spheres);
@@ -165,19 +170,22 @@ BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
                    .orientation = {principal.axes.w(), toVector(principal.axes.vec())},
                    .largestFreeMass = sums.largest};
     body.setSpin(toVector(spin));
-    std::vector<Vec3D> positions;
-    for (const Sphere& sphere : spheres) positions.push_back(sphere.position);
-    return add(body, identities, positions, isSphere);
+    std::vector<Ball> balls;
+    for (const Sphere& sphere : spheres) balls.push_back({sphere.position, sphere.radius});
+    return add(body, identities, balls, known, isSphere);
 }
 
 /// A single sphere is left as it is.
 BodyReference BodyHandler::add(RigidBody body, std::span<const std::uint32_t> identities,
-                               std::span<const Vec3D> positions, bool isSphere) {
+                               const std::vector<Ball>& spheres, const Solid* known, bool isSphere) {
+    const Solid solid = known ? *known : solidOf(spheres);
     std::vector<BodyMember> members;
-    for (std::size_t k = 0; k < positions.size(); ++k)
-        members.push_back({identities[k], body.orientation.turnBack(toVector(positions[k]) - body.position)});
+    for (std::size_t k = 0; k < spheres.size(); ++k)
+        members.push_back({identities[k],
+                           body.orientation.turnBack(toVector(spheres[k].centre) - body.position),
+                           solid.exposed[k]});
     ParticleStore& grains = particles.store();
-    const std::uint32_t number = grains.bodies.add(body, members);
+    const std::uint32_t number = grains.bodies.add(body, members, solid.volume);
     if (!isSphere) grains.bodies.place(grains, grains.bodies.size() - 1);
     particles.noteJoined(identities);
     return {particles, number};
@@ -205,8 +213,11 @@ BodyReference BodyHandler::copyAndAddObject(const Clump& clump) {
 
 BodyReference BodyHandler::joinWithMotion(std::span<const std::uint32_t> identities, const Clump& clump,
                                           const BodyMass& mass) {
-    if (clump.getTemplate().isSphere()) return join(identities);
-    BodyReference body = join(identities, mass);
+    const ClumpTemplate& shape = clump.getTemplate();
+    const double scale = clump.getScale();
+    const Solid solid{scale * scale * scale * shape.getVolume(), shape.getExposedShares()};
+    if (shape.isSphere()) return join(identities, {}, &solid);
+    BodyReference body = join(identities, mass, &solid);
     body.setVelocity(clump.getVelocity());
     body.setAngularVelocity(clump.getAngularVelocity());
     return body;

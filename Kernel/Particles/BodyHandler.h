@@ -58,7 +58,9 @@ public:
     /// Throws InputError for grains that are held, or in a body already; that overlap without a given mass;
     /// or for a mass or an inertia that no body can have.
     /// @param mass its centre is in space, as the grains are now
-    BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass = {});
+    BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass = {}) {
+        return join(identities, mass, nullptr);
+    }
     BodyReference join(std::initializer_list<std::uint32_t> identities,
                        const std::optional<BodyMass>& mass = {}) {
         return join(std::span(identities.begin(), identities.size()), mass);
@@ -80,10 +82,18 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> bodyOf(std::uint32_t grain) const;
 
 private:
+    /// What spheres that overlap have in common.
+    struct Solid {
+        double volume;                // m^3, each point counted once
+        std::vector<double> exposed;  // of each sphere, as BodyMember has it
+    };
+    static Solid solidOf(const std::vector<Ball>& spheres);
+    BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass,
+                       const Solid* known);
     BodyReference joinWithMotion(std::span<const std::uint32_t> identities, const Clump& clump,
                                  const BodyMass& mass);
     BodyReference add(RigidBody body, std::span<const std::uint32_t> identities,
-                      std::span<const Vec3D> positions, bool isSphere);
+                      const std::vector<Ball>& spheres, const Solid* known, bool isSphere);
 
     ParticleHandler& particles;
     const PeriodicBox& periodic;

@@ -39,7 +39,7 @@ ClumpTemplate::ClumpTemplate(std::vector<Ball> all)
         solid.inertia =
             0.4 * solid.volume * spheres[0].radius * spheres[0].radius * Eigen::Matrix3d::Identity();
     }
-    moveTo(solid.centre);
+    finish(solid.centre);
 }
 
 ClumpTemplate::ClumpTemplate(std::vector<Ball> all, const MassProperties& of)
@@ -48,7 +48,7 @@ ClumpTemplate::ClumpTemplate(std::vector<Ball> all, const MassProperties& of)
     checkValue("ClumpTemplate", "volume", solid.volume, "m^3", positive);
     for (const double part : solid.centre) checkValue("ClumpTemplate", "centre", part, "m", anyFinite);
     static_cast<void>(principalAxes(solid.inertia));
-    moveTo(solid.centre);
+    finish(solid.centre);
 }
 
 ClumpTemplate::ClumpTemplate(std::vector<Ball> all, const BodyMass& mass)
@@ -56,7 +56,7 @@ ClumpTemplate::ClumpTemplate(std::vector<Ball> all, const BodyMass& mass)
     checkValue("ClumpTemplate", "mass", mass.mass, "kg", positive);
     for (const double part : mass.centre) checkValue("ClumpTemplate", "centre", part, "m", anyFinite);
     static_cast<void>(principalAxes(mass.inertia));
-    moveTo(mass.centre);
+    finish(mass.centre);
 }
 
 std::vector<Ball> readSpheres(const std::filesystem::path& path, double scale) {
@@ -74,9 +74,10 @@ std::vector<Ball> readSpheres(const std::filesystem::path& path, double scale) {
     return spheres;
 }
 
-void ClumpTemplate::moveTo(const Vec3D& centre) {
+void ClumpTemplate::finish(const Vec3D& centreOfMass) {
+    exposed = exposedShares(spheres);
     for (Ball& ball : spheres) {
-        ball.centre -= centre;
+        ball.centre -= centreOfMass;
         reach = std::max(reach, ball.centre.norm() + ball.radius);
     }
 }

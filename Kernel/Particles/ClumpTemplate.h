@@ -50,6 +50,8 @@ public:
     [[nodiscard]] const std::vector<Ball>& getSpheres() const { return spheres; }
     /// m^3: of the solid; of a given mass, of the union.
     [[nodiscard]] double getVolume() const { return solid.volume; }
+    /// The share of the surface of each sphere that is in no other one.
+    [[nodiscard]] const std::vector<double>& getExposedShares() const { return exposed; }
     /// m, the diameter of a sphere of this volume: by this a distribution of sizes has clumps.
     [[nodiscard]] double getDiameter() const;
     /// m, from the centre of mass to the farthest point of a sphere.
@@ -60,9 +62,10 @@ public:
     [[nodiscard]] bool isSphere() const { return spheres.size() == 1 && isOwnUnion; }
 
 private:
-    void moveTo(const Vec3D& centre);
+    void finish(const Vec3D& centreOfMass);
 
     std::vector<Ball> spheres;
+    std::vector<double> exposed;
     MassProperties solid;
     std::optional<BodyMass> given;
     bool isOwnUnion = false;

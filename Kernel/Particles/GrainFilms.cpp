@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "Kernel/InputError.h"
 
@@ -19,6 +20,12 @@ InputError noLawError(std::uint32_t identity, double volume) {
 }
 
 }  // namespace
+
+double GrainFilms::areaOf(const ParticleStore& grains, std::uint32_t at) {
+    const double radius = grains.translation[at].radius;
+    const double share = grains.bodies.empty() ? 1 : grains.bodies.exposedShareOf(grains.identity[at]);
+    return share * (4 * std::numbers::pi * radius * radius);
+}
 
 double GrainFilms::of(const ParticleStore& grains, std::uint32_t at) const {
     if (areKept()) return grains.columns[column].values[at];

@@ -19,6 +19,14 @@ public:
     /// m^3
     [[nodiscard]] double quantum() const { return unit; }
     [[nodiscard]] bool areKept() const { return column != none; }
+    /// m^2, over which the film of the grain at a place is spread: of its surface, what is in no other grain
+    /// of its rigid body.
+    [[nodiscard]] static double areaOf(const ParticleStore& grains, std::uint32_t at);
+    /// m, of a film that is spread evenly; 0 where there is no surface
+    [[nodiscard]] double thicknessOf(const ParticleStore& grains, std::uint32_t at) const {
+        const double volume = of(grains, at), area = volume > 0 ? areaOf(grains, at) : 0;
+        return area > 0 ? volume / area : 0;
+    }
     /// Of the grain at a place, m^3.
     [[nodiscard]] double of(const ParticleStore& grains, std::uint32_t at) const;
     /// Sets the film of a grain; in a run, the difference counts as absorbed. Throws InputError if that is

@@ -1,23 +1,11 @@
 #include "Kernel/Particles/GrainSums.h"
 
 #include "Kernel/Math/ExactSum.h"
+#include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {
 
 namespace {
-
-/// Calls function(mass, position, velocity) for each body that can move: single grains and rigid bodies.
-template <class Function>
-void forEachMovingBody(const ParticleStore& grains, Function&& function) {
-    for (std::size_t k = 0; k < grains.size(); ++k) {
-        const TranslationRecord& grain = grains.translation[k];
-        if (grains.isFree(k)) function(1 / grain.inverseMass, grain.position, grain.velocity);
-    }
-    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
-        const RigidBody& body = grains.bodies[k];
-        function(body.mass, body.position, body.velocity);
-    }
-}
 
 void addRotation(const ParticleStore& grains, ExactSum& sum) {
     if (grains.hasSpin)

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Shapes/UnionOfSpheres.h"
 
 namespace pendular {
 
@@ -14,8 +16,26 @@ std::uint32_t RigidBodies::find(std::size_t number) const {
                                                       : none;
 }
 
-std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember> grains) {
+std::vector<Vector<double>> RigidBodies::armsInSpace(const ParticleStore& grains) const {
+    if (empty()) return {};
+    std::vector<Vector<double>> arms(grains.size(), Vector<double>{0, 0, 0});
+    for (std::size_t k = 0; k < size(); ++k) {
+        const Axes axes(bodies[k].orientation);
+        for (const BodyMember& member : membersOf(k))
+            arms[grains.place[member.grain]] = axes.turn(member.arm);
+    }
+    return arms;
+}
+
+double RigidBodies::exposedShareOf(std::uint32_t grain) const {
+    const std::uint32_t body = bodyOf(grain);
+    if (body == none) return 1;
+    return std::ranges::find(membersOf(find(body)), grain, &BodyMember::grain)->exposed;
+}
+
+std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember> grains, double volume) {
     bodies.push_back(body);
+    volumes.push_back(volume);
     numbers.push_back(next);
     members.insert(members.end(), grains.begin(), grains.end());
     forgetPlaces();
@@ -33,6 +53,7 @@ void RigidBodies::remove(std::size_t at) {
     begins.erase(begins.begin() + static_cast<std::ptrdiff_t>(at));
     for (std::size_t k = at; k < begins.size(); ++k) begins[k] -= count;
     bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(at));
+    volumes.erase(volumes.begin() + static_cast<std::ptrdiff_t>(at));
     numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
@@ -164,25 +185,51 @@ BodyResponse RigidBodies::response(const ParticleStore& grains) const {
     return most;
 }
 
+/// By the spheres.
+void RigidBodies::measureAll(const ParticleStore& grains) {
+    for (std::size_t k = 0; k < size(); ++k) {
+        std::vector<Ball> spheres;
+        for (const BodyMember& member : membersOf(k))
+            spheres.push_back({toEigen(member.arm), grains.translation[grains.place[member.grain]].radius});
+        volumes[k] = unionOfSpheres(spheres).volume;
+        const std::vector<double> shares = exposedShares(spheres);
+        for (std::size_t m = 0; m < shares.size(); ++m) members[begins[k] + m].exposed = shares[m];
+    }
+}
+
 void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains) {
     std::vector<std::uint32_t> grainsOf;
     std::vector<Vector<double>> arms;
+    std::vector<double> exposed;
     for (const BodyMember& member : members) {
         grainsOf.push_back(member.grain);
         arms.push_back(member.arm);
+        exposed.push_back(member.exposed);
     }
+    const bool knowsShapes = archive.isWriting() || archive.holds("volumes");  // older files do not
     archive.column<double>("motion", bodies);
     archive.column<std::uint32_t>("numbers", numbers);
     archive.column<std::uint32_t>("begins", begins);
     archive.column<std::uint32_t>("grains", grainsOf);
     archive.column<double>("arms", arms);
     archive.value("next", next);
+    if (knowsShapes) {
+        archive.column<double>("volumes", volumes);
+        archive.column<double>("exposed", exposed);
+    }
     if (!archive.isReading()) return;
     archive.require(grainsOf.size() == arms.size(), "arms", "has another number of rows than bodies/grains");
     archive.requireFinite("arms", arms);
+    if (!knowsShapes) {
+        volumes.assign(bodies.size(), 1);
+        exposed.assign(arms.size(), 1);
+    }
+    archive.require(exposed.size() == arms.size(), "exposed",
+                    "has another number of rows than bodies/grains");
     members.clear();
-    for (std::size_t k = 0; k < arms.size(); ++k) members.push_back({grainsOf[k], arms[k]});
+    for (std::size_t k = 0; k < arms.size(); ++k) members.push_back({grainsOf[k], arms[k], exposed[k]});
     requireWhole(archive, grains);
+    if (!knowsShapes) measureAll(grains);
     bodyOfGrain.clear();
     forgetPlaces();
     for (std::size_t k = 0; k < size(); ++k)
@@ -210,6 +257,11 @@ void RigidBodies::requireWhole(const StateArchive& archive, const ParticleStore&
     archive.require(begins.size() == size() + 1 && begins.front() == 0 && begins.back() == members.size() &&
                         std::ranges::adjacent_find(begins, std::ranges::greater_equal{}) == begins.end(),
                     "begins", "does not have the grains of each body");
+    archive.require(volumes.size() == size() &&
+                        std::ranges::all_of(volumes, [](double v) { return v > 0 && v < infinity; }),
+                    "volumes", "does not have a positive volume of each body");
+    for (const BodyMember& member : members)
+        archive.require(member.exposed >= 0 && member.exposed <= 1, "exposed", "has a share beyond 0 to 1");
     for (const BodyMember& member : members)
         archive.require(grains.place.contains(member.grain) &&
                             grains.translation[grains.place[member.grain]].inverseMass > 0,

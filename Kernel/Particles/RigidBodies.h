@@ -46,6 +46,7 @@ static_assert(sizeof(RigidBody) == 24 * sizeof(double));
 struct BodyMember {
     std::uint32_t grain;  // identity
     Vector<double> arm;   // m, from the centre of mass, in the principal axes
+    double exposed = 1;   // share of its surface that is in no other grain of the body
 };
 
 /// What the motion of a body needs of one of its grains.
@@ -99,8 +100,17 @@ public:
         return !empty() && bodyOf(a) != none && bodyOf(a) == bodyOf(b);
     }
 
+    /// m^3, of the solid that its grains stand for, overlaps counted once.
+    [[nodiscard]] double volumeOf(std::size_t at) const { return volumes[at]; }
+    /// m, of the grain at each place: from the centre of mass of its body to its own centre, in space; zeros
+    /// for grains in none. Empty without bodies.
+    [[nodiscard]] std::vector<Vector<double>> armsInSpace(const ParticleStore& grains) const;
+    /// The share of a grain's surface that is in no other grain of its body; 1 of a grain in none.
+    [[nodiscard]] double exposedShareOf(std::uint32_t grain) const;
+
     /// Returns the number of the new body: in the order of adding; no number is given twice.
-    std::uint32_t add(const RigidBody& body, std::span<const BodyMember> grains);
+    /// @param volume m^3, as of volumeOf()
+    std::uint32_t add(const RigidBody& body, std::span<const BodyMember> grains, double volume);
     /// Removes the body at a place, not its grains.
     void remove(std::size_t at);
 
@@ -154,12 +164,14 @@ public:
 
 private:
     void requireWhole(const StateArchive& archive, const ParticleStore& grains) const;
+    void measureAll(const ParticleStore& grains);
     /// Of the grain at each place; `none` for one in no body.
     [[nodiscard]] std::vector<std::uint32_t> bodiesAt(const ParticleStore& grains) const;
     /// kg, a grain; see response()
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
     std::vector<RigidBody> bodies;
+    std::vector<double> volumes;         // m^3, of each
     std::vector<std::uint32_t> numbers;  // of each; they grow
     std::vector<std::uint32_t> begins{0};
     std::vector<BodyMember> members;

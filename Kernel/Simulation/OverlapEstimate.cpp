@@ -6,10 +6,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/Simulation/Scene.h"
 
 namespace pendular {
 namespace {
+
+/// kg, of the heaviest rigid body; 0 without any
+double heaviestBody(const ParticleStore& grains) {
+    double heaviest = 0;
+    forEachRigidBody(grains, [&](double mass, const Vector<double>&, const Vector<double>&) {
+        heaviest = std::max(heaviest, mass);
+    });
+    return heaviest;
+}
 
 /// What a normal law does at an overlap, by the integrals of its slope.
 class NormalCurve {
@@ -60,11 +70,10 @@ Loads loadsOf(const Scene& scene, const ParticleStore& grains, const GrainSizes&
     const Vector<double> gravity = toVector(scene.getGravity()), side = sizes.highest - sizes.lowest;
     const double g = norm(gravity);
     double mass = 0, fastest = 0;
-    for (const std::uint32_t at : grains.place) {
-        const TranslationRecord& grain = grains.translation[at];
-        if (grain.inverseMass > 0) mass += 1 / grain.inverseMass;
-        fastest = std::max(fastest, norm(grain.velocity));
-    }
+    forEachMovingBodyInOrder(grains,
+                             [&](double own, const Vector<double>&, const Vector<double>&) { mass += own; });
+    for (const std::uint32_t at : grains.place)
+        fastest = std::max(fastest, norm(grains.translation[at].velocity));
     if (!(g > 0)) return {pressure, fastest};
     const Vector<double> n = (1 / g) * gravity;
     const double shadow =
@@ -83,6 +92,7 @@ OverlapEstimate estimateOverlaps(Scene& scene, double pressure) {
         throw InputError("Simulation: overlaps are estimated for grains that are there; add them first.");
     const GrainSizes sizes = scene.grainSizes(grains);
     const Loads loads = loadsOf(scene, grains, sizes, pressure);
+    const double heaviest = heaviestBody(grains);
     double shortest = infinity;  // over the limit
     forEachExtremePair(
         scene.laws(), sizes, scene.wallHandler, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
@@ -91,7 +101,9 @@ OverlapEstimate estimateOverlaps(Scene& scene, double pressure) {
                          diameter = (bodies.radius2 < infinity ? 4 : 2) * bodies.effectiveRadius();
             const double load = std::numbers::pi * diameter * diameter * loads.pressure / (6 * 0.6);
             const double byWeight = curve.overlapAt(load, [&](double x) { return curve.force(x); }),
-                         bySpeed = curve.overlapAt(0.5 * mass * loads.speed * loads.speed,
+                         // With all of a rigid body behind each of its grains, or of two.
+                behind = std::max(mass, bodies.radius2 < infinity ? 0.5 * heaviest : heaviest),
+                         bySpeed = curve.overlapAt(0.5 * behind * loads.speed * loads.speed,
                                                    [&](double x) { return curve.energy(x); });
             found.byWeight = std::max(found.byWeight, byWeight / smaller);
             found.bySpeed = std::max(found.bySpeed, bySpeed / smaller);

@@ -22,7 +22,7 @@ struct OverlapEstimate {
 /// - Weight: all grains rest on the shadow A of the box around them, p = m g / A, and a mean contact of Z = 6
 ///   at the solid fraction 0.6 has pi d^2 p / (0.6 Z) (Rumpf (1958); the stress of Love and Weber).
 /// - Speed: 1/2 m* v^2 is stored at once; v is the largest speed of a grain and that of a fall through the
-///   height of the box along gravity.
+///   height of the box along gravity. Where there are rigid bodies, m* is that of the heaviest ones.
 /// The step takes frequencies to go with the root of the normal stiffness, as with Hertz and Mindlin.
 /// Before or after the run begins.
 /// @param pressure Pa, that acts besides (pistons, target stresses)

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "Kernel/Particles/MovingBodies.h"
+
 namespace pendular {
 
 namespace {
@@ -60,22 +62,17 @@ PendularState pendularState(const Scene& scene, bool withOverlaps) {
     PendularState found;
     const ParticleStore& grains = scene.particleHandler.store();
     const GrainFilms& films = scene.particleHandler.films();
-    double solid = 0;
-    for (const std::uint32_t place : grains.place) {
-        const double radius = grains.translation[place].radius;
-        solid += sphereMass(radius, 1);
-        const double thickness = films.of(grains, place) / (4 * std::numbers::pi * radius * radius);
-        found.thickFilms += thickness > 0.1 * radius ? 1 : 0;
-    }
+    for (const std::uint32_t place : grains.place)
+        found.thickFilms += films.thicknessOf(grains, place) > 0.1 * grains.translation[place].radius ? 1 : 0;
     std::size_t bridges = 0;
     for (const BlockState& state : scene.contacts().store().states)
         bridges += static_cast<std::size_t>(std::popcount(state.bridged));
     const LiquidLedger ledger = scene.liquidLedger();
     const double onGrains = ledger.films + ledger.bridges;
-    if (solid > 0) found.liquidOverSolid = onGrains / solid;
+    if (const double solid = volumeOfBodies(grains); solid > 0) found.liquidOverSolid = onGrains / solid;
     if (onGrains > 0) found.shareInFilms = ledger.films / onGrains;
     if (grains.count() > 0)
-        found.bridgesOfAGrain = 2 * static_cast<double>(bridges) / static_cast<double>(grains.count());
+        found.bridgesOfAGrain = 2 * static_cast<double>(bridges) / static_cast<double>(countBodies(grains));
     for (int a = 0; a < static_cast<int>(scene.laws().speciesCount()); ++a)
         for (int b = 0; b <= a; ++b)
             found.bridgesForm |= scene.laws().liquidRules(a, b).value_or(LiquidRules{}).largest > 0;

@@ -13,9 +13,9 @@ namespace pendular {
 /// What tells whether the liquid of a scene is in the pendular state, in which bridges are separate: the
 /// model of liquid that moves is made for no other one.
 struct PendularState {
-    double liquidOverSolid = 0;   // volume of films and bridges over that of the grains
+    double liquidOverSolid = 0;   // volume of films and bridges over that of grains and rigid bodies
     double shareInFilms = 0;      // of films and bridges together
-    double bridgesOfAGrain = 0;   // twice the bridges over the grains
+    double bridgesOfAGrain = 0;   // twice the bridges over the grains; a rigid body is one
     bool bridgesForm = false;     // some pair of species has a V_max above 0
     std::size_t thickFilms = 0;   // grains whose film is thicker than 0.1 of their radius
     double overlappingShare = 0;  // of all bridges: those that meet another one at a grain

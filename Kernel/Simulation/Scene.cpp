@@ -5,6 +5,7 @@
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Parallel.h"
+#include "Kernel/Shapes/SphereGroups.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/StressServo.h"
@@ -272,7 +273,9 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
     if (hasBegun() && periodic.imagesMove)
         throw InputError(
             "insert(): in a run in shear or strain clumps cannot be inserted; insert them at set-up.");
+    const std::size_t before = bodyHandler.getSize();
     const Inserted made = insertClumps(insertionScene(), bodyHandler, sizes, region, amount, like, options);
+    if (hasBegun()) warnOfGapsInBodies(before);
     return tellOf(made);
 }
 
@@ -433,6 +436,9 @@ void Scene::refuseForBodies(const RigidBodies& bodies) const {
                         integrator.name));
     if (!outletHandler.isEmpty())
         throw InputError("Simulation: outlets do not know rigid bodies; leave the outlets out.");
+    if (liquidDensity > 0)
+        throw InputError(
+            "Simulation: the mass of films (setLiquidDensity()) is not known of rigid bodies; leave it out.");
 }
 
 /// Of a scene that has become too short for a body.
@@ -473,11 +479,11 @@ void Scene::refuseForMovingImages() const {
     if (!outletHandler.isEmpty()) refuse("outlets");
     if (!fluxPlaneHandler.isEmpty()) refuse("flux planes");
     const auto checkServo = [this](double time, std::string_view what) {
-        if (!particleHandler.store().bodies.empty())
-            throw InputError(fmt::format(
-                "Simulation: target {}: the forces that hold rigid bodies together are in no stress "
-                "yet; give the scene a rate instead.",
-                what));
+        if (laws().shapes())
+            throw InputError(
+                fmt::format("Simulation: target {}: its servo does not know how stiff contacts of "
+                            "superquadrics are; give the scene a rate instead.",
+                            what));
         if (getTimeStep() >= 2 * time)
             throw InputError(
                 fmt::format("Simulation: time of the target {} = {:.6g} s; it must be more than half a "
@@ -656,6 +662,7 @@ void Scene::prepare() {
         logger(LogLevel::Warn, "{}.", broken.text());
     warnOfFedSprings();
     warnOfSeams();
+    warnOfGapsInBodies(0);
 }
 
 void Scene::setLiquidToCome(double volume) {
@@ -746,6 +753,24 @@ void Scene::requireLiquid() const {
         throw RunError(fmt::format(
             "At time {:.6g} s {} m^3 of liquid are {}: this is an error in the program, not in the scene.",
             getTime(), std::abs(missing), missing < 0 ? "lost" : "too many"));
+}
+
+/// @param first of the bodies that are looked at
+void Scene::warnOfGapsInBodies(std::size_t first) const {
+    const ParticleStore& grains = particleHandler.store();
+    std::size_t count = 0;
+    std::string one;
+    for (std::size_t k = first; k < grains.bodies.size(); ++k) {
+        const RigidBody& body = grains.bodies[k];
+        std::vector<Ball> spheres;
+        for (const BodyMember& member : grains.bodies.membersOf(k))
+            spheres.push_back({toEigen(body.position + body.orientation.turn(member.arm)),
+                               grains.translation[grains.place[member.grain]].radius});
+        const std::optional<std::string> gap = gapInClump(spheres);
+        if (gap && count++ == 0) one = fmt::format("rigid body {}: {}", grains.bodies.numberOf(k), *gap);
+    }
+    if (count > 0)
+        logger(LogLevel::Warn, "{}{}.", one, count > 1 ? fmt::format("; so it is in {} bodies", count) : "");
 }
 
 void Scene::warnOfFedSprings() const {

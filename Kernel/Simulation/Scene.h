@@ -313,6 +313,7 @@ private:
 
     void warnOfFedSprings() const;
     void warnOfSeams() const;
+    void warnOfGapsInBodies(std::size_t first) const;
     void refuseBoundForBodies(std::string_view call) const;
     void refuseForAdaptiveStep() const;
     /// Why the time step stays what it was at the start of the run; empty if it need not.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "Kernel/Contacts/BodyArms.h"
+#include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/RunError.h"
 
 namespace pendular {
@@ -23,17 +25,22 @@ KineticStress kineticStress(const ParticleStore& grains, const PeriodicBox& box,
     double mass = 0, mixed = 0;
     std::array<double, 3> momentum{}, twiceEnergy{};
     KineticStress stress;
+    const auto add = [&](double inverseMass, const Vector<double>& position, const Vector<double>& of) {
+        const auto velocity = partsOf(of - box.flowAt(position));
+        mass += 1 / inverseMass;
+        for (std::size_t a = 0; a < 3; ++a) {
+            momentum[a] += velocity[a] / inverseMass;
+            twiceEnergy[a] += velocity[a] * velocity[a] / inverseMass;
+        }
+        mixed += velocity[f] * velocity[g] / inverseMass;
+    };
     for (const std::uint32_t place : grains.place) {
         const TranslationRecord& grain = grains.translation[place];
-        if (grain.inverseMass == 0) continue;
-        const auto velocity = partsOf(grain.velocity - box.flowAt(grain.position));
-        mass += 1 / grain.inverseMass;
-        for (std::size_t a = 0; a < 3; ++a) {
-            momentum[a] += velocity[a] / grain.inverseMass;
-            twiceEnergy[a] += velocity[a] * velocity[a] / grain.inverseMass;
-        }
-        mixed += velocity[f] * velocity[g] / grain.inverseMass;
+        if (grains.isFree(place)) add(grain.inverseMass, grain.position, grain.velocity);
     }
+    forEachRigidBody(grains, [&](double own, const Vector<double>& position, const Vector<double>& of) {
+        add(1 / own, position, of);
+    });
     if (mass == 0) return stress;
     for (std::size_t a = 0; a < 3; ++a)
         stress.along[a] = std::max(0.0, twiceEnergy[a] - momentum[a] * momentum[a] / mass) / volume;
@@ -57,10 +64,12 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
         std::count_if(strain.axes.begin(), strain.axes.end(), [](auto& axis) { return axis.isControlled; });
     for (std::size_t a = 0; a < 3; ++a)
         found.stiffness[a] = static_cast<double>(2 + controlled) * found.stress[a];
+    const BodyArms arms(grains);
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
-        const TranslationRecord& first = grains.translation[block.first[contact % Pack::lanes]];
-        const TranslationRecord& second = grains.translation[block.second[contact % Pack::lanes]];
+        const std::uint32_t place1 = block.first[contact % Pack::lanes],
+                            place2 = block.second[contact % Pack::lanes];
+        const TranslationRecord &first = grains.translation[place1], &second = grains.translation[place2];
         const Vector<double> apart = box.nearest(second.position - first.position);
         const double distance = norm(apart), overlap = first.radius + second.radius - distance;
         const double spring = overlap > 0
@@ -68,16 +77,17 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
                                                                     {first.radius, second.radius}, overlap)
                                   : 0;
         const auto shift = partsOf(apart), force = partsOf(contacts.store().forceOf(contact));
+        const auto branch = partsOf(apart + (arms.at(place1) - arms.at(place2)));
         double share = 0;  // of the controlled axes in the direction of the contact
         for (std::size_t a = 0; a < 3; ++a)
-            if (strain.axes[a].isControlled) share += shift[a] * shift[a] / (distance * distance);
+            if (strain.axes[a].isControlled) share += shift[a] * branch[a] / (distance * distance);
         for (std::size_t a = 0; a < 3; ++a) {
-            found.stress[a] -= force[a] * shift[a] / volume;
-            found.stiffness[a] += spring * shift[a] * shift[a] * share / volume;
+            found.stress[a] -= force[a] * branch[a] / volume;
+            found.stiffness[a] += spring * shift[a] * branch[a] * share / volume;
         }
-        found.shear += force[f] * shift[g] / volume;
+        found.shear += force[f] * branch[g] / volume;
         found.shearStiffness +=
-            spring * shift[f] * shift[f] * shift[g] * shift[g] / (distance * distance * volume);
+            spring * shift[f] * shift[f] * branch[g] * branch[g] / (distance * distance * volume);
         ++found.touches;
     });
     return found;

@@ -83,8 +83,9 @@ BodyReference SuperquadricHandler::copyAndAddObject(const SuperquadricGrain& gra
         particles.massOf(grain.around().getRadius(), grain.around().getSpeciesIndex());
     const double density = massOfSphere / sphereMass(grain.around().getRadius(), 1);
     const BodyMember member{identity, {0, 0, 0}};
-    const std::uint32_t number = grains.bodies.add(
-        bodyOf(grain, density, contactOf(grain.getShape()).turning, massOfSphere), {&member, 1});
+    const std::uint32_t number =
+        grains.bodies.add(bodyOf(grain, density, contactOf(grain.getShape()).turning, massOfSphere),
+                          {&member, 1}, grain.getShape().volume());
     grains.bodies.place(grains, grains.bodies.size() - 1);
     particles.noteJoined({&identity, 1});
     shapeOfBody.resize(number, RigidBodies::none);

@@ -1,0 +1,67 @@
+#include "Kernel/Particles/MovingBodies.h"
+
+#include <Eigen/Cholesky>
+
+#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Particles/SphericalParticle.h"
+
+namespace pendular {
+
+namespace {
+
+/// N s, that makes the velocities of a free mass (kg) and of a point of a body, at an arm (m) from its
+/// centre, the same: J = (1/m + K)^-1 (v_m - v_p), with K = 1/M - [a] I^-1 [a], the body's response at the
+/// point.
+Vector<double> plasticImpulse(const RigidBody& body, const Vector<double>& arm, double mass,
+                              const Vector<double>& approach) {
+    const Axes axes(body.orientation);
+    Eigen::Matrix3d turn;
+    turn << toEigen(axes.x), toEigen(axes.y), toEigen(axes.z);
+    const Eigen::Matrix3d inverseInertia =
+        turn * toEigen(body.inertia).cwiseInverse().asDiagonal() * turn.transpose();
+    Eigen::Matrix3d cross;
+    cross << 0, -arm.z, arm.y, arm.z, 0, -arm.x, -arm.y, arm.x, 0;
+    const Eigen::Matrix3d response =
+        (1 / mass + 1 / body.mass) * Eigen::Matrix3d::Identity() - cross * inverseInertia * cross;
+    return toVector(Eigen::Vector3d(response.ldlt().solve(toEigen(approach))));
+}
+
+}  // namespace
+
+std::size_t countBodies(const ParticleStore& grains) {
+    std::size_t members = 0;
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) members += grains.bodies.membersOf(k).size();
+    return grains.count() - members + grains.bodies.size();
+}
+
+double volumeOfBodies(const ParticleStore& grains) {
+    double volume = 0;
+    for (const std::uint32_t place : grains.place)
+        if (!grains.bodies.contains(grains.identity[place]))
+            volume += sphereMass(grains.translation[place].radius, 1);
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) volume += grains.bodies.volumeOf(k);
+    return volume;
+}
+
+void catchMomentum(ParticleStore& grains, std::uint32_t place, const PeriodicBox& periodic, double mass,
+                   const Vector<double>& point, const Vector<double>& velocity) {
+    TranslationRecord& grain = grains.translation[place];
+    if (grain.inverseMass == 0) return;
+    const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
+    const std::uint32_t k = number == RigidBodies::none ? number : grains.bodies.find(number);
+    if (number == RigidBodies::none || grains.bodies.isSphere(grains, k)) {
+        grain.velocity +=
+            (mass * grain.inverseMass / (1 + mass * grain.inverseMass)) * (velocity - grain.velocity);
+        if (number != RigidBodies::none) grains.bodies.follow(grains, k);
+        return;
+    }
+    RigidBody& body = grains.bodies[k];
+    const Vector<double> arm = periodic.nearest(point - body.position);
+    const Vector<double> impulse =
+        plasticImpulse(body, arm, mass, velocity - (body.velocity + cross(body.spin(), arm)));
+    body.velocity += (1 / body.mass) * impulse;
+    body.angularMomentum += cross(arm, impulse);
+    grains.bodies.place(grains, k);
+}
+
+}  // namespace pendular
