@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "Kernel/Output/MercuryOutput.h"
@@ -12,6 +13,7 @@
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Friction/SlidingRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
@@ -121,6 +123,45 @@ TEST(Mercury, contactsOfAGrainAndItsWeightMakeTheWholeForce) {
     for (std::size_t k = 0; k < 48; ++k)
         // A dozen forces of some mN, each to a few units of the last of 53 bits.
         EXPECT_LT((sums[k] - box.particleHandler.getObject(k).getForce()).norm(), 1e-15) << k;
+}
+
+/// MercuryDPM's handlers have no gaps: its indices are the rows of the .data file, and the walls that there
+/// are. Grains 0 and 2, and wall 0, are removed before the run; 1 and 3 touch each other and the wall with
+/// the number 1.
+TEST(Mercury, namesGrainsByTheirRowsAndWallsByTheirPlaces) {
+    using S = Species<LinearViscoelastic>;
+    const TestFolder folder;
+    S species;
+    species.setDensity(2500), species.setStiffness(1000), species.setDissipation(0);
+    constexpr double r = 1e-3, z = 0.999e-3;
+    scenes::FewGrains<S> scene(species,
+                               {{.position = {0.1, 0, z}},
+                                {.position = {0, 0, z}},
+                                {.position = {0.2, 0, z}},
+                                {.position = {1.999e-3, 0, z}},
+                                {.position = {0.3, 0, 0.01}, .fixed = true}},
+                               1e-6,
+                               {{{0, 0, 1}, {0, 0, 1}}, {{0, 0, -1}, {0, 0, 0}}, {{0, 0, 1}, {0, 0, 2}}});
+    scene.particleHandler.removeObject(0);
+    scene.particleHandler.removeObject(2);
+    scene.wallHandler.removeObject(0);
+    scene.setName(folder.name());
+    scene.setTimeMax(1e-6);
+    scene.setQuiet();
+    scene.addOutput(MercuryOutput().withEnergies(false));
+    scene.solve();
+    const std::vector<Row> grains = rowsOf(folder.name() + ".data"), rows = rowsOf(folder.name() + ".fstat");
+    ASSERT_EQ(rows.size(), 8u);  // at the start and at the end: two of the pair, two at the wall
+    ASSERT_EQ(grains.size(), 8u);
+    std::set<std::pair<double, double>> pairs;
+    for (const Row& row : rows) {
+        pairs.emplace(row[1], row[2]);
+        if (row[2] < 0) continue;
+        const Row &one = grains.at(1 + static_cast<std::size_t>(row[1])),
+                  &two = grains.at(1 + static_cast<std::size_t>(row[2]));
+        EXPECT_NEAR((part(one, 0) - part(two, 0)).norm(), 2 * r, 2e-6);  // a tool finds its grains
+    }
+    EXPECT_EQ(pairs, (std::set<std::pair<double, double>>{{0, -1}, {0, 1}, {1, -1}, {1, 0}}));
 }
 
 /// A heavy grain is pressed onto a held one and pushed along it, and sticks: the spring is as long as its
