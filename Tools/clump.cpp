@@ -148,9 +148,7 @@ int run(const Options& o) {
     std::vector<Ball> spheres;
     if (o.mesh.empty()) spheres = readSpheres(o.spheres, o.unit);
     else {
-        mesh = readTriangles(o.mesh, o.unit);
-        static_cast<void>(MeshRegion(mesh));  // throws where it is not closed
-        clump::orderFromOutside(mesh);
+        mesh = MeshRegion::fromFile(o.mesh, o.unit).getTriangles();  // throws where it is not closed
         const MassProperties solid = massOfMesh(mesh);
         spheres = fewest(fill(mesh, o, o.most), solid, o.volumeError);
         if (spheres.empty())
@@ -187,7 +185,7 @@ int main(int argc, char** argv) {
     Options o;
     app.option_defaults()->always_capture_default();
     app.add_option("--spheres", o.spheres, "file of rows x y z radius, parted by commas or blanks");
-    app.add_option("--mesh", o.mesh, "closed mesh: STL, or rows of nine numbers");
+    app.add_option("--mesh", o.mesh, "closed mesh: STL, OBJ, PLY, or rows of nine numbers");
     app.add_option("--unit-m", o.unit, "m for one unit of the file");
     app.add_option("--density-kg-per-m3", o.density, "of the solid");
     app.add_option(

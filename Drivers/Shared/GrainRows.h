@@ -7,7 +7,7 @@
 
 namespace pendular {
 
-/// Adds a grain of a species to a scene, with this velocity (m/s).
+/// Adds a grain of a species to a scene, with this velocity (m/s) beside that of the row.
 template <class S>
 void addGrainRow(ParticleHandler& particles, const S* species, const GrainRow& row,
                  const Vec3D& velocity = Vec3D::Zero()) {
@@ -15,7 +15,8 @@ void addGrainRow(ParticleHandler& particles, const S* species, const GrainRow& r
     grain.setSpecies(species);
     grain.setRadius(row.radius);
     grain.setPosition(row.position);
-    grain.setVelocity(velocity);
+    grain.setVelocity(row.velocity + velocity);
+    grain.setAngularVelocity(row.angularVelocity);
     particles.copyAndAddObject(grain);
 }
 

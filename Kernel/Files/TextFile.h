@@ -35,6 +35,15 @@ struct InputFile {
 /// Throws InputError unless the path is a regular file of 4 GiB at most that can be read.
 InputFile loadInputFile(std::string_view kind, const std::filesystem::path& path);
 
+/// The same for a text, in one form: without the mark of UTF-8, and each line ended by a line feed, whether
+/// the file has LF, CR LF or CR. Throws InputError for what is no text, and says what it is.
+InputFile loadTextFile(std::string_view kind, const std::filesystem::path& path);
+/// Gives a file that is in memory the form that loadTextFile() gives, or throws.
+void takeAsText(InputFile& file);
+/// Throws InputError if the file is of a kind that recognise() knows; to be called where a reader of another
+/// kind does not understand it.
+void refuseOtherContent(const InputFile& file);
+
 /// Takes the words of a text one by one and counts its lines.
 class Words {
 public:
@@ -72,14 +81,18 @@ std::string shown(std::string_view word);
 
 /// Whether the whole word is a number.
 bool parseNumber(std::string_view word, double& value);
+/// Why a word is none, for a message.
+std::string whyNoNumber(std::string_view word);
 
 inline constexpr double largestLength = 1e9;  // m; of a coordinate or a radius in a file
 
 /// A length in m, read and multiplied by the scale; empty, or why it is refused.
 std::string parseLength(std::string_view word, double scale, double& value);
 
-/// Reads rows of lengths. Empty lines, lines that begin with # and a first line of words (the names of the
-/// columns: the first one begins with a letter, and none is a number or "l.0O1") are skipped.
+/// Reads rows of lengths, parted by blanks or by commas. Empty lines, lines that begin with # and a first line
+/// of words (the names of the columns: the first one begins with a letter, and none is a number or "l.0O1") are
+/// skipped. A row that has both commas within its words and blanks between them has decimal commas, and is
+/// refused.
 /// @param scale m for one unit of the file
 /// @param use is given the number of the line, from 1, and the row's numbers (m)
 void forEachRow(const InputFile& file, double scale,

@@ -8,6 +8,7 @@
 #include "Kernel/InputError.h"
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
+#include "Kernel/Math/ApartTexts.h"
 
 namespace pendular {
 
@@ -72,11 +73,14 @@ Inserted insertClumps(const InsertionScene& scene, BodyHandler& bodies, const Si
     for (const double radius : radii) result.wantedMass += sphereMass(radius, density);
     if (radii.empty()) return result;
     const double full = density * region->volume();
-    if (amount.kind() == Amount::Kind::SolidFraction && amount.value() > looseFraction)
+    if (amount.kind() == Amount::Kind::SolidFraction &&
+        amount.value() > looseFraction * (1 + roundOffOfLimits)) {
+        const auto [wanted, most] = apartTexts(amount.value(), looseFraction);
         throw InputError(fmt::format(
-            "{}: clumps at a solid fraction of {:.4g} of the region are asked for; a random start of clumps "
-            "reaches {:g}; insert fewer, and let them fall or compress them.",
-            owner, amount.value(), looseFraction));
+            "{}: clumps at a solid fraction of {} of the region are asked for; a random start of clumps "
+            "reaches {}; insert fewer, and let them fall or compress them.",
+            owner, wanted, most));
+    }
     const double scaleOfRadius = 2 / shape.getDiameter();
     Room room(scene, *region, options.wholeGrains, scaleOfRadius * radii.front() * shape.getReach());
     const CountedRandom random(options.seed);

@@ -9,6 +9,7 @@
 #include "Kernel/InputError.h"
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
+#include "Kernel/Math/ApartTexts.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -181,11 +182,13 @@ void InletHandler::check(const InsertionScene& scene, std::size_t number) const 
     const double flow =
         isSet(inlet.massFlow) ? inlet.massFlow : inlet.numberFlow * meanMass(*inlet.sizes, density);
     const double most = Inlet::densestStream * density * speed * region.areaAcross((1 / speed) * velocity);
-    if (flow > most)
+    if (flow > most * (1 + roundOffOfLimits)) {
+        const auto [wanted, allowed] = apartTexts(flow, most, 6);
         throw InputError(fmt::format(
-            "inlet {}: a flow of {:.6g} kg/s is more than its region can let in at {:.6g} m/s; it must be at "
-            "most {:.6g} kg/s, a solid fraction of {:g}.",
-            number, flow, speed, most, Inlet::densestStream));
+            "inlet {}: a flow of {} kg/s is more than its region can let in at {:.6g} m/s; it must be at "
+            "most {} kg/s, a solid fraction of {:g}.",
+            number, wanted, speed, allowed, Inlet::densestStream));
+    }
 }
 
 void InletHandler::letIn(const InsertionScene& scene, double time,

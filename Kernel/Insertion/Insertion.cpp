@@ -10,6 +10,7 @@
 #include "Kernel/Insertion/DenseStart.h"
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
+#include "Kernel/Math/ApartTexts.h"
 #include "Kernel/Sizes/SizeSample.h"
 
 namespace pendular {
@@ -21,8 +22,9 @@ constexpr std::uint32_t purposeOfPlaces = 0x1257010, purposeOfProbes = 0x1257020
 constexpr double mostGrains = ParticleStore::largestIdentity;
 
 InputError tooManyError(double number) {
-    return InputError(fmt::format("{}: the amount is some {:.3g} grains; it must be at most {:g}.", owner,
-                                  number, mostGrains));
+    const auto [wanted, most] = apartTexts(number, mostGrains, 3);
+    return InputError(
+        fmt::format("{}: the amount is some {} grains; it must be at most {}.", owner, wanted, most));
 }
 
 /// kg. @param mean of a grain; @param full of a region without voids
@@ -43,8 +45,8 @@ std::size_t exactCount(const Amount& amount, double mean, double whole) {
     if (number > mostGrains) throw tooManyError(number);
     if (number < 1)
         throw InputError(
-            fmt::format("{}: the amount is {:.3g} of the mean grain; it must be one grain at least.", owner,
-                        whole / mean));
+            fmt::format("{}: the amount is {} of the mean grain; it must be one grain at least.", owner,
+                        apartTexts(whole / mean, 1, 3)[0]));
     return static_cast<std::size_t>(number);
 }
 
@@ -89,11 +91,13 @@ std::vector<double> radiiOf(const Amount& amount, const SizeDistribution& sizes,
 void refuseWithoutRoom(std::string_view who, const Region& region, const WallHandler& walls,
                        const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains,
                        const Vector<double>& way) {
-    if (wholeGrains && !(largest <= region.largestSphere() * (1 + 1e-12)))
-        throw InputError(fmt::format(
-            "{}: the largest grain has a radius of {:.6g} m and does not fit the region; it must be "
-            "at most {:.6g} m.",
-            who, largest, region.largestSphere()));
+    if (wholeGrains && !(largest <= region.largestSphere() * (1 + 1e-12))) {
+        const auto [own, most] = apartTexts(largest, region.largestSphere(), 6);
+        throw InputError(
+            fmt::format("{}: the largest grain has a radius of {} m and does not fit the region; it must be "
+                        "at most {} m.",
+                        who, own, most));
+    }
     constexpr std::uint32_t probes = 1000;
     const CountedRandom random(1);
     const double margin = wholeGrains ? smallest : 0;
@@ -155,22 +159,29 @@ std::vector<Vector<double>> placeOneByOne(const InsertionScene& scene, std::span
     return centres;
 }
 
+/// A fraction that was asked for counts as it was: the sample of the sizes may be a little above or below it.
+void refuseTooDense(const Amount& amount, double ofSample) {
+    const double fraction = amount.kind() == Amount::Kind::SolidFraction ? amount.value() : ofSample;
+    if (fraction <= densestRandomStart * (1 + roundOffOfLimits)) return;
+    const auto [wanted, most] = apartTexts(fraction, densestRandomStart);
+    throw InputError(
+        fmt::format("{}: the grains would have a solid fraction of {} of the region; a random start reaches {}.",
+                    owner, wanted, most));
+}
+
 std::vector<Vector<double>> placeDensely(const InsertionScene& scene, std::span<const double> radii,
                                          const Region& region, const InsertOptions& options,
                                          double fraction) {
-    if (fraction > densestRandomStart)
-        throw InputError(
-            fmt::format("{}: the grains would have a solid fraction of {:.4g} of the region; a random start "
-                        "reaches {:g}.",
-                        owner, fraction, densestRandomStart));
     DenseStart found = denseStart(radii, options.wholeGrains, region, scene.particles.store(), scene.walls,
                                   scene.periodic, options.seed, scene.threads);
-    if (found.shrink < 1)
+    if (found.shrink < 1) {
+        const auto [wanted, reached] =
+            apartTexts(fraction, fraction * std::pow(std::max(found.shrink, 0.0), 3));
         throw InputError(fmt::format(
-            "{}: a solid fraction of {:.4g} of the region was not reached among its walls and grains, only "
-            "{:.4g} "
+            "{}: a solid fraction of {} of the region was not reached among its walls and grains, only {} "
             "after {} iterations; take a smaller amount, or a larger region.",
-            owner, fraction, fraction * std::pow(std::max(found.shrink, 0.0), 3), found.iterations));
+            owner, wanted, reached, found.iterations));
+    }
     for (std::size_t k = 0; k < radii.size(); ++k)
         if (!region.contains(found.centres[k], options.wholeGrains ? radii[k] * (1 - 1e-9) : 0))
             throw InputError(fmt::format(
@@ -202,7 +213,10 @@ Inserted insertGrains(const InsertionScene& scene, const SizeDistribution& sizes
     std::vector<Vector<double>> centres;
     if (fraction <= looseFraction)
         centres = placeOneByOne(scene, radii, *region, options, result.firstLeftOut);
-    else centres = placeDensely(scene, radii, *region, options, fraction);
+    else {
+        refuseTooDense(amount, fraction);
+        centres = placeDensely(scene, radii, *region, options, fraction);
+    }
     scene.particles.reserve(scene.particles.store().size() + radii.size());
     SphericalParticle grain = like;
     for (std::size_t k = 0; k < radii.size(); ++k) {

@@ -19,11 +19,6 @@ using Point = Vector<double>;
 bool isLess(const Point& a, const Point& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
-struct EdgeLess {
-    bool operator()(const std::pair<Point, Point>& a, const std::pair<Point, Point>& b) const {
-        return a.first == b.first ? isLess(a.second, b.second) : isLess(a.first, b.first);
-    }
-};
 
 /// Whether a ray along -x from (x, y) crosses an edge, seen along z. The edge is taken in the same direction
 /// for both its triangles, so that a point is on one side of it for both.
@@ -49,14 +44,14 @@ Point areaOf(const Triangle& t) { return 0.5 * cross(t[1] - t[0], t[2] - t[0]); 
 }  // namespace
 
 MeshRegion::MeshRegion(std::span<const Triangle> given) {
-    for (Triangle t : given) {
-        for (Point& p : t) p = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 becomes 0
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-        triangles.push_back(t);
+    WeldedMesh mesh = weld(given, "MeshRegion");
+    std::erase_if(mesh.corners, [](const auto& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; });
+    for (const auto& [a, b, c] : mesh.corners)
+        triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+    for (const Triangle& t : triangles)
         for (const Point& p : t) box.include(p);
-    }
-    surface.set(triangles);  // throws where coordinates are no numbers, or there is no area
-    refuseUnlessClosed();
+    surface.set(triangles);  // throws where there is no area
+    refuseUnlessClosed(mesh);
     // Gauss' law, from a corner, so that a mesh far away loses nothing.
     for (const Triangle& t : triangles) size += dot(t[0] - box.lowest, areaOf(t)) / 3;
     if (size < 0) {
@@ -67,20 +62,22 @@ MeshRegion::MeshRegion(std::span<const Triangle> given) {
     refuseIfThroughItself();
 }
 
-void MeshRegion::refuseUnlessClosed() const {
-    std::map<std::pair<Point, Point>, int, EdgeLess> balance;  // uses along an edge; forwards minus backwards
-    std::map<std::pair<Point, Point>, int, EdgeLess> uses;
-    for (const Triangle& t : triangles)
+void MeshRegion::refuseUnlessClosed(const WeldedMesh& mesh) {
+    struct Uses {
+        int count = 0, balance = 0;  // along an edge; forwards minus backwards
+    };
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Uses> edges;
+    for (const auto& corners : mesh.corners)
         for (std::size_t k = 0; k < 3; ++k) {
-            const Point a = t[k], b = t[(k + 1) % 3];
-            const bool forwards = isLess(a, b);
-            const auto edge = forwards ? std::pair(a, b) : std::pair(b, a);
-            balance[edge] += forwards ? 1 : -1;
-            ++uses[edge];
+            const std::uint32_t from = corners[k], to = corners[(k + 1) % 3];
+            Uses& uses = edges[std::minmax(from, to)];
+            ++uses.count;
+            uses.balance += from < to ? 1 : -1;
         }
-    for (const auto& [edge, count] : uses) {
-        if (count == 2 && balance[edge] == 0) continue;
-        const auto& [a, b] = edge;
+    for (const auto& [edge, uses] : edges) {
+        const auto [count, balance] = uses;
+        if (count == 2 && balance == 0) continue;
+        const Point &a = mesh.vertices[edge.first], &b = mesh.vertices[edge.second];
         const std::string place = fmt::format("the edge from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m", a.x,
                                               a.y, a.z, b.x, b.y, b.z);
         if (count == 2)

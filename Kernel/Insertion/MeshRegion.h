@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Kernel/Insertion/Region.h"
+#include "Kernel/Shapes/WeldedMesh.h"
 #include "Kernel/Walls/TriangleWall.h"
 
 namespace pendular {
@@ -14,14 +15,18 @@ namespace pendular {
 class MeshRegion final : public Region {
 public:
     /// Throws InputError unless the triangles are a closed surface that does not go through itself: each edge
-    /// belongs to two triangles, which go along it in opposite directions (corners are the same if all bits
-    /// of their numbers are), and the surface winds around no point of a sample more than once.
+    /// belongs to two triangles, which go along it in opposite directions (corners are the same as for a
+    /// TriangleWall: WeldedMesh.h), and the surface winds around no point of a sample more than once.
     explicit MeshRegion(std::span<const Triangle> triangles);
     /// From a file, as readTriangles() has it.
     /// @param scale m for one unit of the file (1e-3 for a file in mm)
     static MeshRegion fromFile(const std::filesystem::path& path, double scale = 1) {
         return MeshRegion(readTriangles(path, scale));
     }
+
+    /// The surface (m): corners are welded, all triangles are counter-clockwise from outside, and those of which
+    /// two corners are one are left out.
+    [[nodiscard]] const std::vector<Triangle>& getTriangles() const { return triangles; }
 
     using Region::contains;
     [[nodiscard]] bool contains(const Vector<double>& point, double margin) const override;
@@ -41,7 +46,7 @@ private:
     /// The triangles above a column of a grid in x and y.
     [[nodiscard]] std::span<const std::uint32_t> column(double x, double y) const;
     void makeColumns();
-    void refuseUnlessClosed() const;
+    static void refuseUnlessClosed(const WeldedMesh& mesh);
     void refuseIfThroughItself() const;
 
     std::vector<Triangle> triangles;  // m; seen from outside, counter-clockwise

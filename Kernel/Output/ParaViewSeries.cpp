@@ -46,7 +46,7 @@ std::string valueOf(const std::string& line, std::string_view attribute) {
 }  // namespace
 
 std::vector<ParaViewEntry> readParaViewSeries(const std::filesystem::path& path) {
-    const InputFile file = loadInputFile("ParaView series", path);
+    const InputFile file = loadTextFile("ParaView series", path);
     std::vector<ParaViewEntry> entries;
     std::istringstream lines(file.text);
     std::size_t number = 0;

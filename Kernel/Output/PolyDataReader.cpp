@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "Kernel/Files/FileContent.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Output/Compression.h"
 #include "Kernel/Output/PolyData.h"
@@ -202,6 +203,7 @@ private:
 
 PolyData readPolyData(const std::filesystem::path& path) {
     const InputFile file = loadInputFile("VTK file", path);
+    if (recognise(file.text).content == FileContent::NoText) refuseOtherContent(file);
     try {
         return std::move(Reader(file.text).result);
     } catch (const std::runtime_error& problem) {

@@ -61,8 +61,7 @@ ClumpTemplate::ClumpTemplate(std::vector<Ball> all, const BodyMass& mass)
 
 std::vector<Ball> readSpheres(const std::filesystem::path& path, double scale) {
     checkValue("readSpheres()", "scale", scale, "", positive);
-    InputFile file = loadInputFile("sphere file", path);
-    std::ranges::replace(file.text, ',', ' ');
+    const InputFile file = loadTextFile("sphere file", path);
     std::vector<Ball> spheres;
     forEachRow(file, scale, [&](std::size_t line, const std::vector<double>& row) {
         if (row.size() != 4)

@@ -10,16 +10,6 @@ namespace pendular {
 
 using CornersOfTriangle = std::array<Vector<double>, 3>;  // m
 
-/// m^3, of what a closed mesh holds: the sum of its tetrahedra with a point; negative if its triangles are
-/// clockwise from outside.
-inline double signedVolume(std::span<const CornersOfTriangle> triangles) {
-    const Vector<double> origin = triangles.empty() ? Vector<double>{0, 0, 0} : triangles[0][0];
-    double sum = 0;
-    for (const CornersOfTriangle& t : triangles)
-        sum += dot(t[0] - origin, cross(t[1] - origin, t[2] - origin)) / 6;
-    return sum;
-}
-
 /// Volume, centre and inertia of what a closed mesh holds, by the divergence theorem: the sum over the
 /// tetrahedra that its triangles p, q, r make with a point, with signs; each has det/6 of volume and
 /// (det/120) (p p + q q + r r + s s) of the second moments, s = p + q + r. Exact but for round-off: the point

@@ -12,11 +12,13 @@
 namespace pendular {
 
 SummaryFile::SummaryFile(const std::filesystem::path& file) : path(file) {
-    const InputFile input = loadInputFile("summary of a run", file);
+    const InputFile input = loadTextFile("summary of a run", file);
     std::istringstream lines(input.text);
     std::string line;
-    if (!std::getline(lines, line) || line != "quantity,value,unit")
+    if (!std::getline(lines, line) || line != "quantity,value,unit") {
+        refuseOtherContent(input);
         input.refuse("does not begin with quantity,value,unit");
+    }
     for (std::size_t number = 2; std::getline(lines, line); ++number) {
         const std::size_t last = line.rfind(','), first = line.find(',');
         if (last == line.npos || first == last) input.refuse("line", number, "a column is missing");

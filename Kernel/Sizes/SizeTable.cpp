@@ -168,7 +168,7 @@ struct Rows {
 double numberIn(const InputFile& file, std::size_t line, std::string_view cell, std::string_view what) {
     double number = unset;
     if (!parseNumber(cell, number))
-        file.refuse("line", line, fmt::format("the {} '{}' is not a number", what, shown(cell)));
+        file.refuse("line", line, fmt::format("the {} {}", what, whyNoNumber(cell)));
     if (!notNegative.contains(number))
         file.refuse("line", line,
                     fmt::format("the {} is {:g}; it must be 0 or more, and finite", what, number));
@@ -179,8 +179,8 @@ void addRow(const InputFile& file, std::size_t line, std::string_view text, Rows
     const std::vector<std::string_view> cells = cellsOf(text);
     if (cells.size() != 2)
         file.refuse("line", line,
-                    fmt::format("{} column{}; there must be 2, parted by a comma", cells.size(),
-                                cells.size() == 1 ? "" : "s"));
+                    fmt::format("{} column{}; there must be 2, parted by a comma (decimals have a point)",
+                                cells.size(), cells.size() == 1 ? "" : "s"));
     const double diameter = rows.columns.scale * numberIn(file, line, cells[0], "size");
     const double value = numberIn(file, line, cells[1], "value") / rows.columns.whole;
     if (!diameterRange.contains(diameter))
@@ -206,8 +206,6 @@ Rows readRows(const InputFile& file) {
     std::optional<Columns> columns;
     Rows rows;
     std::string_view rest = file.text;
-    if (constexpr std::string_view mark = "\xEF\xBB\xBF"; rest.starts_with(mark))
-        rest.remove_prefix(mark.size());
     for (std::size_t line = 1; !rest.empty(); ++line) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         const std::string_view text = trimmed(rest.substr(0, end));
@@ -218,6 +216,7 @@ Rows readRows(const InputFile& file) {
             continue;
         }
         columns = columnsOf(text);
+        if (!columns) refuseOtherContent(file);
         if (!columns)
             file.refuse("line", line,
                         "the first line must name two columns, as in diameter_mm,cumulative_volume "
@@ -248,7 +247,7 @@ void checkWhole(const InputFile& file, const Rows& rows) {
 }  // namespace
 
 SizeDistribution readSizeTable(const std::filesystem::path& path, std::optional<InClass> within) {
-    const InputFile file = loadInputFile("size table", path);
+    const InputFile file = loadTextFile("size table", path);
     const Rows rows = readRows(file);
     checkWhole(file, rows);
     const std::span<const double> diameters = rows.diameters, values = rows.values;

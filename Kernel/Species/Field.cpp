@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Kernel/InputError.h"
+#include "Kernel/Math/ApartTexts.h"
 #include "Kernel/Species/DomainLimit.h"
 
 namespace pendular {
@@ -22,8 +23,9 @@ std::string Range::text(std::string_view unit) const {
 }
 
 std::string DomainLimit::text() const {
-    return fmt::format("{} = {:.4g}{}{}; it is made for {}", quantity, value, unit.empty() ? "" : " ", unit,
-                       range.text(unit));
+    const double limit = value < range.lowest ? range.lowest : range.highest;
+    return fmt::format("{} = {}{}{}; it is made for {}", quantity, apartTexts(value, limit)[0],
+                       unit.empty() ? "" : " ", unit, range.text(unit));
 }
 
 void checkValue(std::string_view owner, std::string_view field, double value, std::string_view unit,

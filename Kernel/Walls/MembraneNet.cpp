@@ -7,10 +7,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "Kernel/InputError.h"
-#include "Kernel/Walls/BoxTree.h"
-#include "Kernel/Walls/MeshParts.h"
+#include "Kernel/Shapes/WeldedMesh.h"
 
 namespace pendular {
 namespace {
@@ -72,32 +72,26 @@ MembraneNet::MembraneNet(std::span<const Triangle> given, const MembraneMaterial
 }
 
 void MembraneNet::join(std::span<const Triangle> given) {
-    Box box;
-    std::vector<Point> all;
-    for (std::size_t t = 0; t < given.size(); ++t)
-        for (const Point& p : given[t]) {
-            if (!(squaredNorm(p) <= 1e18))
-                throw InputError(
-                    fmt::format("Membrane: a coordinate of triangle {} is not finite or above 1e9 m.", t));
-            all.push_back(p);
-            box.include(p);
-        }
+    const WeldedMesh mesh = weld(given, "Membrane");
     if (given.empty()) throw InputError("Membrane: there are no triangles.");
-    extent = norm(box.highest - box.lowest);
+    extent = mesh.size;
     if (!(extent > 1e-12))
         throw InputError(fmt::format(
             "Membrane: its size = {:.6g} m, the diagonal of the box around all corners; it must be "
             "more than 1e-12 m.",
             extent));
-    const std::vector<Index> same = joinClose(all, meshTolerance * extent, box.lowest);
-    std::vector<Index> number(all.size());
-    for (Index v = 0; v < all.size(); ++v) {
-        if (same[v] != v) continue;
-        number[v] = static_cast<Index>(rest.size());
-        rest.push_back(all[v]);
-    }
+    // In the order in which the triangles have them.
+    std::vector<std::optional<Index>> number(mesh.vertices.size());
+    const auto numberOf = [&](Index vertex) {
+        if (!number[vertex]) {
+            number[vertex] = static_cast<Index>(rest.size());
+            rest.push_back(mesh.vertices[vertex]);
+        }
+        return *number[vertex];
+    };
     for (std::size_t t = 0; t < given.size(); ++t) {
-        const std::array<Index, 3> c{number[same[3 * t]], number[same[3 * t + 1]], number[same[3 * t + 2]]};
+        std::array<Index, 3> c;
+        for (std::size_t k = 0; k < 3; ++k) c[k] = numberOf(mesh.corners[t][k]);
         const Point a = rest[c[0]], b = rest[c[1]], d = rest[c[2]];
         const double twice = norm(twiceArea(a, b, d)),
                      longest = std::max({norm(b - a), norm(d - a), norm(d - b)});

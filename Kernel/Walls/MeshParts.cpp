@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "Kernel/InputError.h"
+#include "Kernel/Shapes/WeldedMesh.h"
 #include "Kernel/Walls/BoxTree.h"
 #include "Kernel/Walls/PartCover.h"
 #include "Kernel/Walls/RigidWall.h"
@@ -30,38 +31,6 @@ struct Piece {
     Point normal;
     double area;  // m^2
 };
-
-bool isLess(const Point& a, const Point& b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
-
-}  // namespace
-
-std::vector<Index> joinClose(std::span<const Point> vertices, double distance, const Point& origin) {
-    using Cell = std::array<std::int64_t, 3>;
-    const double inverseSize =
-        1 / (1024 * distance);  // few vertices lie so near to a face that two cells are looked into
-    const auto cellOf = [&](double x) { return static_cast<std::int64_t>(std::floor(x * inverseSize)); };
-    std::map<Cell, std::vector<Index>> cells;
-    std::vector<Index> same(vertices.size());
-    for (Index v = 0; v < vertices.size(); ++v) {
-        const Point p = vertices[v] - origin;
-        same[v] = v;
-        const Cell low{cellOf(p.x - distance), cellOf(p.y - distance), cellOf(p.z - distance)};
-        const Cell high{cellOf(p.x + distance), cellOf(p.y + distance), cellOf(p.z + distance)};
-        for (std::int64_t x = low[0]; x <= high[0]; ++x)
-            for (std::int64_t y = low[1]; y <= high[1]; ++y)
-                for (std::int64_t z = low[2]; z <= high[2]; ++z)
-                    if (const auto found = cells.find({x, y, z}); found != cells.end())
-                        for (const Index other : found->second)
-                            if (norm(vertices[other] - vertices[v]) <= distance)
-                                same[v] = std::min(same[v], other);
-        if (same[v] == v) cells[{cellOf(p.x), cellOf(p.y), cellOf(p.z)}].push_back(v);
-    }
-    return same;
-}
-
-namespace {
 
 class PartMaker {
 public:
@@ -97,33 +66,13 @@ public:
 private:
     using Edge = std::pair<Index, Index>;
 
-    /// Vertices within the tolerance become one (programs that write meshes round the same corner in two
-    /// ways); triangles without area and repeated ones are left out.
+    /// Triangles without area and repeated ones are left out.
     void weld(std::span<const Triangle> given) {
-        std::vector<Point> all;
-        Box box;
-        for (std::size_t t = 0; t < given.size(); ++t)
-            for (const Point& p : given[t]) {
-                if (!(squaredNorm(p) <= 1e18))
-                    throw InputError(fmt::format(
-                        "TriangleWall: a coordinate of triangle {} is not finite or above 1e9 m.", t));
-                all.push_back({p.x + 0.0, p.y + 0.0, p.z + 0.0});  // -0 becomes 0
-                box.include(all.back());
-            }
-        made.size = given.empty() ? 0 : norm(box.highest - box.lowest);
+        WeldedMesh mesh = pendular::weld(given, "TriangleWall");
+        made.size = mesh.size;
         if (!(made.size > 0)) throw InputError("TriangleWall: there is no triangle with an area.");
-        vertices = all;
-        std::sort(vertices.begin(), vertices.end(), isLess);
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        const std::vector<Index> same = joinClose(vertices, meshTolerance * made.size, box.lowest);
-        for (std::size_t t = 0; t < given.size(); ++t) {
-            std::array<Index, 3> corner;
-            for (std::size_t k = 0; k < 3; ++k)
-                corner[k] = same[static_cast<std::size_t>(
-                    std::lower_bound(vertices.begin(), vertices.end(), all[3 * t + k], isLess) -
-                    vertices.begin())];
-            addTriangle(corner);
-        }
+        vertices = std::move(mesh.vertices);
+        for (const std::array<Index, 3>& corners : mesh.corners) addTriangle(corners);
         leaveOutRepeated();
         made.leftOut = given.size() - pieces.size();
         if (pieces.empty()) throw InputError("TriangleWall: there is no triangle with an area.");

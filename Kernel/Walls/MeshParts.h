@@ -35,14 +35,9 @@ struct MeshParts {
     std::size_t leftOut = 0;  // triangles without area, and repeated ones
 };
 
-/// Lengths below this share of the mesh's size count as zero: coplanarity, the height of a
-/// triangle, and the distance at which two vertices are one.
+/// Lengths below this share of the mesh's size count as zero: coplanarity, and the height of a triangle. (When
+/// two corners are one, WeldedMesh.h says.)
 inline constexpr double meshTolerance = 1e-9;
-
-/// For each vertex the first one within a distance (m) of it, itself or one that stands for itself.
-/// @param origin near to them: the numbers of cells stay small
-std::vector<std::uint32_t> joinClose(std::span<const Vector<double>> vertices, double distance,
-                                     const Vector<double>& origin);
 
 /// Whether coplanar triangles become one part, or each is its own, as where they will move apart.
 enum class CoplanarTriangles { Merge, Keep };

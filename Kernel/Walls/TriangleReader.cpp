@@ -8,8 +8,10 @@
 #include <string>
 #include <string_view>
 
+#include "Kernel/Files/FileContent.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Species/Field.h"
+#include "Kernel/Walls/MeshFormats.h"
 
 namespace pendular {
 
@@ -51,12 +53,10 @@ std::vector<Triangle> readAscii(const InputFile& file, double scale) {
                         fmt::format("'{}' where '{}' is expected", shown(word),
                                     inSolid ? "facet' or 'endsolid" : "solid"));
         expect("normal");
-        for (int k = 0; k < 3;
-             ++k) {  // not used: it follows from the vertices, and many programs write zeros or nan
-            double ignored;
-            if (!parseNumber(words.next(), ignored))
+        // Not used: it follows from the vertices, and programs write zeros, nan or -1.#IND.
+        for (int k = 0; k < 3; ++k)
+            if (const std::string_view word = words.next(); word.empty() || isWord(word, "outer"))
                 file.refuse("line", words.line(), "the facet's normal is not three numbers");
-        }
         expect("outer");
         expect("loop");
         Triangle triangle;
@@ -81,17 +81,6 @@ Number littleEndian(const char* bytes) {
 }
 
 constexpr std::size_t binaryHeader = 84, binaryFacet = 50;  // bytes
-
-/// A binary file may begin with "solid" as well; its length tells.
-bool looksBinary(const std::string& text) {
-    if (text.size() >= binaryHeader &&
-        text.size() ==
-            binaryHeader + binaryFacet * std::size_t{littleEndian<std::uint32_t>(text.data() + 80)})
-        return true;
-    std::size_t begin = 0;
-    while (begin < text.size() && Words::isSpace(text[begin])) ++begin;
-    return !isWord(std::string_view(text).substr(begin, 5), "solid");
-}
 
 std::vector<Triangle> readBinary(const InputFile& file, double scale) {
     if (file.text.size() < binaryHeader)
@@ -132,15 +121,46 @@ std::vector<Triangle> readRows(const InputFile& file, double scale) {
     return triangles;
 }
 
+/// What has no mark of its kind is rows of numbers, or a binary STL file of a wrong length.
+std::vector<Triangle> readUnmarked(InputFile& file, bool isNamedStl, double scale) {
+    double number;
+    const std::string_view first = Words(std::string_view(file.text).substr(0, 64)).next();
+    const bool isText = file.text.find('\0') == file.text.npos;
+    if (isNamedStl && isText && !parseNumber(first, number))
+        file.refuse(fmt::format("has {} bytes of text; an ASCII STL file begins with 'solid'", file.text.size()));
+    if (isNamedStl && !isText) return readBinary(file, scale);
+    takeAsText(file);
+    return readRows(file, scale);
+}
+
+std::vector<Triangle> readByContent(InputFile& file, bool isNamedStl, double scale) {
+    switch (recognise(file.text).content) {
+        case FileContent::BinaryStl:
+            return readBinary(file, scale);
+        case FileContent::AsciiStl:
+            if (file.text.find('\0') != file.text.npos) return readBinary(file, scale);  // of a wrong length
+            takeAsText(file);
+            return readAscii(file, scale);
+        case FileContent::Obj:
+            takeAsText(file);
+            return trianglesOf(readObj(file, scale), file);
+        case FileContent::Ply:
+            return trianglesOf(readPly(file, scale), file);
+        case FileContent::Unknown:
+            return readUnmarked(file, isNamedStl, scale);
+        default:
+            refuseOtherContent(file);
+            return {};
+    }
+}
+
 }  // namespace
 
 std::vector<Triangle> readTriangles(const std::filesystem::path& path, double scale) {
     checkValue("TriangleWall", "scale", scale, "m", positive);
-    const InputFile file = loadInputFile("triangle file", path);
-    const bool isStl = isWord(path.extension().string(), ".stl");
-    std::vector<Triangle> triangles = !isStl                   ? readRows(file, scale)
-                                      : looksBinary(file.text) ? readBinary(file, scale)
-                                                               : readAscii(file, scale);
+    InputFile file = loadInputFile("triangle file", path);
+    std::vector<Triangle> triangles =
+        readByContent(file, isWord(path.extension().string(), ".stl"), scale);
     if (triangles.empty()) file.refuse("holds no triangles");
     return triangles;
 }

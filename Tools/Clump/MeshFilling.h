@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "Kernel/Insertion/MeshRegion.h"
-#include "Kernel/Shapes/MeshSolid.h"
 
 namespace pendular::clump {
 
@@ -19,12 +18,6 @@ struct Filling {
     double overlap = 0.6;  // of a sphere's radius, that the next spheres may reach into
     std::uint64_t seed = 1;
 };
-
-/// Turns a mesh that is clockwise over.
-inline void orderFromOutside(std::vector<Triangle>& mesh) {
-    if (signedVolume(mesh) < 0)
-        for (Triangle& t : mesh) std::swap(t[1], t[2]);
-}
 
 /// m, from a point to the nearest point of a triangle. Source: Ericson, Real-Time Collision Detection (2005),
 /// section 5.1.5: by the region of the plane that the point lies over.

@@ -37,7 +37,7 @@ inline Frame readFrame(const std::filesystem::path& particles) {
 /// A table with the columns radius_m, x_m, y_m and z_m, as a run that stops leaves it; its other columns are
 /// fields.
 inline Frame readTable(const std::filesystem::path& path) {
-    const InputFile file = loadInputFile("table of grains", path);
+    const InputFile file = loadTextFile("table of grains", path);
     std::istringstream lines(file.text);
     std::vector<std::string> names;
     std::map<std::string, std::vector<double>> columns;
