@@ -72,7 +72,8 @@ void describe(CLI::App& app, Options& o) {
     auto* grains = app.add_option("--grains", o.grains,
                                   "file of the initial state: rows radius x y z, in m; the largest grain is "
                                   "the intruder");
-    auto* walls = app.add_option("--walls", o.walls, "file of the box: rows of nine numbers, STL, OBJ or PLY, in m");
+    auto* walls =
+        app.add_option("--walls", o.walls, "file of the box: rows of nine numbers, STL, OBJ or PLY, in m");
     grains->needs(walls), walls->needs(grains);
     app.add_option("--number", o.number,
                    "grains of the generated bed, taken where no files are given; at least 100")

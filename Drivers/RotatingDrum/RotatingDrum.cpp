@@ -69,7 +69,8 @@ private:
 void describe(CLI::App& app, Options& o) {
     app.option_defaults()->always_capture_default();
     auto* grains = app.add_option("--grains", o.grains, "file of the initial state: rows radius x y z, in m");
-    auto* walls = app.add_option("--walls", o.walls, "file of the drum: rows of nine numbers, STL, OBJ or PLY, in m");
+    auto* walls =
+        app.add_option("--walls", o.walls, "file of the drum: rows of nine numbers, STL, OBJ or PLY, in m");
     grains->needs(walls), walls->needs(grains);
     app.add_option("--number", o.number, "grains of the generated state, taken where no files are given")
         ->excludes(grains);

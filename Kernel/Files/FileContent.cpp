@@ -64,8 +64,8 @@ char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c
 
 /// Whether a text begins with a word in lower case, whatever the case of the text.
 bool begins(std::string_view text, std::string_view word) {
-    return text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin(),
-                                                    [](char w, char t) { return w == lower(t); });
+    return text.size() >= word.size() &&
+           std::equal(word.begin(), word.end(), text.begin(), [](char w, char t) { return w == lower(t); });
 }
 
 constexpr std::string_view blanks = " \t\v\f", lineEnds = "\r\n";
@@ -87,8 +87,8 @@ bool looksLikeNumber(std::string_view word) {
     return !word.empty() && word.front() >= '0' && word.front() <= '9';
 }
 
-/// Calls a function with the first lines of a text, without blanks at the beginning, that are not empty, until
-/// it returns true.
+/// Calls a function with the first lines of a text, without blanks at the beginning, that are not empty,
+/// until it returns true.
 template <class Function>
 void forFirstLines(std::string_view text, Function&& function) {
     constexpr std::size_t farthest = 1 << 16;  // bytes
@@ -135,7 +135,8 @@ RecognisedContent recogniseText(std::string_view text) {
     const std::string_view start = text.substr(std::min(text.find_first_not_of(" \t\v\f\r\n"), text.size()));
     if (begins(start, "<!doctype html") || begins(start, "<html"))
         return {FileContent::OtherText, "an HTML page", "download the file itself"};
-    if (begins(start, "<?xml") || begins(start, "<vtkfile")) return {FileContent::OtherText, "an XML file", {}};
+    if (begins(start, "<?xml") || begins(start, "<vtkfile"))
+        return {FileContent::OtherText, "an XML file", {}};
     if (beginsWithWord(text, "ply")) return {FileContent::Ply, "a PLY mesh", {}};
     if (beginsWithWord(start, "off")) return {FileContent::OtherText, "an OFF mesh", saveAsMesh};
     if (beginsWithWord(start, "solid")) return {FileContent::AsciiStl, "an STL mesh", {}};

@@ -55,8 +55,8 @@ void takeAsText(InputFile& file) {
 void refuseOtherContent(const InputFile& file) {
     const RecognisedContent found = recognise(file.text);
     if (found.content == FileContent::Unknown) return;
-    file.refuse(fmt::format("is {} by its content{}{}", found.name, found.advice.empty() ? "" : "; ",
-                            found.advice));
+    file.refuse(
+        fmt::format("is {} by its content{}{}", found.name, found.advice.empty() ? "" : "; ", found.advice));
 }
 
 std::string shown(std::string_view word) {
@@ -121,9 +121,9 @@ bool isHeader(std::string_view line) {
         words, [&](std::string_view word) { return parseNumber(word, number) || isMeantAsNumber(word); });
 }
 
-/// The cells of a row. If commas part them, a cell is what is between two commas, without blanks around it; the
-/// last one may be empty. Else, or if a cell would have blanks in it, they are what blanks part: a word with a
-/// comma in it is no number then.
+/// The cells of a row. If commas part them, a cell is what is between two commas, without blanks around it;
+/// the last one may be empty. Else, or if a cell would have blanks in it, they are what blanks part: a word
+/// with a comma in it is no number then.
 std::vector<std::string_view> cellsOfRow(std::string_view line) {
     std::vector<std::string_view> byBlanks = wordsOf(line, blanks);
     if (line.find(',') == line.npos) return byBlanks;
@@ -143,6 +143,8 @@ std::vector<std::string_view> cellsOfRow(std::string_view line) {
 
 void forEachRow(const InputFile& file, double scale,
                 const std::function<void(std::size_t line, const std::vector<double>& row)>& use) {
+    // "solid" alone may be the name of a column.
+    if (recognise(file.text).content != FileContent::AsciiStl) refuseOtherContent(file);
     std::string_view rest = file.text;
     std::vector<double> row;
     bool mayBeHeader = true;

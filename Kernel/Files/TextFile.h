@@ -89,10 +89,10 @@ inline constexpr double largestLength = 1e9;  // m; of a coordinate or a radius 
 /// A length in m, read and multiplied by the scale; empty, or why it is refused.
 std::string parseLength(std::string_view word, double scale, double& value);
 
-/// Reads rows of lengths, parted by blanks or by commas. Empty lines, lines that begin with # and a first line
-/// of words (the names of the columns: the first one begins with a letter, and none is a number or "l.0O1") are
-/// skipped. A row that has both commas within its words and blanks between them has decimal commas, and is
-/// refused.
+/// Reads rows of lengths, parted by blanks or by commas. Empty lines, lines that begin with # and a first
+/// line of words (the names of the columns: the first one begins with a letter, and none is a number or
+/// "l.0O1") are skipped. A row that has both commas within its words and blanks between them has decimal
+/// commas, and is refused.
 /// @param scale m for one unit of the file
 /// @param use is given the number of the line, from 1, and the row's numbers (m)
 void forEachRow(const InputFile& file, double scale,

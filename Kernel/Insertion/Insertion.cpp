@@ -44,9 +44,8 @@ std::size_t exactCount(const Amount& amount, double mean, double whole) {
         amount.kind() == Amount::Kind::Grains ? amount.value() : std::floor(whole / mean * (1 + 1e-12));
     if (number > mostGrains) throw tooManyError(number);
     if (number < 1)
-        throw InputError(
-            fmt::format("{}: the amount is {} of the mean grain; it must be one grain at least.", owner,
-                        apartTexts(whole / mean, 1, 3)[0]));
+        throw InputError(fmt::format("{}: the amount is {} of the mean grain; it must be one grain at least.",
+                                     owner, apartTexts(whole / mean, 1, 3)[0]));
     return static_cast<std::size_t>(number);
 }
 
@@ -159,14 +158,15 @@ std::vector<Vector<double>> placeOneByOne(const InsertionScene& scene, std::span
     return centres;
 }
 
-/// A fraction that was asked for counts as it was: the sample of the sizes may be a little above or below it.
+/// A fraction that was asked for counts as it was where the sample of the sizes is a little above it.
 void refuseTooDense(const Amount& amount, double ofSample) {
-    const double fraction = amount.kind() == Amount::Kind::SolidFraction ? amount.value() : ofSample;
+    const double fraction =
+        amount.kind() == Amount::Kind::SolidFraction ? std::min(amount.value(), ofSample) : ofSample;
     if (fraction <= densestRandomStart * (1 + roundOffOfLimits)) return;
     const auto [wanted, most] = apartTexts(fraction, densestRandomStart);
-    throw InputError(
-        fmt::format("{}: the grains would have a solid fraction of {} of the region; a random start reaches {}.",
-                    owner, wanted, most));
+    throw InputError(fmt::format(
+        "{}: the grains would have a solid fraction of {} of the region; a random start reaches {}.", owner,
+        wanted, most));
 }
 
 std::vector<Vector<double>> placeDensely(const InsertionScene& scene, std::span<const double> radii,

@@ -24,8 +24,8 @@ public:
         return MeshRegion(readTriangles(path, scale));
     }
 
-    /// The surface (m): corners are welded, all triangles are counter-clockwise from outside, and those of which
-    /// two corners are one are left out.
+    /// The surface (m): corners are welded, all triangles are counter-clockwise from outside, and those of
+    /// which two corners are one are left out.
     [[nodiscard]] const std::vector<Triangle>& getTriangles() const { return triangles; }
 
     using Region::contains;

@@ -32,8 +32,7 @@ std::vector<GrainRow> readRows(const InputFile& file) {
 std::vector<GrainRow> readByContent(const InputFile& file, std::optional<std::int64_t> timestep) {
     const FileContent content = recognise(file.text).content;
     if (content == FileContent::LammpsDump) return readLammpsDump(file, timestep);
-    if (timestep)
-        file.refuse(fmt::format("is no dump, which has time steps; {} was asked for", *timestep));
+    if (timestep) file.refuse(fmt::format("is no dump, which has time steps; {} was asked for", *timestep));
     return content == FileContent::LammpsData ? readLammpsData(file) : readRows(file);
 }
 
@@ -59,11 +58,12 @@ namespace {
 std::size_t placeOfType(const GrainRow& grain, std::size_t number, std::size_t types) {
     if (grain.type == 0 && types == 1) return 0;
     if (grain.type < 1 || static_cast<std::size_t>(grain.type) > types)
-        throw InputError(fmt::format(
-            "addGrains(): grain {} (counted from 0) has {}, and there {}; give one for each type, the same one "
-            "twice where types do not differ.",
-            number, grain.type == 0 ? "no type" : fmt::format("type {}", grain.type),
-            types == 1 ? "is one species" : fmt::format("are {} species", types)));
+        throw InputError(
+            fmt::format("addGrains(): grain {} (counted from 0) has {}, and there {}; give one for each "
+                        "type, the same one "
+                        "twice where types do not differ.",
+                        number, grain.type == 0 ? "no type" : fmt::format("type {}", grain.type),
+                        types == 1 ? "is one species" : fmt::format("are {} species", types)));
     return static_cast<std::size_t>(grain.type) - 1;
 }
 
@@ -72,11 +72,13 @@ void checkDensity(const ParticleHandler& particles, const GrainRow& grain, std::
     constexpr double tolerance = 2e-5;
     const double own = particles.massOf(1, species) / sphereMass(1, 1);
     if (!isSet(grain.density) || std::abs(grain.density - own) <= tolerance * own) return;
-    throw InputError(fmt::format(
-        "addGrains(): grain {} (counted from 0), of type {}, has a density of {:.9g} kg/m^3 in the file, and its "
-        "species {:.9g} kg/m^3; all grains of a species have its density: set it by setDensity(), or make a type "
-        "and a species for each density.",
-        number, grain.type, grain.density, own));
+    throw InputError(
+        fmt::format("addGrains(): grain {} (counted from 0), of type {}, has a density of {:.9g} kg/m^3 in "
+                    "the file, and its "
+                    "species {:.9g} kg/m^3; all grains of a species have its density: set it by "
+                    "setDensity(), or make a type "
+                    "and a species for each density.",
+                    number, grain.type, grain.density, own));
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ private:
         for (; more && !lines.beginsWithLetter(); more = lines.next())
             if (lines.words().size() == 2 && lines.words()[1] == "atoms") {
                 const std::int64_t count = lines.whole(0);
-                if (count < 1) lines.refuse(fmt::format("there are {} atoms; there must be one at least", count));
+                if (count < 1)
+                    lines.refuse(fmt::format("there are {} atoms; there must be one at least", count));
                 atoms = static_cast<std::size_t>(count);
             }
         return more;
@@ -67,9 +68,10 @@ private:
         const bool isKnown = style.empty() || isSphere(style.front()) ||
                              (isHybrid && (style.size() == 1 || isSphere(style[1])));
         if (!isKnown)
-            lines.refuse(fmt::format("the atoms have the style '{}'; grains have the style sphere or granular, or "
-                                     "hybrid with that first",
-                                     shown(isHybrid ? style[1] : style.front())));
+            lines.refuse(
+                fmt::format("the atoms have the style '{}'; grains have the style sphere or granular, or "
+                            "hybrid with that first",
+                            shown(isHybrid ? style[1] : style.front())));
         const bool mayHaveMore = isHybrid && style.size() > 2;
         bool more = lines.next();
         for (; more && !lines.beginsWithLetter(); more = lines.next()) {
@@ -78,7 +80,8 @@ private:
                 lines.refuse(fmt::format(
                     "{} columns; a row of Atoms has 7, {}, or 10 with image flags{}", size,
                     isHybrid ? "id type x y z diameter density" : "id type diameter density x y z",
-                    isHybrid && !mayHaveMore ? " (for more, the line 'Atoms # hybrid' must name the styles)" : ""));
+                    isHybrid && !mayHaveMore ? " (for more, the line 'Atoms # hybrid' must name the styles)"
+                                             : ""));
             takeAtom();
         }
         grains.sort(file);
@@ -102,14 +105,17 @@ private:
         for (; more && !lines.beginsWithLetter(); more = lines.next(), ++rows) {
             const std::size_t size = lines.words().size();
             if (size != 4 && size != 7 && !(isHybrid && size > 7))
-                lines.refuse(fmt::format("{} columns; a row of Velocities has 7, id vx vy vz wx wy wz", size));
+                lines.refuse(
+                    fmt::format("{} columns; a row of Velocities has 7, id vx vy vz wx wy wz", size));
             GrainRow* const grain = grains.find(lines.whole(0));
-            if (!grain) lines.refuse(fmt::format("there is no atom {} in a section Atoms before", lines.whole(0)));
+            if (!grain)
+                lines.refuse(fmt::format("there is no atom {} in a section Atoms before", lines.whole(0)));
             grain->velocity = lines.vector(1);
             if (size >= 7) grain->angularVelocity = lines.vector(4);
         }
         if (rows != grains.size())
-            file.refuse(fmt::format("has {} rows in its section Velocities, and {} in Atoms", rows, grains.size()));
+            file.refuse(
+                fmt::format("has {} rows in its section Velocities, and {} in Atoms", rows, grains.size()));
         return more;
     }
 

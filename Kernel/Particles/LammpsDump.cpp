@@ -18,7 +18,8 @@ struct Snapshot {
 std::vector<Snapshot> snapshotsOf(const InputFile& file) {
     const std::string_view text = file.text;
     std::vector<Snapshot> found;
-    for (std::size_t at = text.find(beginsSnapshot); at != text.npos; at = text.find(beginsSnapshot, at + 1)) {
+    for (std::size_t at = text.find(beginsSnapshot); at != text.npos;
+         at = text.find(beginsSnapshot, at + 1)) {
         if (at > 0 && text[at - 1] != '\n') continue;
         WordLines lines(file, at);
         lines.next();
@@ -32,11 +33,11 @@ Snapshot chosen(const InputFile& file, std::optional<std::int64_t> timestep) {
     const std::vector<Snapshot> all = snapshotsOf(file);
     if (all.empty()) file.refuse("has no snapshot: no line 'ITEM: TIMESTEP'");
     if (!timestep) return all.back();
-    const auto found = std::find_if(all.rbegin(), all.rend(),
-                                    [&](const Snapshot& s) { return s.timestep == *timestep; });
+    const auto found =
+        std::find_if(all.rbegin(), all.rend(), [&](const Snapshot& s) { return s.timestep == *timestep; });
     if (found == all.rend())
-        file.refuse(fmt::format("has no snapshot of time step {}; it has {}, from {} to {}", *timestep, all.size(),
-                                all.front().timestep, all.back().timestep));
+        file.refuse(fmt::format("has no snapshot of time step {}; it has {}, from {} to {}", *timestep,
+                                all.size(), all.front().timestep, all.back().timestep));
     return *found;
 }
 
@@ -86,7 +87,8 @@ private:
 
 class DumpReader {
 public:
-    DumpReader(const InputFile& of, const Snapshot& from) : file(of), snapshot(from), lines(of, from.offset) {}
+    DumpReader(const InputFile& of, const Snapshot& from)
+        : file(of), snapshot(from), lines(of, from.offset) {}
 
     std::vector<GrainRow> read() {
         lines.next();
@@ -98,7 +100,8 @@ public:
                 else if (item == "ATOMS") return takeAtoms();
                 else if (item == "TIMESTEP") break;
             }
-        file.refuse(fmt::format("has no atoms ('ITEM: ATOMS') in its snapshot of time step {}", snapshot.timestep));
+        file.refuse(
+            fmt::format("has no atoms ('ITEM: ATOMS') in its snapshot of time step {}", snapshot.timestep));
     }
 
 private:
@@ -123,14 +126,16 @@ private:
         NumberedGrains grains;
         while (grains.size() < atoms) {
             if (!lines.next() || lines.words().front() == "ITEM:")
-                file.refuse(fmt::format(
-                    "has {} of {} grains in its snapshot of time step {}; choose another time step if there is one",
-                    grains.size(), atoms, snapshot.timestep));
+                file.refuse(
+                    fmt::format("has {} of {} grains in its snapshot of time step {}; choose another time "
+                                "step if there is one",
+                                grains.size(), atoms, snapshot.timestep));
             if (lines.words().size() != columns.size())
-                lines.refuse(fmt::format("{} numbers; the dump has {} columns", lines.words().size(),
-                                         columns.size()));
+                lines.refuse(
+                    fmt::format("{} numbers; the dump has {} columns", lines.words().size(), columns.size()));
             const auto id = columns.find("id");
-            grains.add(lines, id ? lines.whole(*id) : static_cast<std::int64_t>(grains.size()), grainOf(columns));
+            grains.add(lines, id ? lines.whole(*id) : static_cast<std::int64_t>(grains.size()),
+                       grainOf(columns));
         }
         if (atoms == 0) file.refuse("has no number of atoms before them");
         grains.sort(file);

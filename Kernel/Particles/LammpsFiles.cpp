@@ -73,9 +73,9 @@ void NumberedGrains::add(const WordLines& where, std::int64_t number, const Grai
 void NumberedGrains::sort(const InputFile& file) {
     std::stable_sort(grains.begin(), grains.end(),
                      [](const Numbered& a, const Numbered& b) { return a.number < b.number; });
-    const auto twice = std::adjacent_find(grains.begin(), grains.end(), [](const Numbered& a, const Numbered& b) {
-        return a.number == b.number;
-    });
+    const auto twice =
+        std::adjacent_find(grains.begin(), grains.end(),
+                           [](const Numbered& a, const Numbered& b) { return a.number == b.number; });
     if (twice != grains.end()) file.refuse(fmt::format("has grain {} twice", twice->number));
 }
 
@@ -93,7 +93,8 @@ GrainRow* NumberedGrains::find(std::int64_t number) {
 
 void refuseOtherUnits(const InputFile& file, std::string_view units) {
     if (units == "si") return;
-    file.refuse(fmt::format("is in the units '{}' of LAMMPS; only 'units si' is read (m, kg, s)", shown(units)));
+    file.refuse(
+        fmt::format("is in the units '{}' of LAMMPS; only 'units si' is read (m, kg, s)", shown(units)));
 }
 
 }  // namespace pendular

@@ -35,8 +35,9 @@ private:
     std::vector<Index> parent;
 };
 
-/// For each point the lowest number of its set. Two points are no nearer to each other than along a direction;
-/// along this one, which is none of those that edges and planes of parts have, few points are as near.
+/// For each point the lowest number of its set. Two points are no nearer to each other than along a
+/// direction; along this one, which is none of those that edges and planes of parts have, few points are as
+/// near.
 std::vector<Index> joinClose(std::span<const Point> points, const Point& origin, double distance) {
     constexpr Point direction{0.7265173980555677, 0.5484317579318064, 0.41399888552313313};  // of length 1
     std::vector<double> along(points.size());

@@ -35,8 +35,8 @@ struct MeshParts {
     std::size_t leftOut = 0;  // triangles without area, and repeated ones
 };
 
-/// Lengths below this share of the mesh's size count as zero: coplanarity, and the height of a triangle. (When
-/// two corners are one, WeldedMesh.h says.)
+/// Lengths below this share of the mesh's size count as zero: coplanarity, and the height of a triangle.
+/// (When two corners are one, WeldedMesh.h says.)
 inline constexpr double meshTolerance = 1e-9;
 
 /// Whether coplanar triangles become one part, or each is its own, as where they will move apart.

@@ -43,15 +43,17 @@ private:
         if (word.empty()) return;
         if (word == "v") takeVertex(words);
         else if (word == "f" || word == "fo") takeFace(words);
-        else if (isOneOf(word, {"cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole",
-                                "scrv", "con", "end"}))
-            file.refuse("line", line,
-                        fmt::format("'{}' is of a curved surface, and only plane faces are read; let the program "
-                                    "that wrote the file mesh it",
-                                    word));
-        else if (!isOneOf(word, {"vn", "vt", "vp", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "l",
-                                 "p", "sp", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj",
-                                 "ctech", "stech"}))
+        else if (isOneOf(word, {"cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim",
+                                "hole", "scrv", "con", "end"}))
+            file.refuse(
+                "line", line,
+                fmt::format("'{}' is of a curved surface, and only plane faces are read; let the program "
+                            "that wrote the file mesh it",
+                            word));
+        else if (!isOneOf(word, {"vn",         "vt",        "vp",     "g",        "o",        "s",
+                                 "mg",         "usemtl",    "mtllib", "usemap",   "maplib",   "l",
+                                 "p",          "sp",        "bevel",  "c_interp", "d_interp", "lod",
+                                 "shadow_obj", "trace_obj", "ctech",  "stech"}))
             file.refuse("line", line, fmt::format("'{}' begins no statement of an OBJ file", shown(word)));
     }
     static bool isOneOf(std::string_view word, std::initializer_list<std::string_view> all) {
@@ -77,10 +79,11 @@ private:
             if (problem != std::errc{} || end != digits.data() + digits.size())
                 file.refuse("line", line, fmt::format("'{}' is not the number of a vertex", shown(word)));
             if (number == 0 || number < -count)
-                file.refuse("line", line,
-                            fmt::format("there is no vertex {}; they are counted from 1, and from -1 back: there "
-                                        "are {} before this line",
-                                        number, count));
+                file.refuse(
+                    "line", line,
+                    fmt::format("there is no vertex {}; they are counted from 1, and from -1 back: there "
+                                "are {} before this line",
+                                number, count));
             mesh.corners.push_back(number > 0 ? number - 1 : count + number);
         }
         mesh.endFace(line);

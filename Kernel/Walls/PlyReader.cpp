@@ -18,11 +18,11 @@ struct Type {
 
 std::optional<Type> typeOf(std::string_view name) {
     static constexpr std::pair<std::string_view, Type> types[] = {
-        {"char", {1, Type::Signed}},      {"int8", {1, Type::Signed}},     {"uchar", {1, Type::Unsigned}},
-        {"uint8", {1, Type::Unsigned}},   {"short", {2, Type::Signed}},    {"int16", {2, Type::Signed}},
-        {"ushort", {2, Type::Unsigned}},  {"uint16", {2, Type::Unsigned}}, {"int", {4, Type::Signed}},
-        {"int32", {4, Type::Signed}},     {"uint", {4, Type::Unsigned}},   {"uint32", {4, Type::Unsigned}},
-        {"float", {4, Type::Floating}},   {"float32", {4, Type::Floating}}, {"double", {8, Type::Floating}},
+        {"char", {1, Type::Signed}},     {"int8", {1, Type::Signed}},      {"uchar", {1, Type::Unsigned}},
+        {"uint8", {1, Type::Unsigned}},  {"short", {2, Type::Signed}},     {"int16", {2, Type::Signed}},
+        {"ushort", {2, Type::Unsigned}}, {"uint16", {2, Type::Unsigned}},  {"int", {4, Type::Signed}},
+        {"int32", {4, Type::Signed}},    {"uint", {4, Type::Unsigned}},    {"uint32", {4, Type::Unsigned}},
+        {"float", {4, Type::Floating}},  {"float32", {4, Type::Floating}}, {"double", {8, Type::Floating}},
         {"float64", {8, Type::Floating}}};
     for (const auto& [known, type] : types)
         if (known == name) return type;
@@ -89,14 +89,16 @@ private:
         else if (name == "binary_little_endian") header.form = Form::LittleEndian;
         else if (name == "binary_big_endian") header.form = Form::BigEndian;
         else
-            refuse(fmt::format("the format is '{}'; it must be ascii, binary_little_endian or binary_big_endian",
-                               shown(name)));
+            refuse(
+                fmt::format("the format is '{}'; it must be ascii, binary_little_endian or binary_big_endian",
+                            shown(name)));
     }
     void takeElement(Words& words) {
         Element element{words.next(), 0, {}};
         const std::string_view count = words.next();
         const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), element.count);
-        if (element.name.empty() || count.empty() || problem != std::errc{} || end != count.data() + count.size())
+        if (element.name.empty() || count.empty() || problem != std::errc{} ||
+            end != count.data() + count.size())
             refuse("an element needs a name and how many there are");
         header.elements.push_back(std::move(element));
     }
@@ -106,7 +108,8 @@ private:
         std::optional<Type> count;
         if (type == "list") {
             count = typeOf(words.next());
-            if (!count || count->kind == Type::Floating) refuse("a list is counted by a type of whole numbers");
+            if (!count || count->kind == Type::Floating)
+                refuse("a list is counted by a type of whole numbers");
             type = words.next();
         }
         const std::optional<Type> known = typeOf(type);
@@ -171,13 +174,14 @@ public:
     }
     double length(const Type& type, double scale) {
         const std::size_t from = at;
-        const double number = type.kind != Type::Floating ? static_cast<double>(whole(type))
-                              : type.size == 4
-                                  ? static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits(4))))
-                                  : std::bit_cast<double>(bits(8));
+        const double number =
+            type.kind != Type::Floating ? static_cast<double>(whole(type))
+            : type.size == 4 ? static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits(4))))
+                             : std::bit_cast<double>(bits(8));
         if (!(std::abs(number * scale) <= largestLength))
-            file.refuse("offset", from,
-                        fmt::format("the coordinate {} is not finite or above {:g} m", number, largestLength));
+            file.refuse(
+                "offset", from,
+                fmt::format("the coordinate {} is not finite or above {:g} m", number, largestLength));
         return number * scale;
     }
     [[nodiscard]] std::size_t place() const { return at; }
@@ -274,10 +278,11 @@ void refuseUnlessMesh(const InputFile& file, const Header& header) {
         if (!has(header, "vertex", {axis}, false))
             file.refuse(fmt::format("has no property {} of an element 'vertex' in its header", axis));
     if (!has(header, "face", {"vertex_indices", "vertex_index"}, true))
-        file.refuse(has(header, "tristrips", {"vertex_indices", "vertex_index"}, true)
-                        ? "has strips of triangles, which are not read; save it with faces"
-                        : "has no element 'face' with a list vertex_indices in its header; if it is a cloud of "
-                          "points, make a mesh of it first");
+        file.refuse(
+            has(header, "tristrips", {"vertex_indices", "vertex_index"}, true)
+                ? "has strips of triangles, which are not read; save it with faces"
+                : "has no element 'face' with a list vertex_indices in its header; if it is a cloud of "
+                  "points, make a mesh of it first");
 }
 
 }  // namespace

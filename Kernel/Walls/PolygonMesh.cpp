@@ -21,8 +21,8 @@ double turn(const Flat& a, const Flat& b, const Flat& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The polygon seen along its mean normal (Newell: the sum of the cross products of its sides), so that it runs
-/// to the left. Empty if it has no area.
+/// The polygon seen along its mean normal (Newell: the sum of the cross products of its sides), so that it
+/// runs to the left. Empty if it has no area.
 std::vector<Flat> flattened(std::span<const Vector<double>> ring) {
     Vector<double> normal{0, 0, 0};
     for (std::size_t k = 0; k < ring.size(); ++k)
@@ -55,7 +55,8 @@ public:
         std::vector<std::array<Index, 3>> triangles;
         while (left > 2) {
             auto ear = shortestEar();
-            // In a simple polygon a cut changes its two neighbours only; in one that meets itself maybe others.
+            // In a simple polygon a cut changes its two neighbours only; in one that meets itself maybe
+            // others.
             for (; !ear && looks < mostLooks; ear = shortestEar()) lookAtAll();
             if (!ear) return isLine() ? triangles : std::vector<std::array<Index, 3>>{};
             const Index a = before[*ear], c = next[*ear];
@@ -76,14 +77,16 @@ private:
         const Flat &a = at[before[k]], &b = at[next[k]];
         return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
     }
-    /// An ear is a convex corner whose triangle has no other corner in it, nor on its border; the corners that can
-    /// be there are not convex. (Where the polygon meets itself, as at the cut to a hole, a corner is there twice.)
+    /// An ear is a convex corner whose triangle has no other corner in it, nor on its border; the corners
+    /// that can be there are not convex. (Where the polygon meets itself, as at the cut to a hole, a corner
+    /// is there twice.)
     void look(Index k) {
-        isEar[k] = isConvex(k) && std::ranges::none_of(hollow, [&](Index h) {
-            const Flat &a = at[before[k]], &b = at[k], &c = at[next[k]], &p = at[h];
-            if (p == a || p == b || p == c) return false;
-            return turn(a, b, p) >= -noArea && turn(b, c, p) >= -noArea && turn(c, a, p) >= -noArea;
-        });
+        isEar[k] =
+            isConvex(k) && std::ranges::none_of(hollow, [&](Index h) {
+                const Flat &a = at[before[k]], &b = at[k], &c = at[next[k]], &p = at[h];
+                if (p == a || p == b || p == c) return false;
+                return turn(a, b, p) >= -noArea && turn(b, c, p) >= -noArea && turn(c, a, p) >= -noArea;
+            });
     }
     void lookAtAll() {
         ++looks;

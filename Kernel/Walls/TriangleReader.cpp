@@ -127,7 +127,8 @@ std::vector<Triangle> readUnmarked(InputFile& file, bool isNamedStl, double scal
     const std::string_view first = Words(std::string_view(file.text).substr(0, 64)).next();
     const bool isText = file.text.find('\0') == file.text.npos;
     if (isNamedStl && isText && !parseNumber(first, number))
-        file.refuse(fmt::format("has {} bytes of text; an ASCII STL file begins with 'solid'", file.text.size()));
+        file.refuse(
+            fmt::format("has {} bytes of text; an ASCII STL file begins with 'solid'", file.text.size()));
     if (isNamedStl && !isText) return readBinary(file, scale);
     takeAsText(file);
     return readRows(file, scale);
@@ -159,8 +160,7 @@ std::vector<Triangle> readByContent(InputFile& file, bool isNamedStl, double sca
 std::vector<Triangle> readTriangles(const std::filesystem::path& path, double scale) {
     checkValue("TriangleWall", "scale", scale, "m", positive);
     InputFile file = loadInputFile("triangle file", path);
-    std::vector<Triangle> triangles =
-        readByContent(file, isWord(path.extension().string(), ".stl"), scale);
+    std::vector<Triangle> triangles = readByContent(file, isWord(path.extension().string(), ".stl"), scale);
     if (triangles.empty()) file.refuse("holds no triangles");
     return triangles;
 }

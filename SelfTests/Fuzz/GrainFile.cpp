@@ -16,7 +16,40 @@ void read(const std::filesystem::path& path) {
             throw std::logic_error("a grain has changed on the way");
 }
 
+const std::string lammpsData =
+    "data file, units = si\n\n2 atoms\n2 atom types\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nMasses\n\n1 "
+    "1\n2 1\n\n"
+    "Atoms # sphere\n\n2 2 0.002 7850 -1 0 0.125 0 0 1\n1 1 0.001 2500 0.25 -0.5 1 0 0 0\n\n"
+    "Velocities\n\n1 1 2 3 4 5 6\n2 -1 0 0 0 0 7\n";
+const std::string lammpsDump =
+    "ITEM: UNITS\nsi\nITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp ff\n-1 1\n-1 1\n0 "
+    "2.5\n"
+    "ITEM: ATOMS id xs ys zs diameter\n1 0.5 0.5 0.5 0.001\nITEM: TIMESTEP\n500\nITEM: NUMBER OF ATOMS\n2\n"
+    "ITEM: BOX BOUNDS pp pp ff\n-1 1\n-1 1\n0 2.5\n"
+    "ITEM: ATOMS id type x y z vx vy vz omegax omegay omegaz radius mass\n"
+    "2 2 -1 0 0.125 -1 0 0 0 0 7 0.001 1e-5\n1 1 0.25 -0.5 1 1 2 3 4 5 6 0.0005 1e-6\n";
+
+/// Of the last snapshot, and of one.
+void readLammps(const std::filesystem::path& path) {
+    for (const GrainRow& grain : readGrainFile(path))
+        if (!radiusRange.contains(grain.radius) || grain.type < 0 || !grain.position.allFinite() ||
+            !grain.velocity.allFinite() || !grain.angularVelocity.allFinite())
+            throw std::logic_error("a grain that no scene takes");
+    try {
+        readGrainFile(path, 0);
+    } catch (const InputError&) {  // there may be none
+    }
+}
+
 }  // namespace
+
+Target lammpsFile() {
+    return {"LammpsFile",
+            [] {
+                return std::vector{lammpsData, lammpsDump};
+            },
+            [](std::string_view bytes) { return takesFile("grains.data", bytes, readLammps); }};
+}
 
 Target grainFile() {
     return {"GrainFile",

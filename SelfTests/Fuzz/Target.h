@@ -23,8 +23,11 @@ struct Target {
 };
 
 Target grainFile();
+Target lammpsFile();
 Target triangleRows();
 Target stlFile();
+Target objFile();
+Target plyFile();
 Target polyData();
 Target paraViewSeries();
 Target summaryTable();
@@ -33,8 +36,8 @@ Target restartFile();
 Target restartContent();
 
 inline std::vector<Target> allTargets() {
-    return {grainFile(),    triangleRows(), stlFile(),     polyData(),      paraViewSeries(),
-            summaryTable(), hdf5Index(),    restartFile(), restartContent()};
+    return {grainFile(), lammpsFile(),     triangleRows(), stlFile(),   objFile(),     plyFile(),
+            polyData(),  paraViewSeries(), summaryTable(), hdf5Index(), restartFile(), restartContent()};
 }
 
 inline void writeBytes(const std::filesystem::path& path, std::string_view bytes) {

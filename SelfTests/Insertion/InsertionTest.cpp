@@ -204,6 +204,30 @@ TEST(Insertion, givesTheSameBitsForAnyThreads) {
     }
 }
 
+// The sum of so many masses over that of the region is above the limit by round-off, or just at it: it is
+// taken.
+TEST(Insertion, takesARequestOfExactlyTheDensestStart) {
+    for (std::size_t n = 300; n < 308; ++n) {
+        const double side = std::cbrt(static_cast<double>(n) * std::numbers::pi / 6 / densestRandomStart) * d;
+        for (const bool byNumber : {false, true}) {
+            FilledScene scene;
+            for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, side);
+            const Inserted made = scene.insert(
+                equalSizes(d), BoxRegion({0, 0, 0}, {side, side, side}),
+                byNumber ? Amount::grains(n) : Amount::solidFraction(densestRandomStart), scene.grain());
+            EXPECT_EQ(made.number, n);
+            EXPECT_NEAR(made.solidFraction, densestRandomStart, 1e-13);
+        }
+    }
+    FilledScene scene;
+    const double side = std::cbrt(300 * std::numbers::pi / 6 / 0.60001) * d;
+    const std::string text = refusal([&] {
+        scene.insert(equalSizes(d), BoxRegion({0, 0, 0}, {side, side, side}), Amount::grains(300),
+                     scene.grain());
+    });
+    EXPECT_TRUE(contains(text, "a solid fraction of 0.60001 of the region; a random start reaches 0.6."));
+}
+
 // The mean number of touching neighbours of a crystal is 12, at a distance of 1.07 d for 0.6; a random start
 // has its neighbours at many distances. Of pairs nearer than 1.4 d, a face-centred or hexagonal crystal has
 // all within a few percent of one distance.

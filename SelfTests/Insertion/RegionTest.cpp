@@ -10,6 +10,7 @@
 #include "Kernel/Walls/InfiniteWall.h"
 #include "SelfTests/Insertion/Meshes.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TemporaryFile.h"
 
 namespace pendular {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 using support::contains;
 using support::isOneSentence;
 using support::refusal;
+using Point = Vector<double>;
 
 constexpr double pi = std::numbers::pi;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -148,6 +150,42 @@ TEST(Region, aMeshThatIsNoBodyIsRefused) {
     mesh[0][0].x = nan;
     EXPECT_TRUE(isOneSentence(refusal([&] { MeshRegion region(mesh); })));
     EXPECT_TRUE(isOneSentence(refusal([&] { MeshRegion region({}); })));
+}
+
+// Programs that write meshes round the same corner in several ways; far from the origin, too.
+TEST(Region, aMeshIsClosedWhereItsCornersDifferByRoundOff) {
+    const Point a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1}, nearA{0, 0, 1e-17};
+    const auto tetrahedron = [&](const Point& other) {
+        return std::vector<Triangle>{{a, c, b}, {a, b, d}, {b, c, d}, {c, other, d}};
+    };
+    for (const Point& other : {nearA, Point{-1e-12, 1e-12, 0}, Point{0, -0.0, 1e-300}}) {
+        const MeshRegion region(tetrahedron(other));
+        EXPECT_NEAR(region.volume() * 6, 1, 1e-11);
+        EXPECT_EQ(region.getTriangles().size(), 4u);
+        EXPECT_EQ(region.windings({0.1, 0.1, 0.1}), 1);
+    }
+    EXPECT_TRUE(contains(refusal([&] { MeshRegion region(tetrahedron({0, 0, 1e-7})); }), "not closed"));
+    // A sliver of two triangles whose corners are one belongs to no side.
+    std::vector<Triangle> withSliver = scenes::boxMesh({0, 0, 0}, {1, 1, 1});
+    withSliver.push_back({Point{0, 0, 0}, {1e-12, 0, 0}, {1, 0, 0}});
+    EXPECT_DOUBLE_EQ(MeshRegion(withSliver).volume(), 1);
+    std::vector<Triangle> far = scenes::ringMesh(2, 0.5, 48, 24);
+    for (Triangle& t : far)
+        for (Point& p : t)
+            for (double* x : {&p.x, &p.y, &p.z})
+                *x = static_cast<double>(static_cast<float>(1e-3 * *x + 100));
+    // Round-off of float32 at 100 m, 3.8e-6 m, moves each side of the tube (radius 0.5 mm) by less than 1 %.
+    EXPECT_NEAR(MeshRegion(far).volume() / (1e-9 * MeshRegion(scenes::ringMesh(2, 0.5, 48, 24)).volume()), 1,
+                0.02);
+}
+
+// The same solid as OBJ, with quadrilaterals.
+TEST(Region, readsClosedMeshesOfPolygons) {
+    const support::TemporaryFile file(
+        ".obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+        "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+    EXPECT_DOUBLE_EQ(MeshRegion::fromFile(file.path, 1e-3).volume(), 1e-9);
 }
 
 TEST(Region, betweenWalls) {

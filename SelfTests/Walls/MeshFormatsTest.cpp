@@ -67,17 +67,17 @@ Ring turned(const std::vector<std::array<double, 2>>& flat) {
 
 TEST(PolygonCut, takesConvexConcaveAndLinedUpCorners) {
     expectCut(turned({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-    expectCut(turned({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}));                   // an L
-    expectCut(turned({{0, 0}, {2, 1}, {4, 0}, {2, 4}}));                                   // an arrow head
-    expectCut(turned({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}));   // corners in lines
-    expectCut(turned({{0, 3}, {0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}}));                   // all but one in two
+    expectCut(turned({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}));                  // an L
+    expectCut(turned({{0, 0}, {2, 1}, {4, 0}, {2, 4}}));                                  // an arrow head
+    expectCut(turned({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}));  // corners in lines
+    expectCut(turned({{0, 3}, {0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}}));  // all but one in two
     expectCut(turned({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 2}, {7, 2}, {7, 7}, {2, 7}, {2, 4}, {5, 4}, {5, 5},
                       {3, 5}, {3, 6}, {6, 6}, {6, 3}, {1, 3}, {1, 8}, {8, 8}, {8, 1}, {0, 1}}));  // a spiral
 }
 
 TEST(PolygonCut, goesRoundAHoleThatTheRingIsCutOpenTo) {
-    const Ring ring = turned(
-        {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}});  // 9 less 1
+    const Ring ring =
+        turned({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}});  // 9 less 1
     double sum = 0;
     const auto parts = cutPolygon(ring);
     ASSERT_EQ(parts.size(), 8u);
@@ -127,19 +127,20 @@ const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 TEST(ObjReader, readsFacesInEveryForm) {
     expectTetrahedron(read(".obj", vertices + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"));
     expectTetrahedron(read(".stl", vertices + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4"));  // whatever its name
-    expectTetrahedron(read(".obj",
-                           "\xEF\xBB\xBF# made by hand\r\nmtllib a.mtl\r\no body\r\ng all\r\ns off\r\n"
-                           "v 0 0 0 1.0\r\nv 1 0 0 0.5 0.5 0.5\r\nv 0 1 0 1 0.1 0.2 0.3\r\nv +0 0. 1e0\r\n"
-                           "vn 0 0 1\r\nvt 0.5 0.5\r\nusemtl grey\r\n"
-                           "f -4 -2 -3\r\nf 1/1 2/1 4/1\r\nf 2//1 3//1 4//1 # the slope\r\nf 3/1/1 \\\r\n 1/1/1 4/1/1\r\n"
-                           "l 1 2\r\np 1\r\n"));
+    expectTetrahedron(
+        read(".obj",
+             "\xEF\xBB\xBF# made by hand\r\nmtllib a.mtl\r\no body\r\ng all\r\ns off\r\n"
+             "v 0 0 0 1.0\r\nv 1 0 0 0.5 0.5 0.5\r\nv 0 1 0 1 0.1 0.2 0.3\r\nv +0 0. 1e0\r\n"
+             "vn 0 0 1\r\nvt 0.5 0.5\r\nusemtl grey\r\n"
+             "f -4 -2 -3\r\nf 1/1 2/1 4/1\r\nf 2//1 3//1 4//1 # the slope\r\nf 3/1/1 \\\r\n 1/1/1 4/1/1\r\n"
+             "l 1 2\r\np 1\r\n"));
     expectTetrahedron(read(".obj", "v 0 0 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n" + vertices.substr(8)));
     EXPECT_EQ(read(".obj", vertices + "f 1 2 3\n", 1e-3)[0][1], (Point{1e-3, 0, 0}));
 }
 
 TEST(ObjReader, cutsFacesOfMoreCorners) {
-    const std::vector<Triangle> t = read(
-        ".obj", "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 1 2 3 4 5 6\nf 6 5 4 3 2 1\n");
+    const std::vector<Triangle> t =
+        read(".obj", "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 1 2 3 4 5 6\nf 6 5 4 3 2 1\n");
     ASSERT_EQ(t.size(), 8u);
     Point up{0, 0, 0}, down{0, 0, 0};
     for (std::size_t k = 0; k < 8; ++k) (k < 4 ? up : down) += areaOf({t[k].begin(), t[k].end()});
@@ -169,11 +170,12 @@ template <class Real, class Count, class Index>
 PlyText binaryPly(const std::string& format, const std::string& real, const std::string& count,
                   const std::string& index) {
     PlyText ply{format, {}, {}};
-    ply.header = "element camera 2\nproperty float view\nproperty list uchar short marks\nelement vertex 4\n"
-                 "property uchar red\nproperty " +
-                 real + " x\nproperty " + real + " y\nproperty " + real +
-                 " z\nelement face 4\nproperty list " + count + " " + index +
-                 " vertex_indices\nproperty list uint8 float weights\nelement nothing 1000000000000\n";
+    ply.header =
+        "element camera 2\nproperty float view\nproperty list uchar short marks\nelement vertex 4\n"
+        "property uchar red\nproperty " +
+        real + " x\nproperty " + real + " y\nproperty " + real + " z\nelement face 4\nproperty list " +
+        count + " " + index +
+        " vertex_indices\nproperty list uint8 float weights\nelement nothing 1000000000000\n";
     for (const int marks : {0, 2}) {
         ply.add(1.5f), ply.add(static_cast<std::uint8_t>(marks));
         for (int k = 0; k < marks; ++k) ply.add(std::int16_t{-7});
@@ -195,14 +197,18 @@ TEST(PlyReader, readsBinariesOfAnyTypeAndOrder) {
         const auto text = binaryPly<float, std::uint8_t, std::int32_t>(order, "float", "uchar", "int").text();
         expectTetrahedron(read(".ply", text));
         expectTetrahedron(read(".stl", text));
-        expectTetrahedron(read(
-            ".ply", binaryPly<double, std::uint32_t, std::uint16_t>(order, "float64", "uint", "ushort").text()));
         expectTetrahedron(
-            read(".ply", binaryPly<std::int16_t, std::int8_t, std::int8_t>(order, "short", "int8", "char").text()));
+            read(".ply",
+                 binaryPly<double, std::uint32_t, std::uint16_t>(order, "float64", "uint", "ushort").text()));
+        expectTetrahedron(
+            read(".ply",
+                 binaryPly<std::int16_t, std::int8_t, std::int8_t>(order, "short", "int8", "char").text()));
         for (const std::string lineEnd : {"\r\n", "\r"})
             expectTetrahedron(read(
-                ".ply", binaryPly<float, std::uint8_t, std::int32_t>(order, "float", "uchar", "int").text(lineEnd)));
-        EXPECT_TRUE(contains(refusal([&] { read(".ply", text.substr(0, text.size() - 1)); }), "ends too early"));
+                ".ply",
+                binaryPly<float, std::uint8_t, std::int32_t>(order, "float", "uchar", "int").text(lineEnd)));
+        EXPECT_TRUE(
+            contains(refusal([&] { read(".ply", text.substr(0, text.size() - 1)); }), "ends too early"));
     }
 }
 
@@ -217,8 +223,8 @@ TEST(PlyReader, readsAscii) {
     std::string carriageReturns = ply.text();
     std::ranges::replace(carriageReturns, '\n', '\r');
     expectTetrahedron(read(".ply", carriageReturns));
-    EXPECT_EQ(read(".ply", PlyText{"ascii", plyHeader, plyVertices + "4 0 1 2 3\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"}
-                               .text())
+    EXPECT_EQ(read(".ply",
+                   PlyText{"ascii", plyHeader, plyVertices + "4 0 1 2 3\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"}.text())
                   .size(),
               5u);
 }
@@ -247,7 +253,8 @@ TEST(MeshFormats, refuseWithFilePlaceAndReason) {
         {"ply\nformat text 1.0\nend_header\n", "line 2", "the format is 'text'"},
         {"ply\nformat ascii 1.0\nelement vertex many\nend_header\n", "line 3", "how many"},
         {"ply\nformat ascii 1.0\nproperty float x\nend_header\n", "line 3", "before all elements"},
-        {"ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n", "line 4", "no type 'real'"},
+        {"ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n", "line 4",
+         "no type 'real'"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n", "", "no property y"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
          "end_header\n0 0 0\n",
@@ -266,13 +273,16 @@ TEST(MeshFormats, refuseWithFilePlaceAndReason) {
     }
 }
 
-// A file of two kilobytes must not take the time of its billions of elements, nor a large face that of its cube.
+// A file of two kilobytes must not take the time of its billions of elements, nor a large face that of its
+// cube.
 TEST(MeshFormats, costNoMoreThanTheirSize) {
     EXPECT_TRUE(contains(
         refusal([] {
-            read(".ply",
-                 "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty "
-                 "float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n");
+            read(
+                ".ply",
+                "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty "
+                "float y\nproperty float z\nelement face 1\nproperty list uchar int "
+                "vertex_index\nend_header\n");
         }),
         "ends too early"));
     std::vector<std::array<double, 2>> comb;  // its teeth are hollow corners
