@@ -6,6 +6,7 @@
 
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/InputError.h"
@@ -20,7 +21,8 @@ namespace {
 constexpr std::string_view reference = LiquidBridgeBagheri::name;  // of costs
 
 struct Options {
-    double smallestRadius = unset, largestRadius = unset, smallestVolume = unset, largestVolume = unset;
+    double smallestRadius = unset, smallestVolume = unset;
+    std::optional<double> largestRadius, largestVolume;
     double contactAngle = 0, tolerance = 5, mostCost = infinity, stepsPerList = usualStepsPerList;
     bool walls = false, all = false;
     std::int64_t count = 300, seed = 1;  // signed, so that a negative one is read as it is
@@ -28,9 +30,9 @@ struct Options {
 };
 
 /// The largest value is the smallest one where it is not given.
-Range rangeOf(std::string_view what, std::string_view unit, double smallest, double largest) {
+Range rangeOf(std::string_view what, std::string_view unit, double smallest, std::optional<double> given) {
     checkValue("choose-bridge-model", fmt::format("smallest-{}", what), smallest, unit, positive);
-    if (!isSet(largest)) return {smallest, smallest};
+    const double largest = given.value_or(smallest);
     checkValue("choose-bridge-model", fmt::format("largest-{}", what), largest, unit,
                {smallest, infinity, true, false});
     return {smallest, largest};

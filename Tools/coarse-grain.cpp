@@ -27,7 +27,8 @@ constexpr std::string_view program = "coarse-grain";
 
 struct Options {
     std::string frames, coordinates = "Z", kernel = "gauss", image;
-    double width = unset, cutOff = 0, spacing = unset;
+    double width = unset, cutOff = 0;
+    std::optional<double> spacing;
     double from = -infinity, to = infinity;
     std::vector<double> box, periodic, sizes, plateau;
     std::size_t species = 0;
@@ -178,7 +179,7 @@ int run(const Options& o) {
         throw InputError(fmt::format("{}: the first frame has no grains; give a --box-m.", program));
     const auto [low, high] = boxOf(o, first);
     if (!o.plateau.empty()) printPlateau(o, frames, low, high);
-    else average(o, frames, FieldGrid(o.coordinates, low, high, isSet(o.spacing) ? o.spacing : o.width));
+    else average(o, frames, FieldGrid(o.coordinates, low, high, o.spacing.value_or(o.width)));
     return 0;
 }
 

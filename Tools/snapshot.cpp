@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
+#include "Kernel/Files/FileName.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Field.h"
 #include "Tools/Snapshot/Compose.h"
@@ -87,6 +88,7 @@ std::vector<std::filesystem::path> chosenFrames(const Options& o) {
 
 int run(const Options& o) {
     check(o);
+    requireFileName("snapshot --output", o.output);
     const std::vector<std::filesystem::path> files = chosenFrames(o);
     Span span;
     std::vector<Vector<double>> points;

@@ -129,6 +129,7 @@ inline std::vector<GrainRow> settledDrumGrains(std::size_t number, const DrumSha
     options.applyToPreparation(scene);
     scene.setTimeMax(3 * std::sqrt(4 * drum.radius / 9.8));
     scene.solve();
+    scene.tellOfSoftening();
     return grainRows(scene.particleHandler);
 }
 

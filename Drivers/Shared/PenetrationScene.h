@@ -146,6 +146,7 @@ inline PenetrationGrains settledBed(std::size_t number, const BedBox& box, doubl
     options.applyToPreparation(scene);
     scene.setTimeMax(3 * std::sqrt(2 * scene.surface() / 9.8));
     scene.solve();
+    scene.tellOfSoftening();
     PenetrationGrains grains{grainRows(scene.particleHandler), {}};
     double top = 0;
     for (const GrainRow& grain : grains.bed) top = std::max(top, grain.position.z() + grain.radius);

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <span>
+#include <string_view>
 
 #include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/PublishedMaterials.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/GrainSums.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 
@@ -21,6 +25,36 @@ public:
     /// J, of the motion of all centres.
     [[nodiscard]] double kineticEnergy() const { return translationalEnergy(particleHandler.store()); }
 
+    /// As of any scene; where softened grains cannot go on, the softening is named.
+    void solve() {
+        try {
+            Simulation::solve();
+        } catch (const RunError& error) {
+            if (softeningOfAll <= 1) throw;
+            std::string_view sentence = error.what();
+            if (sentence.ends_with('.')) sentence.remove_suffix(1);
+            throw RunError(fmt::format("{}; Young's moduli are divided by a softening of {:g}.", sentence,
+                                       softeningOfAll));
+        }
+    }
+    /// Of grains that have settled: warns where the softening lets them overlap more than is sound.
+    void tellOfSoftening() {
+        double deepest = 0;  // of the smaller radius
+        for (const ObservedContact& seen : interactions()) {
+            double smaller = particleHandler.getObject(seen.particle1).getRadius();
+            if (seen.wall < 0)
+                smaller = std::min(smaller, particleHandler.getObject(seen.particle2).getRadius());
+            deepest = std::max(deepest, -seen.separation / smaller);
+        }
+        if (softeningOfAll <= 1 || deepest <= largestSoundOverlap) return;
+        // Under one load Hertz's overlap goes with E*^(-2/3).
+        logger(LogLevel::Warn,
+               "with a softening of {:g} the settled grains overlap by up to {:.2g} % of the smaller radius; "
+               "with {:.1g} they would overlap by some {:g} %.",
+               softeningOfAll, 100 * deepest, softeningOfAll * std::pow(largestSoundOverlap / deepest, 1.5),
+               100 * largestSoundOverlap);
+    }
+
 protected:
     /// Grains of one material and radius (m).
     struct Kind {
@@ -33,6 +67,9 @@ protected:
         addPublishedMaterials(speciesHandler, softening);
         setGravity({0, 0, -9.8});
         setTimeStep(step * std::sqrt(softening));
+        softeningOfAll = softening;
+        // A bed that they have settled in is taken up as it is.
+        if (softening > 1) acceptOverlaps(largestOverlapInRun);
     }
     /// s, at the published stiffness: 0.9 of the stability limit in the densest bed of these grains and steel
     /// walls. No grains of the scene itself are needed: one that goes on has them from its restart file only,
@@ -56,6 +93,9 @@ protected:
         wall.setSpecies(speciesHandler.getObject(Steel));
         return wallHandler.copyAndAddObject(wall);
     }
+
+private:
+    double softeningOfAll = 1;
 };
 
 }  // namespace pendular

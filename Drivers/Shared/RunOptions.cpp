@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/ParaViewOutput.h"
@@ -72,8 +73,7 @@ void requireOutputFolder(std::string_view driver, const std::filesystem::path& f
             "{}: the output folder is empty; it must be a name ('.' for the current one).", driver));
     const std::filesystem::path probe = folder / fmt::format(".probe-{}", getpid());
     std::error_code ignored;
-    std::filesystem::create_directories(folder, ignored);
-    std::FILE* file = std::fopen(probe.c_str(), "w");
+    std::FILE* file = createFile(probe);
     if (!file)
         throw InputError(fmt::format("{}: no files can be written into the output folder {}: {}.", driver,
                                      folder.string(), std::strerror(errno)));

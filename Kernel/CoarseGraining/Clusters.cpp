@@ -9,6 +9,7 @@
 
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Particles/Resolution.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {
@@ -183,8 +184,11 @@ JoinedPoints joinNear(const std::vector<Vector<double>>& points, const PeriodicB
             "would be joined to several images of another one.",
             distance, shortestPeriod(box)));
     std::vector<TranslationRecord> records(points.size());
-    for (std::size_t k = 0; k < points.size(); ++k)
+    for (std::size_t k = 0; k < points.size(); ++k) {
         records[k].position = box.wrap(points[k]), records[k].radius = 0.5 * distance;
+        requireResolved(fmt::format("Clusters: point {}", k), "place", records[k].position,
+                        records[k].radius);
+    }
     const NeighbourSearch search(records, 0, box);  // of spheres that overlap
     JoinedPoints joined(points.size(), box);
     for (std::uint32_t k = 0; k < points.size(); ++k)

@@ -7,6 +7,7 @@
 
 #include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Files/FileName.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/ParaViewSeries.h"
@@ -54,7 +55,13 @@ public:
     /// the flow, and the kinetic stress is free of it also where the gradient is averaged over. A scene
     /// whose images do not move refuses it.
     FieldOutput& againstFlow() { return withFlow = false, *this; }
-    FieldOutput& withName(const std::string& fields) { return ending = "-" + fields, *this; }
+    FieldOutput& withName(const std::string& fields) {
+        requireFileName("FieldOutput", fields);
+        if (fields.find('/') != std::string::npos)
+            throw InputError(
+                fmt::format("FieldOutput: name = '{}' is a part of a name; it must have no /.", fields));
+        return ending = "-" + fields, *this;
+    }
     /// Files of the HDF5 library, for any coordinates: a list of averages, each with its fields.
     FieldOutput& asHdf5() { return isHdf5 = true, *this; }
 
@@ -70,7 +77,8 @@ public:
             throw InputError("FieldOutput: averages with the adaptive time step need withInterval().");
         if (scene.laws().shapes())
             throw InputError(
-                "FieldOutput: fields take grains for spheres, and those of this scene are none; leave it out.");
+                "FieldOutput: fields take grains for spheres, and those of this scene are none; leave it "
+                "out.");
         FieldSums::refuseMovingImages(sums.grid(), scene.getPeriodicBox());
         if (!withFlow && !scene.getPeriodicBox().imagesMove)
             throw InputError(

@@ -17,6 +17,8 @@ struct ContactTiming {
     bool springsInStep = false;
     /// s, of the step that comes; 0: as long as the last one.
     double comingStep = 0;
+
+    friend constexpr bool operator==(const ContactTiming&, const ContactTiming&) = default;
 };
 
 }  // namespace pendular

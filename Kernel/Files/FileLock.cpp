@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "Kernel/Files/WrittenBeside.h"
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/InputError.h"
 
 namespace pendular {
@@ -41,7 +41,7 @@ FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, 
     int tries = 0;
     do {
         if (descriptor >= 0) close(descriptor);
-        requireRegularIfThere(path);
+        requireOwnIfThere(path);
         // Not by a symbolic link, which may lead to any file.
         descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (descriptor < 0 && errno == ELOOP)

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/InputError.h"
 
 namespace pendular {
@@ -39,8 +40,8 @@ void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes) {
 
 void cutBack(const std::filesystem::path& file, std::uintmax_t bytes) {
     std::error_code problem;
+    requireOwnIfThere(file);
     if (!std::filesystem::exists(file, problem)) return;
-    requireRegularIfThere(file);
     requireBytes(file, bytes);
     std::filesystem::resize_file(file, bytes, problem);
     if (problem)
@@ -50,23 +51,18 @@ void cutBack(const std::filesystem::path& file, std::uintmax_t bytes) {
 
 WrittenBeside::WrittenBeside(std::filesystem::path path)
     : target(std::move(path)), beside(target.string() + ".part") {
-    open("wb");
+    file = createFile(beside);
+    if (!file) fail("cannot be written");
 }
 
 WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
     : target(std::move(path)), beside(target.string() + ".part") {
     namespace fs = std::filesystem;
     std::error_code problem;
+    for (const fs::path& one : {target, beside}) requireOwnIfThere(one);
     if (!fs::exists(beside, problem) && fs::exists(target, problem)) fs::rename(target, beside, problem);
     cutBack(beside, bytes);
-    open("ab");
-}
-
-void WrittenBeside::open(const char* mode) {
-    std::error_code ignored;
-    if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), ignored);
-    requireRegularIfThere(beside);
-    file = std::fopen(beside.c_str(), mode);
+    file = goOnWithFile(beside);
     if (!file) fail("cannot be written");
 }
 

@@ -23,7 +23,7 @@ void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes);
 void cutBack(const std::filesystem::path& file, std::uintmax_t bytes);
 
 /// A file that is written beside its name, as NAME.part, and renamed when it is complete, so that no reader
-/// meets half a file. Folders that are missing are made.
+/// meets half a file. Folders that are missing are made; symbolic links are refused (OwnFile.h).
 class WrittenBeside {
 public:
     /// Throws InputError if the file cannot be written.
@@ -45,7 +45,6 @@ public:
     void close();
 
 private:
-    void open(const char* mode);
     [[noreturn]] void fail(std::string_view what) const;
 
     std::filesystem::path target;

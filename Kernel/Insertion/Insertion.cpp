@@ -11,6 +11,7 @@
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/ApartTexts.h"
+#include "Kernel/Particles/Resolution.h"
 #include "Kernel/Sizes/SizeSample.h"
 
 namespace pendular {
@@ -90,6 +91,9 @@ std::vector<double> radiiOf(const Amount& amount, const SizeDistribution& sizes,
 void refuseWithoutRoom(std::string_view who, const Region& region, const WallHandler& walls,
                        const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains,
                        const Vector<double>& way) {
+    const Box box = region.bounds();
+    for (const Vector<double>& corner : {box.lowest, box.highest, box.lowest + way, box.highest + way})
+        requireResolved(who, "a corner of the region", corner, smallest);
     if (wholeGrains && !(largest <= region.largestSphere() * (1 + 1e-12))) {
         const auto [own, most] = apartTexts(largest, region.largestSphere(), 6);
         throw InputError(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "Kernel/Contacts/ContactTiming.h"
@@ -21,7 +22,8 @@ struct Integrator {
     [[nodiscard]] constexpr bool remembersEarlier() const {
         return position1 != 0 || velocity1 != 0 || earlier != 0;
     }
-    friend constexpr bool operator==(const Integrator& a, const Integrator& b) { return a.name == b.name; }
+    /// One that has another coefficient is another one, whatever its name.
+    friend constexpr bool operator==(const Integrator&, const Integrator&) = default;
 };
 
 namespace integrators {
@@ -76,9 +78,18 @@ inline constexpr Integrator adamsMoulton{.name = "AdamsMoulton",
                                          .earlier = 1,
                                          .contacts = {false, true}};
 
-/// But springsInStep, which is the default where it matters.
-inline constexpr std::array all{predictedVelocityVerlet, velocityVerlet, adamsMoulton};
+/// All that a scene can take, also by itself.
+inline constexpr std::array all{predictedVelocityVerlet, velocityVerlet, adamsMoulton, springsInStep};
 
 }  // namespace integrators
+
+/// For messages: its name, "NAME of your own" where it is none of integrators::all.
+[[nodiscard]] std::string shownName(const Integrator& integrator);
+
+/// For restart files: the same, with all coefficients of one of your own.
+[[nodiscard]] std::string description(const Integrator& integrator);
+
+/// Throws InputError unless all coefficients are finite.
+void checkIntegrator(const Integrator& integrator);
 
 }  // namespace pendular

@@ -17,9 +17,9 @@ using Step = PlaneMotion::Step;
 template <class Function>
 void forEachDriven(const WallHandler& walls, Function&& function) {
     for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        Wall& wall = walls.getObject(w);
-        // Only planes are driven.
-        if (PlaneDrive* const drive = wall.drive()) function(w, static_cast<InfiniteWall&>(wall), *drive);
+        PlaneDrive* const drive = walls.getObject(w).drive();
+        if (!drive) continue;
+        if (auto* const plane = dynamic_cast<InfiniteWall*>(&walls.getObject(w))) function(w, *plane, *drive);
     }
 }
 
@@ -96,6 +96,8 @@ void refuseEndlessWay(std::size_t number, const InfiniteWall& wall, PlaneDrive& 
 
 }  // namespace
 
+bool PlaneMotion::canMove(const Wall& wall) { return dynamic_cast<const InfiniteWall*>(&wall) != nullptr; }
+
 double wallStiffness(const ContactSystem& contacts, const ParticleStore& grains, int wall) {
     ExactSum sum;
     const ContactStore& store = contacts.store();
@@ -139,7 +141,8 @@ void PlaneMotion::begin(const WallHandler& walls, const ContactSystem& contacts,
             throw RunError(fmt::format(
                 "At time {:.6g} s {} moves at {:.4g} m/s, farther in a step of {:.4g} s than the smallest "
                 "radius, {:.4g} m: take a smaller time step, a heavier piston, or a smaller load or speed.",
-                step.time, nameOf(number, drive), std::abs(start), step.length, step.smallestRadius));
+                step.time, nameOf(number, drive), std::abs(shift) / step.length, step.length,
+                step.smallestRadius));
         if (drive.touches == 0) drive.travelled = std::max(0.0, drive.travelled - shift);
         drive.meanVelocity = drive.seenVelocity = drive.velocity;
         drive.startVelocity = start;
@@ -166,7 +169,7 @@ void PlaneMotion::finish(const WallHandler& walls, const Step& step) {
 
 void PlaneMotion::takeBack(const WallHandler& walls) const {
     for (const Before& was : before) {
-        auto& wall = static_cast<InfiniteWall&>(walls.getObject(was.wall));
+        auto& wall = dynamic_cast<InfiniteWall&>(walls.getObject(was.wall));
         *wall.drive() = was.drive;
         wall.takeBack(was.pose, was.velocity);
     }

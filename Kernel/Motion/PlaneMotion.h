@@ -23,6 +23,9 @@ public:
         bool bringsGrains;      // the scene has inlets
     };
 
+    /// Whether it is a plane; a wall of another shape that has a drive is left where it is.
+    [[nodiscard]] static bool canMove(const Wall& wall);
+
     /// A step is about to begin: there is nothing to be taken back.
     void forget() { before.clear(); }
     /// Before walls move. Throws RunError where a plane cannot go on.

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "Kernel/Files/WrittenBeside.h"
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/State/Hdf5Fault.h"
 
 #ifdef PENDULAR_HAS_HDF5
@@ -41,11 +41,9 @@ std::size_t rowsOfChunk(std::size_t rows, std::size_t bytesOfRow) {
 FieldFile::FieldFile(std::filesystem::path path)
     : target(std::move(path)), beside(target.string() + ".part") {
     hdf5::makeQuiet();
-    std::error_code ignored;
-    if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), ignored);
-    requireRegularIfThere(beside);
+    makeRoomFor(beside);
     errno = 0;
-    file = check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+    file = check(H5Fcreate(beside.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT));
 }
 
 FieldFile::~FieldFile() {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/InputError.h"
 
@@ -22,11 +23,8 @@ void FrameFile::begin(const std::string& beginning, bool goesOn) {
 
 void FrameFile::open(bool goesOn) {
     std::error_code ignored;
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
     if (goesOn && kept) cutBack(path, *kept);
-    requireRegularIfThere(path);
-    std::FILE* opened = std::fopen(path.c_str(), goesOn ? "ab" : "wb");
+    std::FILE* opened = goesOn ? goOnWithFile(path) : createFile(path);
     if (!opened) fail();
     file.reset(opened, std::fclose);
     if (std::filesystem::file_size(path, ignored) == 0) text(header);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "Kernel/Files/FileName.h"
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/State/StateArchive.h"
@@ -19,7 +20,9 @@ template <class Series>
 class FrameOutput {
 public:
     /// @param beginning what the names of files begin with; the name of the simulation if empty
-    explicit FrameOutput(std::string beginning = {}) : name(std::move(beginning)) {}
+    explicit FrameOutput(std::string beginning = {}) : name(std::move(beginning)) {
+        if (!name.empty()) requireFileName("Output of frames", name);
+    }
 
     /// A frame at the step nearest to each multiple of this time (s), and at the end, whenever other outputs
     /// are due; 0: when they are.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Files/FileName.h"
 #include "Kernel/Output/FrameFile.h"
 #include "Kernel/Particles/GrainSums.h"
 
@@ -15,7 +16,9 @@ namespace pendular {
 class MercuryOutput {
 public:
     /// @param beginning NAME; that of the simulation if empty
-    explicit MercuryOutput(std::string beginning = {}) : name(std::move(beginning)) {}
+    explicit MercuryOutput(std::string beginning = {}) : name(std::move(beginning)) {
+        if (!name.empty()) requireFileName("MercuryOutput", name);
+    }
 
     /// NAME.ene, on by default.
     MercuryOutput& withEnergies(bool yes = true) { return energiesToo = yes, *this; }

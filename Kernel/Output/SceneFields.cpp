@@ -1,7 +1,11 @@
 #include "Kernel/Output/SceneFields.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "Kernel/Files/FileName.h"
+#include "Kernel/InputError.h"
 #include "Kernel/Walls/WornWall.h"
 
 namespace pendular {
@@ -26,6 +30,13 @@ void addWear(PolyData& data, const WallHandler& walls, const std::vector<WallSur
 }
 
 }  // namespace
+
+void requireFieldName(const std::string& name) {
+    if (name.empty() || !isWord(name))
+        throw InputError(
+            fmt::format("The name '{}' of a field must have letters, digits and _ only (as speed_m_per_s).",
+                        printable(name)));
+}
 
 PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest) {
     PolyData data;

@@ -286,6 +286,9 @@ struct SceneFrame {
     std::optional<PolyData> shapes;  // of grains that are no spheres
 };
 
+/// Throws InputError unless a field of an output can have this name.
+void requireFieldName(const std::string& name);
+
 /// Which fields a frame has.
 class FrameContent {
 public:
@@ -295,6 +298,7 @@ public:
     /// A number or a Vec3D of each grain, by its identity; the name ends with the unit.
     template <class Function>
     void addField(const std::string& name, Function valueOf) {
+        requireFieldName(name);
         added.push_back([name, valueOf = std::move(valueOf)](const ParticleStore& grains, bool inDoubles) {
             return inDoubles ? fieldOf<double>(name, valueOf, grains) : fieldOf<float>(name, valueOf, grains);
         });

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "Kernel/InputError.h"
+#include "Kernel/Particles/Resolution.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 
 namespace pendular {
@@ -154,7 +155,8 @@ BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
     if (!mass) refuseOverlaps(spheres, identities);
     const BodyMass own = mass.value_or(BodyMass{sums.mass, sums.centre, sums.inertia});
     checkValue("rigid body", "mass", own.mass, "kg", positive);
-    for (const double part : own.centre) checkValue("rigid body", "centre", part, "m", anyFinite);
+    requireResolved("rigid body", "centre", toVector(own.centre),
+                    std::ranges::min(spheres, {}, &Sphere::radius).radius);
     // A single sphere moves on as it is, bit for bit.
     const bool isSphere = spheres.size() == 1 && !mass;
     const PrincipalAxes principal =

@@ -6,6 +6,7 @@
 #include "Kernel/Files/FileContent.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Particles/LammpsFiles.h"
+#include "Kernel/Particles/Resolution.h"
 
 namespace pendular {
 
@@ -24,7 +25,11 @@ std::vector<GrainRow> readRows(const InputFile& file) {
         if (!radiusRange.contains(radius))
             file.refuse("line", line,
                         fmt::format("the radius {} m must be {}", radius, radiusRange.text("m")));
-        grains.push_back({radius, Vec3D(row[row.size() - 3], row[row.size() - 2], row[row.size() - 1])});
+        const Vec3D position(row[row.size() - 3], row[row.size() - 2], row[row.size() - 1]);
+        if (!isResolved(toVector(position), radius))
+            file.refuse("line", line,
+                        fmt::format("the position {}", objectionToPlace(toVector(position), radius)));
+        grains.push_back({radius, position});
     });
     return grains;
 }

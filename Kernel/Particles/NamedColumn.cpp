@@ -4,17 +4,19 @@
 
 #include <cmath>
 
+#include "Kernel/Files/FileName.h"
 #include "Kernel/InputError.h"
 
 namespace pendular {
 
 void requireNewColumn(const NamedColumn& added, std::string_view owners, bool isTaken) {
-    const auto isOfNames = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    };
-    if (added.name.empty() || !std::ranges::all_of(added.name, isOfNames))
+    if (added.name.empty() || !isWord(added.name))
         throw InputError(fmt::format("The name '{}' of a column of {} must have letters, digits and _ only.",
-                                     added.name, owners));
+                                     printable(added.name), owners));
+    if (!isWord(added.unit))
+        throw InputError(fmt::format(
+            "The unit '{}' of the column '{}' of the {} must have letters, digits and _ only (as m_per_s).",
+            printable(added.unit), added.name, owners));
     if (isTaken)
         throw InputError(fmt::format("There is a column '{}' of the {} already.", added.name, owners));
     if (!std::isfinite(added.initial))

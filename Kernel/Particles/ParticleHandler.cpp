@@ -6,6 +6,7 @@
 
 #include "Kernel/InputError.h"
 #include "Kernel/Particles/GrainSpecies.h"
+#include "Kernel/Particles/Resolution.h"
 
 namespace pendular {
 
@@ -100,12 +101,15 @@ void GrainReference::setAngularVelocity(const Vec3D& spin) {
 }
 void GrainReference::setPosition(const Vec3D& position) {
     requireOwnBody("position");
-    record().position = finite(number, "position", position, "m");
+    const Vector<double> place = finite(number, "position", position, "m");
+    requireResolved(fmt::format("particle {}", number), "position", place, getRadius());
+    record().position = place;
     handler->changes.placed.push_back(number);
 }
 void GrainReference::setRadius(double radius) {
     requireOwnBody("radius");
     checkValue(fmt::format("particle {}", number), "radius", radius, "m", radiusRange);
+    requireResolved(fmt::format("particle {}", number), "position", record().position, radius);
     const bool grows = radius > getRadius();
     record().radius = radius;
     handler->renewMass(place());
@@ -179,6 +183,7 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
     if (grain.getSpeciesIndex() < 0)
         throw InputError(
             fmt::format("{}: species is not set; call setSpecies() with a species of this scene.", owner));
+    requireResolved(owner, "position", toVector(grain.getPosition()), grain.getRadius());
     const double mass = massOf(grain.getRadius(), grain.getSpeciesIndex());
     const TranslationRecord record{toVector(grain.getPosition()), grain.getRadius(),
                                    toVector(grain.getVelocity()), grain.isFixed() ? 0 : 1 / mass};

@@ -1,8 +1,11 @@
 #include "Kernel/Particles/ParticleStore.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "Kernel/Parallel.h"
+#include "Kernel/Particles/Resolution.h"
 
 namespace pendular {
 
@@ -137,6 +140,11 @@ void ParticleStore::requireWhole(const StateArchive& archive) const {
     for (const TranslationRecord& grain : translation)
         archive.require(grain.radius > 0 && grain.inverseMass >= 0, "translation",
                         "has a radius or a mass that is not positive");
+    for (std::size_t k = 0; k < grains; ++k)
+        if (!isResolved(translation[k].position, translation[k].radius))
+            archive.require(false, "translation",
+                            fmt::format("has a particle {} whose position {}", identity[k],
+                                        objectionToPlace(translation[k].position, translation[k].radius)));
     const auto isNext = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
     const bool ascends = std::ranges::adjacent_find(identity, isNext) == identity.end();
     archive.require(ascends && (identity.empty() || identity.back() < next), "identity",

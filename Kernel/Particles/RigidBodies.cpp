@@ -6,6 +6,7 @@
 
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/Resolution.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 
 namespace pendular {
@@ -266,6 +267,12 @@ void RigidBodies::requireWhole(const StateArchive& archive, const ParticleStore&
         archive.require(grains.place.contains(member.grain) &&
                             grains.translation[grains.place[member.grain]].inverseMass > 0,
                         "grains", "has a grain that is not in the scene or is held");
+    for (std::size_t k = 0; k < size(); ++k)
+        for (const BodyMember& member : membersOf(k)) {
+            const double radius = grains.translation[grains.place[member.grain]].radius;
+            archive.require(isResolved(bodies[k].position, radius) && isResolved(member.arm, radius),
+                            "motion", "or its arms have a place that is too far away for the grains there");
+        }
 }
 
 }  // namespace pendular

@@ -10,6 +10,7 @@
 #include "Kernel/InputError.h"
 #include "Kernel/Shapes/SphereGroups.h"
 #include "Kernel/Shapes/SphereSlices.h"
+#include "Kernel/Species/Field.h"
 
 namespace pendular {
 
@@ -34,12 +35,14 @@ std::size_t mostHalvings(std::size_t spheres) { return 500 * (spheres + 4); }
 
 void requireSpheres(std::span<const Ball> spheres) {
     if (spheres.empty()) throw InputError("A shape of spheres needs at least one sphere.");
-    for (std::size_t k = 0; k < spheres.size(); ++k)
-        if (!spheres[k].centre.allFinite() || !(spheres[k].radius > 0) || !std::isfinite(spheres[k].radius))
-            throw InputError(
-                fmt::format("sphere {} of a shape: its centre must be finite (m), and its radius "
-                            "positive (m); it is {:.6g} m.",
-                            k, spheres[k].radius));
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        const std::string owner = fmt::format("sphere {} of a shape", k);
+        const Eigen::Vector3d& centre = spheres[k].centre;
+        if (!centre.allFinite())
+            throw InputError(fmt::format("{}: its centre = ({:.6g}, {:.6g}, {:.6g}) m must be finite.", owner,
+                                         centre.x(), centre.y(), centre.z()));
+        checkValue(owner, "radius", spheres[k].radius, "m", positive);
+    }
 }
 
 /// The spheres in the frame in which they are integrated: about their mean, in units of their size, the

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "Kernel/Files/FileName.h"
 #include "Kernel/Files/SetAside.h"
 #include "Kernel/InputError.h"
 #include "Kernel/RunError.h"
@@ -16,6 +17,9 @@
 namespace pendular {
 
 namespace {
+
+/// Steps that no run makes: at 100 ns each they take three years.
+constexpr double mostSteps = 1e15;
 
 std::string_view withoutFullStop(std::string_view sentence) {
     return sentence.substr(0, sentence.size() - (sentence.ends_with('.') ? 1 : 0));
@@ -58,6 +62,7 @@ Run::Run() : timeStep(unset) {
 void Run::setName(std::string beginning) {
     if (beginning.empty())
         throw InputError("Simulation: name is empty; it must have at least one character.");
+    requireFileName("Simulation", beginning);
     requireSetUp("name");
     name = std::move(beginning);
 }
@@ -75,7 +80,10 @@ void Run::setTimeMax(double end) {
     timeMax = end;
 }
 
-void Run::requireTimeStep() const { checkValue("Simulation", "time step", timeStep, "s", positive); }
+void Run::requireTimeStep() const {
+    checkValue("Simulation", "time step", timeStep, "s", positive);
+    if ((underWay & Within::Solving) != 0) static_cast<void>(lastStep());
+}
 
 void Run::keepRestartFile(bool keep) {
     if (keep) requireRestartFiles();
@@ -244,11 +252,16 @@ void Run::begin() {
     aside.remove();
 }
 
-/// Steps until the maximum time; both it and the time step may change on the way.
+/// Steps until the maximum time; both it and the time step may change on the way. Throws InputError where no
+/// run makes so many.
 std::size_t Run::lastStep() const {
-    const double most = 1e18;  // steps, more than any run has
     const double remaining = std::ceil((timeMax - timeBefore) / timeStep * (1 - 1e-12));
-    return stepsBefore + static_cast<std::size_t>(std::clamp(remaining, 0.0, most));
+    if (remaining > mostSteps)
+        throw InputError(fmt::format(
+            "Simulation: time step = {:.6g} s makes {:.3g} steps until the maximum time of {:.6g} s, more "
+            "than any run does; they must be at most {:g}.",
+            timeStep, remaining, timeMax, mostSteps));
+    return stepsBefore + static_cast<std::size_t>(std::max(remaining, 0.0));
 }
 
 void Run::stepToTheEnd(RunControl& control) {
@@ -261,9 +274,16 @@ void Run::stepToTheEnd(RunControl& control) {
         if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());
         return request == RunControl::Request::Stop;
     };
+    const auto last = [this] {
+        try {
+            return lastStep();
+        } catch (const InputError& refusal) {  // of what a hook has set
+            throw RunError(refusal.what());
+        }
+    };
     bool stops = isAskedToStop();
-    while (!stops && steps < lastStep() && continueSolve()) {
-        stepOnce(steps + 1 < lastStep());
+    while (!stops && steps < last() && continueSolve()) {
+        stepOnce(steps + 1 < last());
         writeOutputs(false);
         if (progress && progress->isDue(steps))
             progress->show(getTime(), steps, [this] { return numbers(); });

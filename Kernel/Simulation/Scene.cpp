@@ -124,14 +124,14 @@ void Scene::setShearRate(double rate) {
     shear.isControlled = false;
 }
 
-void Scene::setTargetShearStress(double stress, double time, double largestRate) {
+void Scene::setTargetShearStress(double stress, double time, std::optional<double> largest) {
     if (!shear.isSet)
         throw InputError(
             "Simulation: target shear stress: the scene was not set up to be sheared; call setLeesEdwards() "
             "at set-up (a rate of 0 will do).");
     checkValue("Simulation", "target shear stress", stress, "Pa", anyFinite);
     checkValue("Simulation", "time of the target shear stress", time, "s", positive);
-    if (!isSet(largestRate)) largestRate = 1 / time;
+    const double largestRate = largest.value_or(1 / time);
     checkValue("Simulation", "largest shear rate", largestRate, "1/s", positive);
     LeesEdwards asked = shear;
     if (shear.isControlled) {
@@ -176,11 +176,11 @@ void Scene::setStrainRate(int axis, double rate) {
     setStrain(axis, {.rate = rate});
 }
 
-void Scene::setTargetStress(int axis, double stress, double time, double largestRate) {
+void Scene::setTargetStress(int axis, double stress, double time, std::optional<double> largest) {
     AxisStrain asked = axisToStrain(axis, "target stress");
     checkValue("Simulation", "target stress", stress, "Pa", anyFinite);
     checkValue("Simulation", "time of the target stress", time, "s", positive);
-    if (!isSet(largestRate)) largestRate = 0.1 / time;
+    const double largestRate = largest.value_or(0.1 / time);
     checkValue("Simulation", "largest strain rate", largestRate, "1/s", positive);
     if (asked.isControlled) {
         asked.servo.beginAnew(time == asked.time);
@@ -196,6 +196,27 @@ void Scene::setTargetStress(int axis, double stress, double time, double largest
 double Scene::getStrainRate(int axis) const {
     checkValue("Simulation", "axis of the strain rate", axis, "", fromZeroTo(2));
     return strain.axes[static_cast<std::size_t>(axis)].rate;
+}
+
+void Scene::acceptOverlaps(double share) {
+    checkValue("Simulation", "accepted overlap", share, "of the smaller radius",
+               fromZeroTo(largestOverlapInRun));
+    acceptedOverlap = share;
+}
+
+void Scene::setIntegrator(const Integrator& scheme) {
+    requireSetUp("integrator");
+    checkIntegrator(scheme);
+    integrator = scheme;
+}
+
+/// Where springs are moved in the step, only what contacts make of it is another one.
+Integrator Scene::scheme() const {
+    if (!springsInStep) return integrator;
+    if (integrator == integrators::predictedVelocityVerlet) return integrators::springsInStep;
+    Integrator own = integrator;
+    own.contacts = integrators::springsInStep.contacts;
+    return own;
 }
 
 void Scene::setNumberOfThreads(int count) {
@@ -344,7 +365,7 @@ void Scene::setUp() {
         refuseUnlessBridgesJoin(laws(), gapOfFirstBridges);
         contactSystem.join(grains, gapOfFirstBridges);
     }
-    refuseInitialOverlaps(contactSystem, grains, [](auto&&...) { return true; });
+    refuseInitialOverlaps(contactSystem, grains, acceptedOverlap, [](auto&&...) { return true; });
     Motion::start(grains, integrator);
     advance(0, false);  // a step of no length: forces and accelerations at the start
     energyAtStart = ledger.total();
@@ -414,6 +435,7 @@ void Scene::check() {
         refuseForAdaptiveStep();
         springsInStep |= integrator.contacts.implicitForces && laws().layout.hasTorque;
     }
+    refuseFarFaces(periodic, sizes.smallest());
     largestReach = checkPeriodicLengths(laws(), sizes, wallHandler, periodic);
     refuseForMovingImages();
     refuseForDrivenPlanes();
@@ -433,7 +455,7 @@ void Scene::refuseForBodies(const RigidBodies& bodies) const {
         throw InputError(
             fmt::format("Simulation: the integrator {} does not move rigid bodies; take "
                         "integrators::predictedVelocityVerlet or velocityVerlet.",
-                        integrator.name));
+                        shownName(integrator)));
     if (!outletHandler.isEmpty())
         throw InputError("Simulation: outlets do not know rigid bodies; leave the outlets out.");
     if (liquidDensity > 0)
@@ -506,6 +528,9 @@ void Scene::refuseForDrivenPlanes() const {
         const Wall& wall = wallHandler.getObject(w);
         const PlaneDrive* const drive = wall.drive();
         if (!drive) continue;
+        if (!PlaneMotion::canMove(wall))
+            throw InputError(fmt::format(
+                "wall {}: only a plane (InfiniteWall) can be moved by forces; give this wall no drive.", w));
         if (drive->isServo() && getTimeStep() >= 2 * drive->asked.time)
             throw InputError(fmt::format(
                 "wall {}: time of the target force = {:.6g} s; it must be more than half a time step of "
@@ -625,7 +650,7 @@ void Scene::refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) cons
     std::vector<bool> isNew(grains.size());
     for (const auto* identities : {&changes.added, &changes.placed})
         for (const std::uint32_t identity : *identities) isNew[grains.place[identity]] = true;
-    refuseInitialOverlaps(contactSystem, grains,
+    refuseInitialOverlaps(contactSystem, grains, acceptedOverlap,
                           [&](const Bucket& bucket, std::uint32_t first, std::uint32_t second) {
                               return isNew[first] || isNew[second] || bucket.wall >= firstNewWall;
                           });
@@ -679,10 +704,10 @@ void Scene::joinAtStart(double gap) {
 
 void Scene::beginLiquid() {
     if (!particleHandler.films().areKept()) return;
-    double toCome = liquidToCome;
+    double toCome = liquidToCome.value_or(0);
     const double sprayed = sprayHandler.volumeBy(getTimeMax());
     const double withGrains = inletHandler.liquidBy(particleHandler, getTimeMax());
-    if (!isSet(toCome)) {
+    if (!liquidToCome) {
         double largest = 0;
         const auto count = static_cast<int>(laws().speciesCount());
         for (int a = 0; a < count; ++a)
@@ -825,7 +850,7 @@ void Scene::visitScene(StateArchive& archive) {
     if (archive.isReading() && speciesChanged) laws().mixAll();
     archive.group("walls", [&] { wallHandler.visitState(archive); });
     visitSteps(archive);
-    archive.same("integrator", integrator.name);
+    archive.same("integrator", description(integrator));
     archive.value("springsInStep", springsInStep);
     archive.group("adaptiveStep", [&] { adaptive.visitState(archive); });
     archive.same("ledgerKept", ledgerKept, {},
@@ -1114,6 +1139,7 @@ void Scene::lookForDeepOverlaps(const ParticleStore& grains, double approach) {
     approachUnseen += approach;
     if (approachUnseen < 0.1 * smallestRadius) return;
     approachUnseen = 0;
+    refuseFarGrains(grains, getTime());
     refuseDeepOverlaps(contactSystem.store(), grains, periodic, laws(), getTime());
 }
 

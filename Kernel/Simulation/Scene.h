@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "Kernel/Boundaries/FluxPlane.h"
 #include "Kernel/Boundaries/Outlet.h"
@@ -109,7 +110,7 @@ public:
     /// rate (1/s), 0.1 / time if it is not given. The time must be more than half a step; take at least twice
     /// the time in which sound passes the scene. The stress is looked at 100 times in it, or at each step.
     /// A run in which the servo has strained the scene by a factor of e^3 in one direction ends.
-    void setTargetStress(int axis, double stress, double time, double largestRate = unset);
+    void setTargetStress(int axis, double stress, double time, std::optional<double> largestRate = {});
     /// In a run, of a scene that was set up with setLeesEdwards(): it holds from the next step on, and all
     /// grains get the change of the flow.
     void setShearRate(double rate);
@@ -117,7 +118,7 @@ public:
     /// for a positive rate) becomes the target. A run that stays at the largest rate over a strain of 20
     /// ends.
     /// @param largestRate 1/s, 1 / time if it is not given
-    void setTargetShearStress(double stress, double time, double largestRate = unset);
+    void setTargetShearStress(double stress, double time, std::optional<double> largestRate = {});
     /// 1/s, in the last step.
     [[nodiscard]] double getShearRate() const { return shear.rate; }
     /// 1/s, of the logarithm of the length along an axis, in the last step.
@@ -130,14 +131,16 @@ public:
     /// Threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
     /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
-    void setIntegrator(const Integrator& scheme) {
-        requireSetUp("integrator");
-        integrator = scheme;
-    }
+    void setIntegrator(const Integrator& scheme);
     /// Runs also with a step above the stability limit. That is sound only where overlaps stay so small that
     /// the contacts are softer than those of the limit, or where no bed comes to rest; else the results mean
     /// nothing.
     void acceptUnstableTimeStep(bool accept = true) { unstableAccepted = accept; }
+    /// Grains may overlap each other and walls by up to this share of the smaller radius, at most 0.5, at
+    /// set-up and where they are added or put in a run; 0.05 without it. For soft grains that have settled in
+    /// another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
+    /// (stabilityAdvice()).
+    void acceptOverlaps(double share);
     /// Keeps account of the energy; costs time, and is off by default.
     void keepEnergyLedger(bool keep = true) {
         if (keep != ledgerKept) requireSetUp("energy ledger");
@@ -237,14 +240,12 @@ public:
     /// frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The run
     /// begins with setTimeStep(). At set-up; not with moving images (shear, strain), rigid bodies, walls that
     /// forces move, viscous bridges or integrators that remember a step.
-    void setAdaptiveTimeStep(double share, double largestStep = unset);
+    void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const { return adaptive; }
     [[nodiscard]] const Integrator& getIntegrator() const { return integrator; }
     /// What the scene makes of it: springsInStep where the friction lacks dashpots, or with the adaptive
     /// step.
-    [[nodiscard]] Integrator scheme() const {
-        return springsInStep ? integrators::springsInStep : integrator;
-    }
+    [[nodiscard]] Integrator scheme() const;
     /// Of all these grains, and of those that inlets will bring.
     [[nodiscard]] GrainSizes grainSizes(const ParticleStore& grains) const;
     /// Half a period (s) of the fastest oscillation of two grains: about the shortest time of a contact, for
@@ -401,7 +402,6 @@ private:
     bool lawsAreNew = false;       // prepared ones are to be made again
     double energyAtStart = 0;      // J, of the ledger
     double leftLength = 0;         // s, of the last step, whose end may be left to the next one
-    double liquidToCome = unset;   // m^3
     double liquidDensity = 0;      // kg/m^3, of films; 0: they have no mass
     double gapOfFirstBridges = 0;  // m
     double approachUnseen = 0;     // m, of two grains since deep overlaps were looked for
@@ -409,6 +409,8 @@ private:
     AdaptiveStep adaptive;
     ContactBounds bounds;
     bool unstableAccepted = false;
+    std::optional<double> liquidToCome;            // m^3
+    double acceptedOverlap = largestSoundOverlap;  // of the smaller radius
     bool springsInStep = false;  // as integrators::springsInStep: the friction lacks dashpots
     bool ledgerKept = false;
     bool noRoomWasTold = false;  // of insert() in the run

@@ -15,6 +15,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/Resolution.h"
 #include "Kernel/RunError.h"
 #include "Kernel/Walls/Membrane.h"
 
@@ -387,16 +388,20 @@ inline double checkPeriodicLengths(const ContactLaws& species, const GrainSizes&
     return reach;
 }
 
-/// Throws InputError if two bodies overlap by more than a sound share of the smaller radius (m).
-inline void refuseOverlap(const ObservedContact& contact, double smallerRadius) {
+/// The share of the smaller radius beyond which two grains end a run: no contact law is made for more.
+inline constexpr double largestOverlapInRun = 0.5;
+
+/// Throws InputError if two bodies overlap by more than a share of the smaller radius (m).
+inline void refuseOverlap(const ObservedContact& contact, double smallerRadius, double accepted) {
     const double share = -contact.separation / smallerRadius;
-    if (!(share > largestSoundOverlap * (1 + 1e-9))) return;  // positions are rounded
+    if (!(share > accepted * (1 + 1e-9))) return;  // positions are rounded
     const std::string other = contact.wall < 0 ? fmt::format("particle {}", contact.particle2)
                                                : fmt::format("wall {}", contact.wall);
     throw InputError(fmt::format(
         "particle {} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
-        "most {:g} %.",
-        contact.particle1, other, -contact.separation, 100 * share, 100 * largestSoundOverlap));
+        "most {:g} %, unless acceptOverlaps() allows more (up to {:g} %).",
+        contact.particle1, other, -contact.separation, 100 * share, 100 * accepted,
+        100 * largestOverlapInRun));
 }
 
 /// m, what the overlaps of a grain are held against.
@@ -404,10 +409,10 @@ inline double radiusOrThickness(const ContactLaws& laws, const ParticleStore& gr
     return laws.shapes() ? laws.shapes()->thickness(grains, place) : grains.translation[place].radius;
 }
 
-/// Throws InputError if two bodies of a list overlap by more than a sound share of the smaller radius.
+/// Throws InputError if two bodies of a list overlap by more than the accepted share of the smaller radius.
 /// @param isLookedAt (bucket, places of the grains): whether this contact is
 template <class Function>
-void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& grains,
+void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& grains, double accepted,
                            Function&& isLookedAt) {
     contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
@@ -416,7 +421,7 @@ void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& g
         if (!isLookedAt(bucket, first, second)) return;
         const double smaller = std::min(radiusOrThickness(contacts.laws(), grains, first),
                                         radiusOrThickness(contacts.laws(), grains, second));
-        refuseOverlap(contacts.observe(grains, bucket, contact), smaller);
+        refuseOverlap(contacts.observe(grains, bucket, contact), smaller, accepted);
     });
 }
 
@@ -424,7 +429,7 @@ void refuseInitialOverlaps(const ContactSystem& contacts, const ParticleStore& g
 /// made for: by half the smaller radius.
 inline void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                               const PeriodicBox& box, const ContactLaws& laws, double time) {
-    constexpr double largestShare = 0.5;
+    constexpr double largestShare = largestOverlapInRun;
     const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
     const double smaller = std::min(radiusOrThickness(laws, grains, first),
                                     radiusOrThickness(laws, grains, second)),
@@ -455,6 +460,32 @@ inline void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& g
         refuseDeepOverlap(grains, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes],
                           box, laws, time);
     });
+}
+
+/// Throws InputError if a face of a scene that repeats itself is so far away that grains there are not
+/// resolved.
+/// @param smallestRadius m
+inline void refuseFarFaces(const PeriodicBox& box, double smallestRadius) {
+    for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z})
+        if (box.length.*axis > 0)
+            for (const double face : {box.lowest.*axis, box.lowest.*axis + box.length.*axis}) {
+                Vector<double> place{0, 0, 0};
+                place.*axis = face;
+                requireResolved("Simulation", "a periodic face", place, smallestRadius);
+            }
+}
+
+/// Ends a run in which a grain has gone so far away that it is not resolved any more.
+inline void refuseFarGrains(const ParticleStore& grains, double time) {
+    const auto isFar = [](const TranslationRecord& grain) {
+        return !isResolved(grain.position, grain.radius) && grain.radius > 0;  // no gap
+    };
+    const auto far = std::ranges::find_if(grains.translation, isFar);
+    if (far == grains.translation.end()) return;
+    throw RunError(fmt::format(
+        "At time {:.6g} s particle {}: position {}: remove grains that fly away, by an outlet or in a hook.",
+        time, grains.identity[static_cast<std::size_t>(far - grains.translation.begin())],
+        objectionToPlace(far->position, far->radius)));
 }
 
 /// The error that ends a run in which a grain has moved farther in a step than the smallest radius (m).

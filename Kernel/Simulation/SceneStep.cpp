@@ -53,12 +53,11 @@ void Scene::refuseBoundForBodies(std::string_view call) const {
             fmt::format("Simulation: {} does not know rigid bodies; take stabilityLimit().", call));
 }
 
-void Scene::setAdaptiveTimeStep(double share, double largestStep) {
+void Scene::setAdaptiveTimeStep(double share, std::optional<double> largestStep) {
     requireSetUp("adaptive time step");
     checkValue("Simulation", "share of the adaptive time step", share, "", {0, 1, false, true});
-    if (isSet(largestStep))
-        checkValue("Simulation", "largest adaptive time step", largestStep, "s", positive);
-    adaptive.set(share, isSet(largestStep) ? largestStep : 0);
+    if (largestStep) checkValue("Simulation", "largest adaptive time step", *largestStep, "s", positive);
+    adaptive.set(share, largestStep.value_or(0));
 }
 
 void Scene::refuseForAdaptiveStep() const {
@@ -83,7 +82,7 @@ std::string Scene::whyStepsOfOneLength() const {
     if (laws().resistsMotion)
         return fmt::format("the viscous bridges of {} need steps of one length", laws().name);
     if (integrator.remembersEarlier())
-        return fmt::format("the integrator {} needs steps of one length", integrator.name);
+        return fmt::format("the integrator {} needs steps of one length", shownName(integrator));
     return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/State/Hdf5Fault.h"
 
@@ -27,15 +28,17 @@ bool Hdf5File::isAvailable() { return true; }
 
 Hdf5File::Hdf5File(std::filesystem::path path, Access access) : place(std::move(path)) {
     makeQuiet();
-    requireRegularIfThere(place);
-    errno = 0;
     if (access == Access::Read) {
+        requireRegularIfThere(place);
+        errno = 0;
         file = check(H5Fopen(place.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "cannot be read");
         return;
     }
     const Object creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_userblock(creation, userBlock);
-    file = check(H5Fcreate(place.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT), "cannot be written");
+    makeRoomFor(place);
+    errno = 0;
+    file = check(H5Fcreate(place.c_str(), H5F_ACC_EXCL, creation, H5P_DEFAULT), "cannot be written");
 }
 
 Hdf5File::~Hdf5File() {

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/InputError.h"
 
@@ -102,7 +103,7 @@ void syncFolderOf(const fs::path& path) {
 }  // namespace
 
 void sealRestartFile(const fs::path& path) {
-    Descriptor file(path, O_RDWR);
+    Descriptor file(path, O_RDWR | O_NOFOLLOW);
     Seal::Block block;
     static_cast<void>(file.read(block.data(), block.size()));
     const Seal seal{restartFormat, fs::file_size(path), checksumOfRest(file)};
@@ -122,8 +123,8 @@ void writeRestartFile(const fs::path& path, const std::function<void(StateArchiv
     requireRestartFiles();
     const fs::path beside = path.string() + ".part";
     std::error_code ignored;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), ignored);
-    for (const fs::path& file : {path, beside}) requireRegularIfThere(file);
+    requireRegularIfThere(path);
+    requireOwnIfThere(beside);
     try {
         Hdf5File file(beside, Hdf5File::Access::Create);
         StateArchive archive(file, StateArchive::Direction::Write);

@@ -54,6 +54,11 @@ public:
         }
     }
 
+    /// A number of a table, of the k-th place.
+    void setNumber(const std::string& name, std::size_t k, double number) {
+        std::memcpy(tables.at(name).bytes.data() + k * sizeof number, &number, sizeof number);
+    }
+
     /// Without a checksum: sealRestartFile() gives it.
     void write(const std::filesystem::path& path) const {
         Hdf5File file(path, Hdf5File::Access::Create);

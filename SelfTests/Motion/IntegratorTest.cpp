@@ -5,8 +5,12 @@
 
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/State/Hdf5File.h"
 #include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
 namespace {
@@ -71,6 +75,133 @@ TEST(Integrator, hasItsOrderInAnOscillation) {
         const double order = scheme == integrators::adamsMoulton ? 3 : 2;
         const double coarse = errorOfOscillation(scheme, 20), fine = errorOfOscillation(scheme, 40);
         EXPECT_NEAR(std::log2(coarse / fine), order, 0.2) << scheme.name << ' ' << coarse;
+    }
+}
+
+/// The default, but for one number.
+Integrator withCorrector(double corrector) {
+    Integrator mine = integrators::predictedVelocityVerlet;
+    mine.corrector = corrector;
+    return mine;
+}
+
+TEST(Integrator, ofOtherCoefficientsIsAnotherOneWhateverItsName) {
+    const Integrator standard = integrators::predictedVelocityVerlet;
+    EXPECT_EQ(withCorrector(standard.corrector), standard);
+    EXPECT_NE(withCorrector(0.4), standard);
+    for (double Integrator::*part :
+         {&Integrator::position0, &Integrator::position1, &Integrator::velocity0, &Integrator::velocity1,
+          &Integrator::corrector, &Integrator::now, &Integrator::earlier}) {
+        Integrator mine = standard;
+        mine.*part += 0x1p-40;
+        EXPECT_NE(mine, standard);
+    }
+    for (bool ContactTiming::*part :
+         {&ContactTiming::implicitForces, &ContactTiming::timesTouches, &ContactTiming::springsInStep}) {
+        Integrator mine = standard;
+        mine.contacts.*part = !(mine.contacts.*part);
+        EXPECT_NE(mine, standard);
+    }
+    EXPECT_EQ(shownName(standard), "PredictedVelocityVerlet");
+    EXPECT_EQ(shownName(withCorrector(0.4)), "PredictedVelocityVerlet of your own");
+    EXPECT_NE(description(withCorrector(0.4)), description(withCorrector(0.3)));
+    for (const Integrator& scheme : integrators::all) EXPECT_EQ(description(scheme), scheme.name);
+}
+
+/// Two grains whose springs of friction have dashpots, or lack them.
+class RoughPair : public FewGrains<Species<LinearViscoelastic, SlidingFriction>> {
+public:
+    using Rough = Species<LinearViscoelastic, SlidingFriction>;
+    explicit RoughPair(double slidingDissipation)
+        : FewGrains(material(slidingDissipation),
+                    {{.radius = radius}, {.radius = radius, .position = {2.1e-3, 0, 0}}}, 1e-5) {
+        setQuiet();
+    }
+
+private:
+    static Rough material(double slidingDissipation) {
+        Rough species;
+        species.setDensity(density);
+        species.setStiffness(stiffness), species.setDissipation(0.01);
+        species.setSlidingStiffness(2.0 / 7 * stiffness), species.setSlidingDissipation(slidingDissipation);
+        species.setSlidingFrictionCoefficient(0.5);
+        return species;
+    }
+};
+
+/// Whatever is asked for and whatever the scene makes of it: each is one of all, or asked for.
+TEST(Integrator, thatASceneTakesIsOneOfAll) {
+    const auto isOneOfAll = [](const Integrator& scheme) {
+        return std::ranges::count(integrators::all, scheme) == 1;
+    };
+    for (const Integrator& asked : {integrators::predictedVelocityVerlet, integrators::velocityVerlet,
+                                    integrators::adamsMoulton, integrators::springsInStep}) {
+        EXPECT_TRUE(isOneOfAll(asked)) << asked.name;
+        for (const double slidingDissipation : {0.0, 0.01})
+            for (const bool adapts : {false, true}) {
+                if (adapts && asked.remembersEarlier()) continue;  // refused
+                RoughPair scene(slidingDissipation);
+                scene.setIntegrator(asked);
+                if (adapts) scene.setAdaptiveTimeStep(0.9);
+                scene.initialise();
+                EXPECT_TRUE(isOneOfAll(scene.scheme())) << asked.name << ' ' << scene.scheme().name;
+            }
+    }
+    // The one that a scene takes by itself.
+    RoughPair fed(0);
+    fed.initialise();
+    EXPECT_EQ(fed.scheme(), integrators::springsInStep);
+}
+
+/// A scheme of one's own moves grains, and so the limit and what the scene makes of it are of its numbers.
+TEST(Integrator, ofOnesOwnKeepsItsNumbersInTheScene) {
+    for (Integrator mine : {integrators::predictedVelocityVerlet, integrators::springsInStep}) {
+        mine.corrector = 0.4;
+        for (const bool adapts : {false, true}) {
+            RoughPair scene(0.01), standard(0.01);
+            scene.setIntegrator(mine);
+            if (adapts) scene.setAdaptiveTimeStep(0.9), standard.setAdaptiveTimeStep(0.9);
+            scene.initialise();
+            standard.initialise();
+            EXPECT_EQ(scene.scheme().corrector, 0.4);
+            EXPECT_EQ(scene.scheme().contacts, adapts ? integrators::springsInStep.contacts : mine.contacts);
+            // Motions that change their sign from step to step end at w h = 1 / sqrt(1/5) without dashpots;
+            // those of the default at 2.
+            EXPECT_GT(scene.stabilityLimit(), standard.stabilityLimit());
+        }
+    }
+}
+
+TEST(Integrator, thatIsNoNumberIsRefused) {
+    RoughPair scene(0.01);
+    const std::string text = support::refusal([&] { scene.setIntegrator(withCorrector(std::nan(""))); });
+    EXPECT_TRUE(support::isOneSentence(text));
+    EXPECT_TRUE(support::contains(text, "integrator PredictedVelocityVerlet: corrector"));
+}
+
+/// A restart file of one scheme is of no other.
+TEST(Integrator, ofARestartFileIsTheSame) {
+    if (!Hdf5File::isAvailable()) GTEST_SKIP() << "This build has no HDF5 library: no restart files.";
+    const support::TestFolder folder;
+    const auto file = folder.path() / "run-restart.h5";
+    const auto refusalOf = [&](const Integrator& first, const Integrator& second) {
+        RoughPair scene(0.01), next(0.01);
+        scene.setIntegrator(first), next.setIntegrator(second);
+        scene.initialise();
+        scene.writeRestart(file);
+        next.restartFrom(file);
+        return support::refusal([&] { next.initialise(); });
+    };
+    const Integrator standard = integrators::predictedVelocityVerlet;
+    EXPECT_EQ(refusalOf(standard, standard), "");
+    EXPECT_EQ(refusalOf(withCorrector(0.4), withCorrector(0.4)), "");
+    for (const auto& [first, second] : {std::pair{standard, withCorrector(0.4)},
+                                        {withCorrector(0.4), standard},
+                                        {withCorrector(0.4), withCorrector(0.45)}}) {
+        const std::string text = refusalOf(first, second);
+        EXPECT_TRUE(support::isOneSentence(text));
+        EXPECT_TRUE(support::contains(text, "does not fit this scene: integrator is "));
+        EXPECT_TRUE(support::contains(text, "of your own"));
     }
 }
 

@@ -207,6 +207,35 @@ TEST_F(Snapshot, isAPicture) {
     EXPECT_FALSE(std::filesystem::exists(scene));
 }
 
+/// POV-Ray would read them as the end of a name, or as a command of its own; and links are not written
+/// through.
+TEST_F(Snapshot, isNamedWithAnyCharacters) {
+    if (support::isMissing(support::run("povray --version").exitCode != 127, "povray"))
+        GTEST_SKIP() << support::without("povray", "that a picture is drawn");
+    const auto drawAs = [&](const std::string& name) {
+        return support::run(tool + " " + folder.name() +
+                            ".pvd --field none --width 40 --height 30 --output '" +
+                            (folder.path() / name).string() + "'");
+    };
+    const std::filesystem::path victim = folder.path() / "victim";
+    std::ofstream(victim) << "precious";
+    for (const char* name :
+         {"x;y.png", "a b.png", "+Oz.png", "-D.png", "$(touch z).png", "[a].png", "ä.png"}) {
+        const std::filesystem::path target = folder.path() / name;
+        const std::filesystem::path log = std::filesystem::path(target).replace_extension(".pov.log");
+        for (const std::filesystem::path& link : {target, log}) std::filesystem::create_symlink(victim, link);
+        const auto result = drawAs(name);
+        ASSERT_EQ(result.exitCode, 0) << name << ": " << result.output;
+        EXPECT_FALSE(std::filesystem::is_symlink(target));
+        EXPECT_TRUE(support::contentOf(target).starts_with("\x89PNG")) << name;
+        std::filesystem::remove(log);
+    }
+    EXPECT_EQ(support::contentOf(victim), "precious");
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        EXPECT_FALSE(entry.path().filename().string().starts_with(".snapshot")) << entry.path();
+    for (const char* name : {"", "..", "pictures/"}) expectOneSentence(drawAs(name), "name = '");
+}
+
 /// The table that a run leaves that could not go on.
 TEST_F(Snapshot, drawsATableOfGrains) {
     const std::filesystem::path table = folder.path() / "table.csv";

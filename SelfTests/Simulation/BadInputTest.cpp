@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "Kernel/InputError.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
@@ -238,6 +239,55 @@ TEST(BadInput, initialOverlap) {
                        fmt::format("{:.6g} m", 0.051 * std::min(radius1, radius2)), "5.1 %", "at most 5 %"});
         expectRefused([&] { startOverlapping(radius1, radius2, 1.2); }, {"particle 0", other, "120 %"});
     }
+}
+
+/// What would run for ever: the number of steps is said.
+TEST(BadInput, moreStepsThanAnyRunMakes) {
+    const auto solve = [](double step, double end) {
+        Scene scene;
+        scene.setQuiet();
+        scene.particleHandler.copyAndAddObject(scene.grain());
+        scene.setTimeStep(step);
+        scene.setTimeMax(end);
+        scene.solve();
+    };
+    expectRefused([&] { solve(1e-300, 1); }, {"Simulation", "time step = 1e-300 s", "1e+300 steps", "1 s"});
+    expectRefused([&] { solve(1e-7, 1e300); }, {"Simulation", "1e+307 steps", "1e+300 s"});
+    expectRefused([&] { solve(5e-324, 1e-7); }, {"Simulation", "steps"});
+    // In a run, too.
+    struct Hooked : Scene {
+        void actionsAfterTimeStep() override { setTimeStep(1e-300); }
+    } scene;
+    scene.setQuiet();
+    const support::TestFolder folder;
+    scene.setName(folder.name());
+    scene.particleHandler.copyAndAddObject(scene.grain());
+    scene.setTimeStep(1e-7);
+    scene.setTimeMax(1e-6);
+    EXPECT_THROW(scene.solve(), RunError);
+}
+
+/// A number that is not one is no number that is not given.
+TEST(BadInput, notANumberWhereANumberMayBeLeftOut) {
+    Scene scene;
+    for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, 1);
+    scene.setLeesEdwards(0, 1, 1);
+    expectRefused([&] { scene.setAdaptiveTimeStep(0.5, std::nan("")); }, {"largest adaptive time step"});
+    expectRefused([&] { scene.setTargetStress(2, 1e3, 1e-3, std::nan("")); }, {"largest strain rate"});
+    expectRefused([&] { scene.setTargetShearStress(1e3, 1e-3, std::nan("")); }, {"largest shear rate"});
+    EXPECT_NO_THROW(scene.setAdaptiveTimeStep(0.5));
+    EXPECT_NO_THROW(scene.setAdaptiveTimeStep(0.5, 1e-6));
+    EXPECT_NO_THROW(scene.setTargetStress(2, 1e3, 1e-3));
+    EXPECT_NO_THROW(scene.setTargetShearStress(1e3, 1e-3));
+}
+
+TEST(BadInput, aSphereOfAShapeThatIsNowhere) {
+    expectRefused(
+        [] {
+            ClumpTemplate({{{0, 0, 0}, 1e-3}, {{0, std::nan(""), 0}, 1e-3}});
+        },
+        {"sphere 1 of a shape", "its centre = (0, nan, 0) m must be finite"});
+    expectRefused([] { ClumpTemplate({{{0, 0, 0}, -1e-3}}); }, {"sphere 0 of a shape", "radius = -0.001 m"});
 }
 
 TEST(BadInput, timeStepAboveTheStabilityLimit) {

@@ -8,6 +8,7 @@
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Walls/AxisymmetricWall.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
@@ -440,6 +441,39 @@ TEST(Piston, whatCannotGoOnEndsTheRun) {
     fast.plane().setPiston(1e-3, 1e3);
     fast.initialise();
     EXPECT_TRUE(contains(end([&] { fast.step(100000); }), "farther in a step"));
+    // Already in its first step, before which it is at rest: half of its acceleration of 1e9 m/s^2 times h.
+    UnderAPlane sudden({{.radius = radius, .position = {0, 0, radius}}}, 10);
+    sudden.plane().setPiston(1e-3, 1e6);
+    sudden.initialise();
+    EXPECT_TRUE(contains(end([&] { sudden.step(); }), "moves at 5000 m/s, farther in a step of 1e-05 s"));
+}
+
+/// A wall of a user's own shape that has a drive.
+class DrivenTube : public AxisymmetricWall {
+public:
+    using AxisymmetricWall::drive;
+    [[nodiscard]] PlaneDrive* drive() override { return &own; }
+
+private:
+    PlaneDrive own{.asked = {.kind = PlaneDriveSettings::Kind::Piston, .load = 1, .mass = 1}};
+};
+
+TEST(Piston, canBeAPlaneOnly) {
+    const auto addTube = [](auto& scene) {
+        DrivenTube wall;
+        wall.set({0, 0, 1}, {0, 0, 0}, {{0.1, -1}, {0.1, 1}});
+        wall.setSpecies(scene.speciesHandler.getObject(0));
+        scene.wallHandler.copyAndAddObject(wall);
+    };
+    UnderAPlane scene(oneGrain(), 3 * radius), inRun(oneGrain(), 3 * radius);
+    addTube(scene);
+    const std::string text = support::refusal([&] { scene.initialise(); });
+    EXPECT_TRUE(support::isOneSentence(text));
+    EXPECT_TRUE(support::contains(text, "wall 2: only a plane (InfiniteWall) can be moved by forces"));
+    inRun.initialise();
+    inRun.step();
+    addTube(inRun);
+    EXPECT_THROW(inRun.step(), RunError);
 }
 
 /// setVelocity() ends the drive, and the plane goes on from where it is.

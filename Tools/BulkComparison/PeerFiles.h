@@ -26,9 +26,10 @@ inline void writePeerData(const std::string& path, const BulkScene& scene) {
         velocities += fmt::format("{} {:.16g} {:.16g} {:.16g} 0 0 0\n", k + 1, g.velocity.x(), g.velocity.y(),
                                   g.velocity.z());
     }
-    std::ofstream file(path);
-    file << text << velocities;
-    if (!file.flush()) throw InputError(fmt::format("{}: cannot be written.", path));
+    WrittenBeside file(path);
+    file.write(text);
+    file.write(velocities);
+    file.close();
 }
 
 /// The grains of such a file, in place of those of the scene.
