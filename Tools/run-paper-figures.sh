@@ -66,6 +66,7 @@ write_tables() {  # program, output folder
     quietly build/release/Tools/"$1" --output "$2"
     local table
     for table in "$2"/*.csv; do
+        rm -f "$table.new"
         { Tools/describe-machine.sh "Tools/$1, one thread" && cat "$table"; } >"$table.new"
         mv "$table.new" "$table"
     done

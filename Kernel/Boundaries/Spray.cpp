@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "Kernel/InputError.h"
+#include "Kernel/Particles/Resolution.h"
 #include "Kernel/Walls/RigidWall.h"
 
 namespace pendular {
@@ -134,6 +135,9 @@ void Spray::check(std::size_t number) const {
     require(isSet(flowRate), "its flow", "setFlow()");
     require(isSet(radius), "the radius of its droplets", "setDropletRadius()");
     require(isSet(speed), "the speed of its droplets", "setSpeed()");
+    const Vector<double> half = shape == Shape::Rain ? 0.5 * (edge1 + edge2) : Vector<double>{0, 0, 0};
+    for (const Vector<double>& place : {middle + half, middle - half})
+        requireResolved(fmt::format("spray {}", number), "place", place, radius);
 }
 
 void Spray::visitState(StateArchive& archive) const {

@@ -46,7 +46,7 @@ double beginServo(const ContactSystem& contacts, const ParticleStore& grains, st
     constexpr double looksInTime = 100;
     const PlaneDriveSettings& asked = drive.asked;
     const auto interval =
-        static_cast<std::uint64_t>(std::max(std::round(asked.time / step.length / looksInTime), 1.0));
+        static_cast<std::uint64_t>(std::clamp(std::round(asked.time / step.length / looksInTime), 1.0, 1e15));
     if (drive.steps % interval == 0) {
         // A bed is as soft as its layers one after the other: at least a contact's share of all grains.
         const double layers = static_cast<double>(grains.count()) /

@@ -1087,7 +1087,7 @@ void Scene::serveStress() {
     if (shortest == infinity) return;
     constexpr double looksInTime = 100;
     const auto interval =
-        std::max<std::size_t>(static_cast<std::size_t>(shortest / getTimeStep() / looksInTime), 1);
+        static_cast<std::size_t>(std::clamp(shortest / getTimeStep() / looksInTime, 1.0, 1e15));
     if (getNumberOfTimeSteps() % interval != 0) return;
     const DiagonalStress now = diagonalStress(contactSystem, particleHandler.store(), strain, shear);
     if (now.touches == 0 && lowest < 0)
