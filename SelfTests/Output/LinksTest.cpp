@@ -54,13 +54,13 @@ protected:
     }
     /// A short run with the outputs that are given to it.
     template <class... Outputs>
-    void run(const Outputs&... outputs) const {
+    void run(Outputs... outputs) const {
         scenes::SettlingBox<Smooth> scene(1);
         scene.setQuiet();
         scene.setName(folder.name());
         scene.setTimeMax(4 * 0x1p-17);
         scene.keepEnergyLedger();
-        (scene.addOutput(outputs), ...);
+        (scene.addOutput(std::move(outputs)), ...);
         scene.solve();
     }
 

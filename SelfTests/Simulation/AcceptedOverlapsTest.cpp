@@ -17,8 +17,8 @@ using support::isOneSentence;
 using support::refusal;
 using Hertz = Species<HertzianViscoelastic>;
 
-constexpr double r = 1e-3, density = 2500, gravity = 9.81;  // m, kg/m^3, m/s^2
-constexpr double modulus = 1.2e4;                           // E*, Pa: a bottom of five grains gives 10 %
+constexpr double r = 1e-3, density = 2500, g = 9.81;  // m, kg/m^3, m/s^2
+constexpr double modulus = 1.2e4;                     // E*, Pa: a bottom of five grains gives 10 %
 
 Hertz soft() {
     Hertz species;
@@ -34,7 +34,7 @@ public:
     explicit Bed(const std::vector<GrainMotion>& grains)
         : FewGrains<Hertz>(soft(), grains, 5e-5, {{.normal = {0, 0, -1}, .point = {0, 0, 0}}}) {
         setQuiet();
-        setGravity({0, 0, -gravity});
+        setGravity({0, 0, -g});
     }
 };
 
@@ -112,7 +112,7 @@ TEST(AcceptedOverlaps, takeUpABedThatHasSettled) {
     for (int k = 0; k < count; ++k) grains.push_back({.radius = r, .position = {0, 0, (2 * k + 1) * r}});
     Bed settling(grains);
     settling.run(40000);
-    const double weight = count * sphereMass(r, density) * gravity;
+    const double weight = count * sphereMass(r, density) * g;
     const double overlap = std::pow(3 * weight / (4 * modulus * std::sqrt(r)), 2.0 / 3);
     EXPECT_GT(overlap, 0.09 * r);
     EXPECT_NEAR(r - settling.motion(0).position.z(), overlap, 1e-6 * r);
