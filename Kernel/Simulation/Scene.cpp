@@ -685,6 +685,8 @@ void Scene::prepare() {
                processorCount(), processorCount());
     for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, wallHandler))
         logger(LogLevel::Warn, "{}.", broken.text());
+    if (const std::string remark = remarkOnFarGrains(particleHandler.store()); !remark.empty())
+        logger(LogLevel::Warn, "{}.", remark);
     warnOfFedSprings();
     warnOfSeams();
     warnOfGapsInBodies(0);

@@ -475,6 +475,20 @@ inline void refuseFarFaces(const PeriodicBox& box, double smallestRadius) {
             }
 }
 
+/// A sentence, without a full stop, where grains are so far away that steps may be rounded; else empty.
+inline std::string remarkOnFarGrains(const ParticleStore& grains) {
+    const TranslationRecord* worst = nullptr;
+    double largest = notedRounding;
+    for (const TranslationRecord& grain : grains.translation)
+        if (grain.radius > 0 && roundingOf(grain.position, grain.radius) > largest)
+            worst = &grain, largest = roundingOf(grain.position, grain.radius);
+    if (!worst) return {};
+    return fmt::format(
+        "particle {} is so far from the origin that its position is rounded to {:.1g} of its radius; a step "
+        "should move grains by much more than that, or the scene be nearer to the origin",
+        grains.identity[static_cast<std::size_t>(worst - grains.translation.data())], largest);
+}
+
 /// Ends a run in which a grain has gone so far away that it is not resolved any more.
 inline void refuseFarGrains(const ParticleStore& grains, double time) {
     const auto isFar = [](const TranslationRecord& grain) {
