@@ -1,0 +1,142 @@
+// Grains, held ones, clumps, and grains that are joined.
+#include <algorithm>
+
+#include "SelfTests/Fuzz/RandomScenes/Making.h"
+
+namespace pendular::fuzz {
+
+namespace {
+
+void addGrains(Making& making) {
+    const int most = std::min(making.draw.whole(0, 40), making.recipe.grains);
+    for (int k = 0; k < most; ++k)
+        if (const auto grain = making.newGrain()) making.scene.particleHandler.copyAndAddObject(*grain);
+}
+
+void addHeldGrains(Making& making) {
+    const int count = std::min(making.draw.whole(1, 3), making.recipe.grains);
+    for (int k = 0; k < count; ++k) {
+        auto grain = making.newGrain();
+        if (!grain) return;
+        grain->fixParticle();
+        GrainReference held = making.scene.particleHandler.copyAndAddObject(*grain);
+        const Vec3D velocity = 0.3 * making.scales.speed * making.draw.inCube(1);
+        const bool moves = making.draw.oneIn(2);
+        if (moves) held.setVelocity(making.draw.give("velocity", velocity));
+    }
+}
+
+/// Two to four spheres in a row that overlap, or at random places.
+ClumpTemplate anyTemplate(Making& making) {
+    std::vector<Ball> spheres;
+    const int count = making.draw.whole(1, 4);
+    Vec3D place = Vec3D::Zero();
+    for (int k = 0; k < count; ++k) {
+        const double radius = making.draw.even(0.6, 1);
+        spheres.push_back({making.draw.give("centre", place), making.draw.give("radius", radius)});
+        place += making.draw.even(0.4, 1.2) * radius * making.draw.direction();
+    }
+    return ClumpTemplate(spheres);
+}
+
+void addClumps(Making& making) {
+    const ClumpTemplate shape = anyTemplate(making);
+    const int count = std::min(making.draw.whole(1, 6), making.recipe.grains);
+    for (int k = 0; k < count; ++k) {
+        const auto cell = making.takeCell();
+        if (!cell) return;
+        Clump clump(shape);
+        clump.setSpecies(making.anyMaterial());
+        clump.setScale(
+            making.draw.give("scale", making.draw.even(0.3, 0.495) * making.scales.cell / shape.getReach()));
+        clump.setPosition(making.draw.give("position", *cell));
+        const Vec3D axis = making.draw.direction();
+        clump.setOrientation({making.draw.even(-1, 1), axis.x(), axis.y(), axis.z()});
+        clump.setVelocity(making.draw.give("velocity", Vec3D(making.scales.speed * making.draw.inCube(1))));
+        clump.setAngularVelocity(
+            making.draw.give("spin", Vec3D(making.draw.inCube(making.scales.speed / making.scales.radius))));
+        making.scene.bodyHandler.copyAndAddObject(clump);
+    }
+}
+
+/// Two grains in one cell, which do not touch.
+std::optional<std::array<std::uint32_t, 2>> addTwo(Making& making) {
+    const auto cell = making.takeCell();
+    if (!cell) return std::nullopt;
+    std::array<std::uint32_t, 2> identities{};
+    SphericalParticle grain;
+    grain.setSpecies(making.anyMaterial());
+    const Vec3D half = 0.24 * making.scales.cell * making.draw.direction();
+    for (int k = 0; k < 2; ++k) {
+        grain.setRadius(0.23 * making.scales.cell);
+        grain.setPosition(*cell + (k == 0 ? half : Vec3D(-half)));
+        grain.setVelocity(making.scales.speed * making.draw.inCube(1));
+        identities[static_cast<std::size_t>(k)] =
+            making.scene.particleHandler.copyAndAddObject(grain).getId();
+    }
+    return identities;
+}
+
+void addJoined(Making& making) {
+    if (const auto two = addTwo(making)) making.scene.bodyHandler.join(*two);
+}
+
+void addJoinInRun(Making& making) {
+    const auto two = addTwo(making);
+    if (!two) return;
+    making.before(making.someStep(), [&scene = making.scene, pair = *two] {
+        for (const std::uint32_t identity : pair)
+            if (!scene.particleHandler.contains(identity) || scene.bodyHandler.bodyOf(identity)) return;
+        const auto a = scene.particleHandler.getObject(pair[0]), b = scene.particleHandler.getObject(pair[1]);
+        if (a.isFixed() || b.isFixed()) return;
+        // They may have met: spheres that overlap need a mass that is given.
+        if ((a.getPosition() - b.getPosition()).norm() < a.getRadius() + b.getRadius()) return;
+        scene.bodyHandler.join(pair);
+    });
+}
+
+void addBodyChange(Making& making) {
+    const Vec3D velocity = making.draw.give("velocity", Vec3D(making.scales.speed * making.draw.inCube(1)));
+    const Vec3D spin =
+        making.draw.give("spin", Vec3D(making.draw.inCube(making.scales.speed / making.scales.radius)));
+    const bool removes = making.draw.oneIn(2);
+    making.before(making.someStep(), [&scene = making.scene, velocity, spin, removes] {
+        const auto bodies = scene.particleHandler.store().bodies.size();
+        if (bodies == 0) return;
+        BodyReference body =
+            scene.bodyHandler.getObject(scene.particleHandler.store().bodies.numberOf(bodies - 1));
+        if (removes) return scene.bodyHandler.removeObject(body.getId());
+        body.setVelocity(velocity);
+        body.setAngularVelocity(spin);
+    });
+}
+
+}  // namespace
+
+std::vector<Feature> bodyFeatures() {
+    constexpr unsigned both = momentum | angularMomentum;
+    return {
+        {.name = "Grains", .share = 0.95, .add = addGrains},
+        {.name = "HeldGrains",
+         .share = 0.12,
+         .add = addHeldGrains,
+         .loses = both | places,
+         .kinds = {"held"}},
+        {.name = "Clumps", .share = 0.2, .add = addClumps, .kinds = {"body"}, .excludes = {"outlet"}},
+        {.name = "Joined", .share = 0.08, .add = addJoined, .kinds = {"body"}, .excludes = {"outlet"}},
+        {.name = "JoinInRun",
+         .share = 0.05,
+         .add = addJoinInRun,
+         .loses = both,
+         .kinds = {"body", "change"},
+         .excludes = {"outlet"}},
+        {.name = "BodyChange",
+         .share = 0.3,
+         .add = addBodyChange,
+         .loses = both,
+         .kinds = {"change"},
+         .needs = {"body"}},
+    };
+}
+
+}  // namespace pendular::fuzz

@@ -1,0 +1,145 @@
+// Grains that come and go: inlets, insert(), outlets, planes that count.
+#include "Kernel/Sizes/SizeLaws.h"
+#include "SelfTests/Fuzz/RandomScenes/Making.h"
+
+namespace pendular::fuzz {
+
+namespace {
+
+/// Above the cells of the grains, a part of a radius away from the faces.
+BoxRegion roomOf(Making& making) {
+    const Vec3D margin = Vec3D::Constant(0.02 * making.scales.cell);
+    Vec3D from = making.lowest + margin;
+    from.z() = making.top + margin.z();
+    return {making.draw.give("from", from), making.draw.give("to", Vec3D(making.highest - margin))};
+}
+
+/// Diameters from a half to the whole of the largest one.
+SizeDistribution anySizes(Making& making) {
+    const double largest = 2 * making.scales.radius, smallest = making.draw.even(0.5, 0.95) * largest;
+    SphericalParticle small;
+    for (AnySpecies* const material : making.materials) {
+        small.setSpecies(material);
+        small.setRadius(0.5 * smallest);
+        making.grainsToCome.push_back(small);
+        small.setRadius(making.scales.radius);
+        making.grainsToCome.push_back(small);
+    }
+    return evenSizes(making.draw.give("smallest", smallest), making.draw.give("largest", largest));
+}
+
+SphericalParticle anyLike(Making& making) {
+    SphericalParticle like;
+    like.setSpecies(making.anyMaterial());
+    const Vec3D velocity = making.scales.speed * (Vec3D(0, 0, -0.7) + making.draw.inCube(0.3));
+    like.setVelocity(making.draw.give("velocity", velocity));
+    if (making.has("moving liquid") && making.draw.oneIn(2))
+        like.setLiquidVolume(making.draw.give("film", 0.5 * making.scales.liquid()));
+    return like;
+}
+
+void addInsert(Making& making) {
+    const SizeDistribution sizes = anySizes(making);
+    const SphericalParticle like = anyLike(making);
+    const auto number = static_cast<std::size_t>(std::min(making.draw.whole(1, 6), making.recipe.grains));
+    const BoxRegion room = roomOf(making);
+    const Amount amount =
+        making.draw.oneIn(4)
+            ? Amount::solidFraction(making.draw.give("fraction", making.draw.even(0.02, 0.25)))
+        : making.draw.oneIn(2) ? Amount::mass(making.draw.give("mass", 4 * making.scales.mass()))
+                               : Amount::grains(number);
+    making.scene.insert(sizes, room, amount, like,
+                        {.sample = making.draw.oneIn(2) ? Sample::Exact : Sample::Random});
+}
+
+void addInsertedClumps(Making& making) {
+    Clump rod(ClumpTemplate({{{0, 0, -0.5}, 1}, {{0, 0, 0.5}, 1}}));
+    rod.setSpecies(making.anyMaterial());
+    const double size = 1.2 * making.scales.radius;
+    making.scene.insert(
+        evenSizes(making.draw.give("smallest", 0.8 * size), making.draw.give("largest", size)),
+        roomOf(making), Amount::grains(static_cast<std::size_t>(making.draw.whole(1, 3))), rod);
+}
+
+void addInsertInRun(Making& making) {
+    const SizeDistribution sizes = anySizes(making);
+    const SphericalParticle like = anyLike(making);
+    const BoxRegion room = roomOf(making);
+    const auto number = static_cast<std::size_t>(making.draw.whole(1, 4));
+    making.before(making.someStep(), [&scene = making.scene, sizes, like, room, number] {
+        scene.insert(sizes, room, Amount::grains(number), like, {.tries = 300});
+    });
+}
+
+void addInlet(Making& making) {
+    Inlet inlet;
+    inlet.setRegion(roomOf(making));
+    inlet.setSizes(anySizes(making));
+    inlet.setGrain(anyLike(making));
+    const double number = making.draw.even(1, 8) / making.scales.duration;
+    if (making.draw.oneIn(2)) inlet.setNumberFlow(making.draw.give("flow", number));
+    else inlet.setMassFlow(making.draw.give("flow", number * making.scales.mass()));
+    if (making.draw.oneIn(2)) inlet.setNoRoom(NoRoom::Lost);
+    if (making.draw.oneIn(3)) inlet.setWholeGrains(false);
+    if (making.draw.oneIn(4))
+        inlet.setTimes(making.draw.give("first", 0.2 * making.scales.duration),
+                       making.draw.give("last", 0.8 * making.scales.duration));
+    inlet.setSeed(static_cast<std::uint64_t>(making.draw.whole(0, 1000)));
+    making.scene.inletHandler.copyAndAddObject(inlet);
+}
+
+void addOutlet(Making& making) {
+    Outlet outlet;
+    const Vec3D middle = 0.5 * (making.lowest + making.highest);
+    if (making.draw.oneIn(2)) {
+        int axis = making.draw.whole(0, 2);  // across which the scene does not repeat itself
+        for (int k = 0; k < 2 && making.isPeriodic[static_cast<std::size_t>(axis)]; ++k)
+            axis = (axis + 1) % 3;
+        outlet.setPlane(making.draw.give("normal", Vec3D(Vec3D::Unit(axis))),
+                        making.draw.give("point", Vec3D(middle + 0.3 * (making.highest - middle))));
+    } else {
+        outlet.setRegion(
+            SphereRegion(making.draw.give("centre", middle), making.draw.give("radius", making.scales.cell)));
+    }
+    if (making.draw.oneIn(3)) outlet.setLeastAge(making.draw.give("age", 0.3 * making.scales.duration));
+    if (making.draw.oneIn(3))
+        outlet.setCondition([](const GrainReference& grain) { return grain.getId() % 2 == 0; });
+    if (making.draw.oneIn(3))
+        outlet.setSizeClasses(std::array{making.draw.give("class", making.scales.radius)});
+    making.scene.outletHandler.copyAndAddObject(outlet);
+}
+
+void addFluxPlane(Making& making) {
+    const Vec3D middle = 0.5 * (making.lowest + making.highest);
+    const bool inclined = making.draw.oneIn(2) && !making.has("periodic");
+    const Vec3D normal = inclined ? making.draw.direction() : Vec3D(Vec3D::Unit(making.draw.whole(0, 2)));
+    making.scene.fluxPlaneHandler.add(making.draw.give("normal", normal), making.draw.give("point", middle));
+}
+
+}  // namespace
+
+std::vector<Feature> flowFeatures() {
+    constexpr unsigned both = momentum | angularMomentum;
+    return {
+        {.name = "Insert", .share = 0.12, .add = addInsert, .kinds = {"room"}},
+        {.name = "InsertedClumps",
+         .share = 0.05,
+         .add = addInsertedClumps,
+         .kinds = {"room", "body"},
+         .excludes = {"outlet"}},
+        {.name = "InsertInRun",
+         .share = 0.08,
+         .add = addInsertInRun,
+         .loses = both,
+         .kinds = {"room", "change", "comes in the run"}},
+        {.name = "Inlet",
+         .share = 0.1,
+         .add = addInlet,
+         .loses = both,
+         .kinds = {"room", "inlet", "comes in the run"}},
+        {.name = "Outlet", .share = 0.08, .add = addOutlet, .loses = both, .kinds = {"outlet"}},
+        {.name = "FluxPlane", .share = 0.1, .add = addFluxPlane},
+    };
+}
+
+}  // namespace pendular::fuzz
