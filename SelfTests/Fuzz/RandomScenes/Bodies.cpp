@@ -128,7 +128,7 @@ std::vector<Feature> bodyFeatures() {
          .share = 0.05,
          .add = addJoinInRun,
          .loses = both,
-         .kinds = {"body", "change"},
+         .kinds = {"body", "change", "joins in the run"},
          .excludes = {"outlet"}},
         {.name = "BodyChange",
          .share = 0.3,

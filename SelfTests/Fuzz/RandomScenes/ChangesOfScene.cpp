@@ -13,10 +13,13 @@ void addTimeStepChange(Making& making) {
     }
 }
 
+/// A restart file does not keep the end, so a scene that goes on is set up with it.
 void addTimeMaxChange(Making& making) {
     const double factor = making.draw.give("factor", making.draw.even(0.7, 1.1));
-    making.before(making.someStep(),
-                  [&scene = making.scene, factor] { scene.setTimeMax(factor * scene.getTimeMax()); });
+    const int step = making.someStep();
+    const auto change = [&scene = making.scene, factor] { scene.setTimeMax(factor * scene.getTimeMax()); };
+    if (making.goesOnFrom > step) making.atEnd(change);
+    making.before(step, change);
 }
 
 /// Softer, lighter, wetter: what a scene bears at any time step that it has.

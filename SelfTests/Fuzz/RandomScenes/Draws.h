@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -55,6 +56,7 @@ public:
         double value = right;
         for (const WrongValue& other : wrong)
             if (other.number == given) value = other.value, isUsed = true;
+        hasGivenNoNumber |= !std::isfinite(value);
         ++given;
         if (kept.size() < mostOfRecord) kept += fmt::format(" {}={:.6g}", what, value);
         return value;
@@ -69,6 +71,8 @@ public:
     [[nodiscard]] const std::string& record() const { return kept; }
     /// Whether any of the wrong values has come to its turn.
     [[nodiscard]] bool usedWrong() const { return isUsed; }
+    /// Whether a value was not finite: a wrong one, or what followed from one.
+    [[nodiscard]] bool gaveNoNumber() const { return hasGivenNoNumber; }
 
 private:
     static constexpr std::size_t mostOfRecord = 500;
@@ -77,7 +81,7 @@ private:
     std::string feature, kept;
     std::vector<WrongValue> wrong;
     int given = 0;
-    bool isUsed = false;
+    bool isUsed = false, hasGivenNoNumber = false;
 };
 
 }  // namespace pendular::fuzz

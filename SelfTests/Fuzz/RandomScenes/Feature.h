@@ -61,8 +61,8 @@ std::vector<Feature> outputFeatures();
 
 /// Features that together break a property today. The list is to be empty.
 struct KnownFault {
-    /// Names or kinds that a recipe must have all of; "wrong" stands for any wrong value, and
-    /// "wrong FEATURE" for one of that feature.
+    /// Names or kinds that a recipe must have all of; "no grains" stands for a scene without single ones,
+    /// "wrong" for any wrong value, and "wrong FEATURE" for one of that feature. The last one is left out.
     std::vector<std::string_view> together;
     std::string_view reason;
 };

@@ -76,7 +76,12 @@ void addInlet(Making& making) {
     inlet.setRegion(roomOf(making));
     inlet.setSizes(anySizes(making));
     inlet.setGrain(anyLike(making));
-    const double number = making.draw.even(1, 8) / making.scales.duration;
+    // 1/s; a stream has at most a quarter of the solid fraction.
+    const Vec3D width = making.highest - making.lowest;
+    const double densest = 0.25 * 0.9 * width.x() * 0.9 * width.y() * 0.4 * making.scales.speed /
+                           (making.scales.mass() / making.scales.density),
+                 number = std::min(making.draw.even(1, 8) / making.scales.duration,
+                                   making.draw.even(0.2, 1) * 0.5 * densest);
     if (making.draw.oneIn(2)) inlet.setNumberFlow(making.draw.give("flow", number));
     else inlet.setMassFlow(making.draw.give("flow", number * making.scales.mass()));
     if (making.draw.oneIn(2)) inlet.setNoRoom(NoRoom::Lost);

@@ -18,6 +18,7 @@ struct Verdict {
     std::vector<std::string> faults;
     /// What its features have given to Pendular.
     std::string record;
+    double seconds = 0;  // of processor time
 
     /// Of the first fault; empty without one.
     [[nodiscard]] std::string kind() const;

@@ -106,14 +106,16 @@ void Making::before(int steps, std::function<void()> action) {
 }
 
 void Making::endOf(std::string_view name) {
-    anyWrongUsed |= draw.usedWrong();
+    anyWrongUsed |= draw.usedWrong(), anyNoNumber |= draw.gaveNoNumber();
     records += fmt::format("  {}:{}\n", name, draw.record());
 }
 
 void Making::chooseStep() {
     scene.setTimeStep(scales.step);  // for what asks before there is one
     const double limit = scene.stabilityLimit(grainsToCome);
-    const double step = stepFactor * std::min(scales.step, 0.8 * limit);
+    // What a hook changes may lower the limit.
+    const double factor = has("joins in the run") ? 0.3 : has("change") ? 0.6 : 0.8;
+    const double step = std::min(scales.step, factor * limit);
     scene.setTimeStep(draw.give("step", step));
     scene.setTimeMax(draw.give("end", scales.steps * step));
 }
@@ -136,9 +138,9 @@ void Making::addAll() {
     }
     beginWith("Scene");
     scene.setQuiet();
-    for (const auto& action : atEndOfSetUp) action();
     try {
         chooseStep();
+        for (const auto& action : atEndOfSetUp) action();
     } catch (...) {
         endOf("Scene");
         throw;

@@ -74,7 +74,6 @@ public:
     std::vector<AnySpecies*> materials;
     std::vector<std::string> typeOfMaterial;
     std::vector<SphericalParticle> grainsToCome;  // for the stability limit
-    double stepFactor = 1;                        // of the step that is chosen
 
     /// Whether a feature of this name or kind is in the recipe.
     [[nodiscard]] bool has(std::string_view word) const;
@@ -97,6 +96,7 @@ public:
 
     [[nodiscard]] std::string record() const { return records; }
     [[nodiscard]] bool usedWrong() const { return anyWrongUsed; }
+    [[nodiscard]] bool gaveNoNumber() const { return anyNoNumber; }
 
 private:
     void beginWith(std::string_view name) { draw = Draws(recipe, name); }
@@ -106,7 +106,7 @@ private:
     std::vector<Vec3D> freeCells;
     std::vector<std::function<void()>> atEndOfSetUp;
     std::string records;
-    bool anyWrongUsed = false;
+    bool anyWrongUsed = false, anyNoNumber = false;
 };
 
 }  // namespace pendular::fuzz

@@ -28,7 +28,7 @@ std::optional<double> valueOf(const NamedField& field, const Scales& scales, Dra
     if (name.ends_with("FrictionCoefficient")) return often(draw.even(0.05, 1));
     if (name == "staticFrictionRatio") return draw.even(1, 1.5);
     if (name == "springFactor") return draw.even(0.4, 1);
-    if (name == "rollingStiffness" || name == "torsionStiffness") return often(0.1 * stiffness);
+    if (name == "rollingStiffness" || name == "torsionStiffness") return 0.1 * stiffness;
     if (name == "liquidBridgeVolume" || name == "liquidBridgeVolumeMax")
         return scales.liquid() * draw.decades(0.1, 1);
     if (name == "liquidBridgeVolumeMin") return often(0.02 * scales.liquid());

@@ -80,7 +80,7 @@ std::vector<Feature> outputFeatures() {
         {.name = "ParaView", .share = 0.12, .add = addFrames<ParaViewOutput>, .kinds = output},
         {.name = "Hdf5", .share = 0.05, .add = addFrames<Hdf5Output>, .kinds = {"output", "HDF5"}},
         {.name = "Mercury", .share = 0.1, .add = addMercury, .kinds = output},
-        {.name = "EnergyTable", .share = 0.1, .add = addTable<EnergyFile>, .kinds = output},
+        {.name = "EnergyTable", .share = 0.1, .add = addTable<EnergyFile>, .kinds = {"output", "ledger"}},
         {.name = "WallForces",
          .share = 0.15,
          .add = addTable<WallForceFile>,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 
@@ -69,6 +70,8 @@ int survey(std::uint64_t first, std::uint64_t count) {
             fmt::print("{} {}: {}\n", seed, verdict.end, verdict.sentence);
         for (const std::string& fault : verdict.faults) fmt::print("{} FAULT {}\n", seed, fault);
         faults += verdict.faults.empty() ? 0 : 1;
+        if (verdict.seconds > 1) fmt::print("{} took {:.3g} s of processor time\n", seed, verdict.seconds);
+        std::fflush(stdout);
     }
     for (const auto& [end, number] : ends) fmt::print("{}: {}\n", end, number);
     fmt::print("at fault: {}\n", faults);

@@ -33,7 +33,7 @@ Vec3D middleOf(const Making& making) {
 double radiusAround(const Making& making) {
     const double x = 0.5 * (making.highest.x() - making.lowest.x() - making.scales.cell),
                  y = 0.5 * (making.highest.y() - making.lowest.y() - making.scales.cell);
-    return std::hypot(x, y) + 0.505 * making.scales.cell;
+    return std::hypot(x, y) + (making.scales.touching ? 0.505 : 0.72) * making.scales.cell;
 }
 
 template <class Wall>
