@@ -78,8 +78,8 @@ struct PairGeometry {
     [[gnu::always_inline]] PairGeometry(const TranslationRecord* t, const RotationRecord* r,
                                         const ContactBlock& b, const PeriodicBox& periodic)
         : translation(t), rotation(r), block(b), box(periodic) {
-        const auto [x1, y1, z1, r1] = loadRecords<4>(numbers(t), 8, b.first.data());
-        const auto [x2, y2, z2, r2] = loadRecords<4>(numbers(t), 8, b.second.data());
+        auto [x1, y1, z1, r1] = loadRecords<4>(numbers(t), 8, b.first.data());
+        auto [x2, y2, z2, r2] = loadRecords<4>(numbers(t), 8, b.second.data());
         shift = {x2 - x1, y2 - y1, z2 - z1};
         if constexpr (isPeriodic) {
             if (box.imagesMove) {
@@ -107,12 +107,12 @@ struct PairGeometry {
         return distance2 < square(radius1 + radius2 + Pack(gap));
     }
 
-    [[nodiscard]] ContactGeometry<Pack> complete() const {
+    [[nodiscard, gnu::always_inline]] ContactGeometry<Pack> complete() const {
         ContactGeometry<Pack> g;
         const Pack distance = sqrt(distance2);
         const Pack sum = radius1 + radius2;
-        const auto [vx1, vy1, vz1, im1] = loadRecords<4>(numbers(translation) + 4, 8, block.first.data());
-        const auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
+        auto [vx1, vy1, vz1, im1] = loadRecords<4>(numbers(translation) + 4, 8, block.first.data());
+        auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
         g.velocity = {vx1 - vx2, vy1 - vy2, vz1 - vz2};
         if constexpr (isPeriodic)
             if (box.imagesMove) g.velocity += imageVelocity;
@@ -126,15 +126,8 @@ struct PairGeometry {
         g.normal = shift * g.inverseDistance;
         g.overlap = sum - distance;
         if constexpr (S::hasTorque) {
-            const auto [wx1, wy1, wz1] = loadRecords<3>(numbers(rotation), 8, block.first.data());
-            const auto [wx2, wy2, wz2] = loadRecords<3>(numbers(rotation), 8, block.second.data());
-            const Vector<Pack> spin1{wx1, wy1, wz1}, spin2{wx2, wy2, wz2};
             g.lever = g.overlap;
-            const Pack half = Pack(0.5) * g.overlap;
-            g.spinLever = fma(radius1 - half, spin1, (radius2 - half) * spin2);
-            g.spinSum = spin1 + spin2;
             if constexpr (S::hasContactTorque) {
-                g.spinDifference = spin1 - spin2;
                 if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
                     g.asymmetry = (radius2 - radius1) / sum;
                 g.rotationResponse =
@@ -144,11 +137,23 @@ struct PairGeometry {
         return g;
     }
 
+    /// What follows from the spins, which only friction and bridges that resist motion read: later than
+    /// complete(), so that it lies in registers for a shorter time.
+    [[gnu::always_inline]] void completeSpins(ContactGeometry<Pack>& g) const {
+        auto [wx1, wy1, wz1] = loadRecords<3>(numbers(rotation), 8, block.first.data());
+        auto [wx2, wy2, wz2] = loadRecords<3>(numbers(rotation), 8, block.second.data());
+        const Vector<Pack> spin1{wx1, wy1, wz1}, spin2{wx2, wy2, wz2};
+        const Pack half = Pack(0.5) * g.overlap;
+        g.spinLever = fma(radius1 - half, spin1, (radius2 - half) * spin2);
+        g.spinSum = spin1 + spin2;
+        if constexpr (S::hasContactTorque) g.spinDifference = spin1 - spin2;
+    }
+
     /// @param acceleration m/s^2, of the grains; @param overlap m
     [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
                                                           Pack overlap) const {
         const auto angular = [&](const std::uint32_t* index) {
-            const auto [x, y, z] = loadRecords<3>(numbers(rotation) + 4, 8, index);
+            auto [x, y, z] = loadRecords<3>(numbers(rotation) + 4, 8, index);
             return Vector<Pack>{x, y, z};
         };
         const Vector<Pack> first = angular(block.first.data()), second = angular(block.second.data());
@@ -185,8 +190,7 @@ struct WallGeometry {
           points(p),
           wallSpin(spin),
           distance(Pack::load(p.distance.lane.data())) {
-        const auto columns = loadRecords<4>(reinterpret_cast<const double*>(t), 8, b.first.data());
-        radius = columns[3];
+        radius = loadRecords<4>(reinterpret_cast<const double*>(t), 8, b.first.data())[3];
     }
 
     [[gnu::always_inline]] static void prefetchBodies(const TranslationRecord* t, const RotationRecord* r,
@@ -198,31 +202,22 @@ struct WallGeometry {
     /// @param gap m
     [[nodiscard]] Mask isWithin(double gap) const { return distance < radius + Pack(gap); }
 
-    [[nodiscard]] ContactGeometry<Pack> complete() const {
+    [[nodiscard, gnu::always_inline]] ContactGeometry<Pack> complete() const {
         ContactGeometry<Pack> g;
         g.normal = load(points.normal);
         g.overlap = radius - distance;
         g.inverseDistance = Pack(0);
         g.effectiveRadius = radius;
-        const auto [vx, vy, vz, im] =
+        auto [vx, vy, vz, im] =
             loadRecords<4>(reinterpret_cast<const double*>(translation) + 4, 8, block.first.data());
         g.velocity = Vector<Pack>{vx, vy, vz} - load(points.velocity);
         g.effectiveMass = Pack(1) / im;
         g.inverseMass = im;
         if constexpr (S::hasTorque) {
-            const auto [wx, wy, wz] =
-                loadRecords<3>(reinterpret_cast<const double*>(rotation), 8, block.first.data());
-            const Vector<Pack> own{wx, wy, wz}, wall{Pack(wallSpin.x), Pack(wallSpin.y), Pack(wallSpin.z)};
-            g.spinSum = own + wall;
-            // The wall's is in its velocity.
-            if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Sliding) {
+            g.lever = g.overlap;
+            if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Sliding)
                 g.lever = max(g.overlap, Pack(0));
-                g.spinLever = fma(Pack(-0.5), g.lever, radius) * own;
-            } else {
-                g.spinLever = fma(Pack(-0.5), g.overlap, radius) * own;
-            }
             if constexpr (S::hasContactTorque) {
-                g.spinDifference = own - wall;
                 if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
                     g.asymmetry = Pack(1);
                 g.rotationResponse = Pack(2.5) * im;
@@ -231,10 +226,19 @@ struct WallGeometry {
         return g;
     }
 
+    [[gnu::always_inline]] void completeSpins(ContactGeometry<Pack>& g) const {
+        auto [wx, wy, wz] = loadRecords<3>(reinterpret_cast<const double*>(rotation), 8, block.first.data());
+        const Vector<Pack> own{wx, wy, wz}, wall{Pack(wallSpin.x), Pack(wallSpin.y), Pack(wallSpin.z)};
+        g.spinSum = own + wall;
+        // The wall's is in its velocity.
+        g.spinLever = fma(Pack(-0.5), g.lever, radius) * own;
+        if constexpr (S::hasContactTorque) g.spinDifference = own - wall;
+    }
+
     /// Those of the grains: walls are taken to keep their velocity for the step.
     [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
                                                           Pack overlap) const {
-        const auto [wx, wy, wz] =
+        auto [wx, wy, wz] =
             loadRecords<3>(reinterpret_cast<const double*>(rotation) + 4, 8, block.first.data());
         const Vector<Pack> angular{wx, wy, wz};
         return {gatherVectors(acceleration, block.first.data()), fma(Pack(-0.5), overlap, radius) * angular,

@@ -71,8 +71,12 @@ public:
     CapillaryWatch capillaryNumbers;
 
     /// @return false if the block needs memory first; it is marked then
-    template <class Geometry>
-    [[gnu::flatten]] bool computeBlock(std::size_t number, const Geometry& geometry) {
+    /// @param geometryOf (block) its geometry, which is made in here: what would come from outside, or be
+    /// handed out, would lie in memory
+    template <class GeometryOf>
+    [[gnu::flatten]] bool computeBlock(std::size_t number, const GeometryOf& geometryOf) {
+        auto geometry = geometryOf(number);
+        using Geometry = decltype(geometry);
         BlockState& state = store.states[number];
         const std::uint32_t block = store.slots[number];  // of the memory
         const Mask listed = maskFromBits(state.listed);
@@ -91,9 +95,10 @@ public:
             return false;
         }
 
-        const ContactGeometry<Pack> g = geometry.complete();
+        ContactGeometry<Pack> g = geometry.complete();
+        if constexpr (resists != BridgeResists::Nothing && S::hasTorque) geometry.completeSpins(g);
         if (any(touching & (g.overlap > overlaps.level() * g.effectiveRadius))) [[unlikely]]
-            overlaps.note(bits(touching), g.overlap, g.effectiveRadius);
+            overlaps.note(bits(touching), copyOf(g.overlap), copyOf(g.effectiveRadius));
         // A step of no length, at the start of a scene, finds overlaps that did not begin in it.
         const Mask begins = maskFromBits(timeStep > 0 && timing.timesTouches ? 0xff : 0) & touching &
                             !maskFromBits(state.touching);
@@ -119,25 +124,31 @@ public:
                     capillaryNumbers.note(bits(bridged), number);
             }
         }
-        const LastForces last = loadLastForces(block, geometry);
-        const NormalPart normal =
-            computeNormal(block, state, g, last, touching, bridged, begins, adhesive, range);
+        LastForces last = loadLastForces(block, geometry);
+        NormalPart normal =
+            computeNormal(block, state, g, last.normalForce, touching, bridged, begins, adhesive, range);
         if constexpr (JumpsAtEnds<Adhesion>) adhesive = normal.adhesive;
         Pack normalForce = normal.repulsion - adhesive;
         if constexpr (resists != BridgeResists::Nothing)
             normalForce = normalForce + select(bridged, normal.viscous, Pack(0));
         if (ledger) [[unlikely]] {
-            writeSamples(block, g, normal, adhesive, touching, bridged);
+            writeSamples(block, copyOf(g.normal.x), copyOf(g.normal.y), copyOf(g.normal.z),
+                         copyOf(normal.lever), copyOf(normal.contact.overlap), copyOf(g.effectiveRadius),
+                         copyOf(normal.contact.effectiveMass), copyOf(normal.elastic),
+                         copyOf(normal.repulsion), copyOf(adhesive),
+                         resists != BridgeResists::Nothing ? copyOf(normal.viscous) : Pack(0), touching,
+                         bridged);
             if constexpr (ShapedGeometry<Geometry>) geometry.writeArms(memory, block);
         }
-        Vector<Pack> tangential = zero, lastTorque = zero;
+        Vector<Pack> tangential = zero(), lastTorque = zero();
         if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
         if constexpr (Friction::acts) {
-            tangential = computeFriction(block, geometry, g, last, touching, begins, normal);
+            tangential = computeFriction(number, block, geometryOf, geometry, g, last.leverless, touching,
+                                         begins, normal);
         }
         if constexpr (resists >= BridgeResists::Sliding)
-            tangential =
-                tangential + computeDrag(block, g, last, lastTorque, bridged, normal.resistance, tangential);
+            tangential = tangential + computeDrag(block, g, last.leverless, lastTorque, bridged,
+                                                  normal.resistance, tangential);
 
         if constexpr (ShapedGeometry<Geometry>) geometry.writeRecords(memory, block, normalForce, tangential);
         else writeRecords(block, g.normal, normal.lever, normalForce, tangential);
@@ -176,7 +187,7 @@ private:
     /// the trapezoidal rule.
     /// @param range m, of an attraction that jumps at its end
     NormalPart computeNormal(std::size_t block, const BlockState& state, const ContactGeometry<Pack>& g,
-                             const LastForces& last, Mask touching, [[maybe_unused]] Mask bridged,
+                             const Pack& lastNormalForce, Mask touching, [[maybe_unused]] Mask bridged,
                              Mask begins, Pack adhesive, [[maybe_unused]] Pack range) {
         NormalPart part;
         part.contact = {max(g.overlap, Pack(0)), g.effectiveRadius, g.effectiveMass};
@@ -193,7 +204,7 @@ private:
         if constexpr (resists != BridgeResists::Nothing) {
             const Pack push = select(touching, fma(force.damping, predicted, force.elastic), Pack(0));
             part.resistance = askResistance(block, g, bridged, maskFromBits(state.bridged), push - adhesive,
-                                            last.normalForce);
+                                            lastNormalForce);
             known = part.resistance.force - adhesive;
         }
         const auto withBridge = [&](Pack damping) {
@@ -201,7 +212,7 @@ private:
             else return damping;
         };
         const auto approachWith = [&](Pack damping) {
-            return fma(-halfStep, force.elastic + known - last.normalForce, predicted) /
+            return fma(-halfStep, force.elastic + known - lastNormalForce, predicted) /
                    fma(halfStep, withBridge(damping), Pack(1));
         };
 
@@ -261,23 +272,28 @@ private:
         Vector<Pack> sliding, turning;
     };
     /// @param steps of that time
-    template <class Geometry>
-    [[gnu::noinline]] MovedSprings moveSprings(Geometry geometry, ContactGeometry<Pack> g, Pack lever,
-                                               Pack steps) const {
+    template <class GeometryOf>
+    [[gnu::noinline, gnu::cold]] MovedSprings moveSprings(std::size_t number, const GeometryOf& geometryOf,
+                                                          Pack lever, Pack steps) const {
+        const auto geometry = geometryOf(number);
+        ContactGeometry<Pack> g = geometry.complete();
+        geometry.completeSpins(g);
         const ContactAcceleration<Pack> a = geometry.accelerations(acceleration, lever);
         const Pack time = Pack(timeStep) * steps, half = Pack(-0.5) * time;
         const Vector<Pack> velocity =
             fma(half, a.velocity, g.velocity) + cross(fma(half, a.spinLever, g.spinLever), g.normal);
-        MovedSprings moved{time * (velocity - dot(velocity, g.normal) * g.normal), zero};
+        MovedSprings moved{time * (velocity - dot(velocity, g.normal) * g.normal), zero()};
         if constexpr (HasContactTorque<Friction>)
             moved.turning = (time * g.effectiveRadius) * fma(half, a.spinDifference, g.spinDifference);
         return moved;
     }
 
-    template <class Geometry>
-    Vector<Pack> computeFriction(std::size_t block, const Geometry& geometry, const ContactGeometry<Pack>& g,
-                                 const LastForces& last, Mask touching, Mask begins,
-                                 const NormalPart& normal) {
+    template <class GeometryOf, class Geometry>
+    Vector<Pack> computeFriction([[maybe_unused]] std::size_t number, std::size_t block,
+                                 [[maybe_unused]] const GeometryOf& geometryOf, const Geometry& geometry,
+                                 ContactGeometry<Pack>& g, const Vector<Pack>& lastLeverless, Mask touching,
+                                 Mask begins, const NormalPart& normal) {
+        if constexpr (resists == BridgeResists::Nothing) geometry.completeSpins(g);
         const Pack approach = dot(g.velocity, g.normal);
         const Vector<Pack> sideways = fma(-approach, g.normal, g.velocity);
         // As in computeNormal, the predicted velocity gets the change of this contact's own force since the
@@ -286,7 +302,7 @@ private:
         if constexpr (ShapedGeometry<Geometry>)
             response = Pack(0.5 * implicitStep) * geometry.slidingResponse();
         else response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
-        const Vector<Pack> lever = fma(-response, last.leverless, g.spinLever);
+        const Vector<Pack> lever = fma(-response, lastLeverless, g.spinLever);
         const double before = timing.timesTouches ? 0.5 : 1;  // steps for which the spring has still to move
         Slip<Pack> slip{.velocity = sideways + cross(lever, g.normal),
                         .timeBefore = timeStep * select(begins, normal.timing.before, Pack(before)),
@@ -300,19 +316,22 @@ private:
                       .normalShift = normalShift,
                       .twist = Pack(0.5 * timeStep) * dot(g.spinSum, g.normal)});
         if (timing.springsInStep) [[unlikely]] {
-            const MovedSprings moved =
-                moveSprings(geometry, g, normal.lever, select(begins, normal.timing.before, Pack(1)));
+            MovedSprings moved = moveSprings(number, geometryOf, copyOf(normal.lever),
+                                             select(begins, normal.timing.before, Pack(1)));
             slip.timeBefore = slip.timeAfter = Pack(0);
             history.move(moved.sliding);
             if constexpr (HasContactTorque<Friction>) history.moveRotation(moved.turning, g.normal);
         }
-        const SliderForce<Pack> force = sliderForce<Friction>(laws.friction, normal.contact,
-                                                              max(normal.repulsion, Pack(0)), slip, history);
+        SliderForce<Pack> force = sliderForce<Friction>(laws.friction, normal.contact,
+                                                        max(normal.repulsion, Pack(0)), slip, history);
         if (ledger) [[unlikely]]
-            writeSample(block, &ContactSample::sliding, force, touching);
+            writeSample(block, &ContactSample::sliding, copyOf(force.force.x), copyOf(force.force.y),
+                        copyOf(force.force.z), copyOf(force.spring.x), copyOf(force.spring.y),
+                        copyOf(force.spring.z), copyOf(force.stiffness), force.slides | force.slips,
+                        touching);
         if constexpr (HasContactTorque<Friction>) computeRotation(block, g, touching, normal, slip, history);
         memory.history.store<History>(block, selectColumns<History>(touching, history));
-        return select(touching, force.force, zero);
+        return select(touching, force.force, zero());
     }
 
     /// What the bridges resist in this step; nothing where there are none.
@@ -344,15 +363,15 @@ private:
     /// The tangential force of the bridges; their torque is added to that of friction. As in
     /// computeFriction, velocities get the change of the contact's own force and torque since the last step.
     /// @param friction N, that acts on body 1 besides
-    Vector<Pack> computeDrag(std::size_t block, const ContactGeometry<Pack>& g, const LastForces& last,
-                             const Vector<Pack>& lastTorque, Mask bridged,
+    Vector<Pack> computeDrag(std::size_t block, const ContactGeometry<Pack>& g,
+                             const Vector<Pack>& lastLeverless, const Vector<Pack>& lastTorque, Mask bridged,
                              const BridgeResistance<Pack>& resistance, const Vector<Pack>& friction) {
         const Pack response = Pack(3.5 * 0.5 * implicitStep) * g.inverseMass;
         const Vector<Pack> sideways = fma(-dot(g.velocity, g.normal), g.normal, g.velocity);
-        const Vector<Pack> lever = fma(-response, last.leverless, g.spinLever);
-        Vector<Pack> own = zero;  // N m, of friction
+        const Vector<Pack> lever = fma(-response, lastLeverless, g.spinLever);
+        Vector<Pack> own = zero();  // N m, of friction
         BridgeSlip<Pack> motion{.slip = fma(response, friction, sideways + cross(lever, g.normal)),
-                                .roll = zero,
+                                .roll = zero(),
                                 .slipResponse = response,
                                 .rollResponse = Pack(0)};
         if constexpr (resists >= BridgeResists::Rolling) {
@@ -362,7 +381,7 @@ private:
                                               (motion.rollResponse / g.effectiveRadius) * (own - lastTorque));
         }
         BridgeDrag<Pack> drag = bridgeDrag(resistance, motion, g.normal);
-        drag = {select(bridged, drag.force, zero), select(bridged, drag.torque, zero)};
+        drag = {select(bridged, drag.force, zero()), select(bridged, drag.torque, zero())};
         if constexpr (resists >= BridgeResists::Rolling)
             storeTorques(block, own + g.effectiveRadius * drag.torque);
         if (ledger) [[unlikely]]
@@ -385,18 +404,23 @@ private:
         const auto forces =
             Friction::rotate(laws.friction, max(normal.repulsion, Pack(0)), g.normal, turning, history);
         if (ledger) [[unlikely]] {
-            writeSample(block, &ContactSample::rolling, forces.rolling, touching);
-            writeSample(block, &ContactSample::torsion, forces.torsion, touching);
+            const auto write = [&](SliderSample ContactSample::*part, const SliderForce<Pack>& f) {
+                writeSample(block, part, copyOf(f.force.x), copyOf(f.force.y), copyOf(f.force.z),
+                            copyOf(f.spring.x), copyOf(f.spring.y), copyOf(f.spring.z), copyOf(f.stiffness),
+                            f.slides | f.slips, touching);
+            };
+            write(&ContactSample::rolling, forces.rolling);
+            write(&ContactSample::torsion, forces.torsion);
         }
-        storeTorques(block,
-                     g.effectiveRadius * select(touching, forces.rolling.force + forces.torsion.force, zero));
+        storeTorques(
+            block, g.effectiveRadius * select(touching, forces.rolling.force + forces.torsion.force, zero()));
     }
 
     // N m, of eight contacts, on body 1.
     [[nodiscard]] Vector<Pack> loadTorques(std::size_t block) const {
         static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
         const auto* base = reinterpret_cast<const double*>(&memory.torques[block * Pack::lanes]);
-        const auto [x, y, z] = loadRecords<3>(base, 4, each.data());
+        auto [x, y, z] = loadRecords<3>(base, 4, each.data());
         return {x, y, z};
     }
     void storeTorques(std::size_t block, const Vector<Pack>& torque) {
@@ -417,10 +441,10 @@ private:
         static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
         const double* base = recordsAt(block);
         if constexpr (S::hasTorque && ShapedGeometry<Geometry>) {
-            const auto [x, y, z] = loadRecords<3>(base, 8, each.data());
+            auto [x, y, z] = loadRecords<3>(base, 8, each.data());
             return {cross(geometry.lastNormal(), {x, y, z}), gatherColumn(base + 7, 8)};
         } else if constexpr (S::hasTorque) {
-            const auto [x, y, z, normal] = loadRecords<4>(base + 4, 8, each.data());
+            auto [x, y, z, normal] = loadRecords<4>(base + 4, 8, each.data());
             return {{x, y, z}, normal};
         } else {
             return {{}, writesTorques() ? gatherColumn(base + 7, 8) : gatherColumn(base + 3, 4)};
@@ -431,8 +455,8 @@ private:
                       const Vector<Pack>& tangential) {
         double* base = recordsAt(block);
         if constexpr (S::hasTorque) {
-            const Vector<Pack> force = fma(-normalForce, direction, tangential);
-            const Vector<Pack> torque = cross(direction, tangential);
+            Vector<Pack> force = fma(-normalForce, direction, tangential);
+            Vector<Pack> torque = cross(direction, tangential);
             storeRecords(base, std::array<Pack, 8>{force.x, force.y, force.z, Pack(0.5) * overlap, torque.x,
                                                    torque.y, torque.z, normalForce});
         } else if (writesTorques()) {
@@ -448,10 +472,13 @@ private:
     // By value: what the kernel hands out by reference it would have to keep in memory in every step.
 
     /// What the ledger reads of eight contacts, without their friction.
-    [[gnu::noinline, gnu::cold]] void writeSamples(std::size_t block, ContactGeometry<Pack> g,
-                                                   NormalPart normal, Pack adhesive, Mask touching,
+    [[gnu::noinline, gnu::cold]] void writeSamples(std::size_t block, Pack normalX, Pack normalY,
+                                                   Pack normalZ, Pack lever, Pack overlap,
+                                                   Pack effectiveRadius, Pack effectiveMass, Pack elastic,
+                                                   Pack repulsion, Pack adhesive,
+                                                   [[maybe_unused]] Pack viscous, Mask touching,
                                                    Mask bridged) {
-        const Pack dashpot = normal.repulsion - select(touching, normal.elastic, Pack(0));
+        const Pack dashpot = repulsion - select(touching, elastic, Pack(0));
         for (int k = 0; k < Pack::lanes; ++k) {
             const std::size_t at = block * Pack::lanes + static_cast<std::size_t>(k);
             ContactSample& sample = memory.energies[at].now = {};
@@ -459,15 +486,14 @@ private:
             if (!touches && !joins) continue;
             sample.touching = touches ? 1 : 0;
             sample.bridged = joins ? 1 : 0;
-            sample.normal = laneOf(g.normal, k);
-            sample.halfOverlap = 0.5 * normal.lever[k];
-            sample.effectiveRadius = g.effectiveRadius[k];
+            sample.normal = {normalX[k], normalY[k], normalZ[k]};
+            sample.halfOverlap = 0.5 * lever[k];
+            sample.effectiveRadius = effectiveRadius[k];
             sample.adhesiveForce = adhesive[k];
-            if constexpr (resists != BridgeResists::Nothing) sample.bridge.normalForce = normal.viscous[k];
+            if constexpr (resists != BridgeResists::Nothing) sample.bridge.normalForce = viscous[k];
             if (!touches) continue;
-            const Contact<double> contact{normal.contact.overlap[k], normal.contact.effectiveRadius[k],
-                                          normal.contact.effectiveMass[k]};
-            sample.elasticForce = normal.elastic[k];
+            const Contact<double> contact{overlap[k], effectiveRadius[k], effectiveMass[k]};
+            sample.elasticForce = elastic[k];
             sample.dashpotForce = dashpot[k];
             NormalHistory<double> history{};
             if constexpr (HasNormalHistory<Normal>)
@@ -476,14 +502,17 @@ private:
         }
     }
     [[gnu::noinline, gnu::cold]] void writeSample(std::size_t block, SliderSample ContactSample::*part,
-                                                  SliderForce<Pack> slider, Mask touching) {
-        const Vector<Pack> spring = -slider.stiffness * slider.spring, rest = slider.force - spring;
-        const Pack stretch2 = squaredNorm(slider.spring);
+                                                  Pack forceX, Pack forceY, Pack forceZ, Pack springX,
+                                                  Pack springY, Pack springZ, Pack stiffness, Mask slides,
+                                                  Mask touching) {
+        const Vector<Pack> stretch{springX, springY, springZ},
+            spring = -stiffness * stretch, rest = Vector<Pack>{forceX, forceY, forceZ} - spring;
+        const Pack stretch2 = squaredNorm(stretch);
         for (int k = 0; k < Pack::lanes; ++k)
             if (laneOf(touching, k))
                 memory.energies[block * Pack::lanes + static_cast<std::size_t>(k)].now.*
-                    part = {laneOf(spring, k), laneOf(rest, k), stretch2[k], slider.stiffness[k],
-                            laneOf(slider.slides | slider.slips, k) ? 1.0 : 0.0};
+                    part = {laneOf(spring, k), laneOf(rest, k), stretch2[k], stiffness[k],
+                            laneOf(slides, k) ? 1.0 : 0.0};
     }
     [[gnu::noinline, gnu::cold]] void writeDrag(std::size_t block, BridgeDrag<Pack> drag, Mask bridged) {
         for (int k = 0; k < Pack::lanes; ++k) {
@@ -494,6 +523,7 @@ private:
             if constexpr (resists >= BridgeResists::Rolling) sample.torque = laneOf(drag.torque, k);
         }
     }
+    static Vector<Pack> zero() { return {Pack(0), Pack(0), Pack(0)}; }
     static bool laneOf(Mask mask, int k) { return (bits(mask) >> k & 1) != 0; }
     static Vector<double> laneOf(const Vector<Pack>& v, int k) { return {v.x[k], v.y[k], v.z[k]}; }
 
@@ -510,8 +540,6 @@ private:
         }
         state.touching = state.bridged = state.closing = 0;
     }
-
-    const Vector<Pack> zero{Pack(0), Pack(0), Pack(0)};
 
     const PreparedLaws<S>& laws;
     double timeStep;      // s

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/Prefetch.h"
@@ -27,21 +28,42 @@ inline constexpr std::size_t columnsOf = std::is_empty_v<Columns<double>>
 /// What a law remembers of one contact, as numbers: large enough for any law (SpeciesLaws asserts it).
 using ContactNumbers = std::array<double, 24>;
 
+/// Calls function(number c of a memory, number c of another ...) for each, whatever their names are. With
+/// constant places and without an array, so that g++ keeps the packs in registers.
+template <template <class> class Memory, class Function, class... Memories>
+[[gnu::always_inline]] inline void forEachNumber(Function&& function, Memories&... memories) {
+    constexpr std::size_t numbers = columnsOf<Memory>;
+    [&]<std::size_t... c>(std::index_sequence<c...>) __attribute__((always_inline)) {
+        [[maybe_unused]] const auto call = [&](std::size_t at) __attribute__((always_inline)) {
+            function(at, reinterpret_cast<std::conditional_t<std::is_const_v<Memories>, const Pack, Pack>*>(
+                             &memories)[at]...);
+        };
+        (call(c), ...);
+    }
+    (std::make_index_sequence<numbers>{});
+}
+
 /// The memory where the mask is set, zero elsewhere.
 template <template <class> class Memory>
-Memory<Pack> selectColumns(Mask mask, const Memory<Pack>& memory) {
-    auto packs = std::bit_cast<std::array<Pack, columnsOf<Memory>>>(memory);
-    for (Pack& pack : packs) pack = select(mask, pack, Pack(0));
-    return std::bit_cast<Memory<Pack>>(packs);
+[[gnu::always_inline]] inline Memory<Pack> selectColumns(Mask mask, const Memory<Pack>& memory) {
+    Memory<Pack> selected = memory;
+    forEachNumber<Memory>(
+        [mask](std::size_t, Pack & pack)
+            __attribute__((always_inline)) { pack = select(mask, pack, Pack(0)); },
+        selected);
+    return selected;
 }
 
 /// The first memory where the mask is set, the second elsewhere.
 template <template <class> class Memory>
-Memory<Pack> selectColumns(Mask mask, const Memory<Pack>& yes, const Memory<Pack>& no) {
-    auto packs = std::bit_cast<std::array<Pack, columnsOf<Memory>>>(yes);
-    const auto others = std::bit_cast<std::array<Pack, columnsOf<Memory>>>(no);
-    for (std::size_t c = 0; c < packs.size(); ++c) packs[c] = select(mask, packs[c], others[c]);
-    return std::bit_cast<Memory<Pack>>(packs);
+[[gnu::always_inline]] inline Memory<Pack> selectColumns(Mask mask, const Memory<Pack>& yes,
+                                                         const Memory<Pack>& no) {
+    Memory<Pack> selected = yes;
+    forEachNumber<Memory>(
+        [mask](std::size_t, Pack & pack, const Pack& other)
+            __attribute__((always_inline)) { pack = select(mask, pack, other); },
+        selected, no);
+    return selected;
 }
 
 /// The numbers that contacts remember: block b has columns[b * count] ... and lane k of each is contact k's
@@ -59,24 +81,29 @@ struct MemoryColumns {
     }
 
     template <template <class> class Memory>
-    [[nodiscard]] Memory<Pack> load(std::size_t block) const {
+    [[nodiscard, gnu::always_inline]] Memory<Pack> load(std::size_t block) const {
         constexpr std::size_t numbers = columnsOf<Memory>;
         if constexpr (numbers == 0) {
             return {};
         } else {
             const LaneColumn* const from = &columns[block * count];
-            std::array<Pack, numbers> packs;
-            for (std::size_t c = 0; c < numbers; ++c) packs[c] = Pack::load(from[c].lane.data());
-            return std::bit_cast<Memory<Pack>>(packs);
+            Memory<Pack> memory;
+            forEachNumber<Memory>(
+                [from](std::size_t c, Pack & pack)
+                    __attribute__((always_inline)) { pack = Pack::load(from[c].lane.data()); },
+                memory);
+            return memory;
         }
     }
     template <template <class> class Memory>
-    void store(std::size_t block, const Memory<Pack>& memory) {
+    [[gnu::always_inline]] void store(std::size_t block, const Memory<Pack>& memory) {
         constexpr std::size_t numbers = columnsOf<Memory>;
         if constexpr (numbers > 0) {
-            const auto packs = std::bit_cast<std::array<Pack, numbers>>(memory);
             LaneColumn* const to = &columns[block * count];
-            for (std::size_t c = 0; c < numbers; ++c) packs[c].store(to[c].lane.data());
+            forEachNumber<Memory>(
+                [to](std::size_t c, const Pack& pack)
+                    __attribute__((always_inline)) { pack.store(to[c].lane.data()); },
+                memory);
         }
     }
 

@@ -219,7 +219,7 @@ protected:
         for (std::size_t b = task.begin, end = task.end; b < end; ++b)
             if (slots[b] != ContactStore::asleep || unlisted > gaps[b]) {
                 prefetchFrom<Geometry>(task, b);
-                all &= kernel.computeBlock(b, geometryOf(b));
+                all &= kernel.computeBlock(b, geometryOf);
             }
         *task.overlaps = kernel.overlaps;
         if constexpr (HasLargestCapillaryNumber<Adhesion>) *task.capillaryNumbers = kernel.capillaryNumbers;

@@ -20,6 +20,10 @@
 /// Write (!a) & b with the brackets: g++ warns without them. Where a Pack is not one register, take it by
 /// const reference in functions of your own: g++ then does not comment on the calling convention.
 ///
+/// In the kernel's hot functions, leave structs, arrays and structured bindings of packs that an inlined
+/// function returns without const: g++ 12 keeps const ones in memory ("Encountered a store to a read-only
+/// decl" in -fdump-tree-sra-details), at one 64-byte store for each pack.
+///
 /// A Mask has a different size on different machines: store bits(mask), and read it by maskFromBits.
 ///
 /// Records: particles lie in memory as records of 8 (or 4) doubles. loadRecords takes eight of them and

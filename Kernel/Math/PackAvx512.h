@@ -88,6 +88,9 @@ struct Pack {
         return Pack(_mm512_div_pd(a.value, b.value));
     }
     [[gnu::always_inline]] friend Pack operator+(Pack a) { return a; }
+    /// The same, as an argument of a function that is seldom called: what is handed over itself would lie in
+    /// memory whether the function is called or not.
+    [[gnu::always_inline]] friend Pack copyOf(const Pack& a) { return Pack(a.value); }
     [[gnu::always_inline]] friend Pack operator-(Pack a) {
         return Pack(-a.value);  // g++ makes it part of an fma, which it does not of _mm512_xor_pd
     }
@@ -201,7 +204,7 @@ template <int columns>
             const __m256d upper = _mm256_load_pd(record[r + 4] + first);
             row[r] = _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(lower), upper, 1);
         }
-        const std::array<Pack, 4> block = transposeBlocks(row[0], row[1], row[2], row[3]);
+        std::array<Pack, 4> block = transposeBlocks(row[0], row[1], row[2], row[3]);
 #pragma GCC unroll 4
         for (int c = 0; c < 4; ++c)
             if (first + c < columns) result[first + c] = block[c];
@@ -216,8 +219,8 @@ requires(columns == 8 || columns == 4)
     [[gnu::always_inline]] inline void storeRecords(double* base, const std::array<Pack, columns>& column) {
 #pragma GCC unroll 2
     for (std::size_t first = 0; first < columns; first += 4) {
-        const std::array<Pack, 4> record = transposeBlocks(column[first].value, column[first + 1].value,
-                                                           column[first + 2].value, column[first + 3].value);
+        std::array<Pack, 4> record = transposeBlocks(column[first].value, column[first + 1].value,
+                                                     column[first + 2].value, column[first + 3].value);
 #pragma GCC unroll 4
         for (int r = 0; r < 4; ++r) {
             _mm256_store_pd(base + columns * r + first,

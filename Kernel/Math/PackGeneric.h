@@ -121,6 +121,8 @@ struct alignas(64) Pack {
     }
     [[gnu::always_inline]] double operator[](std::size_t lane) const { return toLanes()[lane]; }
 
+    /// The same, as an argument of a function that is seldom called: see PackAvx512.h.
+    [[gnu::always_inline]] friend Pack copyOf(const Pack& a) { return a; }
     [[gnu::always_inline]] friend Pack operator+(const Pack& a, const Pack& b) {
         return map([&](int k) __attribute__((always_inline)) { return a.value[k] + b.value[k]; });
     }

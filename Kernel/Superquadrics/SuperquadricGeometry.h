@@ -50,6 +50,7 @@ public:
     [[nodiscard]] Mask overlapping() const { return depth > Pack(0); }
     [[nodiscard]] Mask isWithin(double gap) const { return depth > Pack(-gap); }
     [[nodiscard]] ContactGeometry<Pack> complete() const;
+    void completeSpins(ContactGeometry<Pack>& /*g*/) const {}
     /// Only for integrators that do not move rigid bodies.
     [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* /*acceleration*/,
                                                           Pack /*lever*/) const {

@@ -22,7 +22,7 @@ template <class T>
     const T pull2 = squaredNorm(pull);
     const auto slides = square(sticking) * pull2 > square(threshold);
     const T sliding = limit * (sqrt(pull2) * (T(1) / max(pull2, T(smallest))));
-    const Vector<T> force = -select(slides, sliding, sticking) * pull;
+    Vector<T> force = -select(slides, sliding, sticking) * pull;
     const Vector<T> velocity = fma(slip.response, force, slip.velocity);
 
     Vector<T> stretched = fma(slip.timeBefore, velocity, spring);
