@@ -100,9 +100,9 @@ private:
         const Vec3D highest(width(), width(), 2 * width());
         for (const Vec3D& cell : latticeCells({0, 0, 0}, highest, edge, [](const Vec3D&) { return true; })) {
             if (particleHandler.getSize() == options.number) break;
-            const auto [size, position] = jittered(random.uniform(0.8, 1) * options.radius, cell, random);
-            grain.setRadius(size);
-            grain.setPosition(position);
+            const GrainRow place = jittered(random.uniform(0.8, 1) * options.radius, cell, random);
+            grain.setRadius(place.radius);
+            grain.setPosition(place.position);
             particleHandler.copyAndAddObject(grain);
         }
     }

@@ -131,10 +131,10 @@ private:
         const Vec3D lowest(0, -0.5 * options.width, 1.1 * radius),
             highest(options.length, 0.5 * options.width, 1.1 * radius + 1.35 * options.height);
         for (const Vec3D& cell : latticeCells(lowest, highest, edge, [](const Vec3D&) { return true; })) {
-            const auto [size, position] = jittered(random.uniform(0.8, 1) * radius, cell, random);
-            grain.setRadius(size);
-            grain.setPosition(position);
-            grain.setVelocity(velocityAt(position.y()));
+            const GrainRow place = jittered(random.uniform(0.8, 1) * radius, cell, random);
+            grain.setRadius(place.radius);
+            grain.setPosition(place.position);
+            grain.setVelocity(velocityAt(place.position.y()));
             particleHandler.copyAndAddObject(grain);
         }
     }

@@ -104,9 +104,9 @@ private:
         SphericalParticle grain;
         grain.setSpecies(material);
         for (const Vec3D& cell : cells()) {
-            const auto [size, position] = jittered(options.radius, cell, random);
-            grain.setRadius(size);
-            grain.setPosition(position);
+            const GrainRow place = jittered(options.radius, cell, random);
+            grain.setRadius(place.radius);
+            grain.setPosition(place.position);
             particleHandler.copyAndAddObject(grain);
         }
     }

@@ -80,12 +80,12 @@ private:
                                   [](const Vec3D&) { return true; });
         std::reverse(cells.begin(), cells.end());
         for (std::size_t k = 0; k < cells.size(); ++k) {
-            const auto [radius, position] = jittered(0.5 * diameter, cells[k], random);
+            const GrainRow place = jittered(0.5 * diameter, cells[k], random);
             SphericalParticle grain;
             grain.setSpecies(material);
-            grain.setRadius(radius);
-            grain.setPosition(position);
-            grain.setVelocity({rate * position.z(), 0, 0});
+            grain.setRadius(place.radius);
+            grain.setPosition(place.position);
+            grain.setVelocity({rate * place.position.z(), 0, 0});
             auto added = particleHandler.copyAndAddObject(grain);
             if (k < wallCount || k >= cells.size() - wallCount)
                 added.fixParticle(), added.setVelocity({0, 0, 0});

@@ -73,9 +73,9 @@ private:
         const auto fits = [&](const Vec3D& cell) { return std::hypot(cell.x(), cell.z()) < free; };
         for (const Vec3D& cell :
              latticeCells({-free, 0, -free}, {free, options.drum.length, 0.25 * free}, edge, fits)) {
-            const auto [size, position] = jittered(options.radius, cell, random);
-            grain.setRadius(size);
-            grain.setPosition(position);
+            const GrainRow place = jittered(options.radius, cell, random);
+            grain.setRadius(place.radius);
+            grain.setPosition(place.position);
             particleHandler.copyAndAddObject(grain);
         }
     }
