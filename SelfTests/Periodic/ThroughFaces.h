@@ -18,25 +18,23 @@ constexpr double length = 0x1p-6;  // m, of the periods: 15.6 r
 constexpr double timeStep = 4e-6;  // s, some 50 in a contact
 constexpr double gravity = 9.81;   // m/s^2
 
-/// A rectangle in a plane z = height in rows of bricks: corners lie within the edges of neighbours, so that
-/// none of them merge, and the rows have another pattern at each face.
-inline std::vector<Triangle> bricks(double lowest, double highest, int count = 12, double height = 0) {
-    std::vector<Triangle> triangles;
+/// A square in a plane z = height, of quadrangles with shifted corners, which are convex and do not merge:
+/// with another pattern at each face.
+inline std::vector<Triangle> paving(double lowest, double highest, int count = 12, double height = 0) {
     const double side = (highest - lowest) / count;
-    const auto add = [&](double x0, double x1, double y0, double y1) {
-        const Vector<double> a{x0, y0, height}, b{x1, y0, height}, c{x1, y1, height}, d{x0, y1, height};
-        triangles.push_back({a, b, c});
-        triangles.push_back({a, c, d});
+    const auto corner = [&](int i, int j) {
+        const bool isInside = i > 0 && j > 0 && i < count && j < count;
+        const double shift = isInside ? 0.2 * side : 0;
+        const auto at = [&](int k) { return k == count ? highest : lowest + k * side; };
+        return Vector<double>{at(i) + shift * std::sin(12.9898 * i + 78.233 * j),
+                              at(j) + shift * std::sin(39.3468 * i + 11.135 * j), height};
     };
-    for (int row = 0; row < count; ++row) {
-        const double y0 = lowest + row * side, y1 = row + 1 == count ? highest : y0 + side,
-                     shift = side * (0.3 + 0.4 * (row % 2));
-        for (int k = 0; k <= count; ++k) {
-            const double x0 = k == 0 ? lowest : lowest + (k - 1) * side + shift,
-                         x1 = k == count ? highest : lowest + k * side + shift;
-            add(x0, x1, y0, y1);
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) {
+            triangles.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+            triangles.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
         }
-    }
     return triangles;
 }
 
