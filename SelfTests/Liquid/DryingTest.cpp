@@ -81,14 +81,12 @@ TEST(Drying, bridgesHaveTheirPressureUpToTheRupture) {
             const auto surface = [&](double share) {
                 return solveBridgeSurface(bridgeOf(bodies, volume, angle), share * end * r);
             };
-            double before = std::abs(surface(0.9).pressure / last - 1);
-            for (const double share : {0.99, 0.999, 0.9999, 1 - 1e-6}) {
-                const double now = std::abs(surface(share).pressure / last - 1);
-                EXPECT_GT(now, 0);
-                EXPECT_LT(now, before) << share;
-                before = now;
-            }
-            EXPECT_LT(before, 0.01);
+            const auto lacks = [&](double share) { return std::abs(surface(share).pressure / last - 1); };
+            EXPECT_LT(lacks(0.999), lacks(0.99));
+            EXPECT_LT(lacks(0.9999), lacks(0.999));
+            // A root: a hundredth of the distance is a tenth (less where it ends otherwise than by a fold).
+            EXPECT_LT(lacks(1 - 1e-6), 0.11 * lacks(0.9999));
+            EXPECT_GT(lacks(1 - 1e-6), 0);
             for (const double share : {1 + 1e-6, 1.01, 2.0}) {
                 EXPECT_NEAR(surface(share).pressure / last, 1, 1e-12) << share;
                 EXPECT_GT(surface(share).fillingAngle1, 0);
