@@ -181,8 +181,8 @@ std::optional<DelaunayArc> findAlongBranch(const BridgeConditions& conditions, d
     const Walk result = walk(branch, *start, gap);
     if (!result.arrived) return {};
     // To rounding error, and at this very gap.
-    return stableOrNothing(branch.equations(), convergeArc(branch.equations(), gap, result.arrived->arc,
-                                                           mostQuadratureNodes));
+    return stableOrNothing(branch.equations(),
+                           convergeArc(branch.equations(), gap, result.arrived->arc, mostQuadratureNodes));
 }
 
 std::optional<BranchPoint> nextPoint(const BridgeBranch& branch, const BranchPoint& from) {

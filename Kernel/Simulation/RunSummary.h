@@ -143,7 +143,8 @@ private:
                      "lost_in_stiffening); those of MindlinIncremental do not");
     }
 
-    /// Whether one of these laws has springs that keep their stretch while their stiffness follows the overlap.
+    /// Whether one of these laws has springs that keep their stretch while their stiffness follows the
+    /// overlap.
     /// @param friction names, joined by " + "
     static bool gainsByPressing(std::string_view friction) {
         const std::string names = fmt::format(" {} ", friction);

@@ -224,8 +224,9 @@ public:
     [[nodiscard]] double energyUnaccountedFor() const { return ledger.total() - energyAtStart; }
 
     /// The time step (s) above which the stiffest possible contacts of this scene, in the densest bed, are no
-    /// longer stable: by their springs and dashpots, and the integrator. With Hertz-Mindlin it is 0.03 to 0.24
-    /// of Rayleigh's time, by the damping, which the usual share of 0.2 does not know (Kernel/Motion/README).
+    /// longer stable: by their springs and dashpots, and the integrator. With Hertz-Mindlin it is 0.03 to
+    /// 0.24 of Rayleigh's time, by the damping, which the usual share of 0.2 does not know
+    /// (Kernel/Motion/README).
     [[nodiscard]] double stabilityLimit();
     /// The same for a scene to which grains of these sizes and species will come.
     [[nodiscard]] double stabilityLimit(std::span<const SphericalParticle> toCome);

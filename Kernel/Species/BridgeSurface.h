@@ -22,8 +22,9 @@ struct BridgeSurface {
 
 /// The lateral area of the exact bridge (Young-Laplace), from the table of Kernel/Capillary: to 1.3 % up to
 /// 0.985 of the rupture distance, where the area begins to fall as a root: to 7 % up to 0.999 of it, to 11 %
-/// at it (up to 60 degrees; above to 0.6 %). Below the volumes of the table the bridge is a small one that keeps its shape, with lengths as the square root
-/// of the volume; where the bodies are farther apart than the rupture distance, it is that at this distance.
+/// at it (up to 60 degrees; above to 0.6 %). Below the volumes of the table the bridge is a small one that
+/// keeps its shape, with lengths as the square root of the volume; where the bodies are farther apart than
+/// the rupture distance, it is that at this distance.
 /// @param separation m; negative where the bodies overlap, which counts as 0
 double bridgeArea(const BridgeLiquid& bridge, double separation);
 

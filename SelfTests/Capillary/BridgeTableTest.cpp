@@ -245,6 +245,45 @@ TEST(BridgeTable, errsByNoMoreThanIsStated) {
     EXPECT_GT(last, 0.5 * 16);
 }
 
+/// The largest error of the area (%) at some shares of the rupture distance, on a grid of shapes.
+double largestErrorOfArea(double fromAngle, double toAngle, const std::vector<double>& shares) {
+    double worst = 0;
+    constexpr int angles = 13, volumes = 7;
+    for (int i = 0; i < angles; ++i)
+        for (int k = 0; k < volumes; ++k)
+            for (const double asymmetry : {0.0, 0.1, 0.5, 0.98, 1.0}) {
+                const double least = BridgeTable::leastVolume, ratio = BridgeTable::mostVolume / least;
+                const BridgeShape shape{degrees(fromAngle + (toAngle - fromAngle) * i / (angles - 1)),
+                                        least * std::pow(ratio, k / (volumes - 1.0)), asymmetry};
+                const double end = findRupture(shape.conditions())->last.gap();
+                for (const double share : shares) {
+                    const auto bridge = solveBridge(shape.conditions(), share * end);
+                    EXPECT_TRUE(bridge && bridge->unstableModes() == 0);
+                    if (!bridge) continue;
+                    const double area = bridgesAt(shape.contactAngle).lateralArea(shape, share * end);
+                    worst = std::max(worst, 100 * std::abs(area / bridge->lateralArea() - 1));
+                }
+            }
+    return worst;
+}
+
+// What BridgeSurface.h states.
+TEST(BridgeTable, areaErrsByNoMoreThanIsStated) {
+    struct Statement {
+        double fromAngle, toAngle;  // degrees
+        std::vector<double> shares;
+        double bound;  // %
+    };
+    for (const auto& [from, to, shares, bound] :
+         {Statement{0, 60, {0, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95, 0.97, 0.985}, 1.3},
+          Statement{0, 60, {0.99, 0.995, 0.999}, 7}, Statement{0, 60, {0.9999, 1 - 1e-6}, 11},
+          Statement{60, 180, {0, 0.1, 0.5, 0.9, 0.95, 0.985, 0.99, 0.999, 1 - 1e-6}, 0.6}}) {
+        const double met = largestErrorOfArea(from, to, shares);
+        EXPECT_LT(met, bound);
+        EXPECT_GT(met, 0.5 * bound);
+    }
+}
+
 // The rational function has its poles beyond the rupture distance, so that the force is finite up to it, even
 // at the tolerance of the latter.
 TEST(BridgeTable, hasNoPoleBeforeTheRupture) {

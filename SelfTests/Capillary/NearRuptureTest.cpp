@@ -77,9 +77,8 @@ Side sideOf(const WettedBody& body, double neck, double curvature) {
         const State next = stepped(state, curvature, h);
         if (!(next[2] > 0)) return {0, 1e9};  // past a bulge: it does not get there
         if (mismatch(body, next) >= 0) {
-            const double part = zeroBetween(0, h, 1e-14 * h, [&](double s) {
-                return mismatch(body, stepped(state, curvature, s));
-            });
+            const double part = zeroBetween(
+                0, h, 1e-14 * h, [&](double s) { return mismatch(body, stepped(state, curvature, s)); });
             state = stepped(state, curvature, part);
             break;
         }

@@ -69,7 +69,8 @@ TEST(Drying, bridgesHaveTheirExactArea) {
     }
 }
 
-/// The pressure goes on to the rupture, where it ends with the root of the distance to it, and is held beyond.
+/// The pressure goes on to the rupture, where it ends with the root of the distance to it, and is held
+/// beyond.
 TEST(Drying, bridgesHaveTheirPressureUpToTheRupture) {
     for (const Bodies& bodies : {equal, plane})
         for (const double angle : {0.0, 0.3, 0.9}) {

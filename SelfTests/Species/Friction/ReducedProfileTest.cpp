@@ -86,8 +86,8 @@ TYPED_TEST(ReducedProfiles, giveTwoThirdsOfTheStiffnessToSlipInProportionToTheOv
                 2.0 / steps);
 }
 
-/// What a contact gains (J) that is shifted at an overlap, pressed deeper, shifted back and let go: nothing is
-/// put in but the work of the shifts.
+/// What a contact gains (J) that is shifted at an overlap, pressed deeper, shifted back and let go: nothing
+/// is put in but the work of the shifts.
 template <class Law>
 double gainedByPressing(double overlap, double deeper, double shift, double shearModulus, double radius) {
     Moved<Law> contact;
