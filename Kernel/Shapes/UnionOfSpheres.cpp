@@ -192,14 +192,29 @@ std::vector<Cap> capsOn(const Ball& sphere, std::span<const Ball> others) {
     return caps;
 }
 
+double between(const Cap& a, const Cap& b) {
+    return std::acos(std::clamp(a.middle.dot(b.middle), -1.0, 1.0));
+}
+
+/// Removes those that are within another one, as those of next neighbours in a chain.
+void removeHidden(std::vector<Cap>& caps) {
+    std::ranges::sort(caps, std::ranges::greater{}, &Cap::half);
+    std::vector<Cap> left;
+    for (const Cap& cap : caps)
+        if (std::ranges::none_of(
+                left, [&](const Cap& larger) { return between(cap, larger) + cap.half <= larger.half; }))
+            left.push_back(cap);
+    caps.swap(left);
+}
+
 /// The share of a sphere's surface that is free of caps, if no two of them have a point in common.
-bool freeOfSeparateCaps(const std::vector<Cap>& caps, double& share) {
+bool freeOfSeparateCaps(std::vector<Cap> caps, double& share) {
+    removeHidden(caps);
     share = 1;
     for (std::size_t k = 0; k < caps.size(); ++k) {
         share -= 0.5 * caps[k].height;
         for (std::size_t other = 0; other < k; ++other) {
-            const double between = std::acos(std::clamp(caps[k].middle.dot(caps[other].middle), -1.0, 1.0));
-            if (between < caps[k].half + caps[other].half) return false;
+            if (between(caps[k], caps[other]) < caps[k].half + caps[other].half) return false;
         }
     }
     return true;
