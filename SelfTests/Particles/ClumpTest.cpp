@@ -198,6 +198,45 @@ TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
     EXPECT_NEAR(count.netMomentum().z() / (body.getMass() * speed), 1, 0.012 * 0x1p-52 / (speed * 1e-5));
 }
 
+// Two spheres of 1 mm at 0.1 m: no end of an integral that halves its tolerance below round-off (once it had
+// none), and a warning at set-up, once for all bodies that are so. It comes in the run where clumps are
+// inserted there.
+TEST(Clump, warnsOfASphereThatIsApart) {
+    constexpr double r = 1e-3;
+    const auto warningOf = [&](const ClumpTemplate& shape, int count, bool isJoined) {
+        FewGrains<Smooth> scene(material(), {}, 1e-6);
+        for (int k = 0; k < count; ++k) {
+            Clump clump{shape};
+            clump.setSpecies(scene.speciesHandler.getObject(0));
+            clump.setPosition({0, 0, 0.01 * k});
+            if (!isJoined) {
+                scene.bodyHandler.copyAndAddObject(clump);
+                continue;
+            }
+            std::vector<std::uint32_t> all;
+            for (const SphericalParticle& sphere : clump.getSpheres())
+                all.push_back(scene.particleHandler.copyAndAddObject(sphere).getId());
+            scene.bodyHandler.join(all);
+        }
+        ::testing::internal::CaptureStderr();
+        scene.initialise();
+        return ::testing::internal::GetCapturedStderr();
+    };
+    const ClumpTemplate apart({{{0, 0, 0}, r}, {{0.1, 0, 0}, r}});
+    EXPECT_NEAR(apart.getVolume(), 2 * sphereMass(r, 1), 1e-14 * apart.getVolume());
+    EXPECT_NEAR(apart.massOf(1, 1).inertia(0, 0) / (2 * 0.4 * sphereMass(r, 1) * r * r), 1, 1e-13);
+    for (const bool isJoined : {false, true}) {
+        const std::string warning = warningOf(apart, 3, isJoined);
+        EXPECT_TRUE(
+            contains(warning, "rigid body 0: the spheres of the clump do not hang together: sphere 1"))
+            << warning;
+        EXPECT_TRUE(contains(warning, "0.098 m away")) << warning;
+        EXPECT_TRUE(contains(warning, "so it is in 3 bodies")) << warning;
+        EXPECT_EQ(std::ranges::count(warning, '\n'), 1) << warning;
+    }
+    EXPECT_EQ(warningOf(ClumpTemplate(dimer(r)), 2, false), "");
+}
+
 /// Whether a sphere of one body overlaps another body's, in a periodic scene.
 template <class Scene>
 int overlaps(Scene& scene) {

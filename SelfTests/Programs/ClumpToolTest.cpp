@@ -62,6 +62,20 @@ TEST(ClumpTool, weighsSpheres) {
     EXPECT_NEAR(numbersAfter(result.output, "surface_m2")[0] / (6 * std::numbers::pi * 1e-6), 1, 1e-5);
 }
 
+// Of spheres apart it ends (once it did not), with their sum, and says which one is apart.
+TEST(ClumpTool, weighsSpheresThatAreApart) {
+    const support::TemporaryFile apart(".csv", "0,0,0,1\n100,0,0,1\n");
+    const auto result = run(tool + "--spheres " + apart.path.string());
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    const double one = 4.0 / 3 * std::numbers::pi;
+    EXPECT_NEAR(numbersAfter(result.output, "volume_m3")[0] / (2 * one), 1, 1e-11);
+    EXPECT_NEAR(numbersAfter(result.output, "principal_moments_kg_m2")[2] / (2 * one * (0.4 + 2500)), 1,
+                1e-11);
+    EXPECT_NE(result.output.find("Warning: clump: the spheres of the clump do not hang together: sphere 1 "),
+              std::string::npos)
+        << result.output;
+}
+
 // A box: m (b^2 + c^2) / 12.
 TEST(ClumpTool, weighsAMeshAndFillsItBothWays) {
     for (const std::string method : {"surface", "within"}) {
