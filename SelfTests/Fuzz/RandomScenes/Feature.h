@@ -9,6 +9,7 @@ namespace pendular::fuzz {
 
 class Making;
 struct Recipe;
+struct WrongValue;
 
 /// What of a scene does not stay as it was because of a feature, so that it is not asked for.
 enum Loses : unsigned {
@@ -62,11 +63,13 @@ std::vector<Feature> outputFeatures();
 /// Features that together break a property today. The list is to be empty.
 struct KnownFault {
     /// Names or kinds that a recipe must have all of; "no grains" stands for a scene without single ones,
-    /// "wrong" for any wrong value, and "wrong FEATURE" for one of that feature. The last one is left out.
+    /// "wrong FEATURE" for a wrong value of that feature, and "wrong huge" for one of 1e9 and more. The last
+    /// one is left out.
     std::vector<std::string_view> together;
     std::string_view reason;
 };
 const std::vector<KnownFault>& knownFaults();
+bool isHuge(const WrongValue& wrong);
 /// The fault that a recipe would meet; null: none.
 const KnownFault* knownFaultOf(const Recipe& recipe);
 

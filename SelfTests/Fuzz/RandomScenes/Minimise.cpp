@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "SelfTests/Fuzz/RandomScenes/Judge.h"
 
 namespace pendular::fuzz {
@@ -44,9 +46,11 @@ Recipe minimise(const Recipe& recipe, const std::function<bool(const Recipe&)>& 
 }
 
 std::string report(const Recipe& recipe, const Verdict& verdict) {
-    int left = 150;  // scenes that are tried
+    // What can be tried in a minute; each scene without an end takes seconds.
+    const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     const Recipe smallest = minimise(recipe, [&](const Recipe& smaller) {
-        return left-- > 0 && judge(smaller, {.seconds = 5}).kind() == verdict.kind();
+        return std::chrono::steady_clock::now() < until &&
+               judge(smaller, {.seconds = 2}).kind() == verdict.kind();
     });
     const Verdict last = judge(smallest);
     return fmt::format(

@@ -94,8 +94,10 @@ private:
     }
     void leaveOutKnownFaults() {
         while (const KnownFault* const fault = knownFaultOf(recipe)) {
-            if (fault->together.back().starts_with("wrong")) {
-                recipe.wrong.clear();
+            if (const std::string_view last = fault->together.back(); last.starts_with("wrong ")) {
+                std::erase_if(recipe.wrong, [&](const WrongValue& value) {
+                    return last == "wrong huge" ? isHuge(value) : last.substr(6) == value.feature;
+                });
                 continue;
             }
             const auto meant = [&](const std::string& name) {

@@ -41,8 +41,10 @@ void addShearServo(Making& making) {
 
 void addStrain(Making& making) {
     makeAllPeriodic(making);
+    const int always = making.draw.whole(0, 2);
     for (int axis = 0; axis < 3; ++axis)
-        if (!making.draw.oneIn(3)) making.scene.setStrainRate(axis, making.draw.give("rate", rateOf(making)));
+        if (making.draw.oneIn(2) || axis == always)
+            making.scene.setStrainRate(axis, making.draw.give("rate", rateOf(making)));
 }
 
 void addStressServo(Making& making) {
