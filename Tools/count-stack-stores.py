@@ -15,9 +15,9 @@ behind it. The part "all" is the whole function.
 more stores, and 77 if no function is found or none uses such registers (a machine without AVX-512).
 
 Why: g++ 12 keeps a const struct, array or structured binding of packs that an inlined function returns in memory, at
-one store for each pack (Kernel/Math/Pack.h). The kernel of grain with grain, in a box without images:
-  count-stack-stores.py libPendularKernel.a 'ContactKernel<' 'HertzianViscoelastic, pendular::Mindlin, pendular::NoAdhesion' \
-      'computeBlock<' 'PairGeometry' 'false>'
+one store for each pack (Kernel/Math/Pack.h). The kernel of grain with grain and with walls, in a build of g++:
+  count-stack-stores.py libPendularKernel.a 'ContactKernel<' 'computeBlock<' \
+      'HertzianViscoelastic, pendular::Mindlin, pendular::NoAdhesion'
 """
 import argparse
 import re

@@ -22,7 +22,8 @@
 ///
 /// In the kernel's hot functions, leave structs, arrays and structured bindings of packs that an inlined
 /// function returns without const: g++ 12 keeps const ones in memory ("Encountered a store to a read-only
-/// decl" in -fdump-tree-sra-details), at one 64-byte store for each pack.
+/// decl" in -fdump-tree-sra-details), at one 64-byte store for each pack. Tools/count-stack-stores.py counts
+/// them, and the test Contacts/PacksInRegisters bounds them.
 ///
 /// A Mask has a different size on different machines: store bits(mask), and read it by maskFromBits.
 ///
