@@ -3,7 +3,9 @@
 // ContactPatch.h).
 #include <gtest/gtest.h>
 
+#include "Kernel/Walls/WallSeams.h"
 #include "SelfTests/Support/Random.h"
+#include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/SeamScene.h"
 
 namespace pendular {
@@ -300,6 +302,46 @@ TEST(Seam, theOrderOfPartsAndWallsDoesNotMatter) {
         EXPECT_LT((pushAt(walls(one, two), centre).force - once).norm(), 1e-12 * hertz());
         EXPECT_LT((pushAt(walls(two, one), centre).force - once).norm(), 1e-12 * hertz());
     }
+}
+
+std::vector<std::string> doubts(const AddWalls& addWalls) {
+    WallScene<Smooth> scene({{.radius = radius}});
+    addWalls(scene);
+    return doubtfulSeams(scene.wallHandler, radius, radius);
+}
+
+TEST(DoubtfulSeam, isToldOfOnceForAWall) {
+    for (const double width : {0.0, 1e-12, 1e-9, 1e-8, 3e-4, 1e-3})
+        EXPECT_TRUE(doubts(meshed(twoSquares(width))).empty()) << width;
+    EXPECT_TRUE(doubts(meshed(box(at(0, 0, 0), at(1e-3, 1e-4, 1e-3), 3))).empty());  // a thin plate
+    EXPECT_TRUE(doubts(meshed(parallelogram(at(0, 0, 0), at(0.1, 0, 0), at(0, 0.1, 0.05), 7, 5))).empty());
+    for (const auto& triangles : {twoSquares(5e-5), twoSquares(0, 2e-5), twoSquares(1e-6)}) {
+        const auto told = doubts(meshed(triangles));
+        ASSERT_EQ(told.size(), 1u);
+        EXPECT_TRUE(support::isOneSentence(told[0] + "."));
+        EXPECT_TRUE(support::contains(told[0], "Part 0 of wall 0 and part 1 of wall 0"));
+    }
+    std::vector<Triangle> many;
+    for (int k = 0; k < 50; ++k)
+        append(many, parallelogram(at(1.05e-3 * k, 0, 0), at(1e-3, 0, 0), at(0, 0.05, 0)));
+    EXPECT_EQ(doubts(meshed(many)).size(), 1u);
+    const auto apart = doubts(walls(flat, mesh(parallelogram(at(0, 0, 1e-5), at(0.1, 0, 0), at(0, 0.1, 0)))));
+    ASSERT_EQ(apart.size(), 1u);
+    EXPECT_TRUE(support::contains(apart[0], "Part 0 of wall 1 and part 0 of wall 0"));
+}
+
+TEST(DoubtfulSeam, isABeltThatLiesInAFloor) {
+    const auto floor = parallelogram(at(-0.1, -0.1, 0), at(0.2, 0, 0), at(0, 0.2, 0));
+    TriangleWall belt = mesh(parallelogram(at(0, 0, 0), at(0.02, 0, 0), at(0, 0.02, 0)));
+    EXPECT_TRUE(doubts(walls(mesh(floor), belt)).empty());
+    belt.setSurfaceVelocity({0.1, 0, 0});
+    const auto told = doubts(walls(mesh(floor), belt));
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_TRUE(support::isOneSentence(told[0] + "."));
+    EXPECT_TRUE(support::contains(told[0], "touches wall 0 alone"));
+    // Beside it there is no doubt.
+    const auto beside = parallelogram(at(-0.1, -0.1, 0), at(0.1, 0, 0), at(0, 0.2, 0));
+    EXPECT_TRUE(doubts(walls(mesh(beside), belt)).empty());
 }
 
 }  // namespace
