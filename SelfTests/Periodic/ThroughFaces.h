@@ -18,22 +18,24 @@ constexpr double length = 0x1p-6;  // m, of the periods: 15.6 r
 constexpr double timeStep = 4e-6;  // s, some 50 in a contact
 constexpr double gravity = 9.81;   // m/s^2
 
-/// A square in a plane z = height, of quadrangles with shifted corners, which are convex and do not merge:
-/// with another pattern at each face.
-inline std::vector<Triangle> paving(double lowest, double highest, int count = 12, double height = 0) {
-    const double side = (highest - lowest) / count;
-    const auto corner = [&](int i, int j) {
-        const bool isInside = i > 0 && j > 0 && i < count && j < count;
-        const double shift = isInside ? 0.2 * side : 0;
-        const auto at = [&](int k) { return k == count ? highest : lowest + k * side; };
-        return Vector<double>{at(i) + shift * std::sin(12.9898 * i + 78.233 * j),
-                              at(j) + shift * std::sin(39.3468 * i + 11.135 * j), height};
-    };
+/// A square in a plane z = 0, paved by squares of two sizes (m) none of which has a whole edge in common with
+/// another one, so that they do not merge (the tiling of Pythagoras): with another pattern at each face.
+inline std::vector<Triangle> paving(double lowest, double highest, double large = 1.7 * r,
+                                    double small = 0.9 * r) {
     std::vector<Triangle> triangles;
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j) {
-            triangles.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
-            triangles.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+    const auto add = [&](double x, double y, double side) {
+        const double x0 = std::max(x, lowest), x1 = std::min(x + side, highest), y0 = std::max(y, lowest),
+                     y1 = std::min(y + side, highest);
+        if (!(x0 < x1 && y0 < y1)) return;
+        triangles.push_back({Vector<double>{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}});
+        triangles.push_back({Vector<double>{x0, y0, 0}, {x1, y1, 0}, {x0, y1, 0}});
+    };
+    const int count = static_cast<int>(2 * (highest - lowest) / large);
+    for (int i = -count; i <= count; ++i)
+        for (int j = -count; j <= count; ++j) {
+            const double x = lowest + i * large - j * small, y = lowest + i * small + j * large;
+            add(x, y, large);
+            add(x + large, y, small);
         }
     return triangles;
 }
