@@ -78,7 +78,8 @@ std::vector<Triangle> crossing(const Vector<double>& normal, const Vector<double
 }
 
 TEST(Seam, aJunctionWithRoundedCornersIsNone) {
-    const Vector<double> normal = (1 / 3.0) * at(1, 2, 2), along = (1 / std::sqrt(2.0)) * at(0, 1, -1);
+    const Vector<double> normal = (1 / std::sqrt(14.0)) * at(1, 2, 3),
+                         side = cross(normal, at(0.3, -0.5, 0.8)), along = (1 / norm(side)) * side;
     const Vector<double> across = cross(normal, along);
     const auto toFloat = [](double x) { return static_cast<double>(static_cast<float>(x)); };
     struct Case {
