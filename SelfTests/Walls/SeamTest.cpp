@@ -306,7 +306,7 @@ TEST(Seam, theOrderOfPartsAndWallsDoesNotMatter) {
 }
 
 std::vector<std::string> doubts(const AddWalls& addWalls) {
-    WallScene<Smooth> scene({{.radius = radius}});
+    WallScene<Smooth> scene({scenes::GrainMotion{.radius = radius}});
     addWalls(scene);
     return doubtfulSeams(scene.wallHandler, radius, radius);
 }
