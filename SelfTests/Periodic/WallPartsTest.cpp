@@ -96,6 +96,8 @@ TYPED_TEST(WallParts, aPavedFloorIsThePlane) {
         auto found = onFloor<TypeParam>(true, 1, beyond), expected = onFloor<TypeParam>(false);
         found->initialise();
         expected->initialise();
+        const double closedBefore = found->energyLedger().closed(),
+                     kineticBefore = found->energyLedger().kinetic;
         int heard = 0;
         for (int k = 0; k < 15; ++k) {
             found->steps(500);
@@ -110,7 +112,7 @@ TYPED_TEST(WallParts, aPavedFloorIsThePlane) {
         EXPECT_EQ(found->heard.size(),
                   expected->heard.size());  // no start and end besides those of the plane
         const EnergyLedger &a = found->energyLedger(), &b = expected->energyLedger();
-        EXPECT_NEAR(a.closed(), a.total() + a.stepError, 0);
+        EXPECT_NEAR(a.closed(), closedBefore, 1e-11 * kineticBefore);
         for (const auto& entry : EnergyLedger::entries())
             EXPECT_NEAR(a.*entry.member, b.*entry.member, 1e-6 * b.kinetic) << entry.name;
         if constexpr (requires(TypeParam s) { s.setLiquidBridgeVolumeMax(1.0); }) {
@@ -252,8 +254,8 @@ TEST(WallPartsOfBodies, clumpsRollOnAPavedFloorAsOnThePlane) {
     expectSameMotion(*found, *expected, roundOff);
 }
 
-/// A bar across the scene: a grain that goes through the face meets it as it would without a period, a period
-/// farther. The former code saw it only when the grain had been brought back.
+/// Something that stands across the scene: a grain that goes through the face meets it as it would without a
+/// period, a period farther. The former code saw it only when the grain had been brought back.
 TEST(WallParts, aGrainMeetsWhatStandsBehindTheFace) {
     for (const bool isMesh : {true, false})
         for (const double speed : {0.5, 1.0, 20.0}) {
@@ -282,7 +284,7 @@ TEST(WallParts, aGrainMeetsWhatStandsBehindTheFace) {
             };
             auto found = make(true), expected = make(false);
             EXPECT_GT(found->crossings, 0);
-            EXPECT_LT(expected->motion(0).velocity.x(), 0);
+            EXPECT_LT(expected->motion(0).velocity.x(), 0.8 * speed);  // it has met it
             expectSameMotion(*found, *expected, speed * roundOff);
         }
 }
