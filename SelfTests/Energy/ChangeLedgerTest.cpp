@@ -5,6 +5,7 @@
 #include <random>
 
 #include "Kernel/Motion/Integrator.h"
+#include "SelfTests/Energy/OpenAccount.h"
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/AnyMaterial.h"
 
@@ -140,33 +141,6 @@ std::vector<Change<S>> changesOf(const Integrator& scheme) {
     return all;
 }
 
-/// J, the largest of all entries: what sums are rounded against.
-double largestOf(const EnergyLedger& ledger) {
-    double largest = 0;
-    for (const EnergyLedger::Entry& entry : EnergyLedger::entries())
-        largest = std::max(largest, std::abs(ledger.*entry.member));
-    return largest;
-}
-
-// In a step each of some 10 contacts and grains adds up to 20 numbers, none of them larger than the largest
-// entry: 200 roundings of 2^-53 of it.
-constexpr double roundingsOfStep = 200 * 0x1p-53;
-
-/// The largest change of the closed account by a change and over so many steps, over what round-off allows.
-template <class Scene>
-double openness(Scene& scene, const std::function<void(Scene&)>& change, int steps) {
-    const double closed = scene.energyLedger().closed();
-    change(scene);
-    double largest = 0, scale = largestOf(scene.energyLedger());
-    for (int k = 1; k <= steps; ++k) {
-        scene.step();
-        scale = std::max(scale, largestOf(scene.energyLedger()));
-        largest = std::max(largest,
-                           std::abs(scene.energyLedger().closed() - closed) / (k * roundingsOfStep * scale));
-    }
-    return largest;
-}
-
 constexpr Integrator schemes[] = {integrators::predictedVelocityVerlet, integrators::springsInStep,
                                   integrators::velocityVerlet, integrators::adamsMoulton};
 
@@ -188,7 +162,7 @@ TYPED_TEST(ChangeLedger, closesOverEveryChange) {
             Chain<TypeParam> scene(scheme);
             scene.run(before);
             ASSERT_GE(scene.interactions().size(), 6u);
-            EXPECT_LT(openness(scene, change.make, after), 1);
+            EXPECT_LT(energy::openness<Chain<TypeParam>>(scene, change.make, after), 1);
         }
 }
 
@@ -207,7 +181,8 @@ TYPED_TEST(ChangeLedger, closesOverRandomChanges) {
                 const Change<TypeParam>& change = all[random() % all.size()];
                 made += fmt::format(" {},", change.name);
                 try {
-                    EXPECT_LT(openness(scene, change.make, 5), 1) << scheme.name << made;
+                    EXPECT_LT(energy::openness<Chain<TypeParam>>(scene, change.make, 5), 1)
+                        << scheme.name << made;
                     ++done;
                 } catch (const InputError&) {  // of a grain that has gone, or is part of a body
                 } catch (const RunError&) {    // they overlap too far
