@@ -40,7 +40,7 @@ function(pendular_add_self_test folder)
     target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel GTest::gtest_main)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
     # Many small files with the same includes and species: together they compile in a sixth of the time.
-    if(folder STREQUAL HowDoI)
+    if(folder STREQUAL HowDoI OR folder STREQUAL Fuzz/RandomScenes)
         set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 14)
         set_source_files_properties("${selfTests}/HowDoI/FirstDriver.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
