@@ -90,8 +90,7 @@ void Scene::refuseOtherStep() const {
     if (const std::string reason = whyStepsOfOneLength(); !reason.empty())
         throw InputError(
             fmt::format("Simulation: time step = {:.6g} s cannot be changed to {:.6g} s in the run: {}; set "
-                        "it before the "
-                        "run begins{}.",
+                        "it before the run begins{}.",
                         checkedStep, getTimeStep(), reason, laws().resistsMotion ? "" : orOtherIntegrator));
 }
 
