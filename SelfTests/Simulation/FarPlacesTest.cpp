@@ -98,6 +98,22 @@ TEST(FarPlaces, upToTheLimitGiveTheSameRebound) {
         EXPECT_NEAR(restitutionAt(share * farthest), near, 4 * error / 0.1) << share;
 }
 
+/// Where steps may be rounded, set-up says so.
+TEST(FarPlaces, thatAreNearTheLimitAreToldOf) {
+    for (const double x : {9e-3 * farthest, 1.1e-2 * farthest}) {
+        One scene({0, x, 0});
+        scene.setQuiet(false);
+        testing::internal::CaptureStderr();
+        scene.initialise();
+        const std::string log = testing::internal::GetCapturedStderr();
+        EXPECT_EQ(
+            log.find("particle 0 is so far from the origin that its position is rounded to 1e-08 of its") !=
+                std::string::npos,
+            x > 1e-2 * farthest)
+            << log;
+    }
+}
+
 TEST(FarPlaces, areRefusedAtSetUpAndInHooks) {
     for (const double x : {1.01 * farthest, 1e9, 1e12, 1e307}) {
         expectFar(refusal([&] { One scene({0, -x, 0}); }), "particle 0: position = (");
