@@ -27,7 +27,7 @@ public:
         return k;
     }
     void join(Index a, Index b) {
-        const auto [low, high] = std::minmax(lowest(a), lowest(b));
+        const auto [low, high] = std::minmax({lowest(a), lowest(b)});
         parent[high] = low;
     }
 

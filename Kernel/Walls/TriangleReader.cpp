@@ -54,9 +54,10 @@ std::vector<Triangle> readAscii(const InputFile& file, double scale) {
                                     inSolid ? "facet' or 'endsolid" : "solid"));
         expect("normal");
         // Not used: it follows from the vertices, and programs write zeros, nan or -1.#IND.
+        const std::size_t line = words.line();
         for (int k = 0; k < 3; ++k)
-            if (const std::string_view word = words.next(); word.empty() || isWord(word, "outer"))
-                file.refuse("line", words.line(), "the facet's normal is not three numbers");
+            if (const std::string_view normal = words.next(); normal.empty() || isWord(normal, "outer"))
+                file.refuse("line", line, "the facet's normal is not three numbers");
         expect("outer");
         expect("loop");
         Triangle triangle;

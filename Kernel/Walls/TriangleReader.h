@@ -10,10 +10,11 @@ namespace pendular {
 
 using Triangle = std::array<Vector<double>, 3>;  // m
 
-/// Reads triangles from a file: STL, binary or ASCII, if its name ends with .stl (in any case), else rows of
-/// nine numbers `x1 y1 z1 x2 y2 z2 x3 y3 z3`, after an optional line of column names; empty lines and lines
-/// that begin with # are skipped. Throws InputError with the file, the line or offset, and the reason. The
-/// memory used is bounded by the size of the file.
+/// Reads triangles from a file; what it is, its content says: STL, OBJ or PLY, binary or text (faces of more
+/// corners are cut into triangles), or rows of nine numbers `x1 y1 z1 x2 y2 z2 x3 y3 z3`, parted by blanks or
+/// commas, after an optional line of column names; empty lines and lines that begin with # are skipped.
+/// Throws InputError with the file, the line or offset, and the reason. The memory used is bounded by the
+/// size of the file.
 /// @param scale m for one unit of the file (1e-3 for a file in mm)
 std::vector<Triangle> readTriangles(const std::filesystem::path& path, double scale = 1);
 

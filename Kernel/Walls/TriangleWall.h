@@ -20,7 +20,7 @@ class TriangleWall final : public RigidWall, public WornWall {
 public:
     /// Throws InputError if a coordinate is not finite or no triangle has an area.
     void set(std::span<const Triangle> triangles);
-    /// Reads an STL file or rows of nine numbers (see readTriangles). Throws InputError.
+    /// Reads a mesh: STL, OBJ, PLY or rows (see readTriangles). Throws InputError.
     /// @param scale m for one unit of the file (1e-3 for a file in mm)
     void read(const std::filesystem::path& path, double scale = 1) { set(readTriangles(path, scale)); }
 

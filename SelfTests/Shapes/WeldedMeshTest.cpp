@@ -70,8 +70,8 @@ TEST(WeldedMesh, agreesWithAllPairs) {
     for (int k = 0; k < 100; ++k) {
         const double x = 0.1 * draw.uniform(0, 5);
         const auto near = [&] {
-            return Point{x + 4e-9 * draw.uniform(-1, 1), 4e-9 * draw.uniform(0, 1),
-                         4e-9 * draw.uniform(0, 1)};
+            return Point{x + 2e-9 * draw.uniform(-1, 1), 2e-9 * draw.uniform(0, 1),
+                         2e-9 * draw.uniform(0, 1)};
         };
         mesh.push_back({near(), near(), near()});
     }
