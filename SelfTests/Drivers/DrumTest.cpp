@@ -105,7 +105,8 @@ TEST(HeavyDrum, settledGrainsLieAtRestBelowTheAxis) {
 /// they are too soft for a run, the softening is named.
 TEST(Drum, takesUpSoftenedGrainsAsTheyHaveSettled) {
     const DrumShape drum = drumFor(120);
-    const RunOptions quiet{.quiet = true};
+    RunOptions quiet;
+    quiet.quiet = true;
     const auto grains = settledDrumGrains(120, drum, 20000, quiet);
     EXPECT_GT(largestOverlap(grains), largestSoundOverlap * 1e-3);
     DrumScene scene(grains, drum, 20000);
@@ -114,8 +115,9 @@ TEST(Drum, takesUpSoftenedGrainsAsTheyHaveSettled) {
     EXPECT_NO_THROW(scene.solve());
     std::string text;
     const support::TestFolder folder;
+    quiet.output = folder.path().string();
     try {
-        settledDrumGrains(120, drum, 1e9, {.output = folder.path().string(), .quiet = true});
+        settledDrumGrains(120, drum, 1e9, quiet);
     } catch (const RunError& error) {
         text = error.what();
     }
