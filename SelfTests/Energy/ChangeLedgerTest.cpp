@@ -128,7 +128,7 @@ std::vector<Change<S>> changesOf(const Integrator& scheme) {
          }}};
     if (!scheme.remembersEarlier()) {
         all.push_back({"time step", [](Scene& s) { s.setTimeStep(0.6 * dt); }});
-        if (!scheme.contacts.springsInStep)
+        if (!scheme.contacts.springsInStep && !Scene::isWet)  // whose films would weigh
             all.push_back({"a body", [](Scene& s) { s.bodyHandler.join(std::vector<std::uint32_t>{1, 4}); }});
     }
     if constexpr (Scene::isWet) {

@@ -134,7 +134,7 @@ TEST(ChangedSceneLedger, closesUnderAPistonAndWithClumps) {
         [](Pressed& s) { s.wallHandler.removeObject(1); }};
     for (const Integrator& scheme : integrators::all)
         for (const bool withClump : {false, true}) {
-            if (withClump && scheme.remembersEarlier()) continue;
+            if (withClump && (scheme.remembersEarlier() || scheme.contacts.springsInStep)) continue;
             Pressed scene(scheme, withClump);
             scene.run(30);
             ASSERT_GE(scene.interactions().size(), 4u);

@@ -57,7 +57,7 @@ Target grainFile() {
                 return std::vector<std::string>{
                     written("grains.txt",
                             [](const auto& path) {
-                                writeGrainFile(path, {{1e-3, {0, 1, 2}}, {2.5e-3, {-1e-7, 1e8, 0.1}}});
+                                writeGrainFile(path, {{1e-3, {0, 1, 2}}, {2.5e-3, {-1e-7, 1e6, 0.1}}});
                             }),
                     "type radius contact x y z\r\n0 1e-3 1e-3 0 0 0\r\n# 1\r\n0 2 2 +1 .5 -1.e2\r\n"};
             },

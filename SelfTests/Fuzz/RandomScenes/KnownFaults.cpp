@@ -11,21 +11,8 @@ bool isHuge(const WrongValue& wrong) { return std::isfinite(wrong.value) && std:
 
 const std::vector<KnownFault>& knownFaults() {
     static const std::vector<KnownFault> faults{
-        {{"no grains", "moving images"},
-         "a sheared or strained scene of no grains ends with 'the smallest radius, inf m'"},
-        {{"moving images", "held"}, "held grains creep in shear and strain"},
-        // A state is changed between two halves of a step, and what is booked is not.
-        {{"ledger", "LiquidDensity"}, "the ledger lacks what films weigh that bridges take or give"},
-        {{"ledger", "Radius"}, "the ledger lacks half a step's work of forces on a grain of another mass"},
-        {{"ledger", "Hold"}, "the same, of a grain that is held or let go"},
-        {{"ledger", "outlet"}, "the same, of the neighbours of a grain that leaves by an outlet"},
         {{"WallForces", "WallThatComes"},
          "the table has no row of a wall that comes until the next output, and after a restart it has one"},
-        {{"periodic", "parts"}, "walls of several parts lose contacts at the faces of a period"},
-        {{"comes in the run", "Evaporation"},
-         "bridges are prepared anew when grains come, and not by a restart"},
-        {{"wrong Clumps"}, "spheres that lie far apart: an adaptive integral without end"},
-        {{"wrong huge"}, "places and sizes beyond what a scene can resolve: 'overlap = inf m'"},
     };
     return faults;
 }
