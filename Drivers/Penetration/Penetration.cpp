@@ -27,6 +27,7 @@ public:
     template <class Walls>
     Penetration(const Options& given, const PenetrationGrains& grains, const Walls& walls)
         : PenetrationScene(grains, walls, given.speed, given.softening), options(given) {
+        if (!options.grains.empty()) acceptOverlaps(largestSoundOverlap);  // has not settled here
         setTimeMax(options.endTime);
         setSaveCount(stepsOf(options.interval, getTimeStep()));
         options.run.apply(*this);

@@ -30,6 +30,7 @@ public:
           speed(options.speed),
           quiet(options.run.quiet) {
         turn(speed);
+        if (!options.grains.empty()) acceptOverlaps(largestSoundOverlap);  // has not settled here
         setTimeMax(options.endTime);
         setSaveCount(stepsOf(options.interval, getTimeStep()));
         options.run.apply(*this);

@@ -50,7 +50,7 @@ public:
         // Under one load Hertz's overlap goes with E*^(-2/3).
         logger(LogLevel::Warn,
                "with a softening of {:g} the settled grains overlap by up to {:.2g} % of the smaller radius; "
-               "with {:.1g} they would overlap by some {:g} %.",
+               "with {:.2g} they would overlap by some {:g} %.",
                softeningOfAll, 100 * deepest, softeningOfAll * std::pow(largestSoundOverlap / deepest, 1.5),
                100 * largestSoundOverlap);
     }

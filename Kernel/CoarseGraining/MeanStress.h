@@ -13,9 +13,10 @@ namespace pendular {
 /// sum over bodies of m C_a C_b, with the velocity C against the flow of setLeesEdwards() or a strain and the
 /// mean of all, and over contacts of f_a b_b, with the force f on one body and b from the centre of the other
 /// (at a wall, from the contact point) to that of the first; over the volume. A rigid body is one with its
-/// centre of mass: so what holds it together is in the stress. (At an instant the stress of a body that turns
-/// has besides
-/// -([dw/dt] + [w]^2) J, with J the integral of rho r r; this is d/dt of [w] J, whose mean over time is 0.)
+/// centre of mass: so what holds it together is in the stress. (At an instant a body that turns adds
+/// ([dw/dt] + [w]^2) J, with J the integral of rho r r, and carries [w] J [w]^T by its turning. Neither is in
+/// the stress: their sum is d/dt of [w] J, whose mean over time is 0; each by itself is not, as in a rod that
+/// spins.)
 /// Source: Irving and Kirkwood (1950), J. Chem. Phys. 18, 817, its mean over a volume; the sum over contacts
 /// is that of Love and Weber. With friction it is symmetric only in the mean over time: the difference is the
 /// torque on grains whose turning changes.

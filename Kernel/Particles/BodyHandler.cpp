@@ -144,7 +144,7 @@ void BodyReference::setAngularVelocity(const Vec3D& spin) {
 }
 
 BodyHandler::Solid BodyHandler::solidOf(const std::vector<Ball>& spheres) {
-    return {unionOfSpheres(spheres).volume, exposedShares(spheres)};
+    return {unionOfSpheres(spheres, toleranceOfVolume).volume, exposedShares(spheres)};
 }
 
 BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,

@@ -192,7 +192,7 @@ void RigidBodies::measureAll(const ParticleStore& grains) {
         std::vector<Ball> spheres;
         for (const BodyMember& member : membersOf(k))
             spheres.push_back({toEigen(member.arm), grains.translation[grains.place[member.grain]].radius});
-        volumes[k] = unionOfSpheres(spheres).volume;
+        volumes[k] = unionOfSpheres(spheres, toleranceOfVolume).volume;
         const std::vector<double> shares = exposedShares(spheres);
         for (std::size_t m = 0; m < shares.size(); ++m) members[begins[k] + m].exposed = shares[m];
     }

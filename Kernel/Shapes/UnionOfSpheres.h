@@ -21,6 +21,8 @@ namespace pendular {
 /// Throws InputError without spheres, or where a centre or a radius is not finite and positive.
 /// @param tolerance relative, of the volume and of each moment
 MassProperties unionOfSpheres(std::span<const Ball> spheres, double tolerance = 1e-10);
+/// Enough for the volume of a body whose mass is known otherwise, and found sooner.
+inline constexpr double toleranceOfVolume = 1e-6;
 
 /// m^2, of the surface of the union: what exposedShares() has of each sphere.
 double surfaceOfUnion(std::span<const Ball> spheres, double tolerance = 1e-8);

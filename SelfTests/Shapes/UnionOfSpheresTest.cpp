@@ -177,6 +177,10 @@ TEST(UnionOfSpheres, exposedSharesAreThoseOfCaps) {
     EXPECT_EQ(
         exposedShares(std::vector<Ball>{{{0, 0, 0}, 1}, {{0.1, 0, 0}, 0.5}, {{0, 0, 0}, 1}, {{5, 0, 0}, 1}}),
         (std::vector<double>{1, 0, 0, 1}));
+    // The same to round-off: the first one.
+    EXPECT_EQ(exposedShares(std::vector<Ball>{{{0, 0, 0}, 1}, {{1e-17, 0, 0}, 1}, {{0, 1e-16, 0}, 1}}),
+              (std::vector<double>{1, 0, 0}));
+    EXPECT_NEAR(surfaceOfUnion(std::vector<Ball>{{{0.3, 0, 0}, 1}, {{0.1 + 0.2, 0, 0}, 1}}), 4 * pi, 1e-14);
 }
 
 /// The share of evenly spread points (a spiral of golden angles) of a sphere that are in no other one.

@@ -109,11 +109,15 @@ public:
         int count = 0;
         this->initialise();
         while (this->getTime() < end) {
-            const double push =
-                pushedSphere::lastPush * 3.5 * staticLimit * (this->getTime() + this->getTimeStep()) / end;
-            this->setGravity({push / pushedSphere::mass(), 0, -pushedSphere::gravity});
+            const auto pushAt = [&](double steps) {
+                const double time = this->getTime() + steps * this->getTimeStep();
+                return pushedSphere::lastPush * 3.5 * staticLimit * time / end;
+            };
+            // It holds for the whole step: its mean.
+            const double mean = pushAt(0.5), push = pushAt(1);
+            this->setGravity({mean / pushedSphere::mass(), 0, -pushedSphere::gravity});
             this->step();
-            const double friction = push - this->particleHandler.getObject(0).getForce().x();
+            const double friction = mean - this->particleHandler.getObject(0).getForce().x();
             if (onset.push > 0) {
                 sum += friction, ++count;
                 least = std::min(least, friction), most = std::max(most, friction);
