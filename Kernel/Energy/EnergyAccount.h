@@ -218,7 +218,7 @@ private:
             }
             ledger.loads +=
                 step * drive->meanVelocity * (mass * dot(gravity, wall.drivenNormal()) - drive->asked.load);
-            if (scheme.remembersEarlier())
+            if (!scheme.takesMeanAcceleration())
                 ledger.stepError -= mass * drive->meanVelocity *
                                     (drive->velocity - drive->startVelocity -
                                      0.5 * step * (drive->earlier + drive->acceleration));
@@ -242,7 +242,7 @@ private:
             if (!grains.isFree(k)) continue;
             const BodyMotion mean = meanMotion(grains, k);
             sum.add(step / grain.inverseMass * dot(gravity, mean.velocity));
-            if (!scheme.remembersEarlier()) continue;
+            if (scheme.takesMeanAcceleration()) continue;
             const Motion &then = before[rank[k]], now = motionOf(grains, k);
             const Vector<double> gained =
                 now.velocity - then.velocity - (0.5 * step) * (then.acceleration + now.acceleration);

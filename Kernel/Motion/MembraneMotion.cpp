@@ -76,7 +76,7 @@ MembraneWork workOf(const Membrane& membrane, const MembraneState& was, const Me
     }
     const double stored = net.stretchingEnergy(is.position) + net.bendingEnergy(is.position) -
                           net.stretchingEnergy(was.position) - net.bendingEnergy(was.position);
-    work.missing = stored + elastic + (step.scheme.remembersEarlier() ? beyond : 0);
+    work.missing = stored + elastic + (step.scheme.takesMeanAcceleration() ? 0 : beyond);
     return work;
 }
 

@@ -399,9 +399,11 @@ inline void refuseOverlap(const ObservedContact& contact, double smallerRadius, 
                                                : fmt::format("wall {}", contact.wall);
     throw InputError(fmt::format(
         "particle {} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
-        "most {:g} %, unless acceptOverlaps() allows more (up to {:g} %).",
+        "most {:g} %{}.",
         contact.particle1, other, -contact.separation, 100 * share, 100 * accepted,
-        100 * largestOverlapInRun));
+        accepted < largestOverlapInRun
+            ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * largestOverlapInRun)
+            : ""));
 }
 
 /// m, what the overlaps of a grain are held against.

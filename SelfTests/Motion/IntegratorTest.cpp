@@ -102,6 +102,10 @@ TEST(Integrator, ofOtherCoefficientsIsAnotherOneWhateverItsName) {
         mine.contacts.*part = !(mine.contacts.*part);
         EXPECT_NE(mine, standard);
     }
+    Integrator renamed = standard;
+    renamed.name = "Mine";
+    EXPECT_EQ(renamed, standard);
+    EXPECT_EQ(shownName(renamed), "PredictedVelocityVerlet");
     EXPECT_EQ(shownName(standard), "PredictedVelocityVerlet");
     EXPECT_EQ(shownName(withCorrector(0.4)), "PredictedVelocityVerlet of your own");
     EXPECT_NE(description(withCorrector(0.4)), description(withCorrector(0.3)));
@@ -178,6 +182,24 @@ TEST(Integrator, thatIsNoNumberIsRefused) {
     const std::string text = support::refusal([&] { scene.setIntegrator(withCorrector(std::nan(""))); });
     EXPECT_TRUE(support::isOneSentence(text));
     EXPECT_TRUE(support::contains(text, "integrator PredictedVelocityVerlet: corrector"));
+}
+
+/// Grains would fall with 0.9 g, or 1.1 g.
+TEST(Integrator, inWhichGrainsDoNotFallIsRefused) {
+    RoughGrains scene(0.01);
+    for (const double corrector : {0.4, 0.6}) {
+        Integrator mine = integrators::velocityVerlet;
+        mine.corrector = corrector;
+        const std::string text = support::refusal([&] { scene.setIntegrator(mine); });
+        EXPECT_TRUE(support::isOneSentence(text));
+        EXPECT_TRUE(support::contains(text, "integrator VelocityVerlet: a constant acceleration"));
+    }
+    Integrator explicitEuler = integrators::velocityVerlet;  // gains energy at any step
+    explicitEuler.velocity0 = 1, explicitEuler.corrector = 0;
+    explicitEuler.position0 = 0.5;
+    EXPECT_TRUE(support::contains(support::refusal([&] { scene.setIntegrator(explicitEuler); }),
+                                  "no step is stable"));
+    EXPECT_NO_THROW(scene.setIntegrator(withCorrector(0.4)));
 }
 
 /// A restart file of one scheme is of no other.
