@@ -17,12 +17,12 @@ std::vector<std::vector<std::size_t>> groupsOfSpheres(std::span<const Ball> sphe
         left.erase(left.begin());
         for (std::size_t next = 0; next < group.size(); ++next) {
             const Ball& own = spheres[group[next]];
-            const auto others = std::ranges::stable_partition(left, [&](std::size_t other) {
+            const auto others = std::stable_partition(left.begin(), left.end(), [&](std::size_t other) {
                 const double reach = (1 + share) * (own.radius + spheres[other].radius);
                 return (spheres[other].centre - own.centre).squaredNorm() > reach * reach;
             });
-            group.insert(group.end(), others.begin(), others.end());
-            left.erase(others.begin(), others.end());
+            group.insert(group.end(), others, left.end());
+            left.erase(others, left.end());
         }
         std::ranges::sort(group);
         groups.push_back(std::move(group));
