@@ -105,20 +105,31 @@ bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint
         const auto nearest = std::ranges::min_element(now, {}, apart);
         return nearest != now.end() && apart(*nearest) < infinity ? &*nearest : nullptr;
     };
-    for (const Seen& before : passing.before) {
-        if (before.wall != wall) continue;
-        const bool acts = store.acts(before.contact);
-        if (Seen* const partner = partnerOf(before)) {
-            partner->isTaken = true;
-            if (acts) passing.parts.push_back({wall, before.part, partner->part});
-            continue;
+    // Beside a point that the grain sees on the other side, too, it is one contact with that (WallPatches),
+    // though the parts there are cut otherwise, or have a crack.
+    const auto isBeside = [&](const Seen& point, const std::vector<Seen>& others) {
+        return std::ranges::any_of(others, [&](const Seen& other) {
+            return other.wall == wall && other.distance < infinity &&
+                   norm(other.foot - point.foot) <= 0.05 * radius;
+        });
+    };
+    for (const bool acting : {true, false})  // what remembers has the choice
+        for (const Seen& before : passing.before) {
+            const bool acts = store.acts(before.contact);
+            if (before.wall != wall || acts != acting) continue;
+            if (Seen* const partner = partnerOf(before)) {
+                partner->isTaken = true;
+                if (acts) passing.parts.push_back({wall, before.part, partner->part});
+                continue;
+            }
+            if (!before.isCovered && before.distance < touch + (acts ? range : 0) && !isBeside(before, now))
+                return false;
+            if (acts) contactsToEnd.push_back(before.contact);
         }
-        if (!before.isCovered && before.distance < touch + (acts ? range : 0)) return false;
-        if (acts) contactsToEnd.push_back(before.contact);
-    }
     meetsWalls |= !passing.parts.empty();
-    return std::ranges::none_of(
-        now, [&](const Seen& each) { return !each.isTaken && !each.isCovered && each.distance < touch; });
+    return std::ranges::none_of(now, [&](const Seen& each) {
+        return !each.isTaken && !each.isCovered && each.distance < touch && !isBeside(each, passing.before);
+    });
 }
 
 void FacePassage::rename(RememberedContacts& remembered) const {

@@ -15,6 +15,15 @@ constexpr std::size_t worthAThread = 256;  // grains near several parts
 /// deeper.
 constexpr double orderOfWalls = 1e-12;
 
+/// Of the angle between the normals at two points (60 degrees) from which on facets that continue each other
+/// are not one contact: the far side of a narrow cone or tube.
+constexpr double endOfChain = 0.5;
+/// Of the range of a bridge: within this distance of a touch, the width of the liquid of another contact
+/// counts the less, so that a touch at a step or a groove is none of the liquid's, ...
+constexpr double fadingOfLiquid = 0.1;
+/// ... but for this share of it: a crack is none at the moment of a touch, too.
+constexpr double leastOfLiquid = 0.02;
+
 double distanceOf(const ContactStore& store, std::uint32_t contact) {
     return store.wallPoints[contact / Pack::lanes - store.firstWallBlock()]
         .distance.lane[contact % Pack::lanes];
@@ -149,20 +158,25 @@ void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const Partic
     std::stable_sort(points.begin(), points.end(),
                      [](const Point& a, const Point& b) { return a.order < b.order; });
     // A point takes from those behind it by how far it counts itself, so that nothing jumps where two of
-    // several change places.
+    // several change places. A facet that is left out goes on for the one that it continues, as the next
+    // facets of a finely cut cavity lie beside it and not beside that one.
+    std::vector<const Point*> continued(points.size(), nullptr);
     for (std::size_t far = 1; far < points.size(); ++far) {
         Point& point = points[far];
         double most = 0;
         const Point* cover = nullptr;
-        for (std::size_t k = 0; k < far; ++k) {
+        for (std::size_t k = 0; k < far && point.share > 0; ++k) {
             const Point& other = points[k];
-            if (other.share == 0) continue;
+            const Point* const first = other.share > 0 ? &other : continued[k];
+            if (!first || !(dot(first->normal, point.normal) > endOfChain)) continue;
+            const double weight = other.share > 0 ? other.share : first->share;
             const double taken =
-                other.share * (1 - ownShare(contacts, walls, other, point, body.position, body.radius));
-            if (taken > most) most = taken, cover = &other;
+                weight * (1 - ownShare(contacts, walls, other, point, body.position, body.radius));
+            if (taken > most) most = taken, cover = first;
             point.share *= 1 - taken;
         }
         if (!cover) continue;
+        continued[far] = cover;
         if (point.share > 0) {
             setDistance(contacts, point.contact,
                         point.share * point.distance + (1 - point.share) * point.reach);
@@ -178,7 +192,12 @@ void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const Partic
 double WallPatches::ownShare(const ContactStore& contacts, const WallHandler& walls, const Point& near,
                              const Point& far, const Vector<double>& centre, double radius) {
     const double cosine = dot(near.normal, far.normal);
-    const double depth = patchDepth(radius, near.distance, near.reach - radius);
+    const double range = near.reach - radius, gap = far.distance - radius,
+                 pressed = patchDepth(radius, near.distance, 0),
+                 wetted = patchDepth(radius, near.distance, range) - pressed,
+                 depth = pressed +
+                         (range > 0 ? std::clamp(gap / (fadingOfLiquid * range), leastOfLiquid, 1.0) * wetted
+                                    : 0);
     const double byRise = ownShareByRise(near.distance - far.distance * cosine, depth);
     if (byRise == 0 || !(cosine > smoothCosine)) return byRise;
     const Facet a{walls.getObject(static_cast<std::size_t>(near.bucket->wall)),
@@ -187,8 +206,8 @@ double WallPatches::ownShare(const ContactStore& contacts, const WallHandler& wa
     const auto normalA = a.wall.facetNormal(a.part), normalB = b.wall.facetNormal(b.part);
     if (!normalA || !normalB || !(std::abs(dot(*normalA, *normalB)) > smoothCosine)) return byRise;
     const Vector<double> p = centre + near.distance * near.normal, q = centre + far.distance * far.normal;
-    const double gap = gapBetween(a, b, p, q, near.normal, far.normal, radius);
-    return std::min(byRise, ownShareByGap(gap, radius, depth));
+    const double between = gapBetween(a, b, p, q, near.normal, far.normal, radius);
+    return std::min(byRise, ownShareByGap(between, radius, depth));
 }
 
 }  // namespace pendular

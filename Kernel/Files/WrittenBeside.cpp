@@ -59,8 +59,12 @@ WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
     : target(std::move(path)), beside(target.string() + ".part") {
     namespace fs = std::filesystem;
     std::error_code problem;
-    for (const fs::path& one : {target, beside}) requireOwnIfThere(one);
-    if (!fs::exists(beside, problem) && fs::exists(target, problem)) fs::rename(target, beside, problem);
+    requireOwnIfThere(beside);
+    if (!fs::exists(beside, problem) && fs::exists(target, problem)) {
+        // Who has put the table elsewhere, with a link to it, keeps it: the run goes on with a copy.
+        if (fs::is_symlink(target, problem)) fs::copy_file(target, beside, problem);
+        else fs::rename(target, beside, problem);
+    }
     cutBack(beside, bytes);
     file = goOnWithFile(beside);
     if (!file) fail("cannot be written");

@@ -135,11 +135,14 @@ std::vector<Triangle> readUnmarked(InputFile& file, bool isNamedStl, double scal
     return readRows(file, scale);
 }
 
-std::vector<Triangle> readByContent(InputFile& file, bool isNamedStl, double scale) {
+/// @param ending of the file's name, which decides where the content does not
+std::vector<Triangle> readByContent(InputFile& file, const std::string& ending, double scale) {
     switch (recognise(file.text).content) {
         case FileContent::BinaryStl:
             return readBinary(file, scale);
         case FileContent::AsciiStl:
+            while (file.text.ends_with('\0') || file.text.ends_with('\x1a'))
+                file.text.pop_back();                                                    // filled up
             if (file.text.find('\0') != file.text.npos) return readBinary(file, scale);  // of a wrong length
             takeAsText(file);
             return readAscii(file, scale);
@@ -149,7 +152,11 @@ std::vector<Triangle> readByContent(InputFile& file, bool isNamedStl, double sca
         case FileContent::Ply:
             return trianglesOf(readPly(file, scale), file);
         case FileContent::Unknown:
-            return readUnmarked(file, isNamedStl, scale);
+            if (isWord(ending, ".obj")) {
+                takeAsText(file);
+                return trianglesOf(readObj(file, scale), file);
+            }
+            return readUnmarked(file, isWord(ending, ".stl"), scale);
         default:
             refuseOtherContent(file);
             return {};
@@ -161,7 +168,7 @@ std::vector<Triangle> readByContent(InputFile& file, bool isNamedStl, double sca
 std::vector<Triangle> readTriangles(const std::filesystem::path& path, double scale) {
     checkValue("TriangleWall", "scale", scale, "m", positive);
     InputFile file = loadInputFile("triangle file", path);
-    std::vector<Triangle> triangles = readByContent(file, isWord(path.extension().string(), ".stl"), scale);
+    std::vector<Triangle> triangles = readByContent(file, path.extension().string(), scale);
     if (triangles.empty()) file.refuse("holds no triangles");
     return triangles;
 }

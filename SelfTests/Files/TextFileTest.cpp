@@ -132,7 +132,8 @@ TEST(TextReaders, sayWhatFilesOfAnotherKindAre) {
                                                                           contains(reader.name, "LAMMPS") ||
                                                                           reader.name == "dump";
             if ((isMesh && readsMeshes) || (isGrains && readsGrains)) continue;  // its own
-            const std::string text = refusal([&] { reader.read(TemporaryFile(".stl", bytes).path); });
+            const std::string text =
+                refusal([&, bytes = bytes] { reader.read(TemporaryFile(".stl", bytes).path); });
             EXPECT_TRUE(isOneSentence(text)) << reader.name;
             EXPECT_TRUE(contains(text, "is " + name)) << reader.name;
         }

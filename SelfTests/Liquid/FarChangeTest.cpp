@@ -48,7 +48,7 @@ public:
         while (this->getNumberOfTimeSteps() < static_cast<std::size_t>(last)) this->step();
     }
     /// Of the three.
-    [[nodiscard]] std::vector<double> numbers() {
+    [[nodiscard]] std::vector<double> allNumbers() {
         std::vector<double> all;
         for (std::size_t k = 0; k < 3; ++k) {
             const scenes::GrainMotion now = this->motion(k);
@@ -105,7 +105,7 @@ TYPED_TEST_SUITE(FarFromDryingGrains, Laws);
 TYPED_TEST(FarFromDryingGrains, aChangeDoesNothing) {
     Drying<TypeParam> alone;
     alone.run(end);
-    const std::vector<double> expected = alone.numbers();
+    const std::vector<double> expected = alone.allNumbers();
     EXPECT_EQ(alone.interactions().size(), 5u);  // two bridges, and those to the floor
     EXPECT_LT(alone.liquidLedger().bridges, 0.99 * 3e-12);
     for (const FarChange<TypeParam>& change : farChanges<TypeParam>())
@@ -115,7 +115,7 @@ TYPED_TEST(FarFromDryingGrains, aChangeDoesNothing) {
             scene.run(when);
             change.make(scene);
             scene.runTo(end);
-            EXPECT_EQ(scene.numbers(), expected) << change.name << " at step " << when;
+            EXPECT_EQ(scene.allNumbers(), expected) << change.name << " at step " << when;
         }
 }
 
@@ -141,10 +141,10 @@ TYPED_TEST(FarFromDryingGrains, grainsThatComeDoNothingOverARestart) {
         again.hook = bring;
         again.initialise();
         again.runTo(end);
-        EXPECT_EQ(again.numbers(), alone.numbers()) << "restart at step " << middle;
+        EXPECT_EQ(again.allNumbers(), alone.allNumbers()) << "restart at step " << middle;
     }
     whole.runTo(end);
-    EXPECT_EQ(whole.numbers(), alone.numbers());
+    EXPECT_EQ(whole.allNumbers(), alone.allNumbers());
 }
 
 }  // namespace

@@ -19,7 +19,6 @@ using Dry = Species<HertzianViscoelastic, Mindlin>;
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
 
 constexpr double needed = r;      // m, from a face: so far a grain on it meets a wall
-constexpr double band = 0.2 * r;  // m, as far as grains may be outside where walls go on for long
 
 template <class S = Dry>
 std::unique_ptr<ThroughFaces<S>> sceneWith(std::initializer_list<int> axes = {0},

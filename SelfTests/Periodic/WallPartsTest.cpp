@@ -288,5 +288,35 @@ TEST(WallParts, aGrainMeetsWhatStandsBehindTheFace) {
         }
 }
 
+/// A floor that is one part before the face and two behind it, with a crack between them that is none for the
+/// grain.
+template <class S>
+void expectToPassACrack(double width, double y) {
+    ThroughFaces<S> scene({{.radius = r, .position = {0.6 * length, y, 0.999 * r}, .velocity = {1, 0, 0}}},
+                          {0}, material<S>());
+    std::vector<Triangle> floor;
+    const auto add = [&](double x0, double x1, double y0, double y1) {
+        const Vector<double> a{x0, y0, 0}, b{x1, y0, 0}, c{x1, y1, 0}, d{x0, y1, 0};
+        floor.push_back({a, b, c}), floor.push_back({a, c, d});
+    };
+    const double middle = 0.5 * length;
+    add(-reach, middle, -10 * r, 10 * r);
+    add(middle, length + reach, -10 * r, -0.5 * width);
+    add(middle, length + reach, 0.5 * width, 10 * r);
+    scene.add(meshOf(floor));
+    scene.initialise();
+    EXPECT_NO_THROW(scene.steps(8000)) << width << ' ' << y;
+    EXPECT_GT(scene.crossings, 0);
+    EXPECT_NEAR(scene.motion(0).position.z(), r, 0.01 * r);
+}
+
+TEST(WallParts, mayHaveACrackAtAFace) {
+    for (const double width : {0.0, 1e-12, 1e-9, 1e-8, 5e-8})
+        for (const double y : {0.0, 1e-3 * r, 0.02 * r}) {
+            expectToPassACrack<Dry>(width, y);
+            expectToPassACrack<Wet>(width, y);
+        }
+}
+
 }  // namespace
 }  // namespace pendular::periodic

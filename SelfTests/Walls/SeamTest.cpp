@@ -3,6 +3,7 @@
 // ContactPatch.h).
 #include <gtest/gtest.h>
 
+#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
 #include "Kernel/Walls/WallSeams.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
@@ -343,6 +344,83 @@ TEST(DoubtfulSeam, isABeltThatLiesInAFloor) {
     // Beside it there is no doubt.
     const auto beside = parallelogram(at(-0.1, -0.1, 0), at(0.1, 0, 0), at(0, 0.2, 0));
     EXPECT_TRUE(doubts(walls(mesh(beside), belt)).empty());
+}
+
+using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
+
+/// What edges do to a wet grain whose liquid pulls by nothing: only what it touches counts.
+Push pushOnWet(const AddWalls& addWalls, const Vec3D& centre, double volume) {
+    Wet glass = material<Wet>();
+    glass.setLiquidBridgeVolume(volume * radius * radius * radius);
+    glass.setSurfaceTension(1e-9), glass.setContactAngle(0.2);
+    WallScene<Wet> scene({{.radius = radius, .position = centre}}, glass, Vec3D::Zero(), 1e-15);
+    WallScene<Smooth> dry({}, material<Smooth>(), Vec3D::Zero(), 1e-15);
+    scene.setQuiet(), dry.setQuiet();
+    addWalls(dry);
+    for (std::size_t k = 0; k < dry.wallHandler.getSize(); ++k)
+        if (const auto* const own = dynamic_cast<const InfiniteWall*>(&dry.wallHandler.getObject(k)))
+            scene.add(*own);
+        else scene.add(dynamic_cast<const TriangleWall&>(dry.wallHandler.getObject(k)));
+    scene.initialise();
+    scene.step();
+    return {scene.particleHandler.getObject(0).getForce(), scene.touching()};
+}
+
+/// However wide the liquid is: a grain that touches two real edges or faces stands on both.
+TEST(Seam, ofAWetGrainIsNoneWhereItTouchesEdges) {
+    const double distance = radius - overlap;
+    for (const double volume : {1e-4, 1e-3, 1e-2, 0.05, 0.1}) {
+        SCOPED_TRACE(volume);
+        for (const double height : {0.05 * radius, 0.1 * radius, 0.2 * radius}) {
+            const double x = std::sqrt(distance * distance - std::pow(distance - height, 2));
+            const Push push = pushOnWet(meshed(twoSquares(0, height)), {x, 0, distance - height}, volume);
+            EXPECT_EQ(push.contacts, 2) << height;
+            EXPECT_NEAR(push.force.x(), hertz() * x / distance, 1e-3 * hertz()) << height;
+        }
+        for (const double turn : {25.0, 30.0, 40.0, 60.0}) {
+            const double half = turn / 2 * std::numbers::pi / 180;
+            const Push push = pushOnWet(walls(plane({std::sin(half), 0, -std::cos(half)}, {0, 0, 0}),
+                                              plane({-std::sin(half), 0, -std::cos(half)}, {0, 0, 0})),
+                                        {0, 0, distance / std::cos(half)}, volume);
+            EXPECT_EQ(push.contacts, 2) << turn;
+            EXPECT_NEAR(push.force.z(), 2 * hertz() * std::cos(half), 1e-3 * hertz()) << turn;
+        }
+    }
+}
+
+/// A cylinder of facets about the y axis, from inside, whose corners are off by up to a noise (m).
+std::vector<Triangle> facetedCylinder(double ownRadius, int facets, double noise) {
+    support::Random random(5);
+    std::vector<Triangle> triangles;
+    const auto corner = [&](int k, double y) {
+        const double angle = 2 * std::numbers::pi * k / facets;
+        const Vec3D off = random.inCube(noise);
+        return at(ownRadius * std::cos(angle) + off.x(), y + off.y(), ownRadius * std::sin(angle) + off.z());
+    };
+    for (int k = 0; k < facets; ++k) {
+        const double y = 5 * radius;
+        triangles.push_back({corner(k, -y), corner(k + 1, -y), corner(k + 1, y)});
+        triangles.push_back({corner(k, -y), corner(k + 1, y), corner(k, y)});
+    }
+    return triangles;
+}
+
+/// Facets that are small against the contact, and do not share their corners to the last bit, bear a grain
+/// once, as those that do.
+TEST(Seam, ofAFinelyCutCavityIsNone) {
+    for (const double own : {radius / 0.5, radius / 0.7, radius / 0.9})
+        for (const int facets : {60, 120, 360}) {
+            const double inner = own * std::cos(std::numbers::pi / facets);
+            for (const double angle : {0.1, 1.3, 4.0}) {
+                const double out = inner - radius + overlap;
+                const Vec3D centre(out * std::cos(angle), 0.3 * radius, out * std::sin(angle));
+                const Push shared = pushAt(meshed(facetedCylinder(own, facets, 0)), centre),
+                           cracked = pushAt(meshed(facetedCylinder(own, facets, 1e-9)), centre);
+                EXPECT_EQ(cracked.contacts, shared.contacts) << radius / own << ' ' << facets;
+                EXPECT_LT((cracked.force - shared.force).norm(), 1e-3 * shared.force.norm())
+                    << radius / own << ' ' << facets;
+            }
+        }
 }
 
 }  // namespace
