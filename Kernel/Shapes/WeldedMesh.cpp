@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <numeric>
 
 #include "Kernel/InputError.h"
@@ -35,23 +38,62 @@ private:
     std::vector<Index> parent;
 };
 
-/// For each point the lowest number of its set. Two points are no nearer to each other than along a
-/// direction; along this one, which is none of those that edges and planes of parts have, few points are as
-/// near.
-std::vector<Index> joinClose(std::span<const Point> points, const Point& origin, double distance) {
+/// Two points are no nearer to each other than along a direction; along this one, which is none of those that
+/// edges and planes of parts have, few points are as near. False, with nothing joined, where many are: a mesh
+/// that is small against the tolerance, as beside a corner that lies astray.
+bool joinAlong(std::span<const Point> points, const Point& origin, double distance, Sets& sets) {
     constexpr Point direction{0.7265173980555677, 0.5484317579318064, 0.41399888552313313};  // of length 1
+    constexpr std::size_t mostForEach = 64;
     std::vector<double> along(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) along[k] = dot(direction, points[k] - origin);
     std::vector<Index> order(points.size());
     std::iota(order.begin(), order.end(), Index{0});
     std::sort(order.begin(), order.end(),
               [&](Index a, Index b) { return along[a] != along[b] ? along[a] < along[b] : a < b; });
-    Sets sets(points.size());
     const double window = 1.001 * distance;  // for round-off, which is 1e-7 of it
+    std::size_t pairs = 0;
+    for (std::size_t i = 0, end = 0; i < order.size(); ++i) {
+        while (end < order.size() && along[order[end]] - along[order[i]] <= window) ++end;
+        pairs += end - i;
+    }
+    if (pairs > mostForEach * points.size()) return false;
     for (std::size_t i = 0; i < order.size(); ++i)
         for (std::size_t k = i + 1; k < order.size() && along[order[k]] - along[order[i]] <= window; ++k)
             if (squaredNorm(points[order[k]] - points[order[i]]) <= distance * distance)
                 sets.join(order[i], order[k]);
+    return true;
+}
+
+/// The same by cells that are so small that all in one are near each other: of two cells, one pair decides.
+void joinByCells(std::span<const Point> points, const Point& origin, double distance, Sets& sets) {
+    using Cell = std::array<std::int64_t, 3>;
+    const double side = distance / 1.7321;  // over sqrt(3): no diagonal is longer than the distance
+    std::map<Cell, std::vector<Index>> cells;
+    for (Index k = 0; k < points.size(); ++k) {
+        const Point p = (1 / side) * (points[k] - origin);
+        cells[{std::llround(p.x), std::llround(p.y), std::llround(p.z)}].push_back(k);
+    }
+    const auto joinFirst = [&](const std::vector<Index>& first, const std::vector<Index>& second) {
+        for (const Index a : first)
+            for (const Index b : second) {
+                if (sets.lowest(a) == sets.lowest(b)) return;
+                if (squaredNorm(points[a] - points[b]) <= distance * distance) return sets.join(a, b);
+            }
+    };
+    for (const auto& [cell, own] : cells) {
+        for (const Index k : own) sets.join(own.front(), k);
+        for (std::int64_t n = 63; n < 125; ++n) {  // each pair of cells within two sides once
+            const auto other =
+                cells.find({cell[0] + n / 25 - 2, cell[1] + n / 5 % 5 - 2, cell[2] + n % 5 - 2});
+            if (other != cells.end()) joinFirst(own, other->second);
+        }
+    }
+}
+
+/// For each point the lowest number of its set.
+std::vector<Index> joinClose(std::span<const Point> points, const Point& origin, double distance) {
+    Sets sets(points.size());
+    if (!joinAlong(points, origin, distance, sets)) joinByCells(points, origin, distance, sets);
     std::vector<Index> same(points.size());
     for (Index k = 0; k < points.size(); ++k) same[k] = sets.lowest(k);
     return same;

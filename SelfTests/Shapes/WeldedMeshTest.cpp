@@ -116,5 +116,23 @@ TEST(WeldedMesh, refusesWhatIsNoNumber) {
     }
 }
 
+/// A corner that lies astray makes the tolerance larger than all else: that is found in no time, and as all
+/// pairs have it.
+TEST(WeldedMesh, ofAMeshThatIsSmallAgainstTheTolerance) {
+    const auto grid = [](int edge, double spacing) {
+        std::vector<std::array<Point, 3>> triangles;
+        for (int k = 0; k < edge * edge; ++k) {
+            const Point a{spacing * (k % edge), spacing * (k / edge), 0};
+            triangles.push_back({a, a + Point{spacing, 0, 0}, a + Point{0, spacing, 0}});
+        }
+        triangles.push_back({Point{1e8, 0, 0}, Point{1e8, 1, 0}, Point{1e8, 0, 1}});
+        return triangles;
+    };
+    EXPECT_EQ(weld(grid(400, 1e-6), "mesh").vertices.size(), 4u);  // within 0.1 m
+    // Farther apart than the tolerance, or a little nearer.
+    EXPECT_EQ(weld(grid(20, 0.11), "mesh").vertices.size(), 21u * 21 - 1 + 3);
+    EXPECT_EQ(weld(grid(20, 0.09), "mesh").vertices.size(), 4u);
+}
+
 }  // namespace
 }  // namespace pendular
