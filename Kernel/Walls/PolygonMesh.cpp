@@ -126,6 +126,16 @@ private:
     int looks = 0;              // at all corners
 };
 
+/// To round-off: such a face covers nothing, as a triangle of this kind.
+bool isOnALine(std::span<const Vector<double>> ring) {
+    const auto distance = [&](const Vector<double>& p) { return norm(p - ring[0]); };
+    const Vector<double> along = *std::ranges::max_element(ring, {}, distance) - ring[0];
+    const double length = norm(along);
+    return std::ranges::all_of(ring, [&](const Vector<double>& p) {
+        return norm(cross(along, p - ring[0])) <= 1e-14 * length * length;
+    });
+}
+
 constexpr std::size_t mostCorners = 10000;  // of a face: 1e8 steps of work
 
 }  // namespace
@@ -149,15 +159,15 @@ std::vector<Triangle> trianglesOf(const PolygonMesh& mesh, const InputFile& file
         for (; begin < face.end; ++begin) {
             const std::int64_t corner = mesh.corners[begin];
             if (corner < 0 || corner >= static_cast<std::int64_t>(mesh.vertices.size()))
-                refuse(fmt::format("a corner is vertex {}, counted from 0; there are {} vertices", corner,
-                                   mesh.vertices.size()));
+                refuse(fmt::format("a corner is the vertex {} (counted from 1); there are {} vertices",
+                                   corner + 1, mesh.vertices.size()));
             const Vector<double>& p = mesh.vertices[static_cast<std::size_t>(corner)];
             if (ring.empty() || !(ring.back() == p)) ring.push_back(p);
         }
         while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
         if (ring.size() > mostCorners)
             refuse(fmt::format("a face has {} corners; it may have {} at most", ring.size(), mostCorners));
-        if (ring.size() < 3) continue;  // no area
+        if (ring.size() < 3 || (ring.size() > 3 && isOnALine(ring))) continue;  // no area
         const auto parts = cutPolygon(ring);
         if (parts.empty() && ring.size() > 3)
             refuse(fmt::format("the sides of a face of {} corners cross each other, or it has no area",
