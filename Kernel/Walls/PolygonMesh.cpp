@@ -159,8 +159,8 @@ std::vector<Triangle> trianglesOf(const PolygonMesh& mesh, const InputFile& file
         for (; begin < face.end; ++begin) {
             const std::int64_t corner = mesh.corners[begin];
             if (corner < 0 || corner >= static_cast<std::int64_t>(mesh.vertices.size()))
-                refuse(fmt::format("a corner is the vertex {} (counted from 1); there are {} vertices",
-                                   corner + 1, mesh.vertices.size()));
+                refuse(fmt::format("a corner is vertex {}, counted from 0; there are {} vertices", corner,
+                                   mesh.vertices.size()));
             const Vector<double>& p = mesh.vertices[static_cast<std::size_t>(corner)];
             if (ring.empty() || !(ring.back() == p)) ring.push_back(p);
         }
