@@ -33,7 +33,11 @@ Vector<double> checkedVector(std::string_view owner, std::string_view field, con
 }
 
 Vector<double> checkedDirection(std::string_view owner, std::string_view field, const Vec3D& direction) {
-    checkValue(owner, field, direction.norm(), "", positive);
+    const double largest = direction.cwiseAbs().maxCoeff(), length = direction.norm();
+    // Squares of very large and very small numbers are out of range, though directions are not.
+    if (positive.contains(largest) && !(length > 1e-150 && length < infinity))
+        return toVector(Vec3D(direction / largest).normalized());
+    checkValue(owner, field, length, "", positive);
     return toVector(direction.normalized());
 }
 

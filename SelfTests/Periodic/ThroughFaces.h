@@ -84,8 +84,10 @@ public:
             for (auto&& grain : this->particleHandler) before.push_back(grain.getPosition());
             this->step();
             std::size_t g = 0;
-            for (auto&& grain : this->particleHandler)
+            for (auto&& grain : this->particleHandler) {
+                if (g == before.size()) break;  // one that has come
                 crossings += (grain.getPosition() - before[g++]).cwiseAbs().maxCoeff() > 0.5 * length ? 1 : 0;
+            }
         }
     }
     int crossings = 0;
