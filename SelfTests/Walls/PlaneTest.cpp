@@ -106,5 +106,22 @@ TEST(PlaneAtRest, tellsWhichGrainWentThroughIt) {
     EXPECT_NE(message.find("Particle 9 went through wall 0"), std::string::npos) << message;
 }
 
+/// A normal has a direction and no length: none is too large or too small.
+TEST(Plane, hasANormalOfAnyLength) {
+    const auto pushedBy = [](double length) {
+        WallScene<Smooth> scene({{.radius = radius, .position = {0, 0, 0.99 * radius}}});
+        InfiniteWall wall;
+        wall.set(length * Vec3D(0.6, 0, -0.8), {0, 0, 0});
+        scene.add(wall);
+        scene.initialise();
+        scene.step();
+        return scene.motion(0).velocity;
+    };
+    const Vec3D expected = pushedBy(1);
+    EXPECT_GT(expected.norm(), 0);
+    for (const double length : {1e300, 1e160, 1e-160, 1e-300})
+        EXPECT_LT((pushedBy(length) - expected).norm(), 1e-12 * expected.norm()) << length;
+}
+
 }  // namespace
 }  // namespace pendular::wallTests
