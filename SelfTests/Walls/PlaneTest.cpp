@@ -109,7 +109,7 @@ TEST(PlaneAtRest, tellsWhichGrainWentThroughIt) {
 /// A normal has a direction and no length: none is too large or too small.
 TEST(Plane, hasANormalOfAnyLength) {
     const auto pushedBy = [](double length) {
-        WallScene<Smooth> scene({{.radius = radius, .position = {0, 0, 0.99 * radius}}});
+        WallScene<Smooth> scene({{.radius = radius, .position = 0.99 * radius * Vec3D(-0.6, 0, 0.8)}});
         InfiniteWall wall;
         wall.set(length * Vec3D(0.6, 0, -0.8), {0, 0, 0});
         scene.add(wall);
