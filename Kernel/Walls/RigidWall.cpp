@@ -35,7 +35,7 @@ Vector<double> checkedVector(std::string_view owner, std::string_view field, con
 Vector<double> checkedDirection(std::string_view owner, std::string_view field, const Vec3D& direction) {
     const double largest = direction.cwiseAbs().maxCoeff(), length = direction.norm();
     // Squares of very large and very small numbers are out of range, though directions are not.
-    if (positive.contains(largest) && !(length > 1e-150 && length < infinity))
+    if (direction.allFinite() && largest > 0 && !(length > 1e-150 && length < infinity))
         return toVector(Vec3D(direction / largest).normalized());
     checkValue(owner, field, length, "", positive);
     return toVector(direction.normalized());
