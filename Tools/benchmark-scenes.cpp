@@ -10,6 +10,8 @@
 #include "Drivers/Shared/BenchmarkScenes.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/Program.h"

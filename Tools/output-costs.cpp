@@ -6,6 +6,7 @@
 #include "Drivers/Shared/BenchmarkScenes.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/LastState.h"
 #include "Kernel/Output/MercuryOutput.h"

@@ -11,6 +11,7 @@
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/RunError.h"
+#include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 

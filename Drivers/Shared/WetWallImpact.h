@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Adhesion/WetWall.h"
 #include "Kernel/Species/Friction/MindlinSecant.h"

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "Drivers/Shared/CommandLine.h"
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/RunTable.h"
 #include "Kernel/Simulation/BridgeAdvice.h"
 #include "Kernel/Species/BridgeLaws.h"

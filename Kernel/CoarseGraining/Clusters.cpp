@@ -9,6 +9,7 @@
 
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/Resolution.h"
 #include "Kernel/Species/Field.h"
 

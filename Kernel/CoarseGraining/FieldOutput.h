@@ -12,6 +12,7 @@
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Output/RunTable.h"
+#include "Kernel/Parts/AdaptiveStep.h"
 #include "Kernel/State/RestartFile.h"
 
 namespace pendular {

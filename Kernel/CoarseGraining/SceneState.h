@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "Kernel/CoarseGraining/GrainState.h"
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/Parallel.h"

@@ -4,6 +4,7 @@
 #include "Kernel/Math/CountedRandom.h"
 #include "Kernel/RunError.h"
 #include "Kernel/Walls/WallHandler.h"
+#include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
 

@@ -375,6 +375,10 @@ std::size_t ContactSystem::addColumn(const NamedColumn& column) {
     contactEvents.addColumn(column.initial);
     return namedColumns.size() - 1;
 }
+double& ContactColumnReference::operator[](const ObservedContact& contact) const {
+    return contacts->columnOf(contact, number);
+}
+
 double& ContactSystem::columnOf(const ObservedContact& seen, std::size_t column) {
     return contacts.memory.named.at(slotOf(seen), column);
 }

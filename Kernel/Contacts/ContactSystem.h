@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/CapillaryWatch.h"
+#include "Kernel/Contacts/ContactColumn.h"
 #include "Kernel/Contacts/ContactEvents.h"
 #include "Kernel/Contacts/ContactLiquid.h"
 #include "Kernel/Contacts/ContactList.h"
@@ -20,22 +21,6 @@
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
-
-class ContactSystem;
-
-/// A column of numbers, one for each contact that acts, by the contact as it was observed in this step:
-/// for (const ObservedContact& contact : interactions()) age[contact] += getTimeStep().
-class ContactColumnReference {
-public:
-    ContactColumnReference(ContactSystem& system, std::size_t column) : contacts(&system), number(column) {}
-
-    /// Throws InputError where contacts have been listed again since the contact was observed.
-    [[nodiscard]] double& operator[](const ObservedContact& contact) const;
-
-private:
-    ContactSystem* contacts;
-    std::size_t number;
-};
 
 /// The contacts of a scene: their list, and the forces of a step.
 class ContactSystem {
@@ -276,9 +261,5 @@ private:
     std::vector<OverlapWatch> watches;  // of each thread
     std::vector<CapillaryWatch> capillaryWatches;
 };
-
-inline double& ContactColumnReference::operator[](const ObservedContact& contact) const {
-    return contacts->columnOf(contact, number);
-}
 
 }  // namespace pendular

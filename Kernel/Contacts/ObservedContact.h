@@ -1,12 +1,18 @@
 #pragma once
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/GrainShapes.h"
-#include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/Particles/PeriodicBox.h"
-#include "Kernel/Walls/Wall.h"
+#include <cstddef>
+#include <cstdint>
+
+#include "Kernel/Math/Vector.h"
 
 namespace pendular {
+
+class ContactLaws;
+class Wall;
+struct Bucket;
+class ContactStore;
+class ParticleStore;
+struct PeriodicBox;
 
 /// One contact as an observer sees it after a step.
 struct ObservedContact {
@@ -43,62 +49,9 @@ struct ObservedContact {
     }
 };
 
-/// @param wall of the bucket; null between grains
-inline ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& laws,
-                                      const ParticleStore& grains, const PeriodicBox& periodic,
-                                      const Bucket& bucket, const Wall* wall, std::uint32_t contact) {
-    const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
-    const BlockState& state = contacts.states[contact / Pack::lanes];
-    const std::size_t lane = contact % Pack::lanes;
-    const TranslationRecord& first = grains.translation[block.first[lane]];
-    ObservedContact seen{grains.identity[block.first[lane]],
-                         ObservedContact::none,
-                         bucket.wall,
-                         0,
-                         contacts.normalForceOf(contact),
-                         0,
-                         (state.bridged >> lane & 1) != 0,
-                         {},
-                         contacts.forceOf(contact),
-                         contacts.touches(contact),
-                         0,
-                         {},
-                         contact};
-    if (bucket.wall < 0) {
-        const TranslationRecord& second = grains.translation[block.second[lane]];
-        seen.particle2 = grains.identity[block.second[lane]];
-        seen.shift = periodic.nearest(second.position - first.position);
-        seen.separation = norm(seen.shift) - (first.radius + second.radius);
-        seen.point = first.position + (first.radius + 0.5 * seen.separation) * seen.normal();
-    } else {
-        const std::uint32_t part = block.second[lane];
-        WallPoint point;
-        wall->findPoints(first.position, first.radius, {&part, 1}, {&point, 1});
-        seen.separation = point.distance - first.radius;
-        seen.shift = point.distance * point.normal;
-        seen.point = first.position + seen.shift;
-    }
-    if (const GrainShapes* const shapes = laws.shapes()) {
-        const ShapedTouch touch =
-            wall ? shapes->touchAtPlane(grains, block.first[lane], seen.normal(),
-                                        dot(seen.shift, seen.normal()))
-                 : shapes->touch(grains, block.first[lane], block.second[lane], seen.shift);
-        seen.separation = -touch.depth;
-        seen.ownNormal = touch.normal;
-        seen.point = first.position + touch.arm1;
-    }
-    if (seen.bridged) {
-        ContactNumbers interaction;
-        contacts.memory.interaction.get(contacts.slotOf(contact), interaction.data());
-        seen.adhesiveForce =
-            laws.adhesiveForce(bucket.species1, bucket.species2, interaction.data(), seen.separation);
-    }
-    if (seen.bridged)
-        seen.bridgeVolume = laws.liquidRules(bucket.species1, bucket.species2)
-                                ? contacts.memory.volumeOf(contacts.slotOf(contact))
-                                : laws.bridgeVolume(bucket.species1, bucket.species2).value_or(0);
-    seen.normalForce += seen.adhesiveForce;
-    return seen;
-}
+/// A contact of a list as it is now. @param wall of the bucket; null between grains
+[[nodiscard]] ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& laws,
+                                             const ParticleStore& grains, const PeriodicBox& periodic,
+                                             const Bucket& bucket, const Wall* wall, std::uint32_t contact);
 
 }  // namespace pendular

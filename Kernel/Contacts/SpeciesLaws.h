@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "Kernel/Contacts/ContactKernel.h"
 #include "Kernel/Species/AdhesionEnergy.h"
 #include "Kernel/Species/SpeciesHandler.h"
@@ -253,5 +255,11 @@ private:
     SpeciesHandler<S>& species;
     std::vector<PreparedLaws<S>> prepared;  // of each bucket
 };
+
+/// The laws of the species of a handler. Those of popular species are compiled into the library.
+template <class S>
+std::unique_ptr<ContactLaws> makeSpeciesLaws(SpeciesHandler<S>& speciesHandler) {
+    return std::make_unique<SpeciesLaws<S>>(speciesHandler);
+}
 
 }  // namespace pendular

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Files/CsvFile.h"
 #include "Kernel/Output/SceneFields.h"

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Files/FileName.h"
 #include "Kernel/Output/FrameFile.h"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "Kernel/Contacts/BodyArms.h"
+#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Output/BoxFields.h"

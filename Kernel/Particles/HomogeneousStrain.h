@@ -3,19 +3,14 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Math/Servo.h"
+#include "Kernel/Particles/ControlledRate.h"
 #include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
 
-/// How the length of a periodic scene along an axis changes.
-struct AxisStrain {
-    double rate = 0;            // 1/s, of the logarithm of the length
-    bool isControlled = false;  // by a servo, so that the stress becomes the target
-    double stress = 0;          // Pa, compression positive, of the servo
-    double time = 0;            // s, of the servo
-    double largestRate = 0;     // 1/s, of the servo
-    Servo servo{};
+/// How the length of a periodic scene along an axis changes: the rate is that of its logarithm, and the stress
+/// (compression positive) that along the axis.
+struct AxisStrain : ControlledRate {
     double oneWay = 0;  // strain by the servo since the sign of its rate changed
 };
 

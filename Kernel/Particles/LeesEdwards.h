@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "Kernel/Math/Servo.h"
+#include "Kernel/Particles/ControlledRate.h"
 #include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
@@ -11,16 +11,11 @@ namespace pendular {
 /// rate x length, so that a flow whose velocity grows by the rate with each metre goes on for ever. Source:
 /// Lees and Edwards (1972), J. Phys. C 5, 1921. In a step that speed is constant. Where it changes, because
 /// the rate or the length does, all grains get the change of the flow, as in HomogeneousStrain.
-struct LeesEdwards {
+/// The rate is that of the velocity along the flow over the place along the gradient, and the stress that of
+/// the shear, against the flow.
+struct LeesEdwards : ControlledRate {
     int flow = 0, gradient = 1;  // axes
-    double rate = 0;             // 1/s, of the velocity along the flow over the place along the gradient
     bool isSet = false;
-
-    bool isControlled = false;  // by a servo, so that the shear stress becomes the target
-    double stress = 0;          // Pa, of the servo, against the flow
-    double time = 0;            // s, of the servo
-    double largestRate = 0;     // 1/s, of the servo
-    Servo servo{};
     double atLargest = 0;  // strain, for which the servo has asked for its largest rate
 
     double speed = 0;   // m/s, of the images in this step

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "Kernel/Math/Random.h"
-#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/BridgeChoice.h"
 

@@ -6,7 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Motion/GrainSizes.h"
+#include "Kernel/InputError.h"
+#include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Walls/WornWall.h"
 
 namespace pendular {

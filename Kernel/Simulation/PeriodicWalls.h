@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/State/StateArchive.h"

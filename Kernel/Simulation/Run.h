@@ -13,8 +13,8 @@
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/Progress.h"
 #include "Kernel/Simulation/RunControl.h"
-#include "Kernel/Simulation/StepTimes.h"
 #include "Kernel/State/RestartFile.h"
+#include "Kernel/Step/StepTimes.h"
 
 namespace pendular {
 
@@ -141,6 +141,7 @@ protected:
         return timeAfter(steps + 1, stepsBefore, timeBefore, timeStep);
     }
     StepTimes::Part enter(StepTimes::Part part) { return times.enter(part); }
+    [[nodiscard]] StepTimes& stepTimer() { return times; }
 
 private:
     void visitIntervals(StateArchive& archive);

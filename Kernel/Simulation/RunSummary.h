@@ -2,18 +2,22 @@
 
 #include <optional>
 
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Parts/AdaptiveStep.h"
+#include "Kernel/Motion/GrainSizes.h"
+#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Logger.h"
+#include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Output/OutputForm.h"
 #include "Kernel/Simulation/PendularState.h"
-#include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
-#include "Kernel/Simulation/StepTimes.h"
 #include "Kernel/Simulation/SummaryFile.h"
-#include "Kernel/Simulation/SummaryRows.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Friction/MindlinSecant.h"
+#include "Kernel/Step/StepTimes.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 

@@ -1,36 +1,47 @@
 #pragma once
 
+#include <concepts>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "Kernel/Boundaries/FluxPlane.h"
 #include "Kernel/Boundaries/Outlet.h"
 #include "Kernel/Boundaries/SprayHandler.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Energy/EnergyAccount.h"
+#include "Kernel/Contacts/ContactColumn.h"
+#include "Kernel/Contacts/ContactEvent.h"
+#include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Contacts/Evaporation.h"
+#include "Kernel/Contacts/LiquidLedger.h"
+#include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Insertion/ClumpInsertion.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Motion/MembraneMotion.h"
-#include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Output/OutputForm.h"
 #include "Kernel/Particles/BodyHandler.h"
-#include "Kernel/Particles/HomogeneousStrain.h"
-#include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Particles/ParticleHandler.h"
-#include "Kernel/Simulation/AdaptiveStep.h"
 #include "Kernel/Simulation/DomainBox.h"
-#include "Kernel/Simulation/PeriodicWalls.h"
 #include "Kernel/Simulation/Run.h"
-#include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/StabilityAdvice.h"
+#include "Kernel/Step/StepPart.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 
+class AdaptiveStep;
+class ContactSystem;
+struct GrainSizes;
+
 /// A scene of grains, and its run, whatever its species: Simulation has these.
 class Scene : public Run, public DomainBox {
 public:
+    ~Scene() override;
+
     [[nodiscard]] ContactLaws& laws() { return *contactLaws; }
     [[nodiscard]] const ContactLaws& laws() const { return *contactLaws; }
 
@@ -39,17 +50,6 @@ public:
     /// Called after a step, before actionsAfterTimeStep(), for each start and end of a touch or a bridge in
     /// it, in the order of identities; only after listenToContacts().
     virtual void actionsOnContactEvent(const ContactEvent& /*event*/) {}
-
-    ParticleHandler particleHandler;
-    /// Grains that are joined to rigid bodies.
-    BodyHandler bodyHandler{particleHandler, periodic};
-    WallHandler wallHandler;
-    /// Droplets that come to the grains, in a scene in which liquid moves.
-    SprayHandler sprayHandler;
-    /// Where grains come at a rate, where they go, and planes that count them.
-    InletHandler inletHandler;
-    OutletHandler outletHandler;
-    FluxPlaneHandler fluxPlaneHandler;
 
     /// Inserts grains that overlap nothing, at set-up or from a hook, after the walls that are to hold them.
     /// Dense starts (a solid fraction above 0.2, up to 0.6) take some 30 us of one core for each grain.
@@ -120,14 +120,12 @@ public:
     /// @param largestRate 1/s, 1 / time if it is not given
     void setTargetShearStress(double stress, double time, std::optional<double> largestRate = {});
     /// 1/s, in the last step.
-    [[nodiscard]] double getShearRate() const { return shear.rate; }
+    [[nodiscard]] double getShearRate() const;
     /// 1/s, of the logarithm of the length along an axis, in the last step.
     [[nodiscard]] double getStrainRate(int axis) const;
     /// m/s, of the flow of setLeesEdwards() at a place (m); it is at rest in the middle of the box.
-    [[nodiscard]] Vec3D shearFlowAt(const Vec3D& place) const {
-        return toEigen(periodic.flowAt(toVector(place)));
-    }
-    [[nodiscard]] const PeriodicBox& getPeriodicBox() const { return periodic; }
+    [[nodiscard]] Vec3D shearFlowAt(const Vec3D& place) const;
+    [[nodiscard]] const PeriodicBox& getPeriodicBox() const;
     /// Threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
     /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
@@ -135,23 +133,27 @@ public:
     /// Runs also with a step above the stability limit. That is sound only where overlaps stay so small that
     /// the contacts are softer than those of the limit, or where no bed comes to rest; else the results mean
     /// nothing.
-    void acceptUnstableTimeStep(bool accept = true) { unstableAccepted = accept; }
+    void acceptUnstableTimeStep(bool accept = true);
     /// Grains may overlap each other and walls by up to this share of the smaller radius, at most 0.5, at
     /// set-up and where they are added or put in a run; 0.05 without it. For soft grains that have settled in
     /// another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
     /// (stabilityAdvice()).
     void acceptOverlaps(double share);
     /// Keeps account of the energy; costs time, and is off by default.
-    void keepEnergyLedger(bool keep = true) {
-        if (keep != ledgerKept) requireSetUp("energy ledger");
-        ledgerKept = keep;
+    void keepEnergyLedger(bool keep = true);
+    /// Something of the driver's own that acts in each step, behind all parts of the kernel (StepPart.h says
+    /// when): addPart<Draught>(speed). At set-up only. Throws InputError if there is a part of its name.
+    template <std::derived_from<StepPart> Part, class... Arguments>
+    Part& addPart(Arguments&&... arguments) {
+        auto part = std::make_unique<Part>(std::forward<Arguments>(arguments)...);
+        Part& added = *part;
+        addOwnPart(std::move(part));
+        return added;
     }
 
     /// In a scene in which liquid moves: it dries so. At set-up only.
     void setEvaporation(const Evaporation& law);
-    [[nodiscard]] const Evaporation& getEvaporation() const {
-        return contactSystem.movingLiquid().evaporation();
-    }
+    [[nodiscard]] const Evaporation& getEvaporation() const;
     /// In a scene in which liquid moves, an upper bound of the liquid (m^3) that will come to what is there
     /// at the start of the run, from a driver, sprays and wet walls: it sets the quantum in which liquid is
     /// counted. Without it, 2^20 bridges of the largest volume, and at least 6 for each grain, and what
@@ -164,33 +166,26 @@ public:
     void setLiquidDensity(double density);
     /// Where the liquid is that moves, and where it came from.
     [[nodiscard]] LiquidLedger liquidLedger() const;
-    [[nodiscard]] bool movesLiquid() const { return contactSystem.movesLiquid(); }
+    [[nodiscard]] bool movesLiquid() const;
     /// m^3, what a wet wall has got back from bridges minus what it gave.
-    [[nodiscard]] double liquidOfWall(std::size_t wall) const { return contactSystem.liquidOfWall(wall); }
+    [[nodiscard]] double liquidOfWall(std::size_t wall) const;
 
     /// At the start of the run bridges join all bodies whose surfaces are not farther apart than the gap (m),
     /// as if they had touched before; without it only those that touch. For bridges of constant volume.
     void joinAtStart(double gap);
 
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
-    void listenToContacts(bool listen = true) { contactSystem.listen(listen); }
+    void listenToContacts(bool listen = true);
     /// Those of the last step, and how many there have been.
-    [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const {
-        return contactSystem.events().ofStep();
-    }
-    [[nodiscard]] const ContactEventCounts& contactEventCounts() const {
-        return contactSystem.events().counts();
-    }
+    [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const;
+    [[nodiscard]] const ContactEventCounts& contactEventCounts() const;
 
     /// A number that is kept of each contact from now on, by name: from its first touch or bridge, when it
     /// has the initial value, until it neither touches nor is bridged. It is in restart files and in the
     /// outputs of fields, there as NAME_UNIT. At set-up only. Throws InputError for a name that is there
     /// already.
     ContactColumnReference addContactColumn(const std::string& columnName, const std::string& unit,
-                                            double initial = 0) {
-        requireSetUp("columns of contacts");
-        return {contactSystem, contactSystem.addColumn({columnName, unit, initial})};
-    }
+                                            double initial = 0);
 
     /// All contacts that have a force, in the order of identities, as of the last step.
     [[nodiscard]] std::vector<ObservedContact> interactions() const;
@@ -200,28 +195,22 @@ public:
     [[nodiscard]] Vec3D contactForceOn(std::size_t identity) const;
 
     // Of the grains that can move.
-    [[nodiscard]] double getTotalMass() const { return sumGrains(particleHandler.store()).mass; }  // kg
-    [[nodiscard]] Vec3D getCentreOfMass() const {                                                  // m
-        return toEigen(sumGrains(particleHandler.store()).centreOfMass());
-    }
-    [[nodiscard]] Vec3D getTotalMomentum() const {  // kg m/s
-        return toEigen(sumGrains(particleHandler.store()).momentum);
-    }
-    [[nodiscard]] double getKineticEnergy() const {  // J, of the centres
-        return translationalEnergy(particleHandler.store());
-    }
-    [[nodiscard]] double getRotationalEnergy() const {  // J
-        return sumGrains(particleHandler.store()).rotationalEnergy;
-    }
+    [[nodiscard]] double getTotalMass() const;         // kg
+    [[nodiscard]] Vec3D getCentreOfMass() const;       // m
+    [[nodiscard]] Vec3D getTotalMomentum() const;      // kg m/s
+    [[nodiscard]] double getKineticEnergy() const;     // J, of the centres
+    [[nodiscard]] double getRotationalEnergy() const;  // J
+    /// The rows that parts of the step add to the summary of a run.
+    void addPartsTo(SummaryRows& rows) const;
 
-    [[nodiscard]] bool acceptsUnstableTimeStep() const { return unstableAccepted; }
-    [[nodiscard]] int getNumberOfThreads() const { return threads; }
-    [[nodiscard]] Vec3D getGravity() const { return toEigen(gravity); }
-    [[nodiscard]] const ContactSystem& contacts() const { return contactSystem; }
-    [[nodiscard]] bool keepsEnergyLedger() const { return ledgerKept; }
-    [[nodiscard]] const EnergyLedger& energyLedger() const { return ledger; }
+    [[nodiscard]] bool acceptsUnstableTimeStep() const;
+    [[nodiscard]] int getNumberOfThreads() const;
+    [[nodiscard]] Vec3D getGravity() const;
+    [[nodiscard]] const ContactSystem& contacts() const;
+    [[nodiscard]] bool keepsEnergyLedger() const;
+    [[nodiscard]] const EnergyLedger& energyLedger() const;
     /// J: what the ledger's total has changed by since the scene began, before any restart.
-    [[nodiscard]] double energyUnaccountedFor() const { return ledger.total() - energyAtStart; }
+    [[nodiscard]] double energyUnaccountedFor() const;
 
     /// The time step (s) above which the stiffest possible contacts of this scene, in the densest bed, are no
     /// longer stable: by their springs and dashpots, and the integrator. With Hertz-Mindlin it is 0.03 to
@@ -242,8 +231,8 @@ public:
     /// begins with setTimeStep(). At set-up; not with moving images (shear, strain), rigid bodies, walls that
     /// forces move, viscous bridges or integrators that remember a step.
     void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
-    [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const { return adaptive; }
-    [[nodiscard]] const Integrator& getIntegrator() const { return integrator; }
+    [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const;
+    [[nodiscard]] const Integrator& getIntegrator() const;
     /// What the scene makes of it: springsInStep where the friction lacks dashpots, or with the adaptive
     /// step.
     [[nodiscard]] Integrator scheme() const;
@@ -255,166 +244,38 @@ public:
 
 protected:
     Scene();
-    void setLaws(ContactLaws& of) {
-        contactLaws = &of;
-        particleHandler.setSpecies(of);
-    }
+    void setLaws(ContactLaws& of);
 
 private:
+    class Inside;
+
     void setUp() override;
     void advanceByStep(bool another) override;
     void tellEvents() override;
-
     [[nodiscard]] RunNumbers numbers() const override;
-
-    /// When species, walls and grains are known.
-    void prepare();
-    /// Throws InputError where set-up would.
-    void check();
-    /// What hooks have changed since the last step: it is checked as at set-up, and holds from now on. Throws
-    /// RunError with the sentence of set-up.
-    void takeOverChanges();
-    void mixChangedLaws();
-    [[nodiscard]] InsertionScene insertionScene() {
-        return {particleHandler, wallHandler, periodic, threads};
-    }
-    /// At the end of a step (s), grains go and come.
-    void letOutAndIn(double time);
-    /// At set-up throws, in a run warns, where not all has found room.
-    Inserted tellOf(const Inserted& made);
-    void refuseForBodies(const RigidBodies& bodies) const;
-    void refuseWideBodies();
-    void refuseForMovingImages() const;
-    /// Planes that are moved by forces.
-    void refuseForDrivenPlanes() const;
-    /// Of walls whose forces were not kept before.
-    void sumForcesOnNewDrives();
-    [[nodiscard]] PlaneMotion::Step planeStep(double length) const;
-    /// More grains touch a piston than its mass was checked for.
-    void checkTouchesOfPistons();
-    AxisStrain& axisToStrain(int axis, std::string_view what);
-    void setStrain(int axis, const AxisStrain& how);
-    /// Sets gravity, shear or strain. Throws InputError, and leaves it, if they do not fit each other.
-    template <class State>
-    void takeIfImagesAllow(State& now, const State& asked);
-    /// Where a target of the stress is set, takes the rates for the step to come. Throws RunError where the
-    /// grains cannot bear it.
-    void serveStress();
-    /// The grains go along with the strain of a step (s) to come.
-    void beginStrain(ParticleStore& grains, double length);
-    /// m/s, by which the flow at a place (m) changes with the start of the step.
-    [[nodiscard]] Vector<double> changeOfFlow(const Vector<double>& place) const;
-    void visitStrain(StateArchive& archive);
-    void visitShear(StateArchive& archive);
-    /// Whether the checks must be made again for grains that were added.
-    [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
-    void renewAccelerations(const GrainChanges& changes);
-    void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
-    /// What was stored (J) in contacts that the driver has ended.
-    void bookEnded(double stored);
-
-    void warnOfFedSprings() const;
-    void warnOfSeams() const;
-    void warnOfGapsInBodies(std::size_t first) const;
-    void refuseBoundForBodies(std::string_view call) const;
-    void refuseForAdaptiveStep() const;
-    /// Why the time step stays what it was at the start of the run; empty if it need not.
-    [[nodiscard]] std::string whyStepsOfOneLength() const;
-    /// Throws InputError where the time step was changed in a run that needs steps of one length.
-    void refuseOtherStep() const;
-    /// The step (s) from now on, where a new one is due.
-    void chooseTimeStep();
-    /// The same where grains have come: until the next choice.
-    void shortenTimeStep();
-    /// s, of the adaptive step, for the stiffest pair
-    [[nodiscard]] double largestStepOf(const GrainSizes& sizes) const;
-
-    /// The films of the grains begin to be counted.
-    void beginLiquid();
-    void refuseLiquidThatCannotMove() const;
-    /// Droplets of the step to come. Throws RunError where they are too many to be counted.
-    void emitDroplets();
-    void flyDroplets(ParticleStore& grains, double length, double grainShift);
-    /// Throws RunError, at an output, if liquid has been lost or made: an error of the program.
-    void requireLiquid() const;
-
     void visitAll(StateArchive& archive) override;
-    void visitScene(StateArchive& archive);
-    void visitSurroundings(StateArchive& archive);
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;
-
-    void advance(double length, bool another);
-    /// Returns a bound of what two grains that are near each other approach by, half of it (m).
-    double move(ParticleStore& grains, double length);
-    void finishLeftStep();
-    template <class Entries>
-    void intoLedger(Entries&& make) {
-        if (!ledgerKept) return;
-        const StepTimes::Part before = enter(StepTimes::Part::Ledger);
-        make();
-        enter(before);
-    }
-
-    /// Brings grains that have left a periodic scene back into it; at fixed steps, so that no bit depends on
-    /// when contacts are listed.
-    void bringBack(ParticleStore& grains);
-    /// The same where walls have ends (see PeriodicWalls), after contacts have been listed.
-    void bringBackAtWalls(ParticleStore& grains, double shift, double time);
-    void wrapAll(ParticleStore& grains) const;
-    /// Grains that were put outside, and all of them where the first wall with ends has come, are inside
-    /// before contacts with walls are listed.
-    void wrapPlaced(ParticleStore& grains, const GrainChanges& changes, bool hadEnds);
-    /// Grains whose images move otherwise from now on get another velocity.
-    /// @param changeAt (place, m): by how much, m/s
-    template <class Function>
-    void changeVelocities(ParticleStore& grains, Function&& changeAt);
-    static constexpr std::size_t stepsBetweenBringingBack = 256;
-    /// Whenever grains can have approached by a tenth of the smallest radius: nothing that lasts goes deeper
-    /// unseen by more. It does not depend on when contacts are listed.
-    void lookForDeepOverlaps(const ParticleStore& grains, double approach);
-
-    /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
-    void refuseRunaway(double shift) const;
+    void addOwnPart(std::unique_ptr<StepPart> part);
+    void requireNoBodies(std::string_view call) const;
+    void requireImagesAtRest(std::string_view what) const;
+    /// Of a change that does not go together with moving images; empty at set-up.
+    std::function<void()> refusalInRun();
 
     ContactLaws* contactLaws = nullptr;
-    ContactSystem contactSystem;
-    PlaneMotion planeMotion;
-    MembraneMotion membraneMotion;
-    EnergyLedger ledger;
-    EnergyAccount account;
-    PeriodicBox periodic;
-    PeriodicWalls periodicWalls;
-    PeriodicBox boxAtStep;                                          // before the step
-    Vector<double> lowestAtSetUp{0, 0, 0}, lengthAtSetUp{0, 0, 0};  // m
-    LeesEdwards shear, shearAtSetUp;
-    HomogeneousStrain strain, strainAtSetUp;
-    Vector<double> strainChange{0, 0, 0};  // 1/s, with which the step began
-    Vector<double> shearChange{0, 0, 0};   // m/s, of the image along the gradient
-    double largestReach = 0;               // m, of two centres that act on each other
-    double widestBody = 0;                 // m, of rigid bodies
-    Vector<double> gravity{0, 0, 0};
-    Integrator integrator = integrators::predictedVelocityVerlet;
-    double smallestRadius = infinity;
-    GrainSizes checkedSizes;
-    double checkedStep = unset;    // s
-    bool speciesChanged = false;   // since the run began
-    bool gravityChanged = false;   // since the run began
-    bool lawsAreNew = false;       // prepared ones are to be made again
-    double energyAtStart = 0;      // J, of the ledger
-    double leftLength = 0;         // s, of the last step, whose end may be left to the next one
-    double liquidDensity = 0;      // kg/m^3, of films; 0: they have no mass
-    double gapOfFirstBridges = 0;  // m
-    double approachUnseen = 0;     // m, of two grains since deep overlaps were looked for
-    int threads = 1;
-    AdaptiveStep adaptive;
-    ContactBounds bounds;
-    bool unstableAccepted = false;
-    std::optional<double> liquidToCome;            // m^3
-    double acceptedOverlap = largestSoundOverlap;  // of the smaller radius
-    bool springsInStep = false;  // as integrators::springsInStep: the friction lacks dashpots
-    bool ledgerKept = false;
-    bool noRoomWasTold = false;  // of insert() in the run
+    const std::unique_ptr<Inside> inside;  // before what refers to it
+
+public:
+    ParticleHandler particleHandler;
+    /// Grains that are joined to rigid bodies.
+    BodyHandler bodyHandler{particleHandler, getPeriodicBox()};
+    WallHandler wallHandler;
+    /// Droplets that come to the grains, in a scene in which liquid moves.
+    SprayHandler sprayHandler;
+    /// Where grains come at a rate, where they go, and planes that count them.
+    InletHandler inletHandler;
+    OutletHandler outletHandler;
+    FluxPlaneHandler fluxPlaneHandler;
 };
 
 }  // namespace pendular

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Species/DomainLimit.h"
 
 namespace pendular {

@@ -1,131 +1,139 @@
-#include <numbers>
+#include "Kernel/InputError.h"
+#include "Kernel/RunError.h"
+#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/SceneInside.h"
 
-#include "Kernel/Simulation/Scene.h"
-
-// What a scene says of its time step, and how it chooses one.
+// A step of a scene.
 
 namespace pendular {
 
-static constexpr std::string_view orOtherIntegrator =
-    ", or take integrators::predictedVelocityVerlet or velocityVerlet";
-
-double Scene::stableStepOfContacts() {
-    requireBegun("stableStepOfContacts()");
-    refuseBoundForBodies("stableStepOfContacts()");
-    return bounds.find(contactSystem, wallHandler, particleHandler.store(), scheme()).step;
+StepContext& Scene::Inside::contextNow(double length) {
+    context.time = scene.getTime();
+    context.length = length;
+    context.timeAfter = length > 0 ? scene.timeAfterNextStep() : context.time;
+    context.number = scene.getNumberOfTimeSteps();
+    context.shifts = {};
+    return context;
 }
 
-StabilityAdvice Scene::stabilityAdvice() {
-    requireBegun("stabilityAdvice()");
-    refuseBoundForBodies("stabilityAdvice()");
-    const ParticleStore& grains = particleHandler.store();
-    const auto find = [&](const ContactOutlook& outlook) {
-        return bounds.find(contactSystem, wallHandler, grains, scheme(), outlook);
-    };
-    const ContactBound now = find({}), pressed = find({.leastOverlap = largestSoundOverlap}),
-                       smooth = find({.sticking = false});
-    const double limit = stabilityLimit();
-    const bool acts = now.step < infinity;
-    std::size_t sides = 0, free = 0;
-    contactSystem.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-        if (contactSystem.store().touches(contact)) sides += bucket.wall < 0 ? 2 : 1;
-    });
-    for (const std::uint32_t at : grains.place) free += grains.isFree(at) ? 1 : 0;
-    return {
-        .limit = limit,
-        .step = now.step,
-        .byOverlap = acts ? now.step / pressed.step : 1,
-        .byNeighbours = acts ? pressed.step / limit : 1,
-        .byFriction = acts ? smooth.step / now.step : 1,
-        .largestOverlap = now.largestOverlap,
-        .meanOverlap = now.meanOverlap,
-        .contactsOfGrain = static_cast<double>(sides) / static_cast<double>(std::max<std::size_t>(free, 1)),
-        .slidingShare = slidingShare(contactSystem, grains),
-        .grain = now.grain,
-        .species = acts ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
-        .contactsOfThis = now.contactsOfGrain,
-        .overlapOfThis = now.overlapOfGrain};
-}
-
-void Scene::refuseBoundForBodies(std::string_view call) const {
-    if (!particleHandler.store().bodies.empty())
-        throw InputError(
-            fmt::format("Simulation: {} does not know rigid bodies; take stabilityLimit().", call));
-}
-
-void Scene::setAdaptiveTimeStep(double share, std::optional<double> largestStep) {
-    requireSetUp("adaptive time step");
-    checkValue("Simulation", "share of the adaptive time step", share, "", {0, 1, false, true});
-    if (largestStep) checkValue("Simulation", "largest adaptive time step", *largestStep, "s", positive);
-    adaptive.set(share, largestStep.value_or(0));
-}
-
-void Scene::refuseForAdaptiveStep() const {
-    refuseBoundForBodies("the adaptive time step");
-    if (periodic.imagesMove)
-        throw InputError(
-            "Simulation: the adaptive time step does not know shear (setLeesEdwards()) and strain "
-            "(setStrainRate(), setTargetStress()); leave setAdaptiveTimeStep() out.");
-    for (std::size_t w = 0; w < wallHandler.getSize(); ++w)
-        if (wallHandler.getObject(w).drive() || wallHandler.getObject(w).membrane())
-            throw InputError(fmt::format(
-                "wall {}: the adaptive time step does not know walls that forces move (setPiston(), "
-                "setTargetForce()) and membranes; leave setAdaptiveTimeStep() out.",
-                w));
-    if (const std::string reason = whyStepsOfOneLength(); !reason.empty())
-        throw InputError(fmt::format("Simulation: {}; leave setAdaptiveTimeStep() out{}.", reason,
-                                     laws().resistsMotion ? "" : orOtherIntegrator));
-}
-
-/// A bridge pays for the drift of the step that comes, and Adams' formulas have the weights of equal steps.
-std::string Scene::whyStepsOfOneLength() const {
-    if (laws().resistsMotion)
-        return fmt::format("the viscous bridges of {} need steps of one length", laws().name);
-    if (integrator.remembersEarlier())
-        return fmt::format("the integrator {} needs steps of one length", shownName(integrator));
-    return {};
-}
-
-void Scene::refuseOtherStep() const {
-    if (const std::string reason = whyStepsOfOneLength(); !reason.empty())
-        throw InputError(
-            fmt::format("Simulation: time step = {:.6g} s cannot be changed to {:.6g} s in the run: {}; set "
-                        "it before the run begins{}.",
-                        checkedStep, getTimeStep(), reason, laws().resistsMotion ? "" : orOtherIntegrator));
-}
-
-double Scene::largestStepOf(const GrainSizes& sizes) const {
-    const double most = 0.9 / std::numbers::pi * shortestHalfPeriod(laws(), sizes, wallHandler);
-    return most < infinity ? most : getTimeStep();  // nothing can touch
-}
-
-void Scene::shortenTimeStep() {
-    const GrainSizes sizes = grainSizes(particleHandler.store());
-    const double limit = sceneStabilityLimit(laws(), sizes, wallHandler, scheme()),
-                 step = adaptive.shorten(getTimeStep(), largestStepOf(sizes), limit);
-    if (step < getTimeStep()) setTimeStep(step);
-    checkedStep = getTimeStep();
-}
-
-void Scene::chooseTimeStep() {
-    particleHandler.finishStep();
-    ParticleStore& grains = particleHandler.storeInStep();
-    const StepTimes::Part before = enter(StepTimes::Part::Search);
-    const GrainSizes sizes = grainSizes(grains);
-    const double step = getTimeStep(), most = largestStepOf(sizes);
-    const AdaptiveStep::Outlook outlook =
-        adaptive.lookAhead(grains, step, most, norm(gravity), sizes.smallest());
-    ContactBound bound;
-    if (outlook.isKnown()) {
-        contactSystem.listWithin(grains, outlook.contacts.reach);
-        bound = bounds.find(contactSystem, wallHandler, grains, scheme(), outlook.contacts);
+void Scene::Inside::advanceByStep(bool another) {
+    takeOverChanges();
+    try {
+        parts.call(&StepPart::prepare, contextNow(stepLength()));
+    } catch (const InputError& refusal) {
+        throw RunError(refusal.what());
     }
-    const double limit =
-        outlook.isKnown() ? infinity : sceneStabilityLimit(laws(), sizes, wallHandler, scheme());
-    setTimeStep(adaptive.choose(step, most, outlook, bound, limit));
-    contactSystem.expectOverlaps(adaptive.supposedOverlap());
-    checkedStep = getTimeStep();
-    enter(before);
+    choosePartsLength();
+    try {
+        advance(stepLength(), another);
+    } catch (const InputError& refusal) {
+        takeBack();
+        throw RunError(refusal.what());
+    } catch (...) {
+        takeBack();
+        throw;
+    }
+    try {
+        parts.call(&StepPart::atEnd, context);
+    } catch (const InputError& refusal) {
+        throw RunError(refusal.what());
+    }
+}
+
+void Scene::Inside::takeBack() {
+    parts.takeBack(context);
+    scene.wallHandler.moveTo(scene.getTime());
+}
+
+/// A part may have chosen another length of the steps from now on.
+void Scene::Inside::choosePartsLength() {
+    if (context.length == stepLength()) return;
+    scene.setTimeStep(context.length);
+    checkedStep = stepLength();
+}
+
+void Scene::Inside::advance(double length, bool another) {
+    StepContext& step = contextNow(length);
+    moveAll(step);
+    findForces(step);
+    parts.call(&StepPart::afterForces, step);
+    step.times.enter(StepTimes::Part::Sum);
+    step.unfinished = length;
+    scene.particleHandler.leaveStepUnfinished();
+    if (!another || parts.needFinishedStep()) scene.particleHandler.finishStep();
+    step.times.enter(StepTimes::Part::Other);
+    parts.call(&StepPart::finish, step);
+    step.times.enter(StepTimes::Part::Other);
+}
+
+void Scene::Inside::moveAll(StepContext& step) {
+    parts.call(&StepPart::beforeMotion, step);
+    step.finishesLast = scene.particleHandler.takeUnfinishedStep();
+    parts.call(&StepPart::moveGrains, step);
+    refuseRunaway(step.shifts.grains);
+    parts.call(&StepPart::moveSurroundings, step);
+    refuseRunaway(step.shifts.grains);
+    step.shifts.walls = scene.wallHandler.moveTo(step.time + step.length);
+    periodicWalls.follow(scene.wallHandler, step.shifts.walls, step.time + step.length);
+    step.times.enter(StepTimes::Part::Search);
+    parts.call(&StepPart::afterMotion, step);
+}
+
+void Scene::Inside::findForces(StepContext& step) {
+    ParticleStore& grains = step.grains();
+    bringBack(step);
+    contacts.refresh(grains, step.shifts.grains, step.shifts.walls);
+    if (periodicWalls.haveEnds()) bringBackAtWalls(step);
+    lookForDeepOverlaps(grains, 2 * step.shifts.grains);
+    step.times.enter(StepTimes::Part::Contacts);
+    ContactTiming timing = contactScheme(step).contacts;
+    timing.comingStep = stepLength();
+    contacts.computePairForces(grains, step.length, timing);
+    step.times.enter(StepTimes::Part::Walls);
+    contacts.computeWallForces(grains, step.length, timing);
+}
+
+void Scene::Inside::bookWentRound(const StepContext& step) {
+    if (!step.account) return;
+    const StepTimes::Part before = step.times.enter(StepTimes::Part::Ledger);
+    step.account->wentRound(step.grains(), step.gravity, *step.ledger);
+    step.times.enter(before);
+}
+
+void Scene::Inside::bringBack(StepContext& step) {
+    constexpr std::size_t stepsBetween = 256;
+    if (!box.any() || periodicWalls.haveEnds() || step.number % stepsBetween != 0) return;
+    if (box.imagesMove) FlowPart::takeVelocitiesOfImages(step);
+    wrapAll(step.grains());
+    bookWentRound(step);
+}
+
+void Scene::Inside::bringBackAtWalls(StepContext& step) {
+    ParticleStore& grains = step.grains();
+    if (!periodicWalls.isBringingBackDue(grains, step.shifts.grains)) return;
+    bookEnded(contacts.goThroughFaces(grains, periodicWalls.outside(grains), periodicWalls.endsOfWalls(),
+                                      step.time + step.length, [&] { wrapAll(grains); }));
+    bookWentRound(step);
+}
+
+void Scene::Inside::wrapAll(ParticleStore& grains) const {
+    for (TranslationRecord& grain : grains.translation) grain.position = box.wrap(grain.position);
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k)
+        grains.bodies[k].position = box.wrap(grains.bodies[k].position);
+    grains.bodies.placeAll(grains);  // each body stays whole
+}
+
+void Scene::Inside::lookForDeepOverlaps(const ParticleStore& grains, double approach) {
+    approachUnseen += approach;
+    if (approachUnseen < 0.1 * context.smallestRadius) return;
+    approachUnseen = 0;
+    refuseFarGrains(grains, context.time);
+    refuseDeepOverlaps(contacts.store(), grains, box, laws(), context.time);
+}
+
+void Scene::Inside::refuseRunaway(double shift) const {
+    if (!(shift <= context.smallestRadius))
+        throw runawayError(scene.particleHandler.store(), context.smallestRadius, context.time, stepLength());
 }
 
 }  // namespace pendular

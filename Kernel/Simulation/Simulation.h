@@ -24,12 +24,12 @@ private:
 template <class S>
 class Simulation<S> : public Scene {
 public:
-    Simulation() { setLaws(ownLaws); }
+    Simulation() { setLaws(*ownLaws); }
 
     SpeciesHandler<S> speciesHandler;
 
 private:
-    SpeciesLaws<S> ownLaws{speciesHandler};
+    std::unique_ptr<ContactLaws> ownLaws = makeSpeciesLaws(speciesHandler);
 };
 
 }  // namespace pendular

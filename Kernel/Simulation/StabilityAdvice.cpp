@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Contacts/ContactSystem.h"
 
 namespace pendular {
 

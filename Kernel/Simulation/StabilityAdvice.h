@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
-#include "Kernel/Motion/ContactBound.h"
-
 namespace pendular {
+
+class ContactSystem;
+class ParticleStore;
 
 /// What stabilityLimit() supposes, and what the contacts of a scene are. The factors are by how much each
 /// assumption shortens the step of the grain that bounds it; their product is step / limit. Where nothing

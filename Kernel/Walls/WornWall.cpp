@@ -12,7 +12,7 @@ std::vector<WornWall*> wornWalls(const WallHandler& walls) {
     return found;
 }
 
-void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction, bool withBodies) {
+void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction) {
     const std::vector<WornWall*> worn = wornWalls(walls);
     for (std::size_t w = 0; w < worn.size(); ++w) {
         if (!worn[w]) continue;
@@ -25,11 +25,6 @@ void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction, bo
             throw InputError(fmt::format(
                 "wall {}: it wears by sliding, and the species of the scene have no friction; take one "
                 "with a friction law, or Finnie's wear law.",
-                w));
-        if (withBodies && worn[w]->wearLaw().needsImpacts())
-            throw InputError(fmt::format(
-                "wall {}: it wears by impacts of single grains (Finnie), and the scene has rigid bodies, of "
-                "which several grains may hit at once; take WearLaw::archard(), reye() or none().",
                 w));
     }
 }

@@ -42,7 +42,6 @@ std::vector<WornWall*> wornWalls(const WallHandler& walls);
 
 /// Throws InputError where a wall keeps its wear and the scene cannot.
 /// @param withLedger the scene keeps the ledger of the energy; @param withFriction its laws have friction
-/// @param withBodies it has rigid bodies
-void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction, bool withBodies);
+void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction);
 
 }  // namespace pendular

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Scenes/MovingBenchmark.h"
 #include "SelfTests/Support/TestFolder.h"

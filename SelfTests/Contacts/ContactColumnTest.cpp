@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"

@@ -4,6 +4,8 @@
 #include <map>
 #include <vector>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"

@@ -1,3 +1,4 @@
+#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/IdleLanes.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Friction/SlidingRollingTorsion.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

@@ -1,6 +1,6 @@
 #include "Kernel/Files/CsvFile.h"
 #include "Kernel/Simulation/SummaryFile.h"
-#include "Kernel/Simulation/SummaryRows.h"
+#include "Kernel/Step/SummaryRows.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

@@ -1,3 +1,4 @@
+#include "Kernel/Parts/AdaptiveStep.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

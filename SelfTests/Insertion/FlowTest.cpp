@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/RunError.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Restart/StateContent.h"

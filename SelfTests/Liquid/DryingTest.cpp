@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "Kernel/Capillary/CapillaryBridge.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Species/AdhesionEnergy.h"
 #include "Kernel/Species/Laws.h"

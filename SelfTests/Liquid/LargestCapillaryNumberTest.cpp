@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/RunSummary.h"
 #include "Kernel/Species/Adhesion/LiquidFilmsWillett.h"
 #include "Kernel/Species/Adhesion/ViscousLiquidBridgeWillett.h"

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Liquid/WetScenes.h"

@@ -3,7 +3,10 @@
 
 #include <set>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/RunError.h"
+#include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -1,9 +1,11 @@
 // Membranes and grains in one scene.
 #include <gtest/gtest.h>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Math/Random.h"
 #include "Kernel/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
+#include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/RunError.h"
+#include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
 

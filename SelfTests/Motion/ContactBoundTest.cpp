@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "Kernel/Math/Random.h"
+#include "Kernel/Motion/ContactBound.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
 #include "Kernel/Species/Friction/Mindlin.h"

@@ -6,6 +6,8 @@
 #include <thread>
 
 #include "BuildFolders.h"
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/RunSummary.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Simulation/StateHash.h"

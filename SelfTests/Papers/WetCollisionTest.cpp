@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeClassicalWillett.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Simulation/StateHash.h"

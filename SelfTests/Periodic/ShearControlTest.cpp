@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Particles/LeesEdwards.h"
+#include "Kernel/Parts/StressServo.h"
 #include "Kernel/RunError.h"
-#include "Kernel/Simulation/StressServo.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"

@@ -4,9 +4,11 @@
 #include <array>
 
 #include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Particles/HomogeneousStrain.h"
+#include "Kernel/Parts/StressServo.h"
 #include "Kernel/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Simulation/StressServo.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"

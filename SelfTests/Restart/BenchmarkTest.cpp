@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/MovingBenchmark.h"

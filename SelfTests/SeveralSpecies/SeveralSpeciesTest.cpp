@@ -7,6 +7,8 @@
 #include <numbers>
 #include <set>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Laws.h"
 #include "SelfTests/Restart/StateContent.h"

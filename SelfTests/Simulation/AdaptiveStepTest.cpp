@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "Kernel/CoarseGraining/FieldOutput.h"
+#include "Kernel/Parts/AdaptiveStep.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Adhesion/ViscousLiquidBridgeWillett.h"

@@ -6,6 +6,8 @@
 #include <memory>
 #include <numbers>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/SeveralSpeciesHandler.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Laws.h"

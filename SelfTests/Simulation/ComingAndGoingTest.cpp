@@ -3,6 +3,8 @@
 #include <functional>
 #include <memory>
 
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/HookedGrains.h"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"

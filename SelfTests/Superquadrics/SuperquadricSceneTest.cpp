@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "Kernel/CoarseGraining/FieldOutput.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Math/CountedRandom.h"
 #include "Kernel/RunError.h"
 #include "Kernel/Simulation/StateHash.h"

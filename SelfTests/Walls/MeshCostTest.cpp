@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Walls/InfiniteWall.h"
 #include "SelfTests/Walls/WallScene.h"
 

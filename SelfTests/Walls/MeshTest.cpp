@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "BuildFolders.h"
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
 #include "Kernel/Walls/InfiniteCylinder.h"
 #include "Kernel/Walls/InfiniteWall.h"

@@ -9,6 +9,7 @@
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
+#include "Kernel/Walls/PlaneDrive.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"

@@ -2,6 +2,8 @@
 // ledger, threads and restarts.
 #include <gtest/gtest.h>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
 #include "SelfTests/Support/TestFolder.h"

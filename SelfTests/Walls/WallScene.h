@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Walls/TriangleWall.h"

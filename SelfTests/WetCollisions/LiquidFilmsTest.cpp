@@ -4,6 +4,8 @@
 #include <numbers>
 #include <optional>
 
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Math/Random.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidFilmsBagheri.h"

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "Drivers/Shared/Beverloo.h"
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Simulation/Simulation.h"
 

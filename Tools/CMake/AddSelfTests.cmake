@@ -45,7 +45,8 @@ function(pendular_add_self_test folder)
         set_source_files_properties("${selfTests}/HowDoI/FirstDriver.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
     add_warnings(${name})
-    precompile_headers(${name} ${keeperOfTests} <gtest/gtest.h> "Kernel/Simulation/Simulation.h")
+    precompile_headers(${name} ${keeperOfTests} ${precompiledHeaders} <gtest/gtest.h>
+                       "Kernel/Simulation/Simulation.h")
 
     # The suite's name may follow that of an instantiation: "Materials/LongCollision.Restitution/3".
     set(long "Long*:*/Long*.*")

@@ -112,7 +112,8 @@ function(pendular_generate_popular_species folder sources)
     set(declared "")
     set(listed "")
     foreach(name IN LISTS PENDULAR_POPULAR_SPECIES)
-        string(APPEND declared "extern template class SpeciesLaws<${name}>;\n")
+        string(APPEND declared
+               "extern template std::unique_ptr<ContactLaws> makeSpeciesLaws(SpeciesHandler<${name}>&);\n")
     endforeach()
     list(JOIN PENDULAR_POPULAR_SPECIES ", " listed)
     file(CONFIGURE OUTPUT "${folder}/PopularSpecies.h" @ONLY CONTENT [[
@@ -138,7 +139,8 @@ using PopularSpecies = TypeList<@listed@>;
         list(LENGTH written number)
         set(compiled "")
         foreach(name IN LISTS part)
-            string(APPEND compiled "template class SpeciesLaws<${name}>;\n")
+            string(APPEND compiled "template class SpeciesLaws<${name}>;\n"
+                   "template std::unique_ptr<ContactLaws> makeSpeciesLaws(SpeciesHandler<${name}>&);\n")
         endforeach()
         set(file "${folder}/PopularSpecies${number}.cpp")
         file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT [[

@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/AdaptiveStep.h"
+#include "Kernel/Parts/AdaptiveStep.h"
 
 #include <algorithm>
 #include <cmath>

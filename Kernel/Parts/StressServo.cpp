@@ -1,4 +1,4 @@
-#include "Kernel/Simulation/StressServo.h"
+#include "Kernel/Parts/StressServo.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "Kernel/Particles/ParticleStore.h"
+
+namespace pendular {
+
+/// The two smallest and the two largest grains of one species, m; equal where there are two of a size.
+struct SizeRange {
+    std::size_t count = 0;
+    double smallest = infinity, secondSmallest = infinity;
+    double largest = 0, secondLargest = 0;
+
+    void add(double radius) {
+        ++count;
+        secondSmallest = std::min(secondSmallest, std::max(smallest, radius));
+        smallest = std::min(smallest, radius);
+        secondLargest = std::max(secondLargest, std::min(largest, radius));
+        largest = std::max(largest, radius);
+    }
+    [[nodiscard]] bool empty() const { return count == 0; }
+    /// Whether a grain of this radius is between others.
+    [[nodiscard]] bool holds(double radius) const {
+        return radius >= secondSmallest && radius <= secondLargest;
+    }
+    /// The radii of the extreme partners of a grain with this radius (m) out of these.
+    [[nodiscard]] std::array<double, 2> partnersOf(double radius) const {
+        return {radius == smallest ? secondSmallest : smallest, radius == largest ? secondLargest : largest};
+    }
+};
+
+/// The sizes of the grains of each species: of all, and of those that are free to move.
+struct GrainSizes {
+    std::size_t count = 0;  // of grains
+    std::vector<SizeRange> all, free;
+    BodyResponse response;  // of rigid bodies, which the stability limit counts with
+    bool hasBodies = false;
+    Vector<double> lowest{infinity, infinity, infinity};  // m, of the box around all grains
+    Vector<double> highest{-infinity, -infinity, -infinity};
+
+    GrainSizes() = default;
+    GrainSizes(const ParticleStore& grains, std::size_t speciesCount);
+    /// m; infinite without grains
+    [[nodiscard]] double smallest() const;
+    /// The grains that a plane can touch, at most: a hexagonal layer of the smallest ones over the shadow of
+    /// the box around all.
+    [[nodiscard]] double fullLayer(const Vector<double>& normal) const;
+    /// Whether a grain of this radius (m) is between others of its species.
+    [[nodiscard]] bool hold(std::size_t species, double radius, bool isFree) const {
+        return species < all.size() && all[species].holds(radius) && (!isFree || free[species].holds(radius));
+    }
+};
+
+}  // namespace pendular

@@ -1,0 +1,255 @@
+#include "Kernel/Motion/SceneLimits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Walls/PlaneDrive.h"
+
+namespace pendular {
+
+std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
+    return std::clamp<std::size_t>(grains + 3 * walls.getSize(), 2, contactsInDensestBed + 1) - 1;
+}
+
+/// The contacts for which the mass of a piston is checked: before its first step a guess, a full layer; then
+/// the most that there have been, so that a run that goes on is checked as one that was not stopped.
+static double touchesOfPiston(const GrainSizes& grains, const Wall& wall) {
+    const PlaneDrive& drive = *wall.drive();
+    const double now = static_cast<double>(std::max(drive.touches, drive.mostTouches));
+    return drive.steps > 0 ? now : std::max(grains.fullLayer(wall.drivenNormal()), now);
+}
+
+/// N/m, of the contacts of a wall with the grains.
+static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    SpringAndDashpot stiffest;
+    for (std::size_t s = 0; s < grains.free.size(); ++s) {
+        if (grains.free[s].empty()) continue;
+        for (const double radius : {grains.free[s].smallest, grains.free[s].largest})
+            stiffest = larger(stiffest, species
+                                            .stiffness(static_cast<int>(s), wall.species, {radius, infinity},
+                                                       sphereMass(radius, species.density(s)))
+                                            .normal);
+    }
+    return stiffest;
+}
+
+/// Of a piston: n (k, c) / M for the n contacts that it can have, or has; zero of other walls.
+static SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    const PlaneDrive* const drive = wall.drive();
+    if (!drive || !drive->isPiston()) return {};
+    return (touchesOfPiston(grains, wall) / drive->asked.mass) * stiffestAt(species, grains, wall);
+}
+
+/// 1/m^2, the grains that may touch a membrane: a hexagonal layer of the smallest on each of its sides.
+static double mostTouchesOnArea(const GrainSizes& grains) {
+    return 2 / (2 * std::sqrt(3.0) * grains.smallest() * grains.smallest());
+}
+
+/// The same of the vertices of a membrane: a contact's work, k (u - sum w v)^2 with weights w that sum to 1,
+/// is at most k (1/m + 1/M) (m u^2 + M sum w v^2). So a vertex of mass M has the weights of its contacts, n:
+/// those of a hexagonal layer of the smallest grains on each side of its share of the sheet, at least one on
+/// each. (Grains that are held in place touch no walls.)
+static SpringAndDashpot membraneRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    const Membrane* const membrane = wall.membrane();
+    if (!membrane || !(membrane->lightestVertex() < infinity) || grains.count == 0) return {};
+    const double onMass = mostTouchesOnArea(grains) / membrane->massOfArea();  // 1/kg
+    return std::max(2 / membrane->lightestVertex(), onMass) * stiffestAt(species, grains, wall);
+}
+
+/// The stability limit (s) of the vertices of a membrane: their net, and the grains that touch it, with their
+/// side 1/m of a contact as well. Infinite of other walls.
+static double membraneLimit(const ContactLaws& species, const GrainSizes& grains, const Wall& wall,
+                            const Integrator& integrator) {
+    const Membrane* const membrane = wall.membrane();
+    if (!membrane || !(membrane->lightestVertex() < infinity)) return infinity;
+    SpringAndDashpot row{membrane->squaredFrequency(), membrane->getDamping()};
+    row = row + membraneRow(species, grains, wall);
+    for (std::size_t s = 0; s < grains.free.size(); ++s) {
+        if (grains.free[s].empty()) continue;
+        const double mass = sphereMass(grains.free[s].smallest, species.density(s));
+        const double touches =
+            std::max(2.0, mostTouchesOnArea(grains) * membrane->lightestVertex() / membrane->massOfArea());
+        row = row + (touches / mass) * stiffestAt(species, grains, wall);
+    }
+    return stabilityMargin * SignChange(integrator).limit(row);
+}
+
+/// Throws InputError if the time step (s) is above this limit of a membrane.
+static void checkMembranes(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                           double timeStep, const Integrator& integrator) {
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (const double limit = membraneLimit(species, grains, walls.getObject(w), integrator);
+            timeStep > limit)
+            throw InputError(fmt::format(
+                "wall {}, a membrane: its springs and hinges (squared frequency up to {:.4g} 1/s^2) and the "
+                "grains that touch its lightest vertex ({:.4g} kg) do not bear a time step of {:.6g} s; it "
+                "must be at most {:.6g} s, or the net coarser, heavier or softer, unless "
+                "acceptUnstableTimeStep() is called.",
+                w, walls.getObject(w).membrane()->squaredFrequency(),
+                walls.getObject(w).membrane()->lightestVertex(), timeStep, limit));
+}
+
+/// The sum of these rows of all walls: a grain may touch several.
+static SpringAndDashpot pistonRows(const ContactLaws& species, const GrainSizes& grains,
+                                   const WallHandler& walls) {
+    SpringAndDashpot sum;
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        sum = sum + pistonRow(species, grains, walls.getObject(w));
+    return sum;
+}
+
+Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                         const Integrator& integrator) {
+    if (!species.layout.hasTorque || grains.hasBodies ||
+        !(integrator == integrators::predictedVelocityVerlet))
+        return integrator;
+    bool lacks = false;
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+        lacks = lacks || lacksDashpots(laws, bodies, mass, integrator, mostContacts(grains.count, walls));
+    });
+    return lacks ? integrators::springsInStep : integrator;
+}
+
+double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                           const Integrator& asked, const SpringAndDashpot& ofPistons) {
+    const Integrator integrator = schemeOfScene(species, grains, walls, asked);
+    const std::size_t contacts = mostContacts(grains.count, walls);
+    double limit = infinity;
+    SpringAndDashpot ofWalls = ofPistons;
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        limit = std::min(limit, membraneLimit(species, grains, walls.getObject(w), integrator));
+        ofWalls = ofWalls + membraneRow(species, grains, walls.getObject(w));
+    }
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+        limit = std::min(limit,
+                         stabilityLimit(laws, bodies, mass, integrator, contacts, grains.response, ofWalls));
+    });
+    return limit;
+}
+
+double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                           const Integrator& integrator) {
+    return sceneStabilityLimit(species, grains, walls, integrator, pistonRows(species, grains, walls));
+}
+
+/// The largest share, up to 1, of what a time step (s) does not bear as a whole.
+/// @param limitOf (share) the stability limit, s; that of 0 is above the step
+template <class Limit>
+static double shareThatIsBorne(double timeStep, Limit&& limitOf) {
+    double share = 1, tooMuch = 1;
+    for (int halving = 0; halving < 50 && timeStep > limitOf(share); ++halving) tooMuch = share, share *= 0.5;
+    for (int k = 0; k < 40; ++k) {
+        const double middle = 0.5 * (share + tooMuch);
+        (timeStep > limitOf(middle) ? tooMuch : share) = middle;
+    }
+    return share;
+}
+
+void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                  double timeStep, const Integrator& integrator) {
+    const auto limitOf = [&](const SpringAndDashpot& rows) {
+        return sceneStabilityLimit(species, grains, walls, integrator, rows);
+    };
+    const SpringAndDashpot all = pistonRows(species, grains, walls);
+    if (timeStep <= limitOf(all) || timeStep > limitOf({})) return;
+    std::vector<std::size_t> pistons;
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (const Wall& wall = walls.getObject(w); wall.drive() && wall.drive()->isPiston())
+            pistons.push_back(w);
+    const auto rowOf = [&](std::size_t w) { return pistonRow(species, grains, walls.getObject(w)); };
+    const std::size_t lightest =
+        *std::ranges::min_element(pistons, {}, [&](std::size_t w) { return limitOf(rowOf(w)); });
+    SpringAndDashpot others;
+    for (const std::size_t w : pistons)
+        if (w != lightest) others = others + rowOf(w);
+    const bool isOne = timeStep <= limitOf(others);
+    const double share = shareThatIsBorne(
+        timeStep, [&](double part) { return limitOf(isOne ? others + part * rowOf(lightest) : part * all); });
+    if (isOne) pistons = {lightest};
+    std::vector<std::string> masses, least;
+    double touches = 0;
+    for (const std::size_t w : pistons) {
+        const double mass = walls.getObject(w).drive()->asked.mass;
+        masses.push_back(fmt::format("wall {}: mass of the piston = {:.6g} kg", w, mass));
+        least.push_back(fmt::format("{:.6g} kg", 1.001 * mass / share));
+        touches = std::max(touches, touchesOfPiston(grains, walls.getObject(w)));
+    }
+    throw InputError(fmt::format(
+        "{} {} too light for a time step of {:.6g} s with up to {:.0f} contacts; it must be at least {}, or "
+        "the step at most {:.6g} s, unless acceptUnstableTimeStep() is called.",
+        fmt::join(masses, ", "), isOne ? "is" : "are together", timeStep, touches, fmt::join(least, ", "),
+        limitOf(all)));
+}
+
+double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls) {
+    double shortest = infinity;
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
+        shortest = std::min(shortest, halfPeriod(laws, bodies, mass));
+    });
+    return shortest;
+}
+
+void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                double timeStep, const Integrator& integrator) {
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (!walls.isRemoved(w))
+            static_cast<void>(
+                species.density(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
+    forEachExtremePair(
+        species, grains, walls,
+        [](const PairLaws& laws, const Bodies& bodies, double) {
+            if (const auto objection = laws.objection(bodies)) throw InputError(*objection);
+        },
+        Pairs::OfGrains);
+    checkPistons(species, grains, walls, timeStep, integrator);
+    checkMembranes(species, grains, walls, timeStep, integrator);
+    const double limit = sceneStabilityLimit(species, grains, walls, integrator);
+    if (timeStep > limit)
+        throw InputError(
+            fmt::format("Simulation: time step = {:.6g} s is above the stability limit of the stiffest "
+                        "contacts in a dense "
+                        "bed; it must be at most {:.6g} s (for accuracy {:.2g} s), unless "
+                        "acceptUnstableTimeStep() is called.",
+                        timeStep, limit, std::min(limit, 0.04 * shortestHalfPeriod(species, grains, walls))));
+}
+
+std::optional<std::string> objectionToLengths(const PeriodicBox& box, double reach) {
+    const std::array<std::pair<char, double>, 3> lengths{
+        {{'x', box.length.x}, {'y', box.length.y}, {'z', box.length.z}}};
+    for (const auto& [axis, length] : lengths)
+        if (length > 0 && length < 2 * reach)
+            return fmt::format(
+                "periodic length along {} = {:.6g} m is too short; it must be at "
+                "least {:.6g} m, twice the largest distance at which two grains of this scene act "
+                "on each other.",
+                axis, length, 2 * reach);
+    return std::nullopt;
+}
+
+double checkPeriodicLengths(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                            const PeriodicBox& box) {
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (box.any() && !box.imagesMove && walls.getObject(w).membrane())
+            throw InputError(
+                fmt::format("wall {}, a membrane: it has no images, so that in a scene which repeats itself "
+                            "there can be none; leave setPeriodic() out.",
+                            w));
+    double reach = 0;
+    forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {
+        if (bodies.radius2 < infinity)
+            reach = std::max(reach, bodies.radius1 + bodies.radius2 + laws.range(bodies));
+    });
+    if (const auto objection = objectionToLengths(box, reach))
+        throw InputError(fmt::format("Simulation: {}", *objection));
+    return reach;
+}
+
+}  // namespace pendular

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Motion/GrainSizes.h"
+#include "Kernel/Motion/Integrator.h"
+#include "Kernel/Walls/WallHandler.h"
+
+namespace pendular {
+
+struct PeriodicBox;
+
+/// Which pairs of a scene are looked at: those of all sizes that there are, of which more grains may come, or
+/// those of the grains that there are (a grain that is the only one of its size has no pair of two such).
+enum class Pairs { OfSizes, OfGrains };
+
+/// Calls function(laws, bodies, effective mass) for the extreme pairs of bodies of a scene: the smallest and
+/// the largest grains of each two species, and of each species with each wall. (A grain that is held in place
+/// counts as free.)
+template <class Function>
+void forEachExtremePair(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                        Function&& function, Pairs pairs = Pairs::OfSizes) {
+    const std::vector<SizeRange>&free = grains.free, &sizes = grains.all;
+    const auto mass = [&](std::size_t s, double radius) { return sphereMass(radius, species.density(s)); };
+    const auto forBodies = [&](std::size_t a, std::size_t b, double r1, double r2) {
+        function(PairLaws{species, static_cast<int>(a), static_cast<int>(b)}, Bodies{r1, r2},
+                 1 / (1 / mass(a, r1) + 1 / mass(b, r2)));
+    };
+    for (std::size_t a = 0; a < free.size(); ++a) {
+        if (free[a].empty()) continue;
+        for (const double r1 : {free[a].smallest, free[a].largest}) {
+            for (std::size_t b = 0; b < sizes.size(); ++b) {
+                const bool withoutItself = a == b && pairs == Pairs::OfGrains;
+                if (sizes[b].count < (withoutItself ? 2u : 1u)) continue;
+                const auto partners = withoutItself
+                                          ? sizes[b].partnersOf(r1)
+                                          : std::array<double, 2>{sizes[b].smallest, sizes[b].largest};
+                for (const double r2 : partners) forBodies(a, b, r1, r2);
+            }
+            for (std::size_t w = 0; w < walls.getSize(); ++w)
+                if (!walls.isRemoved(w))
+                    forBodies(a, static_cast<std::size_t>(walls.getObject(w).species), r1, infinity);
+        }
+    }
+}
+
+/// The contacts that a grain of the scene can have. A wall may touch it at up to three places (the corner of
+/// a mesh).
+std::size_t mostContacts(std::size_t grains, const WallHandler& walls);
+
+/// What a scene makes of the default integrator: springsInStep where the friction of one of its pairs lacks
+/// dashpots. (Not with rigid bodies, whose grains keep no accelerations.) Others stay what they are.
+Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                         const Integrator& integrator);
+
+/// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains.
+/// @param ofPistons pistonRows()
+double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                           const Integrator& asked, const SpringAndDashpot& ofPistons);
+double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                           const Integrator& integrator = integrators::predictedVelocityVerlet);
+
+/// Throws InputError if a piston is so light that the time step (s), which the grains bear, is above the
+/// stability limit: the lightest one, for its contacts, or all of them if the step does not bear the others
+/// either.
+void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                  double timeStep, const Integrator& integrator);
+
+/// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without
+/// grains.
+double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls);
+
+/// Throws InputError if a law cannot serve bodies of the scene, or if the time step (s) is above the
+/// stability limit.
+void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                double timeStep, const Integrator& integrator);
+
+/// If the scene repeats itself so soon that a grain could meet two images of another: a contact knows the
+/// nearest image only.
+/// @param reach m, the largest distance of two centres that act on each other
+std::optional<std::string> objectionToLengths(const PeriodicBox& box, double reach);
+
+/// Throws InputError with that objection. Returns the largest distance (m) of two centres that act on each
+/// other.
+double checkPeriodicLengths(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
+                            const PeriodicBox& box);
+
+}  // namespace pendular

@@ -1,0 +1,68 @@
+#include "Kernel/Parts/AdaptivePart.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Parts/InletPart.h"
+#include "Kernel/Step/StepTimes.h"
+
+namespace pendular {
+
+Features AdaptivePart::features(const StepContext& /*scene*/) const {
+    return adaptive.isSet() ? Features{Feature::AdaptiveStep} : Features{};
+}
+
+double AdaptivePart::largestStepOf(const StepContext& scene, const GrainSizes& sizes) {
+    const double most = 0.9 / std::numbers::pi * shortestHalfPeriod(*scene.laws, sizes, scene.walls);
+    return most < infinity ? most : scene.length;  // nothing can touch
+}
+
+/// Grains that have come shorten the step until the next choice; other changes ask for one.
+void AdaptivePart::takeOver(StepContext& scene, const SceneChanges& changes) {
+    if (!changes.areOnlyNewGrains()) return adaptive.chooseAnew();
+    const GrainSizes sizes = sizesOfScene(*scene.laws, scene.particles.store(), inlets);
+    const double limit = sceneStabilityLimit(*scene.laws, sizes, scene.walls, contactScheme(scene));
+    scene.length = std::min(scene.length, adaptive.shorten(scene.length, largestStepOf(scene, sizes), limit));
+}
+
+void AdaptivePart::prepare(StepContext& step) {
+    if (!adaptive.isDue()) return;
+    step.particles.finishStep();
+    ParticleStore& grains = step.grains();
+    const StepTimes::Part before = step.times.enter(StepTimes::Part::Search);
+    const GrainSizes sizes = sizesOfScene(*step.laws, grains, inlets);
+    const double most = largestStepOf(step, sizes);
+    const AdaptiveStep::Outlook outlook =
+        adaptive.lookAhead(grains, step.length, most, norm(step.gravity), sizes.smallest());
+    ContactBound bound;
+    if (outlook.isKnown()) {
+        step.contacts.listWithin(grains, outlook.contacts.reach);
+        bound = bounds.find(step.contacts, step.walls, grains, contactScheme(step), outlook.contacts);
+    }
+    const double limit = outlook.isKnown()
+                             ? infinity
+                             : sceneStabilityLimit(*step.laws, sizes, step.walls, contactScheme(step));
+    step.length = adaptive.choose(step.length, most, outlook, bound, limit);
+    step.contacts.expectOverlaps(adaptive.supposedOverlap());
+    step.times.enter(before);
+}
+
+void AdaptivePart::afterMotion(StepContext& step) {
+    adaptive.moved(step.shifts.grains, step.shifts.walls, step.length);
+}
+
+void AdaptivePart::afterForces(StepContext& step) {
+    if (step.contacts.overlaps().isSurprised()) adaptive.pressed();
+}
+
+void AdaptivePart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {
+    adaptive.visitState(archive);
+}
+
+void AdaptivePart::visitState(StateArchive& /*archive*/, StepContext& scene) {
+    scene.contacts.expectOverlaps(adaptive.supposedOverlap());
+}
+
+}  // namespace pendular

@@ -1,0 +1,69 @@
+#include "Kernel/Parts/BodyPart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/InputError.h"
+#include "Kernel/Logger.h"
+#include "Kernel/Motion/RigidBodyMotion.h"
+#include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/RunError.h"
+#include "Kernel/Shapes/SphereGroups.h"
+
+namespace pendular {
+
+Features BodyPart::features(const StepContext& scene) const {
+    return scene.grains().bodies.empty() ? Features{} : Features{Feature::RigidBodies};
+}
+
+void BodyPart::check(const StepContext& scene) { width = scene.bodies.refuseTooWide(); }
+
+void BodyPart::begin(StepContext& scene, bool /*isRestarted*/) { warnOfGaps(scene, 0); }
+
+void BodyPart::moveGrains(StepContext& step) {
+    ParticleStore& grains = step.grains();
+    const double farthest =  // m^2
+        step.finishesLast
+            ? RigidBodyMotion::finishAndBegin(grains, step.contacts.store(), step.gravity, step.unfinished,
+                                              step.length, step.threads, *step.scheme, step.box)
+            : RigidBodyMotion::begin(grains, step.length, step.threads, *step.scheme, step.box);
+    step.shifts.grains = std::max(step.shifts.grains, std::sqrt(farthest));
+}
+
+void BodyPart::afterMotion(StepContext& step) {
+    if (!step.box.imagesMove || width <= 0.5 * step.box.shortestLength()) return;
+    try {
+        width = step.bodies.refuseTooWide();  // the widest may have been removed
+    } catch (const InputError& refusal) {
+        throw RunError(fmt::format("At time {:.6g} s {}", step.time, refusal.what()));
+    }
+}
+
+void BodyPart::takeBack(StepContext& step) {
+    RigidBodyMotion::takeBack(step.grains(), step.length, *step.scheme);
+}
+
+void BodyPart::warnOfGaps(const StepContext& scene, std::size_t first) {
+    const ParticleStore& grains = scene.grains();
+    std::size_t count = 0;
+    std::string one;
+    for (std::size_t k = first; k < grains.bodies.size(); ++k) {
+        const RigidBody& body = grains.bodies[k];
+        std::vector<Ball> spheres;
+        for (const BodyMember& member : grains.bodies.membersOf(k))
+            spheres.push_back({toEigen(body.position + body.orientation.turn(member.arm)),
+                               grains.translation[grains.place[member.grain]].radius});
+        const std::optional<std::string> gap = gapInClump(spheres);
+        if (gap && count++ == 0) one = fmt::format("rigid body {}: {}", grains.bodies.numberOf(k), *gap);
+    }
+    if (count > 0)
+        scene.logger(LogLevel::Warn, "{}{}.", one,
+                     count > 1 ? fmt::format("; so it is in {} bodies", count) : "");
+}
+
+}  // namespace pendular

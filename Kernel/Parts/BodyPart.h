@@ -1,0 +1,30 @@
+#pragma once
+
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+/// The motion of rigid bodies, and of their grains with them.
+class BodyPart : public StepPart {
+public:
+    [[nodiscard]] std::string_view name() const override { return "bodies"; }
+    [[nodiscard]] Features features(const StepContext& scene) const override;
+    [[nodiscard]] bool needsFinishedStep() const override { return false; }
+    void check(const StepContext& scene) override;
+    void begin(StepContext& scene, bool isRestarted) override;
+    void moveGrains(StepContext& step) override;
+    /// A scene that is strained may become too short for a body.
+    void afterMotion(StepContext& step) override;
+    void takeBack(StepContext& step) override;
+
+    /// m, of the widest body as it turns; 0 without bodies
+    [[nodiscard]] double widest() const { return width; }
+    /// Tells the user of bodies whose spheres do not hang together.
+    /// @param first of the bodies that are looked at
+    static void warnOfGaps(const StepContext& scene, std::size_t first);
+
+private:
+    double width = 0;  // m
+};
+
+}  // namespace pendular

@@ -1,0 +1,54 @@
+#include "Kernel/Parts/GrainPart.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/RigidBodyMotion.h"
+#include "Kernel/Motion/TimeIntegration.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Step/StepTimes.h"
+
+namespace pendular {
+
+Features GrainPart::features(const StepContext& scene) const {
+    Features found{Feature::Grains};
+    const ParticleStore& grains = scene.grains();
+    for (const std::uint32_t place : grains.place)
+        if (grains.translation[place].inverseMass == 0) {
+            found.add(Feature::HeldGrains, fmt::format("particle {}", grains.identity[place]));
+            break;
+        }
+    return found;
+}
+
+void GrainPart::moveGrains(StepContext& step) {
+    ParticleStore& grains = step.grains();
+    double farthest;  // m^2
+    if (step.finishesLast) {
+        step.times.enter(StepTimes::Part::Sum);
+        farthest =
+            TimeIntegration::finishAndBegin(grains, step.contacts.store(), step.gravity, step.unfinished,
+                                            step.length, step.threads, *step.scheme, step.box);
+    } else {
+        step.times.enter(StepTimes::Part::Motion);
+        farthest = TimeIntegration::begin(grains, step.length, step.threads, *step.scheme, step.box);
+    }
+    step.shifts.grains = std::sqrt(farthest);
+}
+
+void GrainPart::takeBack(StepContext& step) {
+    TimeIntegration::takeBack(step.particles.store(), step.length, *step.scheme);
+}
+
+void GrainPart::finishLeftStep(const StepContext& step) {
+    ParticleStore& grains = step.grains();
+    TimeIntegration::finish(grains, step.contacts.store(), step.gravity, step.unfinished, step.threads,
+                            *step.scheme);
+    if (!grains.bodies.empty())
+        RigidBodyMotion::finish(grains, step.contacts.store(), step.gravity, step.unfinished, step.threads,
+                                *step.scheme);
+}
+
+}  // namespace pendular

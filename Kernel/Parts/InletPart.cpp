@@ -1,0 +1,40 @@
+#include "Kernel/Parts/InletPart.h"
+
+#include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Logger.h"
+#include "Kernel/Motion/StabilityLimit.h"
+
+namespace pendular {
+
+Features InletPart::features(const StepContext& /*scene*/) const {
+    return inlets.isEmpty() ? Features{} : Features{Feature::Inlets};
+}
+
+InsertionScene InletPart::placesOf(const StepContext& scene) {
+    return {scene.particles, scene.walls, scene.box, scene.threads};
+}
+
+void InletPart::begin(StepContext& scene, bool isRestarted) { inlets.begin(placesOf(scene), isRestarted); }
+
+void InletPart::prepare(StepContext& step) { inlets.requireLiquid(step.particles, step.time + step.length); }
+
+void InletPart::atEnd(StepContext& step) {
+    inlets.letIn(placesOf(step), step.time + step.length,
+                 [&](const std::string& sentence) { step.logger(LogLevel::Warn, "{}", sentence); });
+}
+
+void InletPart::visitState(StateArchive& archive, StepContext& /*scene*/) { inlets.visitState(archive); }
+
+GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, const InletHandler& inlets) {
+    GrainSizes sizes(grains, laws.speciesCount());
+    for (const InletHandler::Sizes& toCome : inlets.sizes()) {
+        // Twice, so that of all sizes between them any number may come; the count is that of a dense bed.
+        const auto species = static_cast<std::size_t>(toCome.species);
+        for (const double radius : {toCome.smallest, toCome.smallest, toCome.largest, toCome.largest})
+            for (auto* ranges : {&sizes.all, &sizes.free}) ranges->at(species).add(radius);
+        sizes.count += contactsInDensestBed + 1;
+    }
+    return sizes;
+}
+
+}  // namespace pendular

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "Kernel/Insertion/Inlet.h"
+#include "Kernel/Motion/GrainSizes.h"
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+/// Grains that come at a rate.
+class InletPart : public StepPart {
+public:
+    explicit InletPart(InletHandler& ofScene) : inlets(ofScene) {}
+
+    [[nodiscard]] std::string_view name() const override { return "inlets"; }
+    [[nodiscard]] Features features(const StepContext& scene) const override;
+    [[nodiscard]] bool needsFinishedStep() const override { return false; }
+    void begin(StepContext& scene, bool isRestarted) override;
+    void prepare(StepContext& step) override;
+    void atEnd(StepContext& step) override;
+    void visitState(StateArchive& archive, StepContext& scene) override;
+
+    /// Where grains may come.
+    [[nodiscard]] static InsertionScene placesOf(const StepContext& scene);
+
+private:
+    InletHandler& inlets;
+};
+
+/// The sizes of all these grains, and of those that inlets will bring.
+[[nodiscard]] GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains,
+                                      const InletHandler& inlets);
+
+}  // namespace pendular

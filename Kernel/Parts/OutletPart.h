@@ -1,0 +1,24 @@
+#pragma once
+
+#include "Kernel/Boundaries/Outlet.h"
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+/// Grains that leave.
+class OutletPart : public StepPart {
+public:
+    explicit OutletPart(OutletHandler& ofScene) : outlets(ofScene) {}
+
+    [[nodiscard]] std::string_view name() const override { return "outlets"; }
+    [[nodiscard]] Features features(const StepContext& scene) const override;
+    [[nodiscard]] bool needsFinishedStep() const override { return false; }
+    void begin(StepContext& scene, bool isRestarted) override;
+    void atEnd(StepContext& step) override;
+    void visitState(StateArchive& archive, StepContext& scene) override;
+
+private:
+    OutletHandler& outlets;
+};
+
+}  // namespace pendular

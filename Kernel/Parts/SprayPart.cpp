@@ -1,0 +1,26 @@
+#include "Kernel/Parts/SprayPart.h"
+
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Step/StepTimes.h"
+
+namespace pendular {
+
+Features SprayPart::features(const StepContext& /*scene*/) const {
+    return sprays.isEmpty() ? Features{} : Features{Feature::Sprays};
+}
+
+void SprayPart::prepare(StepContext& step) { sprays.emit(step.particles.films(), step.time + step.length); }
+
+void SprayPart::finish(StepContext& step) {
+    const StepTimes::Part before = step.times.enter(StepTimes::Part::Liquid);
+    sprays.advance({step.grains(), step.particles.films(), step.contacts, step.walls, step.box, step.gravity,
+                    step.time + step.length, step.length, step.shifts.grains, step.smallestRadius,
+                    step.threads});
+    step.times.enter(before);
+}
+
+void SprayPart::visitState(StateArchive& archive, StepContext& scene) {
+    if (scene.particles.films().areKept()) sprays.visitState(archive, scene.particles.films());
+}
+
+}  // namespace pendular

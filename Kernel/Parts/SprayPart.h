@@ -1,0 +1,23 @@
+#pragma once
+
+#include "Kernel/Boundaries/SprayHandler.h"
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+/// Droplets that come out of sprays, fly, and are caught.
+class SprayPart : public StepPart {
+public:
+    explicit SprayPart(SprayHandler& ofScene) : sprays(ofScene) {}
+
+    [[nodiscard]] std::string_view name() const override { return "sprays"; }
+    [[nodiscard]] Features features(const StepContext& scene) const override;
+    void prepare(StepContext& step) override;
+    void finish(StepContext& step) override;
+    void visitState(StateArchive& archive, StepContext& scene) override;
+
+private:
+    SprayHandler& sprays;
+};
+
+}  // namespace pendular

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Motion/TimeIntegration.h"
+#include "Kernel/RunError.h"
+#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/SceneInside.h"
+
+// What hooks change in a run.
+
+namespace pendular {
+
+void Scene::Inside::bookEnded(double stored) {
+    if (context.ledger) context.ledger->driver -= stored;
+}
+
+void Scene::Inside::mixChangedLaws() {
+    if (!laws().hasChanged()) return;
+    laws().mixAll();
+    lawsAreNew = true;
+}
+
+void Scene::Inside::refuseOtherMemory() const {
+    ContactLayout asked = laws().layout;
+    asked.named = contacts.columns().size();
+    if (asked != contacts.store().memory.getLayout())
+        throw InputError(
+            "Simulation: a species was added in the run whose contacts remember more, or have friction where "
+            "no others have; add it before the run begins.");
+}
+
+void Scene::Inside::takeOverChanges() {
+    ParticleHandler& particles = scene.particleHandler;
+    WallHandler& walls = scene.wallHandler;
+    try {
+        contacts.sumLostForces(context.grains());
+        mixChangedLaws();
+        const bool newLaws = std::exchange(lawsAreNew, false), newStep = stepLength() != checkedStep,
+                   changedWalls = walls.hasChanges();
+        const auto firstNewWall = static_cast<int>(walls.firstNewWall());
+        if (!newLaws && !changedWalls && !newStep && !particles.hasChanges()) return;
+        const GrainChanges changes = particles.takeChanges();
+        const bool changedGrains = !changes.placed.empty() || !changes.altered.empty(),
+                   newBodies = changedWalls || changedGrains;
+        if (newLaws) {
+            refuseOtherMemory();
+            particles.renewMasses();
+            speciesChanged = true;
+        }
+        if (changedWalls) DrivePart::sumForcesOnNewDrives(context);
+        parts.takeOver(
+            contextNow(stepLength()),
+            {.laws = newLaws, .walls = changedWalls, .grains = changedGrains, .timeStep = newStep});
+        choosePartsLength();
+        const bool withShapes = laws().shapes() && !changes.added.empty(), hadEnds = periodicWalls.haveEnds();
+        if (newLaws || newBodies || withShapes || stepLength() != checkedStep || isNewToChecks(changes.added))
+            check();
+        ParticleStore& grains = particles.store();
+        if (periodicWalls.haveEnds()) wrapPlaced(grains, changes, hadEnds);
+        if (newLaws || newBodies) {
+            bookEnded(contacts.renew(grains));
+            renewAccelerations(changes);
+        } else if (!contacts.takeIn(grains, changes.added)) {
+            contacts.listNow(grains);
+        } else {
+            return;
+        }
+        refuseOverlapsOf(changes, firstNewWall);
+    } catch (const InputError& refusal) {
+        throw RunError(refusal.what());
+    }
+}
+
+/// A bridge pays for the drift of the step that comes, and Adams' formulas have the weights of equal steps.
+void Scene::Inside::refuseOtherStep() const {
+    const bool resists = laws().resistsMotion;
+    if (!resists && !integrator.remembersEarlier()) return;
+    const std::string reason =
+        resists ? fmt::format("the viscous bridges of {} need steps of one length", laws().name)
+                : fmt::format("the integrator {} needs steps of one length", shownName(integrator));
+    throw InputError(
+        fmt::format("Simulation: time step = {:.6g} s cannot be changed to {:.6g} s in the run: {}; set it "
+                    "before the run begins{}.",
+                    checkedStep, stepLength(), reason,
+                    resists ? "" : ", or take integrators::predictedVelocityVerlet or velocityVerlet"));
+}
+
+void Scene::Inside::wrapPlaced(ParticleStore& grains, const GrainChanges& changes, bool hadEnds) {
+    const double before = potentialEnergy(grains, context.gravity);
+    if (!hadEnds) wrapAll(grains);  // no contact is at a part of a wall
+    for (const auto* identities : {&changes.added, &changes.placed})
+        for (const std::uint32_t identity : *identities)
+            if (!grains.bodies.contains(identity)) {
+                Vector<double>& position = grains.translation[grains.place[identity]].position;
+                position = box.wrap(position);
+            }
+    if (context.ledger) context.ledger->carried += before - potentialEnergy(grains, context.gravity);
+    periodicWalls.lookAgain();
+}
+
+/// The forces that contacts had at the end of the last step act on in the first half of the next one, on the
+/// masses and at the arms that grains have now, so that the account of the energy closes.
+void Scene::Inside::renewAccelerations(const GrainChanges& changes) {
+    ParticleStore& grains = scene.particleHandler.store();
+    std::vector<std::uint32_t> places;
+    for (const auto* identities : {&changes.placed, &changes.altered})
+        for (const std::uint32_t identity : *identities) places.push_back(grains.place[identity]);
+    TimeIntegration::renewAccelerations(grains, contacts.store(), context.gravity, places);
+}
+
+bool Scene::Inside::isNewToChecks(std::span<const std::uint32_t> added) const {
+    const ParticleStore& grains = scene.particleHandler.store();
+    if (!added.empty() && grains.count() <= contactsInDensestBed + added.size()) return true;
+    return std::ranges::any_of(added, [&](std::uint32_t identity) {
+        const std::uint32_t place = grains.place[identity];
+        const TranslationRecord& grain = grains.translation[place];
+        if (box.imagesMove && grain.inverseMass == 0) return true;
+        return !checkedSizes.hold(grains.species[place], grain.radius, grain.inverseMass > 0);
+    });
+}
+
+/// Of bodies that were put where they are.
+void Scene::Inside::refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const {
+    const ParticleStore& grains = scene.particleHandler.store();
+    std::vector<bool> isNew(grains.size());
+    for (const auto* identities : {&changes.added, &changes.placed})
+        for (const std::uint32_t identity : *identities) isNew[grains.place[identity]] = true;
+    refuseInitialOverlaps(contacts, grains, acceptedOverlap,
+                          [&](const Bucket& bucket, std::uint32_t first, std::uint32_t second) {
+                              return isNew[first] || isNew[second] || bucket.wall >= firstNewWall;
+                          });
+}
+
+/// Why less than the amount was inserted, and what helps.
+static std::array<std::string, 2> whyNotAll(const Inserted& made) {
+    if (made.wanted == 0)
+        return {
+            fmt::format("insert(): no grain came, because the first random one is heavier than the amount "
+                        "of {:.6g} kg",
+                        made.wantedMass),
+            "take a larger amount, another seed, or Sample::Exact"};
+    return {fmt::format("insert(): {} of {} grains found room, {:.6g} kg of {:.6g} kg, a solid fraction of "
+                        "{:.3g} of the region; the first left out has a radius of {:.6g} m",
+                        made.number, made.wanted, made.mass, made.wantedMass, made.solidFraction,
+                        made.firstLeftOut),
+            "take a smaller amount, a larger region, or more tries"};
+}
+
+Inserted Scene::Inside::tellOf(const Inserted& made) {
+    if (made.number == made.wanted && made.wanted > 0) return made;
+    const auto [what, advice] = whyNotAll(made);
+    if (!scene.hasBegun()) throw InputError(fmt::format("{}; {}.", what, advice));
+    if (!std::exchange(noRoomWasTold, true)) scene.logger(LogLevel::Warn, "{}.", what);
+    return made;
+}
+
+}  // namespace pendular

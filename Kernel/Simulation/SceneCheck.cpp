@@ -1,0 +1,139 @@
+#include "Kernel/Simulation/SceneCheck.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/InputError.h"
+#include "Kernel/Particles/Resolution.h"
+
+namespace pendular {
+
+/// Throws InputError if two bodies overlap by more than a share of the smaller radius (m).
+static void refuseOverlap(const ObservedContact& contact, double smallerRadius, double accepted) {
+    const double share = -contact.separation / smallerRadius;
+    if (!(share > accepted * (1 + 1e-9))) return;  // positions are rounded
+    const std::string other = contact.wall < 0 ? fmt::format("particle {}", contact.particle2)
+                                               : fmt::format("wall {}", contact.wall);
+    throw InputError(fmt::format(
+        "particle {} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
+        "most {:g} %{}.",
+        contact.particle1, other, -contact.separation, 100 * share, 100 * accepted,
+        accepted < largestOverlapInRun
+            ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * largestOverlapInRun)
+            : ""));
+}
+
+/// m, what the overlaps of a grain are held against.
+static double radiusOrThickness(const ContactLaws& laws, const ParticleStore& grains, std::uint32_t place) {
+    return laws.shapes() ? laws.shapes()->thickness(grains, place) : grains.translation[place].radius;
+}
+
+void refuseInitialOverlaps(
+    const ContactSystem& contacts, const ParticleStore& grains, double accepted,
+    const std::function<bool(const Bucket&, std::uint32_t, std::uint32_t)>& isLookedAt) {
+    contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
+        const std::uint32_t first = block.first[contact % Pack::lanes];
+        const std::uint32_t second = bucket.wall >= 0 ? first : block.second[contact % Pack::lanes];
+        if (!isLookedAt(bucket, first, second)) return;
+        const double smaller = std::min(radiusOrThickness(contacts.laws(), grains, first),
+                                        radiusOrThickness(contacts.laws(), grains, second));
+        refuseOverlap(contacts.observe(grains, bucket, contact), smaller, accepted);
+    });
+}
+
+/// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
+/// made for: by half the smaller radius.
+static void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
+                              const PeriodicBox& box, const ContactLaws& laws, double time) {
+    constexpr double largestShare = largestOverlapInRun;
+    const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
+    const double smaller = std::min(radiusOrThickness(laws, grains, first),
+                                    radiusOrThickness(laws, grains, second)),
+                 nearest = a.radius + b.radius - largestShare * smaller;
+    const Vector<double> shift = box.nearest(b.position - a.position);
+    const double distance2 = squaredNorm(shift);
+    if (!(distance2 < nearest * nearest)) return;
+    double overlap = a.radius + b.radius - std::sqrt(distance2);
+    if (laws.shapes()) {
+        overlap = laws.shapes()->touch(grains, first, second, shift).depth;
+        if (!(overlap > largestShare * smaller)) return;
+    }
+    throw RunError(
+        fmt::format("At time {:.6g} s particles {} and {} overlap by {:.4g} m, {:.3g} % of the smaller "
+                    "radius and more than {:g} %: "
+                    "take stiffer grains, a smaller time step, or lower speeds and loads.",
+                    time, grains.identity[first], grains.identity[second], overlap, 100 * overlap / smaller,
+                    100 * largestShare));
+}
+
+void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,
+                        const ContactLaws& laws, double time) {
+    store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (bucket.wall >= 0) return;
+        const ContactBlock& block = store.blocks[contact / Pack::lanes];
+        refuseDeepOverlap(grains, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes],
+                          box, laws, time);
+    });
+}
+
+void refuseFarFaces(const PeriodicBox& box, double smallestRadius) {
+    for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z})
+        if (box.length.*axis > 0)
+            for (const double face : {box.lowest.*axis, box.lowest.*axis + box.length.*axis}) {
+                Vector<double> place{0, 0, 0};
+                place.*axis = face;
+                requireResolved("Simulation", "a periodic face", place, smallestRadius);
+            }
+}
+
+std::string remarkOnFarGrains(const ParticleStore& grains) {
+    const TranslationRecord* worst = nullptr;
+    double largest = notedRounding;
+    for (const TranslationRecord& grain : grains.translation)
+        if (grain.radius > 0 && roundingOf(grain.position, grain.radius) > largest)
+            worst = &grain, largest = roundingOf(grain.position, grain.radius);
+    if (!worst) return {};
+    return fmt::format(
+        "particle {} is so far from the origin that its position is rounded to {:.1g} of its radius; a step "
+        "should move grains by much more than that, or the scene be nearer to the origin",
+        grains.identity[static_cast<std::size_t>(worst - grains.translation.data())], largest);
+}
+
+void refuseFarGrains(const ParticleStore& grains, double time) {
+    const auto isFar = [](const TranslationRecord& grain) {
+        return !isResolved(grain.position, grain.radius) && grain.radius > 0;  // no gap
+    };
+    const auto far = std::ranges::find_if(grains.translation, isFar);
+    if (far == grains.translation.end()) return;
+    throw RunError(fmt::format(
+        "At time {:.6g} s particle {}: position {}: remove grains that fly away, by an outlet or in a hook.",
+        time, grains.identity[static_cast<std::size_t>(far - grains.translation.begin())],
+        objectionToPlace(far->position, far->radius)));
+}
+
+RunError runawayError(const ParticleStore& grains, double smallestRadius, double time, double step) {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        const double speed = norm(grains.translation[k].velocity);
+        if (speed * step <= smallestRadius) continue;
+        if (!std::isfinite(speed))
+            return RunError(
+                fmt::format("At time {:.6g} s the speed of particle {} is {} m/s, which is not a number: "
+                            "take a smaller time "
+                            "step, or look at what the driver has set, spins too.",
+                            time, grains.identity[k], std::abs(speed)));
+        return RunError(
+            fmt::format("At time {:.6g} s particle {} moves at {:.4g} m/s, farther in a step of {:.4g} s "
+                        "than the smallest radius, {:.4g} m: "
+                        "take a smaller time step, stiffer grains, or lower speeds.",
+                        time, grains.identity[k], speed, step, smallestRadius));
+    }
+    return RunError(
+        fmt::format("At time {:.6g} s a particle moved farther in a step than the smallest radius, {:.4g} m.",
+                    time, smallestRadius));
+}
+
+}  // namespace pendular

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/GrainSizes.h"
+#include "Kernel/Motion/Integrator.h"
+#include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Parts/AccountPart.h"
+#include "Kernel/Parts/AdaptivePart.h"
+#include "Kernel/Parts/BodyPart.h"
+#include "Kernel/Parts/DrivePart.h"
+#include "Kernel/Parts/FlowPart.h"
+#include "Kernel/Parts/FluxPlanePart.h"
+#include "Kernel/Parts/GrainPart.h"
+#include "Kernel/Parts/InletPart.h"
+#include "Kernel/Parts/LiquidPart.h"
+#include "Kernel/Parts/MembranePart.h"
+#include "Kernel/Parts/OutletPart.h"
+#include "Kernel/Parts/SprayPart.h"
+#include "Kernel/Simulation/PeriodicWalls.h"
+#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Step/StepList.h"
+
+namespace pendular {
+
+/// What a scene is made of inside: the contacts, the parts of its step, and what it does with them.
+/// SceneSetUp.cpp, SceneStep.cpp, SceneChanges.cpp and SceneRestart.cpp have one thing each.
+class Scene::Inside {
+public:
+    explicit Inside(Scene& of);
+
+    // SceneSetUp.cpp
+
+    void setUp();
+    /// When species, walls and grains are known.
+    void prepare();
+    /// Throws InputError where set-up would.
+    void check();
+    /// What the scene has; parts that it does not have sleep from now on.
+    [[nodiscard]] Features wakeParts();
+    /// Throws InputError where a change of gravity, shear or strain does not go together with the scene.
+    void refuseForMovingImages();
+    void warn() const;
+
+    // SceneStep.cpp
+
+    void advanceByStep(bool another);
+    /// A step of this length (s); at the start of a run one without length, which finds the forces.
+    void advance(double length, bool another);
+    /// The context of a step that begins now.
+    StepContext& contextNow(double length);
+
+    // SceneChanges.cpp
+
+    /// What hooks have changed since the last step is checked as at set-up, and holds from now on. Throws
+    /// RunError with the sentence of set-up.
+    void takeOverChanges();
+    void mixChangedLaws();
+    /// What was stored (J) in contacts that the driver has ended.
+    void bookEnded(double stored);
+    [[nodiscard]] Inserted tellOf(const Inserted& made);
+
+    // SceneRestart.cpp
+
+    void visitAll(StateArchive& archive);
+
+    // Scene.cpp
+
+    [[nodiscard]] GrainSizes sizesOf(const ParticleStore& grains) const {
+        return sizesOfScene(*context.laws, grains, scene.inletHandler);
+    }
+    [[nodiscard]] LiquidLedger liquidLedger() const;
+
+    Scene& scene;
+    PeriodicBox box;
+    ContactSystem contacts;
+    PeriodicWalls periodicWalls;
+    Integrator integrator = integrators::predictedVelocityVerlet;
+    StepContext context;
+
+    AccountPart account;
+    AdaptivePart adaptive;
+    FluxPlanePart fluxPlanes;
+    FlowPart flow;
+    GrainPart grainMotion;
+    BodyPart bodies;
+    LiquidPart liquid;
+    DrivePart drives;
+    MembranePart membranes;
+    OutletPart outlets;
+    InletPart inlets;
+    SprayPart sprays;
+    FilmMassPart filmMass;
+    /// The order in which they act: it fixes the bits.
+    StepList parts{{&account, &adaptive, &fluxPlanes, &flow, &grainMotion, &bodies, &liquid, &drives,
+                    &membranes, &outlets, &inlets, &sprays, &filmMass}};
+
+    Vector<double> lowestAtSetUp{0, 0, 0}, lengthAtSetUp{0, 0, 0};  // m, of the box
+    GrainSizes checkedSizes;
+    double checkedStep = unset;                    // s
+    double acceptedOverlap = largestSoundOverlap;  // of the smaller radius
+    double gapOfFirstBridges = 0;                  // m
+    double approachUnseen = 0;                     // m, of two grains since deep overlaps were looked for
+    bool speciesChanged = false;                   // since the run began
+    bool gravityChanged = false;                   // since the run began
+    bool lawsAreNew = false;                       // prepared ones are to be made again
+    bool noRoomWasTold = false;                    // of insert() in the run
+
+private:
+    [[nodiscard]] ContactLaws& laws() const { return *context.laws; }
+    [[nodiscard]] Features featuresOfScene() const;
+    void refuseUnlessBridgesJoin() const;
+    void warnOfFedSprings() const;
+    void warnOfSeams() const;
+
+    [[nodiscard]] double stepLength() const { return scene.getTimeStep(); }
+    void choosePartsLength();
+    void takeBack();
+    void moveAll(StepContext& step);
+    void findForces(StepContext& step);
+    /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
+    void refuseRunaway(double shift) const;
+    /// Whenever grains can have approached by a tenth of the smallest radius: nothing that lasts goes deeper
+    /// unseen by more. It does not depend on when contacts are listed.
+    void lookForDeepOverlaps(const ParticleStore& grains, double approach);
+    /// Brings grains that have left a periodic scene back into it; at fixed steps, so that no bit depends on
+    /// when contacts are listed.
+    void bringBack(StepContext& step);
+    /// The same where walls have ends (see PeriodicWalls), after contacts have been listed.
+    void bringBackAtWalls(StepContext& step);
+    void wrapAll(ParticleStore& grains) const;
+    void bookWentRound(const StepContext& step);
+
+    /// Throws InputError where the time step was changed in a run that needs steps of one length.
+    void refuseOtherStep() const;
+    /// Grains that were put outside, and all of them where the first wall with ends has come, are inside
+    /// before contacts with walls are listed.
+    void wrapPlaced(ParticleStore& grains, const GrainChanges& changes, bool hadEnds);
+    /// Whether the checks must be made again for grains that were added.
+    [[nodiscard]] bool isNewToChecks(std::span<const std::uint32_t> added) const;
+    void renewAccelerations(const GrainChanges& changes);
+    void refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const;
+    void refuseOtherMemory() const;
+
+    void visitScene(StateArchive& archive);
+    void visitSurroundings(StateArchive& archive);
+};
+
+}  // namespace pendular

@@ -1,0 +1,56 @@
+#include <array>
+
+#include "Kernel/Simulation/SceneInside.h"
+
+// What a restart file holds of a scene.
+
+namespace pendular {
+
+void Scene::Inside::visitAll(StateArchive& archive) {
+    // A file holds bodies, laws and contacts that fit together: what hooks have just changed is taken over.
+    if (archive.isWriting() && scene.hasBegun()) {
+        takeOverChanges();
+        MembraneMotion::renewForces(scene.wallHandler, contacts, context.grains(), context.gravity);
+    }
+    visitScene(archive);
+    if (archive.isReading()) prepare();
+    if (periodicWalls.haveEnds()) archive.group("periodicWalls", [&] { periodicWalls.visitState(archive); });
+    archive.group("contacts", [&] { contacts.visitState(archive, scene.particleHandler.store()); });
+    archive.group("parts", [&] { parts.visitStates(archive, context); });
+    archive.value("noRoomWasTold", noRoomWasTold);
+    scene.visitOutputs(archive);
+}
+
+void Scene::Inside::visitScene(StateArchive& archive) {
+    archive.group("species", [&] { laws().visitState(archive, speciesChanged); });
+    if (archive.isReading() && speciesChanged) laws().mixAll();
+    archive.group("walls", [&] { scene.wallHandler.visitState(archive); });
+    scene.visitSteps(archive);
+    contextNow(0);
+    archive.same("integrator", description(integrator));
+    archive.value("springsInStep", context.springsInStep);
+    visitSurroundings(archive);
+    archive.group("settings", [&] { parts.visitSettings(archive, context); });
+    archive.finite("approachUnseen", approachUnseen);
+    archive.value("smallestRadius", context.smallestRadius);
+    archive.require(context.smallestRadius > 0, "smallestRadius", "is not positive");
+    archive.group("particles", [&] { scene.particleHandler.visitState(archive); });
+}
+
+/// The directions in which the scene repeats itself are as they were set up, and so is gravity unless the run
+/// has changed it.
+void Scene::Inside::visitSurroundings(StateArchive& archive) {
+    constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+    constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+    archive.value("gravityChanged", gravityChanged);
+    if (gravityChanged) archive.finite("gravity", context.gravity);
+    scene.particleHandler.setGravity(context.gravity);
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!gravityChanged)
+            archive.group("gravity", [&] { archive.same(axes[k], context.gravity.*along[k], "m/s^2"); });
+        archive.group("periodicLowest", [&] { archive.same(axes[k], lowestAtSetUp.*along[k], "m"); });
+        archive.group("periodicLength", [&] { archive.same(axes[k], lengthAtSetUp.*along[k], "m"); });
+    }
+}
+
+}  // namespace pendular

@@ -1,0 +1,199 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/InputError.h"
+#include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Motion/TimeIntegration.h"
+#include "Kernel/Parallel.h"
+#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/SceneDomain.h"
+#include "Kernel/Simulation/SceneInside.h"
+#include "Kernel/Walls/WallSeams.h"
+#include "Kernel/Walls/WornWall.h"
+
+// How a scene is set up and checked.
+
+namespace pendular {
+
+Scene::Inside::Inside(Scene& of)
+    : scene(of),
+      context{of.particleHandler, of.bodyHandler, of.wallHandler, contacts, box, of.logger, of.stepTimer()},
+      adaptive(of.inletHandler),
+      fluxPlanes(of.fluxPlaneHandler),
+      liquid(of.sprayHandler, of.inletHandler),
+      outlets(of.outletHandler),
+      inlets(of.inletHandler),
+      sprays(of.sprayHandler) {
+    context.scheme = &integrator;
+    context.checkedSizes = &checkedSizes;
+}
+
+void Scene::Inside::refuseUnlessBridgesJoin() const {
+    const auto count = static_cast<int>(laws().speciesCount());
+    for (int a = 0; a < count; ++a)
+        for (int b = a; b < count; ++b)
+            if (laws().ofPair(a, b).formsAtContact && !laws().liquidRules(a, b)) return;
+    throw InputError(
+        fmt::format("Simulation: gap of bridges at the start = {:.6g} m, but no species has bridges of a "
+                    "volume of their own that form at a touch; leave joinAtStart() out, or take such a "
+                    "species.",
+                    gapOfFirstBridges));
+}
+
+void Scene::Inside::setUp() {
+    ParticleHandler& particles = scene.particleHandler;
+    scene.setupInitialConditions();
+    // A wall that wears needs the ledger: it tells what slides.
+    if (std::ranges::any_of(wornWalls(scene.wallHandler),
+                            [](const WornWall* wall) { return wall != nullptr; }))
+        account.keep(true);
+    scene.prepareOutputs();
+    scene.requireTimeStep();
+    account.show(context);
+    laws().mixAll();
+    particles.settleSpin();
+    if (!scene.isRestarted()) particles.renewMasses();
+    particles.films().settle(particles.store(), laws().layout.liquid > 0);
+    liquid.refuseWhereNoneMoves(context, filmMass.getDensity());
+    if (scene.isRestarted()) {
+        scene.readRestart();
+        return liquid.refuseMoreSpray(contextNow(0), scene.getTimeMax());
+    }
+    if (const double quantum = liquid.beginToCount(context, scene.getTimeMax()); quantum > 0) {
+        scene.sprayHandler.begin(quantum);
+        if (filmMass.getDensity() > 0) particles.weighFilms();  // rounded to quanta
+    }
+    prepare();
+    ParticleStore& grains = particles.store();
+    if (periodicWalls.haveEnds()) wrapAll(grains);
+    contacts.refresh(grains, 0, 0);
+    if (gapOfFirstBridges > 0) {
+        refuseUnlessBridgesJoin();
+        contacts.join(grains, gapOfFirstBridges);
+    }
+    refuseInitialOverlaps(contacts, grains, acceptedOverlap, [](auto&&...) { return true; });
+    TimeIntegration::start(grains, integrator);
+    advance(0, false);  // a step of no length: forces and accelerations at the start
+    account.beginWithThis();
+    TimeIntegration::start(grains, integrator);
+    scene.tellEvents();
+}
+
+Features Scene::Inside::featuresOfScene() const {
+    Features found;
+    if (scene.wallHandler.getSize() > 0) found.add(Feature::Walls);
+    for (const WornWall* const worn : wornWalls(scene.wallHandler)) {
+        if (!worn) continue;
+        found.add(Feature::WornWalls);
+        if (worn->wearLaw().needsImpacts()) found.add(Feature::ImpactWear);
+    }
+    if (laws().shapes()) found.add(Feature::Superquadrics);
+    if (laws().resistsMotion) found.add(Feature::ViscousBridges);
+    if (box.any() && !box.imagesMove) found.add(Feature::PeriodicFaces);
+    if (context.gravity != Vector<double>{0, 0, 0}) found.add(Feature::Gravity);
+    if (integrator.remembersEarlier()) found.add(Feature::EarlierAccelerations);
+    if (integrator.contacts.springsInStep) found.add(Feature::SpringsInStep);
+    return found;
+}
+
+Features Scene::Inside::wakeParts() {
+    Features found = parts.wake(context);
+    found.add(featuresOfScene());
+    return found;
+}
+
+void Scene::Inside::refuseForMovingImages() {
+    contextNow(stepLength());
+    refuseConflictsOf(flow.features(context), wakeParts());
+    flow.check(context);
+}
+
+void Scene::Inside::check() {
+    contextNow(stepLength());
+    context.hasInlets = !scene.inletHandler.isEmpty();
+    const Features found = wakeParts();
+    refuseConflicts(found);
+    parts.refuseOwnConflicts(found);
+    if (const GrainShapes* const shapes = laws().shapes()) shapes->check(scene.wallHandler);
+    refuseWear(scene.wallHandler, account.isKept(), laws().layout.hasTorque);
+    GrainSizes sizes = sizesOf(scene.particleHandler.store());
+    if (scene.hasBegun() && stepLength() != checkedStep) refuseOtherStep();
+    const bool checksStep = !context.acceptsUnstableStep && !adaptive.step().hasChosen();
+    checkScene(laws(), sizes, scene.wallHandler, checksStep ? stepLength() : 0, contactScheme(context));
+    context.springsInStep =
+        !sizes.hasBodies &&
+        schemeOfScene(laws(), sizes, scene.wallHandler, contactScheme(context)).contacts.springsInStep;
+    if (adaptive.step().isSet())
+        context.springsInStep |= integrator.contacts.implicitForces && laws().layout.hasTorque;
+    refuseFarFaces(box, sizes.smallest());
+    context.largestReach = checkPeriodicLengths(laws(), sizes, scene.wallHandler, box);
+    parts.check(context);
+    const double smallest = sizes.smallest();
+    periodicWalls.check(scene.wallHandler, scene.wallHandler.hasChanges(), box, laws(), sizes,
+                        bodies.widest(), std::min(context.smallestRadius, smallest));
+    checkedStep = stepLength();
+    scene.wallHandler.changesAreKnown();
+    checkedSizes = std::move(sizes);
+    if (scene.hasBegun() && smallest < context.smallestRadius) contacts.setSmallestRadius(smallest);
+    context.smallestRadius = std::min(context.smallestRadius, smallest);
+}
+
+void Scene::Inside::prepare() {
+    check();
+    static_cast<void>(scene.particleHandler.takeChanges());
+    scene.particleHandler.closeColumns();
+    lawsAreNew = false;
+    GrainFilms& films = scene.particleHandler.films();
+    if (films.areKept())
+        scene.keepOutput({.write = [this] { LiquidPart::requireAll(liquidLedger(), scene.getTime()); }});
+    scene.setHasBegun();
+    scene.sprayHandler.close();
+    parts.begin(context, scene.isRestarted());
+    contacts.prepare(laws(), scene.wallHandler, box, SkinChoice::byCost(context.smallestRadius),
+                     account.isKept(), films.areKept() ? &films : nullptr);
+    warn();
+}
+
+void Scene::Inside::warn() const {
+    Logger& logger = scene.logger;
+    if (scene.isQuiet()) return;
+    if (context.threads > processorCount())
+        logger(LogLevel::Warn, "{} threads share {} processors; the run is slower than with {}.",
+               context.threads, processorCount(), processorCount());
+    for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, scene.wallHandler))
+        logger(LogLevel::Warn, "{}.", broken.text());
+    if (const std::string remark = remarkOnFarGrains(scene.particleHandler.store()); !remark.empty())
+        logger(LogLevel::Warn, "{}.", remark);
+    warnOfFedSprings();
+    warnOfSeams();
+}
+
+void Scene::Inside::warnOfFedSprings() const {
+    const double fewest =
+        fewestStepsToDouble(laws(), checkedSizes, scene.wallHandler, contactScheme(context), stepLength());
+    if (fewest > 1e7) return;
+    const std::string time = fewest < 1 ? "less than one step" : fmt::format("some {:.0f} steps", fewest);
+    const std::string_view advice =
+        checkedSizes.hasBodies
+            ? "give it a larger dissipation, or take a smaller step, or integrators::velocityVerlet"
+            : "give it a larger dissipation, or take a smaller step, integrators::springsInStep or "
+              "velocityVerlet";
+    scene.logger(LogLevel::Warn,
+                 "{}: its springs have too weak dashpots for a time step of {:.3g} s, at which motions of "
+                 "grains at rest may double in {}; {}.",
+                 laws().friction, stepLength(), time, advice);
+}
+
+void Scene::Inside::warnOfSeams() const {
+    const ParticleStore& grains = scene.particleHandler.store();
+    double largest = 0;
+    for (const std::uint32_t place : grains.place)
+        largest = std::max(largest, grains.translation[place].radius);
+    if (!(largest > 0) || laws().shapes()) return;
+    for (const std::string& sentence : doubtfulSeams(scene.wallHandler, context.smallestRadius, largest))
+        scene.logger(LogLevel::Warn, "{}.", sentence);
+}
+
+}  // namespace pendular

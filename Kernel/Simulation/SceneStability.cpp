@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "Kernel/InputError.h"
+#include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Simulation/SceneInside.h"
+#include "Kernel/Species/Field.h"
+
+// What a scene says of its time step.
+
+namespace pendular {
+
+double Scene::stabilityLimit() {
+    inside->mixChangedLaws();
+    return sceneStabilityLimit(laws(), grainSizes(particleHandler.store()), wallHandler, scheme());
+}
+
+double Scene::stabilityLimit(std::span<const SphericalParticle> toCome) {
+    inside->mixChangedLaws();
+    ParticleStore grains = particleHandler.store();
+    for (const SphericalParticle& grain : toCome) {
+        const double mass = particleHandler.massOf(grain.getRadius(), grain.getSpeciesIndex());
+        grains.add({{0, 0, 0}, grain.getRadius(), {0, 0, 0}, grain.isFixed() ? 0 : 1 / mass}, {0, 0, 0},
+                   static_cast<std::uint16_t>(grain.getSpeciesIndex()));
+    }
+    return sceneStabilityLimit(laws(), grainSizes(grains), wallHandler, scheme());
+}
+
+double Scene::shortestContactTime() {
+    inside->mixChangedLaws();
+    return shortestHalfPeriod(laws(), grainSizes(particleHandler.store()), wallHandler);
+}
+
+double Scene::stableStepOfContacts() {
+    requireBegun("stableStepOfContacts()");
+    requireNoBodies("stableStepOfContacts()");
+    return ContactBounds().find(contacts(), wallHandler, particleHandler.store(), scheme()).step;
+}
+
+StabilityAdvice Scene::stabilityAdvice() {
+    requireBegun("stabilityAdvice()");
+    requireNoBodies("stabilityAdvice()");
+    const ParticleStore& grains = particleHandler.store();
+    const auto find = [&](const ContactOutlook& outlook) {
+        return ContactBounds().find(contacts(), wallHandler, grains, scheme(), outlook);
+    };
+    const ContactBound now = find({}), pressed = find({.leastOverlap = largestSoundOverlap}),
+                       smooth = find({.sticking = false});
+    const double limit = stabilityLimit();
+    const bool acts = now.step < infinity;
+    std::size_t sides = 0, free = 0;
+    contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (contacts().store().touches(contact)) sides += bucket.wall < 0 ? 2 : 1;
+    });
+    for (const std::uint32_t at : grains.place) free += grains.isFree(at) ? 1 : 0;
+    return {
+        .limit = limit,
+        .step = now.step,
+        .byOverlap = acts ? now.step / pressed.step : 1,
+        .byNeighbours = acts ? pressed.step / limit : 1,
+        .byFriction = acts ? smooth.step / now.step : 1,
+        .largestOverlap = now.largestOverlap,
+        .meanOverlap = now.meanOverlap,
+        .contactsOfGrain = static_cast<double>(sides) / static_cast<double>(std::max<std::size_t>(free, 1)),
+        .slidingShare = slidingShare(contacts(), grains),
+        .grain = now.grain,
+        .species = acts ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
+        .contactsOfThis = now.contactsOfGrain,
+        .overlapOfThis = now.overlapOfGrain};
+}
+
+void Scene::requireNoBodies(std::string_view call) const {
+    if (!particleHandler.store().bodies.empty())
+        throw InputError(
+            fmt::format("Simulation: {} does not know rigid bodies; take stabilityLimit().", call));
+}
+
+void Scene::setAdaptiveTimeStep(double share, std::optional<double> largestStep) {
+    requireSetUp("adaptive time step");
+    checkValue("Simulation", "share of the adaptive time step", share, "", {0, 1, false, true});
+    if (largestStep) checkValue("Simulation", "largest adaptive time step", *largestStep, "s", positive);
+    inside->adaptive.set(share, largestStep.value_or(0));
+}
+
+}  // namespace pendular

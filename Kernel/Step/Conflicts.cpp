@@ -1,0 +1,122 @@
+#include "Kernel/Step/Conflicts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "Kernel/InputError.h"
+
+namespace pendular {
+
+namespace {
+
+using enum Feature;
+
+constexpr std::string_view noImagesOfWalls = "walls have no images, and those of the grains move past them",
+                           leaveWallsOut =
+                               "leave the walls out, or leave the images at rest and move walls instead "
+                               "(setMotion(), setPiston())",
+                           comeInFlow =
+                               "what comes or is counted does not know the flow in which the images move",
+                           singleGrains = "its bound of the step counts with grains that move by themselves",
+                           leaveAdaptiveOut = "leave setAdaptiveTimeStep() out",
+                           otherIntegrator = "take integrators::predictedVelocityVerlet or velocityVerlet",
+                           stepsOfOneLength = "they need steps of one length";
+
+constexpr std::array table{
+    Conflict{Shear, Walls, noImagesOfWalls, leaveWallsOut},
+    Conflict{Strain, Walls, noImagesOfWalls, leaveWallsOut},
+    Conflict{Shear, HeldGrains, "a grain that is held would not go with the flow as its images do",
+             "let it go by fixParticle(false), or make it heavy"},
+    Conflict{Strain, HeldGrains, "a grain that is held would not go with the flow as its images do",
+             "let it go by fixParticle(false), or make it heavy"},
+    Conflict{Shear, GravityAlongGradient, "grains would fall through images that move",
+             "let gravity act along another axis, or set it to zero"},
+    Conflict{Strain, Gravity, "a scene that falls has no state that is strained homogeneously",
+             "set gravity to zero"},
+    Conflict{Shear, Sprays, comeInFlow, "leave the sprays out"},
+    Conflict{Strain, Sprays, comeInFlow, "leave the sprays out"},
+    Conflict{Shear, Inlets, comeInFlow, "leave the inlets out, and insert grains at set-up"},
+    Conflict{Strain, Inlets, comeInFlow, "leave the inlets out, and insert grains at set-up"},
+    Conflict{Shear, Outlets, comeInFlow, "leave the outlets out, and remove grains in a hook"},
+    Conflict{Strain, Outlets, comeInFlow, "leave the outlets out, and remove grains in a hook"},
+    Conflict{Shear, FluxPlanes, comeInFlow, "leave the flux planes out"},
+    Conflict{Strain, FluxPlanes, comeInFlow, "leave the flux planes out"},
+    Conflict{Superquadrics, StressServo, "its servo knows the stiffness of contacts of spheres only",
+             "give the scene a rate instead (setStrainRate(), setShearRate())"},
+    Conflict{Superquadrics, Inlets, "inlets bring spheres", "leave the inlets out, and add all at set-up"},
+    Conflict{RigidBodies, EarlierAccelerations, "the motion of bodies keeps no acceleration of the last step",
+             otherIntegrator},
+    Conflict{RigidBodies, SpringsInStep, "grains of a body keep no accelerations of their own",
+             otherIntegrator},
+    Conflict{RigidBodies, Outlets, "outlets take grains one by one, and those of a body go together",
+             "leave the outlets out, and remove bodies in a hook by bodyHandler.removeObject()"},
+    Conflict{RigidBodies, FilmMass, "the mass of a body does not follow the films of its grains",
+             "leave setLiquidDensity() out"},
+    Conflict{RigidBodies, ImpactWear, "several grains of a body may hit at once",
+             "take WearLaw::archard(), reye() or none()"},
+    Conflict{RigidBodies, AdaptiveStep, singleGrains, leaveAdaptiveOut},
+    Conflict{AdaptiveStep, Shear, singleGrains, leaveAdaptiveOut},
+    Conflict{AdaptiveStep, Strain, singleGrains, leaveAdaptiveOut},
+    Conflict{AdaptiveStep, DrivenWalls, singleGrains, leaveAdaptiveOut},
+    Conflict{AdaptiveStep, Membranes, singleGrains, leaveAdaptiveOut},
+    Conflict{AdaptiveStep, ViscousBridges, stepsOfOneLength, leaveAdaptiveOut},
+    Conflict{AdaptiveStep, EarlierAccelerations, stepsOfOneLength,
+             "leave setAdaptiveTimeStep() out, or take integrators::predictedVelocityVerlet or "
+             "velocityVerlet"},
+    Conflict{Membranes, PeriodicFaces, "a membrane has no images", "leave setPeriodic() out"},
+};
+
+bool isIn(const Conflict& conflict, Feature a, Feature b) {
+    return (conflict.a == a && conflict.b == b) || (conflict.a == b && conflict.b == a);
+}
+
+}  // namespace
+
+std::span<const Conflict> conflicts() { return table; }
+
+std::string sentence(const Conflict& conflict, const Features& scene) {
+    return fmt::format("Simulation: {} and {} cannot be combined: {}; {}.", scene.shown(conflict.a),
+                       scene.shown(conflict.b), conflict.why, conflict.advice);
+}
+
+void refuseConflicts(const Features& scene, std::span<const Conflict> table) {
+    for (const Conflict& conflict : table)
+        if (scene.has(conflict.a) && scene.has(conflict.b)) throw InputError(sentence(conflict, scene));
+}
+
+void refuseConflictsOf(const Features& some, const Features& scene) {
+    for (const Conflict& conflict : conflicts())
+        if ((some.has(conflict.a) || some.has(conflict.b)) && scene.has(conflict.a) && scene.has(conflict.b))
+            throw InputError(sentence(conflict, scene));
+}
+
+std::string conflictMatrix() {
+    std::vector<Feature> shown;  // those with a conflict
+    for (std::size_t k = 0; k < static_cast<std::size_t>(Count); ++k)
+        if (const auto feature = static_cast<Feature>(k);
+            std::ranges::any_of(table, [&](const Conflict& c) { return c.a == feature || c.b == feature; }))
+            shown.push_back(feature);
+    std::string text = "| |";
+    for (std::size_t k = 0; k < shown.size(); ++k) text += fmt::format(" {} |", k + 1);
+    text += "\n|---|";
+    for (std::size_t k = 0; k < shown.size(); ++k) text += "---|";
+    text += '\n';
+    for (std::size_t row = 0; row < shown.size(); ++row) {
+        text += fmt::format("| {} {} |", row + 1, nameOf(shown[row]));
+        for (const Feature column : shown) {
+            const bool no =
+                std::ranges::any_of(table, [&](const Conflict& c) { return isIn(c, shown[row], column); });
+            text += no ? " no |" : " |";
+        }
+        text += '\n';
+    }
+    text += "\nWhy, and what to do instead:\n\n";
+    for (const Conflict& c : table)
+        text += fmt::format("- {} and {}: {}; {}.\n", nameOf(c.a), nameOf(c.b), c.why, c.advice);
+    return text;
+}
+
+}  // namespace pendular

@@ -1,0 +1,80 @@
+#include "Kernel/Step/StepList.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ranges>
+
+#include "Kernel/InputError.h"
+#include "Kernel/State/StateArchive.h"
+
+namespace pendular {
+
+void StepList::add(std::unique_ptr<StepPart> part) {
+    const auto hasItsName = [&](const StepPart* other) { return other->name() == part->name(); };
+    if (part->name().empty() || std::ranges::any_of(parts, hasItsName))
+        throw InputError(
+            fmt::format("Simulation: a part of the step has the name '{}'; it must have one of "
+                        "its own.",
+                        part->name()));
+    parts.push_back(part.get());
+    own.push_back(std::move(part));
+}
+
+Features StepList::wake(const StepContext& context) {
+    Features all;
+    awake.clear();
+    finishEachStep = false;
+    for (StepPart* const part : parts) {
+        const Features found = part->features(context);
+        if (found.isEmpty()) continue;
+        all.add(found);
+        awake.push_back(part);
+        finishEachStep |= part->needsFinishedStep();
+    }
+    return all;
+}
+
+void StepList::refuseOwnConflicts(const Features& scene) const {
+    for (const auto& part : own) {
+        if (std::ranges::find(awake, part.get()) == awake.end()) continue;
+        Features named = scene;
+        named.add(Feature::OwnPart, std::string(part->name()));
+        refuseConflicts(named, part->ownConflicts());
+    }
+}
+
+void StepList::check(const StepContext& context) const {
+    for (StepPart* const part : awake) part->check(context);
+}
+
+void StepList::begin(StepContext& context, bool isRestarted) const {
+    for (StepPart* const part : awake) part->begin(context, isRestarted);
+}
+
+void StepList::takeOver(StepContext& context, const SceneChanges& changes) const {
+    for (StepPart* const part : awake) part->takeOver(context, changes);
+}
+
+void StepList::takeBack(StepContext& context) const {
+    for (StepPart* const part : awake | std::views::reverse) part->takeBack(context);
+}
+
+void StepList::visitSettings(StateArchive& archive, StepContext& context) const {
+    for (StepPart* const part : parts)
+        archive.group(part->name(), [&] { part->visitSetting(archive, context); });
+}
+
+void StepList::visitStates(StateArchive& archive, StepContext& context) const {
+    std::vector<std::string_view> names;
+    for (const auto& part : own) names.push_back(part->name());
+    archive.same("partsOfTheDriver", fmt::format("{}", fmt::join(names, ", ")));
+    for (StepPart* const part : parts)
+        archive.group(part->name(), [&] { part->visitState(archive, context); });
+}
+
+void StepList::addTo(SummaryRows& rows) const {
+    for (const StepPart* const part : awake) part->addTo(rows);
+}
+
+}  // namespace pendular

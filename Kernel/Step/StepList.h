@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+/// The parts of a scene's step, in the order in which they act. Those that the scene does not have are not
+/// called.
+class StepList {
+public:
+    using Phase = void (StepPart::*)(StepContext&);
+
+    /// @param kernelParts live as long as the list
+    explicit StepList(std::vector<StepPart*> kernelParts) : parts(std::move(kernelParts)) {}
+
+    /// A part of a driver's own comes behind all others. Throws InputError if there is a part of its name.
+    void add(std::unique_ptr<StepPart> part);
+
+    /// Finds out which parts the scene has, and what it has by them.
+    Features wake(const StepContext& context);
+    /// Throws InputError for what cannot be combined with a part of a driver's own.
+    void refuseOwnConflicts(const Features& scene) const;
+    void check(const StepContext& context) const;
+    void begin(StepContext& context, bool isRestarted) const;
+    void takeOver(StepContext& context, const SceneChanges& changes) const;
+
+    void call(Phase phase, StepContext& context) const {
+        for (StepPart* const part : awake) (part->*phase)(context);
+    }
+    /// In the opposite order.
+    void takeBack(StepContext& context) const;
+    [[nodiscard]] bool needFinishedStep() const { return finishEachStep; }
+
+    /// A group of each part, asleep or not: a scene that goes on is held against all of them.
+    void visitSettings(StateArchive& archive, StepContext& context) const;
+    void visitStates(StateArchive& archive, StepContext& context) const;
+    void addTo(SummaryRows& rows) const;
+
+private:
+    std::vector<StepPart*> parts, awake;
+    std::vector<std::unique_ptr<StepPart>> own;
+    bool finishEachStep = false;
+};
+
+}  // namespace pendular

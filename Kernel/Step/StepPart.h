@@ -1,0 +1,77 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "Kernel/Step/Conflicts.h"
+#include "Kernel/Step/StepContext.h"
+
+namespace pendular {
+
+class StateArchive;
+class SummaryRows;
+
+/// What hooks have changed since the last step.
+struct SceneChanges {
+    bool laws = false;    // species or pairs
+    bool walls = false;   // added, removed, or moved by other forces
+    bool grains = false;  // that were there: put elsewhere, made larger or smaller, held
+    bool timeStep = false;
+    // None of them: only new grains have come.
+    [[nodiscard]] bool areOnlyNewGrains() const { return !laws && !walls && !grains && !timeStep; }
+};
+
+/// Something that acts in the steps of a scene. A scene calls its parts in the order of their list, phase by
+/// phase, and takes a step that fails back in the opposite order. A driver adds a part of its own by
+/// addPart(). No part is called in a scene that does not have its features.
+///
+/// Errors: a part throws InputError or RunError with one sentence; in a run both end it, with the sentence.
+class StepPart {
+public:
+    StepPart() = default;
+    StepPart(const StepPart&) = delete;
+    StepPart& operator=(const StepPart&) = delete;
+    virtual ~StepPart() = default;
+
+    /// In restart files, the summary and messages; one part has it.
+    [[nodiscard]] virtual std::string_view name() const = 0;
+    /// What the scene has by this part; none: the part sleeps. Asked at set-up and after changes.
+    [[nodiscard]] virtual Features features(const StepContext&) const { return {Feature::OwnPart}; }
+    /// What a part of a driver's own does not go together with: a is Feature::OwnPart.
+    [[nodiscard]] virtual std::span<const Conflict> ownConflicts() const { return {}; }
+    /// Whether finish() needs the velocities at the end of each step. Where no part does, the end of a step
+    /// is done together with the start of the next one, which is faster.
+    [[nodiscard]] virtual bool needsFinishedStep() const { return true; }
+
+    /// Throws InputError for what cannot be; at set-up and after changes.
+    virtual void check(const StepContext&) {}
+    /// The run begins, or goes on from a restart file.
+    virtual void begin(StepContext&, bool /*isRestarted*/) {}
+    /// Hooks have changed something; before check().
+    virtual void takeOver(StepContext&, const SceneChanges&) {}
+
+    /// Before a step, of a whole state: it may still choose the length of the step, or change velocities (the
+    /// energy ledger books that as given by the driver). It is not taken back.
+    virtual void prepare(StepContext&) {}
+    virtual void beforeMotion(StepContext&) {}
+    virtual void moveGrains(StepContext&) {}
+    /// Images and walls, when the grains have moved.
+    virtual void moveSurroundings(StepContext&) {}
+    /// All have moved, and `shifts` are known.
+    virtual void afterMotion(StepContext&) {}
+    virtual void afterForces(StepContext&) {}
+    /// Grains have the velocities of the end of the step.
+    virtual void finish(StepContext&) {}
+    /// The step has not failed, and is not taken back any more: grains may come and go.
+    virtual void atEnd(StepContext&) {}
+    /// The step has failed after beforeMotion(): the part is as it was before it.
+    virtual void takeBack(StepContext&) {}
+
+    /// What check() and begin() need of a restart file.
+    virtual void visitSetting(StateArchive&, StepContext&) {}
+    /// All else that it remembers.
+    virtual void visitState(StateArchive&, StepContext&) {}
+    virtual void addTo(SummaryRows&) const {}
+};
+
+}  // namespace pendular
