@@ -12,6 +12,7 @@ public:
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     void check(const StepContext& scene) override;
     void begin(StepContext& scene, bool isRestarted) override;
+    void beforeMotion(StepContext& step) override;
     void moveGrains(StepContext& step) override;
     /// A scene that is strained may become too short for a body.
     void afterMotion(StepContext& step) override;
@@ -24,7 +25,8 @@ public:
     static void warnOfGaps(const StepContext& scene, std::size_t first);
 
 private:
-    double width = 0;  // m
+    double width = 0;        // m
+    bool haveMoved = false;  // in this step
 };
 
 }  // namespace pendular

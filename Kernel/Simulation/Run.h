@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "Kernel/Files/FileLock.h"
+#include "Kernel/InputError.h"
 #include "Kernel/Logger.h"
 #include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/Progress.h"
+#include "Kernel/RunError.h"
 #include "Kernel/Simulation/RunControl.h"
 #include "Kernel/State/RestartFile.h"
 #include "Kernel/Step/StepTimes.h"

@@ -121,6 +121,8 @@ private:
     [[nodiscard]] double stepLength() const { return scene.getTimeStep(); }
     void choosePartsLength();
     void takeBack();
+    void moveAndFindForces(double length);
+    void finishStep(bool another);
     void moveAll(StepContext& step);
     void findForces(StepContext& step);
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.

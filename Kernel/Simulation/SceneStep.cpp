@@ -25,7 +25,7 @@ void Scene::Inside::advanceByStep(bool another) {
     }
     choosePartsLength();
     try {
-        advance(stepLength(), another);
+        moveAndFindForces(stepLength());
     } catch (const InputError& refusal) {
         takeBack();
         throw RunError(refusal.what());
@@ -34,6 +34,7 @@ void Scene::Inside::advanceByStep(bool another) {
         throw;
     }
     try {
+        finishStep(another);
         parts.call(&StepPart::atEnd, context);
     } catch (const InputError& refusal) {
         throw RunError(refusal.what());
@@ -53,17 +54,25 @@ void Scene::Inside::choosePartsLength() {
 }
 
 void Scene::Inside::advance(double length, bool another) {
+    moveAndFindForces(length);
+    finishStep(another);
+}
+
+void Scene::Inside::moveAndFindForces(double length) {
     StepContext& step = contextNow(length);
     moveAll(step);
     findForces(step);
     parts.call(&StepPart::afterForces, step);
-    step.times.enter(StepTimes::Part::Sum);
-    step.unfinished = length;
+}
+
+void Scene::Inside::finishStep(bool another) {
+    context.times.enter(StepTimes::Part::Sum);
+    context.unfinished = context.length;
     scene.particleHandler.leaveStepUnfinished();
     if (!another || parts.needFinishedStep()) scene.particleHandler.finishStep();
-    step.times.enter(StepTimes::Part::Other);
-    parts.call(&StepPart::finish, step);
-    step.times.enter(StepTimes::Part::Other);
+    context.times.enter(StepTimes::Part::Other);
+    parts.call(&StepPart::finish, context);
+    context.times.enter(StepTimes::Part::Other);
 }
 
 void Scene::Inside::moveAll(StepContext& step) {

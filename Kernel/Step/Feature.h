@@ -52,7 +52,9 @@ public:
     }
 
     /// @param which of them, for the sentence of a conflict: "wall 2"
-    void add(Feature feature, std::string which = {}) { found.emplace(feature, std::move(which)); }
+    void add(Feature feature, std::string which = {}) {
+        if (std::string& told = found[feature]; told.empty()) told = std::move(which);
+    }
     void add(const Features& others) { found.insert(others.found.begin(), others.found.end()); }
 
     [[nodiscard]] bool isEmpty() const { return found.empty(); }

@@ -60,11 +60,12 @@ public:
     /// All have moved, and `shifts` are known.
     virtual void afterMotion(StepContext&) {}
     virtual void afterForces(StepContext&) {}
-    /// Grains have the velocities of the end of the step.
+    /// Grains have the velocities of the end of the step, which is not taken back any more.
     virtual void finish(StepContext&) {}
-    /// The step has not failed, and is not taken back any more: grains may come and go.
+    /// Grains may come and go.
     virtual void atEnd(StepContext&) {}
-    /// The step has failed after beforeMotion(): the part is as it was before it.
+    /// The step has failed in one of the phases from beforeMotion() to afterForces(): the part is as it was
+    /// before it.
     virtual void takeBack(StepContext&) {}
 
     /// What check() and begin() need of a restart file.

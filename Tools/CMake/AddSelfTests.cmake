@@ -45,8 +45,7 @@ function(pendular_add_self_test folder)
         set_source_files_properties("${selfTests}/HowDoI/FirstDriver.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
     add_warnings(${name})
-    precompile_headers(${name} ${keeperOfTests} ${precompiledHeaders} <gtest/gtest.h>
-                       "Kernel/Simulation/Simulation.h")
+    precompile_headers(${name} PrecompiledTests)
 
     # The suite's name may follow that of an instantiation: "Materials/LongCollision.Restitution/3".
     set(long "Long*:*/Long*.*")
@@ -67,8 +66,14 @@ list(REMOVE_ITEM testFolders CompileFail OutOfTree)
 if(NOT PENDULAR_BUILD_STUDIES)
     list(REMOVE_ITEM testFolders AccuracyVersusCost Species/Composition)
 endif()
-list(GET testFolders 0 keeperOfTests)
-string(REPLACE "/" "" keeperOfTests "SelfTest${keeperOfTests}")
+# The precompiled header of all tests, in a target of its own: a test program depends on no other one.
+file(WRITE "${PROJECT_BINARY_DIR}/Generated/PrecompiledTests.cpp" "")
+add_library(PrecompiledTests OBJECT "${PROJECT_BINARY_DIR}/Generated/PrecompiledTests.cpp")
+target_link_libraries(PrecompiledTests PRIVATE $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel
+                      GTest::gtest_main)
+add_warnings(PrecompiledTests)
+precompile_headers(PrecompiledTests PrecompiledTests ${precompiledHeaders} <gtest/gtest.h>
+                   "Kernel/Simulation/Simulation.h")
 foreach(folder IN LISTS testFolders)
     pendular_add_self_test(${folder})
 endforeach()
