@@ -7,7 +7,7 @@
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/LastState.h"
+#include "Kernel/Simulation/LastState.h"
 #include "Kernel/Output/MercuryOutput.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Simulation/Program.h"

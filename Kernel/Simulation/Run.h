@@ -10,8 +10,8 @@
 
 #include "Kernel/Files/FileLock.h"
 #include "Kernel/Logger.h"
-#include "Kernel/Output/OutputInterval.h"
-#include "Kernel/Output/Progress.h"
+#include "Kernel/Simulation/OutputInterval.h"
+#include "Kernel/Simulation/Progress.h"
 #include "Kernel/Simulation/RunControl.h"
 #include "Kernel/Simulation/StepTimes.h"
 #include "Kernel/State/RestartFile.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "Kernel/Motion/TimeIntegration.h"
-#include "Kernel/Output/LastState.h"
+#include "Kernel/Simulation/LastState.h"
 #include "Kernel/Parallel.h"
 #include "Kernel/Shapes/SphereGroups.h"
 #include "Kernel/Simulation/SceneCheck.h"

@@ -13,7 +13,7 @@
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/MembraneMotion.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
-#include "Kernel/Output/OutputForm.h"
+#include "Kernel/Simulation/OutputForm.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/HomogeneousStrain.h"
 #include "Kernel/Particles/LeesEdwards.h"
