@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "Kernel/Contacts/NeighbourSearch.h"
-#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
+
+class Wall;
+class WallHandler;
 
 /// A droplet in flight.
 struct Droplet {

@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "Kernel/Contacts/ContactLiquid.h"
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Contacts/LiquidLedger.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Parallel.h"
+#include "Kernel/Particles/GrainFilms.h"
 #include "Kernel/Particles/MovingBodies.h"
+#include "Kernel/State/StateArchive.h"
+#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 

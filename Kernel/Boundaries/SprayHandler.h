@@ -1,13 +1,18 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "Kernel/Boundaries/Droplets.h"
 #include "Kernel/Boundaries/Spray.h"
-#include "Kernel/Contacts/ContactSystem.h"
 
 namespace pendular {
+
+class ContactSystem;
+class GrainFilms;
+class StateArchive;
+struct LiquidLedger;
 
 /// Where a droplet has ended in a step.
 struct CaughtDroplet {

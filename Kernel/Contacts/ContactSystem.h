@@ -8,9 +8,9 @@
 #include "Kernel/Contacts/CapillaryWatch.h"
 #include "Kernel/Contacts/ContactEvents.h"
 #include "Kernel/Contacts/ContactLiquid.h"
-#include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/IdleLanes.h"
+#include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Contacts/SkinChoice.h"
@@ -22,6 +22,7 @@
 namespace pendular {
 
 class ContactSystem;
+class RememberedContacts;
 
 /// A column of numbers, one for each contact that acts, by the contact as it was observed in this step:
 /// for (const ObservedContact& contact : interactions()) age[contact] += getTimeStep().
@@ -175,13 +176,7 @@ public:
     }
 
     /// m^3, of the bridges of the grain at a place: half of each to another grain, all of one to a wall.
-    [[nodiscard]] double liquidAt(const Grains& grains, std::uint32_t place) const {
-        double sum = 0;
-        forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
-            sum += (bucket.wall >= 0 ? 1 : 0.5) * observe(grains, bucket, contact).bridgeVolume;
-        });
-        return sum;
-    }
+    [[nodiscard]] double liquidAt(const Grains& grains, std::uint32_t place) const;
 
     /// A number of the driver's own that is kept of each contact from its first touch (or bridge) until it
     /// neither touches nor is bridged. Returns the column's number. Before prepare(). Throws InputError for a
