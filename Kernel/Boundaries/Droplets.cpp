@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Kernel/Walls/WallHandler.h"
+
 namespace pendular {
 
 namespace {

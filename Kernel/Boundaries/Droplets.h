@@ -1,12 +1,24 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
-#include "Kernel/Boundaries/Droplet.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
-#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
+
+class Wall;
+class WallHandler;
+
+/// A droplet in flight.
+struct Droplet {
+    Vector<double> position, velocity;  // m, m/s
+    double radius;                      // m
+    double volume;                      // m^3, a multiple of the quantum
+    double flown;                       // s
+    double spray;                       // its number
+};
 
 /// A sphere that moves straight from one point to another, in a step.
 struct Sweep {

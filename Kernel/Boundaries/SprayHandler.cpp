@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Boundaries/Droplets.h"
+#include "Kernel/Contacts/ContactLiquid.h"
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Contacts/LiquidLedger.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Parallel.h"
+#include "Kernel/Particles/GrainFilms.h"
 #include "Kernel/Particles/MovingBodies.h"
+#include "Kernel/State/StateArchive.h"
+#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 
@@ -19,20 +23,6 @@ InputError noSprayError(std::size_t number, std::size_t count) {
 }
 
 }  // namespace
-
-struct SprayHandler::Flight {
-    Sweep sweep;
-    Vector<double> velocity;  // m/s, at the start of the step
-    SweepHit hit;
-};
-
-struct SprayHandler::Flights {
-    std::vector<Flight> all;
-    SweptSearch search;
-};
-
-SprayHandler::SprayHandler() : flights(std::make_unique<Flights>()) {}
-SprayHandler::~SprayHandler() = default;
 
 std::size_t SprayHandler::copyAndAddObject(const Spray& spray) {
     if (isClosed) throw InputError("Simulation: sprays can only be added before the run begins.");
@@ -99,26 +89,24 @@ void SprayHandler::advance(const SprayStep& step) {
     caughtInStep.clear();
     if (inFlight.empty()) return;
     fly(step);
-    std::vector<Flight>& all = flights->all;
-    SweptSearch& search = flights->search;
     search.update(step.grains, step.periodic, step.contacts.rebuildCount(), step.grainShift,
                   step.smallestRadius);
     inParts(
-        all.size(), step.threads,
+        flights.size(), step.threads,
         [&](int, std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k)
-                all[k].hit = search.firstHit(all[k].sweep, step.grains, step.periodic, step.walls);
+                flights[k].hit = search.firstHit(flights[k].sweep, step.grains, step.periodic, step.walls);
         },
         64);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < inFlight.size(); ++k)
-        if (finish(step, inFlight[k], all[k])) inFlight[kept++] = inFlight[k];
+        if (finish(step, inFlight[k], flights[k])) inFlight[kept++] = inFlight[k];
     inFlight.resize(kept);
 }
 
 /// x + v t + g t^2 / 2, exact for any step; a droplet that has just come out flies for a part of it.
 void SprayHandler::fly(const SprayStep& step) {
-    flights->all.clear();
+    flights.clear();
     const std::size_t old = inFlight.size() - newOnes;
     for (std::size_t k = 0; k < inFlight.size(); ++k) {
         Droplet& droplet = inFlight[k];
@@ -126,7 +114,7 @@ void SprayHandler::fly(const SprayStep& step) {
             k < old ? step.length : std::clamp(step.time - std::exchange(droplet.flown, 0), 0.0, step.length);
         const Vector<double> from = step.periodic.wrap(droplet.position);
         const Vector<double> way = time * droplet.velocity + (0.5 * time * time) * step.gravity;
-        flights->all.push_back({{from, from + way, droplet.radius, time}, droplet.velocity, {}});
+        flights.push_back({{from, from + way, droplet.radius, time}, droplet.velocity, {}});
         droplet.position = from + way;
         droplet.velocity += time * step.gravity;
         droplet.flown += time;

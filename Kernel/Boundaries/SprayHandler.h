@@ -1,18 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "Kernel/Boundaries/Droplet.h"
+#include "Kernel/Boundaries/Droplets.h"
 #include "Kernel/Boundaries/Spray.h"
-#include "Kernel/Particles/GrainFilms.h"
-#include "Kernel/Particles/PeriodicBox.h"
 
 namespace pendular {
 
 class ContactSystem;
-class WallHandler;
+class GrainFilms;
+class StateArchive;
 struct LiquidLedger;
 
 /// Where a droplet has ended in a step.
@@ -47,9 +46,6 @@ struct SprayStep {
 /// taken for straight, which is off by g dt^2 / 8 at most.
 class SprayHandler {
 public:
-    SprayHandler();
-    ~SprayHandler();
-
     /// At set-up only. Returns the number of the spray. Throws InputError if something of it is not set.
     std::size_t copyAndAddObject(const Spray& spray);
     [[nodiscard]] std::size_t getSize() const { return sprays.size(); }
@@ -81,8 +77,11 @@ public:
     static constexpr std::size_t mostDroplets = 10'000'000;  // in flight
 
 private:
-    struct Flight;
-    struct Flights;
+    struct Flight {
+        Sweep sweep;
+        Vector<double> velocity;  // m/s, at the start of the step
+        SweepHit hit;
+    };
 
     [[nodiscard]] double wholeVolume(double radius) const;
     void fly(const SprayStep& step);
@@ -94,9 +93,10 @@ private:
     std::vector<Spray> sprays;
     std::vector<std::uint64_t> counts;  // of droplets that have come out of each
     std::vector<Droplet> inFlight;
-    std::size_t newOnes = 0;           // the last ones in flight have just come out
-    std::unique_ptr<Flights> flights;  // of the step
+    std::size_t newOnes = 0;  // the last ones in flight have just come out
+    std::vector<Flight> flights;
     std::vector<CaughtDroplet> caughtInStep;
+    SweptSearch search;
     double unit = 0;  // m^3
     double lost = 0;  // m^3
     bool isClosed = false;

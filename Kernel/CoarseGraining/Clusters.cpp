@@ -8,9 +8,13 @@
 #include <numeric>
 
 #include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/InputError.h"
-#include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Particles/Resolution.h"
+#include "Kernel/Simulation/Scene.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {
@@ -225,6 +229,15 @@ Clusters clustersOfGrains(const ParticleStore& grains, const PeriodicBox& box,
             joined.join(rankOf(identities, seen.particle1), rankOf(identities, seen.particle2), seen.shift);
     joinBodies(joined, grains, identities);
     return finished(joined, grains, identities, contacts);
+}
+
+Clusters clustersWithin(const Scene& scene, double distance) {
+    return clustersOfGrains(scene.particleHandler.store(), scene.getPeriodicBox(), scene.interactions(),
+                            distance);
+}
+
+Clusters clustersOfContacts(const Scene& scene) {
+    return clustersOfGrains(scene.particleHandler.store(), scene.getPeriodicBox(), scene.interactions());
 }
 
 }  // namespace pendular

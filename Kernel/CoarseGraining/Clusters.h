@@ -3,9 +3,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Math/Vector.h"
 
 namespace pendular {
+
+class ParticleStore;
+class Scene;
+struct ObservedContact;
+struct PeriodicBox;
 
 /// Points, or grains, that are joined to each other in pairs.
 struct Cluster {
@@ -49,15 +54,8 @@ private:
                                         const std::vector<ObservedContact>& contacts);
 
 /// Grains of a scene whose centres are nearer to each other than a distance (m) are joined.
-template <class Scene>
-[[nodiscard]] Clusters clustersWithin(const Scene& scene, double distance) {
-    return clustersOfGrains(scene.particleHandler.store(), scene.getPeriodicBox(), scene.interactions(),
-                            distance);
-}
+[[nodiscard]] Clusters clustersWithin(const Scene& scene, double distance);
 /// Grains of a scene that touch or have a bridge are joined, as of the last step.
-template <class Scene>
-[[nodiscard]] Clusters clustersOfContacts(const Scene& scene) {
-    return clustersOfGrains(scene.particleHandler.store(), scene.getPeriodicBox(), scene.interactions());
-}
+[[nodiscard]] Clusters clustersOfContacts(const Scene& scene);
 
 }  // namespace pendular

@@ -37,6 +37,12 @@ void forEachChange(const BlockState& before, const BlockState& after, Function&&
 
 }  // namespace
 
+void ContactEvents::leaveForNextStep() {
+    early.insert(early.end(), events.begin(), events.end());
+    events.clear();
+    changesOfStep.clear();
+}
+
 void ContactEvents::startColumns(ContactStore& store, const Bucket& bucket) const {
     for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
         const BlockState &then = states[b - bucket.begin], &now = store.states[b];

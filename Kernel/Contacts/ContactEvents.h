@@ -27,11 +27,7 @@ public:
         changesOfStep.clear();
     }
     /// What has happened since then belongs to the next step.
-    void leaveForNextStep() {
-        early.insert(early.end(), events.begin(), events.end());
-        events.clear();
-        changesOfStep.clear();
-    }
+    void leaveForNextStep();
     /// To be called before and after the forces of a bucket; after() also gives the columns of contacts that
     /// begin to act the numbers with which they start.
     void before(const ContactStore& store, const Bucket& bucket) {

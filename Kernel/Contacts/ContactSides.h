@@ -125,9 +125,10 @@ private:
                 keyed.push_back({afterAllKeys | sides[k], sides[k]});
             }
         }
-        std::ranges::sort(keyed, {}, &Keyed::key);
-        std::ranges::transform(keyed, sides.begin() + begins[grain], &Keyed::side);
+        sort(keyed, begins[grain]);
     }
+    /// Writes the sides by their keys, from this place on.
+    void sort(std::vector<Keyed>& keyed, std::uint32_t begin);
 
     std::vector<std::uint32_t> begins;  // of each grain, and one more
     std::vector<std::uint32_t> ends;    // of each grain's contacts with memory

@@ -279,7 +279,8 @@ public:
     }
 
     [[nodiscard]] const Bucket& bucketOf(std::size_t block) const {
-        return *std::ranges::upper_bound(buckets, block, {}, &Bucket::end);
+        return *std::upper_bound(buckets.begin(), buckets.end(), block,
+                                 [](std::size_t b, const Bucket& bucket) { return b < bucket.end; });
     }
     /// What orders the contacts of a grain, which is body 1 (0) or body 2 (1) of this one: other grains by
     /// identity, then walls by number and part.

@@ -358,6 +358,14 @@ void ContactSystem::moveLiquid(Grains& grains, double time, double length) {
     contactEvents.finish();
 }
 
+double ContactSystem::liquidAt(const Grains& grains, std::uint32_t place) const {
+    double sum = 0;
+    forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
+        sum += (bucket.wall >= 0 ? 1 : 0.5) * observe(grains, bucket, contact).bridgeVolume;
+    });
+    return sum;
+}
+
 ObservedContact ContactSystem::observe(const Grains& grains, const Bucket& bucket,
                                        std::uint32_t contact) const {
     const Wall* wall = bucket.wall < 0 ? nullptr : &wallOf(bucket);

@@ -9,9 +9,9 @@
 #include "Kernel/Contacts/ContactColumn.h"
 #include "Kernel/Contacts/ContactEvents.h"
 #include "Kernel/Contacts/ContactLiquid.h"
-#include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/IdleLanes.h"
+#include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Contacts/SkinChoice.h"
@@ -21,6 +21,8 @@
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
+
+class RememberedContacts;
 
 /// The contacts of a scene: their list, and the forces of a step.
 class ContactSystem {
@@ -160,13 +162,7 @@ public:
     }
 
     /// m^3, of the bridges of the grain at a place: half of each to another grain, all of one to a wall.
-    [[nodiscard]] double liquidAt(const Grains& grains, std::uint32_t place) const {
-        double sum = 0;
-        forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
-            sum += (bucket.wall >= 0 ? 1 : 0.5) * observe(grains, bucket, contact).bridgeVolume;
-        });
-        return sum;
-    }
+    [[nodiscard]] double liquidAt(const Grains& grains, std::uint32_t place) const;
 
     /// A number of the driver's own that is kept of each contact from its first touch (or bridge) until it
     /// neither touches nor is bridged. Returns the column's number. Before prepare(). Throws InputError for a

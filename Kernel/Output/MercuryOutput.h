@@ -3,13 +3,15 @@
 #include <optional>
 #include <string>
 
-#include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Files/FileName.h"
+#include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Output/FrameFile.h"
-#include "Kernel/Particles/GrainSums.h"
 
 namespace pendular {
+
+class ContactSystem;
+class ParticleStore;
+class Scene;
+class WallHandler;
 
 /// The files NAME.data, NAME.fstat and NAME.ene of MercuryDPM, for the tools of its users (XBalls, MercuryCG,
 /// scripts). Given to Simulation::addOutput(); the energies need keepEnergyLedger(). Source of the columns:
@@ -17,157 +19,37 @@ namespace pendular {
 class MercuryOutput {
 public:
     /// @param beginning NAME; that of the simulation if empty
-    explicit MercuryOutput(std::string beginning = {}) : name(std::move(beginning)) {
-        if (!name.empty()) requireFileName("MercuryOutput", name);
-    }
+    explicit MercuryOutput(std::string beginning = {});
 
     /// NAME.ene, on by default.
     MercuryOutput& withEnergies(bool yes = true) { return energiesToo = yes, *this; }
     /// NAME.fstat, on by default.
     MercuryOutput& withContacts(bool yes = true) { return contactsToo = yes, *this; }
     /// The box in the headers, m; if not given that of the scene (setDomain()), or else that of the grains.
-    MercuryOutput& withDomain(const Vec3D& lowest, const Vec3D& highest) {
+    MercuryOutput& withDomain(const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest) {
         return domain = {toVector(lowest), toVector(highest)}, *this;
     }
 
-    template <class Scene>
-    void write(const Scene& scene) {
-        const std::string beginning = nameIn(scene);
-        const bool goesOn = scene.isRestarted();
-        const auto& grains = scene.particleHandler.store();
-        const Domain box = domainIn(scene);
-        const auto frame = [&](FrameFile& file, auto&& writeInto) {
-            file.begin(beginning, goesOn);
-            writeInto();
-            file.finish();
-        };
-        frame(data, [&] { writeData(grains, box, scene.getTime()); });
-        if (contactsToo)
-            frame(contacts,
-                  [&] { writeContacts(scene.contacts(), grains, scene.wallHandler, box, scene.getTime()); });
-        if (!energiesToo) return;
-        if (!scene.keepsEnergyLedger())
-            throw InputError(
-                "MercuryOutput: the .ene file needs the elastic energy; call keepEnergyLedger(), or "
-                "withEnergies(false) to do without the file.");
-        frame(energies, [&] { energies.text(energyLine(grains, scene)); });
-    }
-
-    template <class Scene>
-    void visitState(StateArchive& archive, const Scene& scene) {
-        const std::string beginning = nameIn(scene);
-        data.visitState(archive, beginning);
-        if (contactsToo) contacts.visitState(archive, beginning);
-        if (energiesToo) energies.visitState(archive, beginning);
-    }
+    void write(const Scene& scene);
+    void visitState(StateArchive& archive, const Scene& scene);
 
 private:
     struct Domain {
         Vector<double> lowest, highest;  // m
     };
 
-    template <class Scene>
-    [[nodiscard]] std::string nameIn(const Scene& scene) const {
-        return name.empty() ? scene.getName() : name;
-    }
-
-    template <class Scene>
-    [[nodiscard]] Domain domainIn(const Scene& scene) const {
-        if (domain) return *domain;
-        if (scene.hasDomain()) return {toVector(scene.getMin()), toVector(scene.getMax())};
-        return domainOf(scene.particleHandler.store());
-    }
-    static Domain domainOf(const ParticleStore& grains) {
-        Domain box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-        for (const std::uint32_t place : grains.place) {
-            const TranslationRecord& grain = grains.translation[place];
-            for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z}) {
-                box.lowest.*axis = std::min(box.lowest.*axis, grain.position.*axis - grain.radius);
-                box.highest.*axis = std::max(box.highest.*axis, grain.position.*axis + grain.radius);
-            }
-        }
-        return grains.count() > 0 ? box : Domain{{0, 0, 0}, {0, 0, 0}};
-    }
-    static std::string words(const Vector<double>& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
-
+    [[nodiscard]] std::string nameIn(const Scene& scene) const;
+    [[nodiscard]] Domain domainIn(const Scene& scene) const;
+    static Domain domainOf(const ParticleStore& grains);
     /// N time xmin ymin zmin xmax ymax zmax, then for each grain rx ry rz vx vy vz rad alpha beta gamma omex
     /// omey omez info: the angles are 0 (spheres), the info is the species.
-    void writeData(const ParticleStore& grains, const Domain& box, double time) {
-        data.text(fmt::format("{} {} {} {}\n", grains.count(), time, words(box.lowest), words(box.highest)));
-        NumberText line;
-        for (const std::uint32_t place : grains.place) {
-            const TranslationRecord& grain = grains.translation[place];
-            Vector<double> spin{0, 0, 0};
-            if (grains.hasSpin) spin = grains.rotation[place].spin;
-            const int species = grains.species[place];
-            data.line(line.of(grain.position, grain.velocity, grain.radius, 0, 0, 0, spin, species));
-        }
-    }
-
-    /// MercuryDPM's indices: of the grain at each place its row in the frame of the .data file, and of each
-    /// wall its place among those that there are. Neither has gaps after a removal, as identities have.
-    struct Indices {
-        std::vector<std::uint32_t> ofGrain;  // by place
-        std::vector<std::int64_t> ofWall;    // by number
-
-        Indices(const ParticleStore& grains, const WallHandler& walls) : ofGrain(grains.size()) {
-            std::uint32_t row = 0;
-            for (const std::uint32_t place : grains.place) ofGrain[place] = row++;
-            std::int64_t wall = 0;
-            for (std::size_t w = 0; w < walls.getSize(); ++w)
-                ofWall.push_back(walls.isRemoved(w) ? wall : wall++);
-        }
-    };
-
+    void writeData(const ParticleStore& grains, const Domain& box, double time);
     /// Three lines of header, then time i j cx cy cz delta deltat fn ft nx ny nz tx ty tz: for grains a line
     /// for each of the two, by their indices. The force on i is fn n + ft t, where n points from j to i. At
     /// the wall with the index w, j is -w - 1, and n and t are reversed, as MercuryDPM does it ("an old
     /// bug").
     void writeContacts(const ContactSystem& system, const ParticleStore& grains, const WallHandler& walls,
-                       const Domain& box, double time) {
-        const Indices index(grains, walls);
-        double largest = 0;
-        for (const TranslationRecord& grain : grains.translation) largest = std::max(largest, grain.radius);
-        contacts.text(fmt::format("# {} 1\n# {} {}\n# {} {} 0 0 0 0\n", time, words(box.lowest),
-                                  words(box.highest), grains.count() > 0 ? grains.smallestRadius() : 0,
-                                  largest));
-        const std::string timeWord = fmt::format("{} ", time);
-        NumberText bodies, common, directions;
-        system.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
-            const ObservedContact seen = system.observe(grains, bucket, contact);
-            const std::uint32_t place = grains.place[seen.particle1];
-            const TranslationRecord& first = grains.translation[place];
-            const Vector<double> normal = -seen.normal();  // to body 1
-            const Vector<double> across = seen.tangentialForce();
-            const double fn = dot(seen.force, normal), ft = norm(across);
-            const Vector<double> tangent = ft > 0 ? (1 / ft) * across : across;
-            const std::string_view shared =
-                common.of(seen.point, 0.0 - seen.separation, system.springLength(contact), fn, ft);
-            const auto line = [&](std::uint32_t i, std::int64_t j, double sign) {
-                contacts.line(timeWord, bodies.of(i, j), shared,
-                              directions.of(sign * normal, sign * tangent));
-            };
-            const bool moves = first.inverseMass > 0;
-            if (bucket.wall >= 0) {
-                if (moves)
-                    line(index.ofGrain[place], -index.ofWall[static_cast<std::size_t>(seen.wall)] - 1, -1);
-                return;
-            }
-            const std::uint32_t place2 = grains.place[seen.particle2];
-            if (moves) line(index.ofGrain[place], index.ofGrain[place2], 1);
-            if (grains.translation[place2].inverseMass > 0)
-                line(index.ofGrain[place2], index.ofGrain[place], -1);
-        });
-    }
-
-    /// time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM, of the grains that can move.
-    template <class Scene>
-    static std::string energyLine(const ParticleStore& grains, const Scene& scene) {
-        const GrainSums sums = sumGrains(grains);
-        return fmt::format("{} {} {} {} {} {}\n", scene.getTime(),
-                           -dot(toVector(scene.getGravity()), sums.firstMoment), sums.translationalEnergy,
-                           sums.rotationalEnergy, scene.energyLedger().springs(), words(sums.centreOfMass()));
-    }
+                       const Domain& box, double time);
 
     std::string name;
     std::optional<Domain> domain;

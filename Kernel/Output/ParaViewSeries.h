@@ -28,7 +28,8 @@ public:
     /// Throws InputError if there is a series of this name and it cannot be read.
     static void check(const std::string& name);
 
-    /// The path of the file of one kind ("particles") at a step, NAME-KIND-STEP.vtp (or the other ending), taken into the series.
+    /// The path of the file of one kind ("particles") at a step, NAME-KIND-STEP.vtp (or the other ending),
+    /// taken into the series.
     std::filesystem::path add(std::string_view kind, double time, std::size_t step);
     /// Writes the series as it is now.
     void write() const;

@@ -3,12 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
+#include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Files/FileName.h"
 #include "Kernel/InputError.h"
+#include "Kernel/Math/Scalar.h"
+#include "Kernel/Output/BoxFields.h"
+#include "Kernel/Output/ShapeFields.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Walls/WallHandler.h"
+#include "Kernel/Walls/WallSurface.h"
 #include "Kernel/Walls/WornWall.h"
 
 namespace pendular {
+
 namespace {
 
 /// Of each polygon, where a wall keeps its wear; zeros of walls that do not.
@@ -29,14 +44,91 @@ void addWear(PolyData& data, const WallHandler& walls, const std::vector<WallSur
     add("wear_depth_m", [](const SurfaceWear& wear) { return wear.volume / wear.area; });
 }
 
-}  // namespace
-
+/// Throws InputError unless a field of an output can have this name.
 void requireFieldName(const std::string& name) {
     if (name.empty() || !isWord(name))
         throw InputError(
             fmt::format("The name '{}' of a field must have letters, digits and _ only (as speed_m_per_s).",
                         printable(name)));
 }
+
+/// Throws InputError where two fields of a frame have one name: a file cannot hold them.
+void requireDistinctNames(const std::vector<PolyDataField>& fields, std::string_view owners) {
+    for (std::size_t k = 0; k < fields.size(); ++k)
+        for (std::size_t other = 0; other < k; ++other)
+            if (fields[k].name == fields[other].name)
+                throw InputError(fmt::format(
+                    "The outputs have two fields '{}' of the {}; give the column or the field another name.",
+                    fields[k].name, owners));
+}
+
+constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+
+/// Around all grains and the periods of the scene.
+std::pair<Vector<double>, Vector<double>> boxAround(const ParticleStore& grains,
+                                                    const PeriodicBox& periodic) {
+    Vector<double> lowest{infinity, infinity, infinity}, highest = -lowest;
+    for (const TranslationRecord& grain : grains.translation) {
+        if (grain.radius == 0) continue;  // a gap
+        for (const auto axis : axes) {
+            // A gap to a plane of a few radii belongs to the scene.
+            lowest.*axis = std::min(lowest.*axis, grain.position.*axis - 2 * grain.radius);
+            highest.*axis = std::max(highest.*axis, grain.position.*axis + 2 * grain.radius);
+        }
+    }
+    for (const auto axis : axes) {
+        if (!(lowest.*axis <= highest.*axis)) lowest.*axis = highest.*axis = 0;  // no grains
+        if (!(periodic.length.*axis > 0)) continue;
+        lowest.*axis = periodic.lowest.*axis;
+        highest.*axis = periodic.lowest.*axis + periodic.length.*axis;
+    }
+    return {lowest, highest};
+}
+
+template <class Real>
+PolyDataField fieldOf(const std::string& name, const FrameContent::GrainValue& valueOf,
+                      const ParticleStore& grains) {
+    std::vector<Real> numbers;
+    const auto add = [&](double number) { numbers.push_back(static_cast<Real>(number)); };
+    for (const std::uint32_t place : grains.place) {
+        const std::size_t identity = grains.identity[place];
+        if (const auto* const number = std::get_if<0>(&valueOf)) {
+            add((*number)(identity));
+        } else {
+            const Eigen::Vector3d vector = std::get<1>(valueOf)(identity);
+            for (int axis = 0; axis < 3; ++axis) add(vector[axis]);
+        }
+    }
+    return {name, valueOf.index() == 0 ? 1u : 3u, std::move(numbers)};
+}
+
+using AddedFields = std::vector<std::pair<std::string, FrameContent::GrainValue>>;
+
+template <class Real>
+SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const Scene& scene) {
+    const auto& store = scene.particleHandler.store();
+    SceneFrame frame{
+        scene.getNumberOfTimeSteps(), scene.getTime(), grainPoints<Real>(store, scene.laws()), {}, {}, {}};
+    for (const auto& [name, valueOf] : added)
+        frame.grains.pointFields.push_back(fieldOf<Real>(name, valueOf, store));
+    if (content.stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
+    if (content.contacts)
+        frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws(), content.contactPoints);
+    if (const GrainShapes* const shapes = scene.laws().shapes()) {
+        addShapeFields(store, *shapes, frame.grains);
+        frame.shapes = shapeSurfaces(store, *shapes);
+    }
+    frame.grains.wholeFields = boxFields(scene.contacts().periodicBox());
+    requireDistinctNames(frame.grains.pointFields, "grains");
+    if (frame.contacts) requireDistinctNames(frame.contacts->cellFields, "contacts");
+    if (scene.wallHandler.getSize() > 0) {
+        const auto [lowest, highest] = boxAround(store, scene.contacts().periodicBox());
+        frame.walls = wallPolygons(scene.wallHandler, lowest, highest);
+    }
+    return frame;
+}
+
+}  // namespace
 
 PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest) {
     PolyData data;
@@ -56,6 +148,15 @@ PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, co
     data.cellFields = {{"wall", 1, std::move(numbers)}, {"species", 1, std::move(species)}};
     addWear(data, walls, surfaces);
     return data;
+}
+
+void FrameContent::addField(std::string name, GrainValue valueOf) {
+    requireFieldName(name);
+    added.emplace_back(std::move(name), std::move(valueOf));
+}
+
+SceneFrame FrameContent::of(const Scene& scene) const {
+    return doubles ? frameOf<double>(*this, added, scene) : frameOf<float>(*this, added, scene);
 }
 
 }  // namespace pendular

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
-#include "Kernel/Output/OutputInterval.h"
 #include "Kernel/Output/RunTable.h"
+#include "Kernel/Simulation/OutputInterval.h"
 
 namespace pendular {
+
+class Scene;
 
 /// A table of a scene over time, at an interval: what the outputs of Simulation::addOutput() share that write
 /// one. A run that is restarted goes on with it, as RunTable says; where the restart file knows none, with
@@ -16,33 +20,18 @@ class TimedTable {
 public:
     /// @param ending of the file's name, after that of the scene
     /// @param time s, from one output to the next; 0: whenever outputs are due
-    TimedTable(std::string_view owner, std::string_view ending, double time)
-        : nameEnding(ending), times(owner, time) {}
+    TimedTable(std::string_view owner, std::string_view ending, double time);
 
     [[nodiscard]] OutputInterval interval() const { return times; }
     /// Whether it has the rows of this time (s).
     [[nodiscard]] bool has(double time) const { return time <= last; }
     void wroteAt(double time) { last = time; }
-    template <class Scene>
-    RunTable& of(const Scene& scene, const std::string& header) {
-        if (!table) table = std::make_unique<RunTable>(pathOf(scene), header);
-        return *table;
-    }
+    RunTable& of(const Scene& scene, const std::string& header);
     /// The table, and the time of its last rows.
-    template <class Scene>
-    void visitState(StateArchive& archive, const Scene& scene, const std::string& header) {
-        RunTable& rows = of(scene, header);
-        const std::string entry = pathOf(scene).filename().string() + "-last-time";
-        if (archive.isReading() && !archive.holds(entry)) return rows.goOnFrom(scene.getTime());
-        archive.value(entry, last);
-        rows.visitState(archive);
-    }
+    void visitState(StateArchive& archive, const Scene& scene, const std::string& header);
 
 private:
-    template <class Scene>
-    [[nodiscard]] std::filesystem::path pathOf(const Scene& scene) const {
-        return scene.getName() + nameEnding;
-    }
+    [[nodiscard]] std::filesystem::path pathOf(const Scene& scene) const;
 
     std::string nameEnding;
     std::unique_ptr<RunTable> table;

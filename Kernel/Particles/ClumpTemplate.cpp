@@ -89,6 +89,16 @@ BodyMass ClumpTemplate::massOf(double density, double scale) const {
     return {density * cube * solid.volume, Vec3D::Zero(), density * cube * scale * scale * solid.inertia};
 }
 
+void Clump::setScale(double scale) {
+    checkValue("Clump", "scale", scale, "", positive);
+    scaleValue = scale;
+}
+
+void Clump::setOrientation(const Eigen::Quaterniond& orientation) {
+    checkValue("Clump", "length of the orientation", orientation.norm(), "", positive);
+    orientationValue = orientation.normalized();
+}
+
 std::vector<SphericalParticle> Clump::getSpheres() const {
     std::vector<SphericalParticle> all;
     const Eigen::Matrix3d turn = orientationValue.toRotationMatrix();

@@ -78,17 +78,11 @@ public:
     explicit Clump(ClumpTemplate shape) : shapeValue(std::move(shape)) {}
 
     /// Of all lengths; 1 at first.
-    void setScale(double scale) {
-        checkValue("Clump", "scale", scale, "", positive);
-        scaleValue = scale;
-    }
+    void setScale(double scale);
     /// m, of the centre of mass.
     void setPosition(const Vec3D& position) { like.setPosition(position); }
     /// Turns the template; need not be of length 1.
-    void setOrientation(const Eigen::Quaterniond& orientation) {
-        checkValue("Clump", "length of the orientation", orientation.norm(), "", positive);
-        orientationValue = orientation.normalized();
-    }
+    void setOrientation(const Eigen::Quaterniond& orientation);
     void setVelocity(const Vec3D& velocity) { like.setVelocity(velocity); }  // m/s, of the centre of mass
     void setAngularVelocity(const Vec3D& spin) { like.setAngularVelocity(spin); }  // rad/s
     template <class S>

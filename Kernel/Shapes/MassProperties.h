@@ -19,11 +19,7 @@ struct MassProperties {
 
     /// From the integrals over the solid of 1, of the place p, and of p p^T.
     static MassProperties fromMoments(double volume, const Eigen::Vector3d& first,
-                                      const Eigen::Matrix3d& second) {
-        const Eigen::Vector3d centre = first / volume;
-        const Eigen::Matrix3d about = second - volume * centre * centre.transpose();
-        return {volume, centre, about.trace() * Eigen::Matrix3d::Identity() - about};
-    }
+                                      const Eigen::Matrix3d& second);
 };
 
 }  // namespace pendular

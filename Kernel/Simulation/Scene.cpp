@@ -4,7 +4,7 @@
 
 #include "Kernel/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
-#include "Kernel/Output/LastState.h"
+#include "Kernel/Simulation/LastState.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 #include "Kernel/Species/Field.h"

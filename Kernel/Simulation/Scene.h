@@ -22,7 +22,7 @@
 #include "Kernel/Insertion/ClumpInsertion.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Output/OutputForm.h"
+#include "Kernel/Simulation/OutputForm.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/DomainBox.h"

@@ -15,7 +15,8 @@ public:
     /// The value is known as it is now. Its place stays valid for as long as it is known.
     void add(const double& value) { known.push_back({&value, bitsOf(value)}); }
     [[nodiscard]] bool haveChanged() const {
-        return std::ranges::any_of(known, [](const Known& k) { return bitsOf(*k.place) != k.bits; });
+        return std::any_of(known.begin(), known.end(),
+                           [](const Known& k) { return bitsOf(*k.place) != k.bits; });
     }
 
 private:

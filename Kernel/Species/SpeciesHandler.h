@@ -18,6 +18,10 @@
 
 namespace pendular {
 
+/// InputErrors of the handlers below.
+[[noreturn]] void refuseSpeciesWithoutLaws(int number);
+[[noreturn]] void refuseSpeciesNumber(std::ptrdiff_t number, std::size_t count);
+
 /// The species of a scene and the values of each pair of them. The laws of a pair are mixed from its two
 /// species by the rule of each field, except for the values that getMixedObject(a, b)->set...() gives to that
 /// pair.
@@ -73,9 +77,7 @@ public:
     }
     /// The laws between species a and b, after mixAll(). Throws InputError if one of them was added since.
     [[nodiscard]] const Mixed& mixture(int a, int b) const {
-        if (static_cast<std::size_t>(std::max(a, b)) >= count)
-            throw InputError(fmt::format("Species {} has no laws yet: it was added after the last mixAll().",
-                                         std::max(a, b)));
+        if (static_cast<std::size_t>(std::max(a, b)) >= count) refuseSpeciesWithoutLaws(std::max(a, b));
         return *mixtures[numberOf(a, b)];
     }
     /// Whether the pair has laws of this type: not all have, where a scene has species of several types.
@@ -132,9 +134,7 @@ private:
         });
     }
     std::size_t checked(std::size_t index) const {
-        if (index >= all.size())
-            throw InputError(fmt::format("There is no species {}; the scene has {} (counted from 0).",
-                                         static_cast<std::ptrdiff_t>(index), all.size()));
+        if (index >= all.size()) refuseSpeciesNumber(static_cast<std::ptrdiff_t>(index), all.size());
         return index;
     }
     [[nodiscard]] std::size_t numberOf(int a, int b) const {

@@ -4,6 +4,24 @@
 
 namespace pendular {
 
+void InfiniteWall::set(const Vec3D& outward, const Vec3D& point) {
+    normal = checkedDirection("InfiniteWall", "length of the normal", outward);
+    offset = dot(normal, checkedVector("InfiniteWall", "point", point, "m"));
+    takePlace();
+}
+
+WallSurface InfiniteWall::surfaceInBody(const SceneSphere& around) const {
+    const Vector<double> middle = around.centre + gap(around.centre) * normal;
+    const Vector<double> a = around.radius * anyAcross(normal), b = cross(normal, a);
+    return {{{middle + a + b, middle - a + b, middle - a - b, middle + a - b}}, {{normal, offset}}, true};
+}
+
+void InfiniteWall::visitShape(StateArchive& archive) const {
+    archive.same("shape", "InfiniteWall");
+    archive.sameRecord<double>("normal", normal);
+    archive.same("offset", offset, "m");
+}
+
 void InfiniteWall::setDrive(const PlaneDriveSettings& asked) {
     const double velocity = driven ? driven->velocity : dot(beginDrive(), drivenNormal());
     if (!driven || driven->asked.kind != asked.kind) {

@@ -10,11 +10,7 @@ namespace pendular {
 class InfiniteWall final : public RigidWall {
 public:
     /// @param outward normal into the wall, of any length; @param point on its surface, m
-    void set(const Vec3D& outward, const Vec3D& point) {
-        normal = checkedDirection("InfiniteWall", "length of the normal", outward);
-        offset = dot(normal, checkedVector("InfiniteWall", "point", point, "m"));
-        takePlace();
-    }
+    void set(const Vec3D& outward, const Vec3D& point);
 
     // By these the plane moves along its normal by the forces on it, in the run and with the velocity along
     // its normal that it has; setVelocity() and its like end that. Both may be called again in a run. The
@@ -56,17 +52,9 @@ protected:
         return {SurfaceExtent::Symmetry::Plane, offset * normal, infinity, normal};
     }
     /// A square that covers the cut with the sphere.
-    [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override {
-        const Vector<double> middle = around.centre + gap(around.centre) * normal;
-        const Vector<double> a = around.radius * anyAcross(normal), b = cross(normal, a);
-        return {{{middle + a + b, middle - a + b, middle - a - b, middle + a - b}}, {{normal, offset}}, true};
-    }
+    [[nodiscard]] WallSurface surfaceInBody(const SceneSphere& around) const override;
 
-    void visitShape(StateArchive& archive) const override {
-        archive.same("shape", "InfiniteWall");
-        archive.sameRecord<double>("normal", normal);
-        archive.same("offset", offset, "m");
-    }
+    void visitShape(StateArchive& archive) const override;
 
 private:
     void setDrive(const PlaneDriveSettings& asked);

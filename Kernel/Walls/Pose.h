@@ -12,9 +12,7 @@ struct Pose {
     Vector<double> shift{0, 0, 0};                                 // m
 
     Pose() = default;
-    explicit Pose(const Eigen::Isometry3d& pose) : shift(toVector(pose.translation())) {
-        for (int k = 0; k < 3; ++k) column[k] = toVector(pose.linear().col(k));
-    }
+    explicit Pose(const Eigen::Isometry3d& pose);
 
     [[nodiscard]] Vector<double> turn(const Vector<double>& v) const {
         return v.x * column[0] + v.y * column[1] + v.z * column[2];

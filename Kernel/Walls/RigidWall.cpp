@@ -47,6 +47,10 @@ Vector<double> anyAcross(const Vector<double>& d) {
     return (1 / norm(across)) * across;
 }
 
+Pose::Pose(const Eigen::Isometry3d& pose) : shift(toVector(pose.translation())) {
+    for (int k = 0; k < 3; ++k) column[k] = toVector(pose.linear().col(k));
+}
+
 double SurfaceExtent::displacement(const Pose& from, const Pose& to) const {
     double turned = 0;  // m/m, the farthest shift of a unit vector
     if (symmetry == Symmetry::None) {

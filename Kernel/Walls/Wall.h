@@ -119,11 +119,7 @@ public:
 
     /// Sums the forces of the grains on this wall after each step; off by default, because it costs time.
     /// @param about m, the point of the torque
-    void keepForces(bool keep = true, const Vec3D& about = Vec3D::Zero()) {
-        forcesKept = keep;
-        // A wall that is moved by its force keeps it.
-        kept = {.force = drive() ? kept.force : Vector<double>{0, 0, 0}, .about = toVector(about)};
-    }
+    void keepForces(bool keep = true, const Vec3D& about = Vec3D::Zero());
     [[nodiscard]] bool keepsForces() const { return forcesKept || drive() != nullptr; }
     /// N, of all grains on the wall at the end of the last step; zero unless keepForces() was called or it is
     /// moved by forces.
@@ -132,28 +128,14 @@ public:
     [[nodiscard]] Vec3D getTorque() const { return toEigen(kept.torque); }
     [[nodiscard]] Vec3D getTorquePoint() const { return toEigen(kept.about); }
     /// @param touches contacts that act
-    void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches) {
-        kept = {force, torque, kept.about};
-        if (PlaneDrive* const driven = drive()) driven->touches = touches, driven->forcesAreOld = false;
-    }
+    void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches);
     /// A contact has ended between two steps: its force (N) on a wall that is moved by forces acts no longer.
     /// What is left is rounded: the next step, and a restart file, need the sum of the contacts that there
     /// are.
-    virtual void loseForce(const Vector<double>& force) {
-        PlaneDrive* const driven = drive();
-        if (!driven) return;
-        kept.force -= force;
-        if (driven->touches > 0) --driven->touches;
-        driven->forcesAreOld = true;
-    }
+    virtual void loseForce(const Vector<double>& force);
 
     /// What a run has changed, and what must be as it was when the run began.
-    virtual void visitState(StateArchive& archive) {
-        archive.same("species", species);
-        const Vector<double> about = kept.about;
-        archive.finite("force", kept);
-        kept.about = about;  // as this scene has it; the contacts give the sums again
-    }
+    virtual void visitState(StateArchive& archive);
 
     /// It stands in the place of a wall that was removed.
     [[nodiscard]] virtual bool isRemoved() const { return false; }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "Kernel/Math/Random.h"
-#include "Kernel/Output/OutputForm.h"
-#include "Kernel/Output/OutputInterval.h"
+#include "Kernel/Simulation/OutputForm.h"
+#include "Kernel/Simulation/OutputInterval.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "Kernel/Output/Progress.h"
+#include "Kernel/Simulation/Progress.h"
 
 namespace pendular {
 namespace {

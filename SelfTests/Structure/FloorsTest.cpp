@@ -57,5 +57,22 @@ TEST(Floors, includeOnlyFromTheirOwnOrOneBelow) {
     EXPECT_EQ(upwards, "");
 }
 
+// Else a change of the scene's header compiles all again that uses an output.
+TEST(Floors, headersOfOutputsOnlyNameTheScene) {
+    const std::regex scene(R"(^\s*#\s*include "Kernel/Simulation/(Scene|Simulation)\.h".*)");
+    std::size_t headers = 0;
+    std::string including;
+    for (const std::string folder : {"Output", "CoarseGraining"})
+        for (const auto& entry : std::filesystem::directory_iterator(kernel / folder)) {
+            if (entry.path().extension() != ".h") continue;
+            ++headers;
+            std::ifstream file(entry.path());
+            for (std::string line; std::getline(file, line);)
+                if (std::regex_match(line, scene)) including += entry.path().string() + '\n';
+        }
+    EXPECT_GT(headers, 20u);
+    EXPECT_EQ(including, "");
+}
+
 }  // namespace
 }  // namespace pendular

@@ -1,4 +1,4 @@
-#include "Kernel/Output/Progress.h"
+#include "Kernel/Simulation/Progress.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>

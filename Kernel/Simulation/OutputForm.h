@@ -3,7 +3,7 @@
 #include <concepts>
 #include <type_traits>
 
-#include "Kernel/Output/OutputInterval.h"
+#include "Kernel/Simulation/OutputInterval.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {

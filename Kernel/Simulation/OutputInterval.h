@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
-
-#include "Kernel/Species/Field.h"
+#include <string_view>
 
 namespace pendular {
 
@@ -15,9 +13,7 @@ public:
     /// None: the output is due whenever writeOutput() is called.
     OutputInterval() = default;
     /// @param time s; 0: none
-    OutputInterval(std::string_view owner, double time) : seconds(time) {
-        checkValue(owner, "interval", time, "s", notNegative);
-    }
+    OutputInterval(std::string_view owner, double time);
 
     [[nodiscard]] bool isGiven() const { return seconds > 0; }
     /// What goes into a restart file.
@@ -34,17 +30,7 @@ public:
     /// Whether the nearest multiple of the interval was not told of yet. Asked after each step, in order.
     /// @param timeStep s; @param timeBefore s, of the steps that are not counted: those with another time
     /// step
-    [[nodiscard]] bool isDueAfter(std::size_t step, double timeStep, double timeBefore = 0) {
-        const double perStep = timeStep / seconds;
-        const auto multipleBefore = [&](double place) {
-            return std::floor(timeBefore / seconds + place * perStep);
-        };
-        const double multiple = multipleBefore(static_cast<double>(step) + 0.5);
-        if (std::isnan(told)) told = multipleBefore(static_cast<double>(step) - 0.5);
-        if (multiple <= told && perStep < 1) return false;
-        told = multiple;
-        return true;
-    }
+    [[nodiscard]] bool isDueAfter(std::size_t step, double timeStep, double timeBefore = 0);
 
 private:
     double seconds = 0;

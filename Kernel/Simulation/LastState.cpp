@@ -1,17 +1,14 @@
-#pragma once
+#include "Kernel/Simulation/LastState.h"
 
-#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Contacts/GrainMasses.h"
 #include "Kernel/Files/CsvFile.h"
-#include "Kernel/Output/SceneFields.h"
 
 namespace pendular {
 
-/// The grains of a scene as a table, a row each in the order of their identities; the force is the sum of the
-/// contacts and the weight.
-/// @param remark a line before the rows
-inline void writeGrains(const std::filesystem::path& path, const ParticleStore& grains,
-                        const ContactLaws& laws, std::string_view remark) {
+void writeGrains(const std::filesystem::path& path, const ParticleStore& grains, const ContactLaws& laws,
+                 std::string_view remark) {
     CsvFile file(path,
                  "identity,species,radius_m,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,spin_x_rad_per_s,"
                  "spin_y_rad_per_s,spin_z_rad_per_s,force_x_N,force_y_N,force_z_N,mass_kg,fixed");
@@ -27,10 +24,8 @@ inline void writeGrains(const std::filesystem::path& path, const ParticleStore& 
     file.close();
 }
 
-/// The contacts that have a force, as a table; particle2 is -1 at a wall, and wall is -1 between grains.
-/// Forces are those computed last; x, y, z is the contact point.
-inline void writeContacts(const std::filesystem::path& path, const ContactSystem& contacts,
-                          const ParticleStore& grains, std::string_view remark) {
+void writeContacts(const std::filesystem::path& path, const ContactSystem& contacts,
+                   const ParticleStore& grains, std::string_view remark) {
     CsvFile file(path,
                  "particle1,particle2,wall,separation_m,normal_force_N,adhesive_force_N,bridged,"
                  "tangential_force_N,x_m,y_m,z_m");

@@ -1,0 +1,236 @@
+#include "Kernel/Contacts/ContactList.h"
+
+#include <algorithm>
+
+#include "Kernel/Contacts/ContactRecall.h"
+#include "Kernel/Contacts/RememberedContacts.h"
+#include "Kernel/LargePages.h"
+#include "Kernel/Parallel.h"
+#include "Kernel/Walls/WallHandler.h"
+
+namespace pendular {
+namespace {
+
+bool isBridged(const RememberedContacts::Entry& entry) {
+    return (entry.state & RememberedContacts::bridged) != 0;
+}
+
+}  // namespace
+
+std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old,
+                                 bool keepsCells) {
+    const std::size_t pairsBefore = store.firstWallBlock() * Pack::lanes;
+    store.releaseList();  // so that the old list and the search are not there at the same time
+    formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
+    std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
+    grains.bodies.keepTogether(grains, formerPlace);
+    grains.reorder(formerPlace, threads);
+    grains.bodies.refresh(grains);
+    if (reachOfFilms > 0) reachOfAll = std::max(reachOfAll, std::min(reachOfFilms, largestRange(grains)));
+    findPairs(grains, old, pairsBefore);
+    if (!keepsCells) found.reset();
+    findWallContacts(grains, old);
+    fill(grains, store);
+    const std::size_t recalled =
+        ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old);
+    store.listSides(grains.identity, threads);
+    return recalled;
+}
+
+double ContactList::largestRange(const Grains& grains) const {
+    std::vector<Bodies> extremes(laws.speciesCount(), {infinity, 0});
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        Bodies& e = extremes[grains.species[k]];
+        e = {std::min(e.radius1, grains.translation[k].radius),
+             std::max(e.radius2, grains.translation[k].radius)};
+    }
+    double largest = 0;
+    for (std::size_t a = 0; a < extremes.size(); ++a)
+        for (std::size_t b = 0; b < extremes.size(); ++b)
+            for (const double r1 : {extremes[a].radius1, extremes[a].radius2})
+                for (const double r2 : {extremes[b].radius1, extremes[b].radius2})
+                    if (r1 > 0 && r2 > 0 && r1 < infinity && r2 < infinity)
+                        largest =
+                            std::max(largest, rangeOf(static_cast<int>(a), static_cast<int>(b), {r1, r2}));
+    return largest;
+}
+
+ContactList::Group& ContactList::groupOf(Groups& all, int species1, int species2, int wall) {
+    for (Group& group : all) {
+        const Bucket& bucket = group.bucket;
+        if (bucket.species1 == species1 && bucket.species2 == species2 && bucket.wall == wall) return group;
+    }
+    all.push_back({{0, 0, species1, species2, wall}, {}});
+    return all.back();
+}
+
+template <class Function>
+void ContactList::listInParts(std::size_t grainCount, Function&& function) {
+    std::vector<Groups> parts(static_cast<std::size_t>(threads));
+    inParts(
+        grainCount, threads,
+        [&](int part, std::size_t begin, std::size_t end) {
+            function(parts[static_cast<std::size_t>(part)], begin, end);
+        },
+        worthAThread);
+    for (Groups& part : parts)
+        for (Group& found : part) {
+            Group& group = groupOf(groups, found.bucket.species1, found.bucket.species2, found.bucket.wall);
+            if (group.contacts.empty()) group.contacts.swap(found.contacts);
+            else group.contacts.insert(group.contacts.end(), found.contacts.begin(), found.contacts.end());
+            found.contacts = {};
+        }
+}
+
+void ContactList::findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore) {
+    found.emplace(grains.translation, skin + std::max(reachOfAll, laws.actsApart ? largestRange(grains) : 0),
+                  periodic, threads);
+    const NeighbourSearch& search = *found;
+    listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
+        for (std::size_t a = 0; a < laws.speciesCount(); ++a)
+            for (std::size_t b = a; b < laws.speciesCount(); ++b)
+                own.push_back({{0, 0, static_cast<int>(a), static_cast<int>(b), -1}, {}});
+        // A vector's own growth would take up to twice the memory.
+        const std::size_t share = pairsBefore * (end - begin) / std::max<std::size_t>(grains.size(), 1);
+        if (own.size() == 1) own[0].contacts.reserve(share + share / 16);
+        for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+            search.forEachPartner(i, [&](std::uint32_t j) {
+                if (!laws.actsApart || nearEnough(grains, i, j)) addPair(own, grains, i, j);
+            });
+            if (laws.formsAtContact)
+                for (const auto& entry : old.of(formerPlace[i]))
+                    if (entry.wall == 0 && isBridged(entry) && !search.reaches(i, grains.place[entry.other]))
+                        addPair(own, grains, i, grains.place[entry.other]);
+        }
+    });
+}
+
+bool ContactList::nearEnough(const Grains& grains, std::uint32_t i, std::uint32_t j) const {
+    const TranslationRecord& a = grains.translation[i];
+    const TranslationRecord& b = grains.translation[j];
+    double reach = a.radius + b.radius + skin;
+    reach += std::max(
+        reachOfAll, laws.actsApart ? rangeOf(grains.species[i], grains.species[j], {a.radius, b.radius}) : 0);
+    return squaredNorm(periodic.nearest(b.position - a.position)) < reach * reach;
+}
+
+void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const {
+    if (grains.translation[i].inverseMass == 0 && grains.translation[j].inverseMass == 0) return;
+    if (grains.bodies.areJoinedAt(i, j)) return;
+    const std::size_t low = std::min(grains.species[i], grains.species[j]);
+    const std::size_t high = std::max(grains.species[i], grains.species[j]);
+    // The groups of pairs stand first, in the order of a triangle of species.
+    const std::size_t group = low * laws.speciesCount() - low * (low + 1) / 2 + high;
+    const bool isOrdered = grains.identity[i] < grains.identity[j];
+    all[group].contacts.push_back({isOrdered ? i : j, isOrdered ? j : i});
+}
+
+void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old) {
+    for (std::size_t w = 0; w < walls.getSize(); ++w)
+        if (!walls.isRemoved(w))
+            listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
+                std::vector<std::uint32_t> parts;
+                for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+                    findWallContacts(grains, old, w, i, own, parts);
+            });
+}
+
+void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old, std::size_t w,
+                                   std::uint32_t i, Groups& all, std::vector<std::uint32_t>& parts) const {
+    const Wall& wall = walls.getObject(w);
+    const TranslationRecord& grain = grains.translation[i];
+    if (grain.inverseMass == 0) return;
+    // A bridge may pass on to the next part of the wall: then all within its range are listed.
+    bool far = laws.actsApart;
+    if (laws.formsAtContact)
+        for (const auto& entry : old.of(formerPlace[i])) far |= entry.wall == w + 1 && isBridged(entry);
+    double apart = reachOfAll;
+    if (far || reachOfFilms > apart) {
+        const double range = rangeOf(grains.species[i], wall.species, {grain.radius});
+        apart = std::max(apart, far ? range : std::min(reachOfFilms, range));
+    }
+    parts.clear();
+    wall.listParts(grain.position, grain.radius + apart + skin, parts);
+    if (parts.empty()) return;
+    Group& group = groupOf(all, grains.species[i], wall.species, static_cast<int>(w));
+    for (const std::uint32_t part : parts) group.contacts.push_back({i, part});
+}
+
+void ContactList::sortByGap(Group& g, const Grains& grains) const {
+    constexpr std::size_t stretch = 2048;
+    inParts((g.contacts.size() + stretch - 1) / stretch, threads,
+            [&](int, std::size_t first, std::size_t last) {
+                std::vector<std::pair<double, Listed>> pairs;
+                for (std::size_t begin = first * stretch; begin < std::min(last * stretch, g.contacts.size());
+                     begin += stretch)
+                    sortByGap({g.contacts.data() + begin, std::min(stretch, g.contacts.size() - begin)},
+                              grains, pairs);
+            });
+}
+
+void ContactList::sortByGap(std::span<Listed> contacts, const Grains& grains,
+                            std::vector<std::pair<double, Listed>>& pairs) const {
+    pairs.clear();
+    for (const Listed& pair : contacts) pairs.emplace_back(gapOf(grains, pair), pair);
+    const auto apart =
+        std::stable_partition(pairs.begin(), pairs.end(), [](const auto& p) { return p.first <= 0; });
+    std::stable_sort(apart, pairs.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+    for (std::size_t k = 0; k < contacts.size(); ++k) contacts[k] = pairs[k].second;
+}
+
+double ContactList::gapOf(const Grains& grains, const Listed& pair) const {
+    const TranslationRecord& a = grains.translation[pair.first];
+    const TranslationRecord& b = grains.translation[pair.second];
+    double reach =
+        a.radius + b.radius + laws.filmContactGap(grains.species[pair.first], grains.species[pair.second]);
+    if (laws.actsApart)
+        reach += rangeOf(grains.species[pair.first], grains.species[pair.second], {a.radius, b.radius});
+    return norm(periodic.nearest(b.position - a.position)) - reach;
+}
+
+void ContactList::fill(const Grains& grains, ContactStore& store) {
+    std::size_t blocks = 0, wallBlocks = 0;
+    store.buckets.clear();
+    for (Group& g : groups) {
+        if (g.contacts.empty()) continue;
+        if (g.bucket.wall < 0) sortByGap(g, grains);
+        g.bucket.begin = static_cast<std::uint32_t>(blocks);
+        const std::size_t own = (g.contacts.size() + Pack::lanes - 1) / Pack::lanes;
+        blocks += own;
+        if (g.bucket.wall >= 0) wallBlocks += own;
+        g.bucket.end = static_cast<std::uint32_t>(blocks);
+        store.buckets.push_back(g.bucket);
+    }
+    reserveLarge(store.blocks, blocks);
+    store.blocks.assign(blocks, {});
+    store.states.assign(blocks, {});
+    store.slots.assign(blocks, ContactStore::asleep);
+    store.gaps.assign(blocks, -infinity);  // of walls none is known: they are always looked at
+    store.wallPoints.assign(wallBlocks, {});
+    for (const Group& g : groups)
+        inParts(
+            g.bucket.end - g.bucket.begin, threads,
+            [&](int, std::size_t begin, std::size_t end) {
+                for (std::size_t b = begin; b < end; ++b) fillBlock(g, b, grains, store);
+            },
+            worthAThread);
+    const auto touching =
+        std::count_if(store.gaps.begin(), store.gaps.end(), [](double g) { return g <= 0; });
+    store.memory.makeRoom(static_cast<std::size_t>(touching));
+    groups = {};
+}
+
+void ContactList::fillBlock(const Group& g, std::size_t b, const Grains& grains, ContactStore& store) const {
+    const std::size_t block = g.bucket.begin + b;
+    const std::size_t count = std::min<std::size_t>(g.contacts.size() - b * Pack::lanes, Pack::lanes);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        const Listed& contact = g.contacts[b * Pack::lanes + lane];
+        store.blocks[block].first[lane] = contact.first;
+        store.blocks[block].second[lane] = contact.second;
+    }
+    store.states[block].listed = static_cast<std::uint8_t>((1u << count) - 1);
+    // The first of a block has the smallest gap.
+    if (g.bucket.wall < 0) store.gaps[block] = gapOf(grains, g.contacts[b * Pack::lanes]) - 1e-9 * skin;
+}
+
+}  // namespace pendular

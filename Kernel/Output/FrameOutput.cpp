@@ -1,0 +1,69 @@
+#include "Kernel/Output/FrameOutput.h"
+
+#include <utility>
+
+#include "Kernel/Files/FileName.h"
+#include "Kernel/Output/Hdf5Output.h"
+#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Simulation/Scene.h"
+#include "Kernel/State/StateArchive.h"
+
+namespace pendular {
+
+template <class Series>
+FrameOutput<Series>::FrameOutput(std::string beginning) : name(std::move(beginning)) {
+    if (!name.empty()) requireFileName("Output of frames", name);
+}
+
+template <class Series>
+FrameOutput<Series>& FrameOutput<Series>::withInterval(double seconds) {
+    return times = OutputInterval("Output of frames", seconds), *this;
+}
+
+template <class Series>
+FrameOutput<Series>& FrameOutput<Series>::addField(const std::string& fieldName,
+                                                   FrameContent::GrainValue valueOf) {
+    return content.addField(fieldName, std::move(valueOf)), *this;
+}
+
+template <class Series>
+void FrameOutput<Series>::prepare(const Scene& /*scene*/) const {
+    Series::prepare();
+}
+
+template <class Series>
+void FrameOutput<Series>::write(const Scene& scene) {
+    if (scene.getTime() <= last) return;  // it has this state
+    if (!series) series.emplace(nameIn(scene), keptUntil(scene));
+    series->add(content.of(scene), scene.getNumberOfThreads());
+    last = scene.getTime();
+}
+
+template <class Series>
+void FrameOutput<Series>::complete(const Scene& scene) {
+    if (scene.isRestarted() && !isKnown && !series) write(scene);
+}
+
+template <class Series>
+void FrameOutput<Series>::visitState(StateArchive& archive, const Scene& scene) {
+    const std::string entry = Series::indexOf(nameIn(scene)).filename().string() + "-last-time";
+    if (archive.isReading()) isKnown = archive.holds(entry);
+    if (isKnown || series) archive.value(entry, last);
+    if (archive.isReading()) Series::check(nameIn(scene));
+}
+
+template <class Series>
+std::string FrameOutput<Series>::nameIn(const Scene& scene) const {
+    return name.empty() ? scene.getName() : name;
+}
+
+template <class Series>
+double FrameOutput<Series>::keptUntil(const Scene& scene) const {
+    if (!scene.isRestarted()) return -INFINITY;
+    return isKnown ? last : scene.getTime();
+}
+
+template class FrameOutput<Hdf5Frames>;
+template class FrameOutput<ParaViewFrames>;
+
+}  // namespace pendular

@@ -1,0 +1,257 @@
+#include "Kernel/Simulation/RunSummary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "Kernel/Contacts/CapillaryWatch.h"
+#include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Contacts/ContactLiquid.h"
+#include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Contacts/Evaporation.h"
+#include "Kernel/Contacts/LiquidLedger.h"
+#include "Kernel/Contacts/OverlapWatch.h"
+#include "Kernel/Energy/EnergyLedger.h"
+#include "Kernel/Files/CsvFile.h"
+#include "Kernel/Logger.h"
+#include "Kernel/Particles/GrainSums.h"
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Parts/AdaptiveStep.h"
+#include "Kernel/Simulation/PendularState.h"
+#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Simulation/SceneCheck.h"
+#include "Kernel/Simulation/SceneDomain.h"
+#include "Kernel/Step/StepTimes.h"
+#include "Kernel/Simulation/SummaryFile.h"
+#include "Kernel/Step/SummaryRows.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Species/Friction/MindlinSecant.h"
+
+namespace pendular {
+namespace {
+
+GrainSizes sizes(const Scene& scene) { return {scene.particleHandler.store(), scene.laws().speciesCount()}; }
+
+std::vector<BrokenLimit> broken(const Scene& scene) {
+    return brokenLimits(scene.laws(), sizes(scene), scene.wallHandler);
+}
+
+std::size_t bridgesOut(const Scene& scene) {
+    return countBridgesOutOfDomain(scene.contacts(), scene.laws(), scene.particleHandler.store());
+}
+
+/// A sentence for each domain that the scene has left; no commas in it.
+std::vector<std::string> warnings(const Scene& scene, bool atEnd) {
+    std::vector<std::string> found;
+    const OverlapWatch& overlaps = scene.contacts().overlaps();
+    const OverlapLimit limit = scene.laws().overlapLimit;
+    if (overlaps.countAbove() > 0)
+        found.push_back(fmt::format(
+            "{}: overlaps were above {} of the effective radius in {} evaluations of contacts and the "
+            "largest was {:.3g}; take stiffer grains or lower speeds and loads",
+            limit.law, limit.largest, overlaps.countAbove(), overlaps.largestOverlap()));
+    const CapillaryWatch& numbers = scene.contacts().capillaryNumbers();
+    if (numbers.countAbove() > 0)
+        found.push_back(fmt::format(
+            "bridges were drawn at capillary numbers above the largestCapillaryNumber of their law in {} "
+            "evaluations and the largest was {:.3g}; they may have ruptured too early: set "
+            "largestCapillaryNumber to at least that",
+            numbers.countAbove(), numbers.largestNumber()));
+    for (const BrokenLimit& b : broken(scene))
+        found.push_back(fmt::format("{} ({} bridges now out of its domain)", b.text(), bridgesOut(scene)));
+    if (scene.movesLiquid())
+        for (std::string& sentence : pendularState(scene, atEnd).warnings())
+            found.push_back(std::move(sentence));
+    return found;
+}
+
+void addRun(SummaryRows& rows, const Scene& scene) {
+    const bool atEnd = scene.getTime() >= scene.getTimeMax() * (1 - 1e-12) || !scene.continueSolve();
+    const bool stopped = !scene.stopSentence().empty();
+    rows.add("name", scene.getName());
+    rows.add("state", stopped ? (scene.wasAskedToStop() ? "asked to stop" : "stopped by an error")
+                      : atEnd ? "at its end"
+                              : "on its way");
+    if (stopped) rows.add("reason", scene.stopSentence());
+    rows.addNumber("time", scene.getTime(), "s");
+    rows.addNumber("end time", scene.getTimeMax(), "s");
+    rows.add("steps", scene.getNumberOfTimeSteps());
+    if (scene.getFirstStep() > 0) rows.add("restarted after steps", scene.getFirstStep());
+    rows.addNumber("time step", scene.getTimeStep(), "s");
+    if (const AdaptiveStep& adaptive = scene.adaptiveTimeStep(); adaptive.hasChosen()) {
+        rows.add("time step chosen anew", adaptive.choiceCount());
+        rows.addNumber("smallest time step", adaptive.smallestStep(), "s");
+        rows.addNumber("largest time step", adaptive.largestStep(), "s");
+    }
+    rows.addNumber("stability limit",
+                   sceneStabilityLimit(scene.laws(), scene.grainSizes(scene.particleHandler.store()),
+                                       scene.wallHandler, scene.scheme()),
+                   "s");
+    if (scene.acceptsUnstableTimeStep()) rows.add("step above the stability limit", "accepted");
+    rows.add("threads", scene.getNumberOfThreads());
+    rows.add("grains", scene.particleHandler.getSize());
+    if (const std::size_t bodies = scene.bodyHandler.getSize(); bodies > 0) rows.add("rigid bodies", bodies);
+    rows.add("walls", scene.wallHandler.getSize());
+    const Vec3D g = scene.getGravity();
+    rows.add("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");
+}
+
+/// Whether one of these laws has springs that keep their stretch while their stiffness follows the
+/// overlap.
+/// @param friction names, joined by " + "
+bool gainsByPressing(std::string_view friction) {
+    const std::string names = fmt::format(" {} ", friction);
+    for (const std::string_view law : {Mindlin::name, MindlinRollingTorsion::name, MindlinSecant::name})
+        if (names.find(fmt::format(" {} ", law)) != names.npos) return true;
+    return false;
+}
+
+void addLiquid(SummaryRows& rows, const Scene& scene) {
+    const LiquidLedger ledger = scene.liquidLedger();
+    rows.addNumber("liquid: films", ledger.films, "m^3");
+    rows.addNumber("liquid: bridges", ledger.bridges, "m^3");
+    rows.addNumber("liquid: wet walls", ledger.walls, "m^3");
+    rows.addNumber("liquid: removed with grains", ledger.removed, "m^3");
+    rows.addNumber("liquid: at the start", ledger.initial, "m^3");
+    rows.addNumber("liquid: absorbed since", ledger.absorbed, "m^3");
+    if (!scene.sprayHandler.isEmpty()) {
+        rows.addNumber("liquid: emitted by sprays", ledger.emitted, "m^3");
+        rows.addNumber("liquid: in flight", ledger.airborne, "m^3");
+        rows.addNumber("liquid: lost by sprays", ledger.lost, "m^3");
+        rows.add("droplets in flight", scene.sprayHandler.droplets().size());
+    }
+    if (scene.getEvaporation().dropsDry()) {
+        rows.addNumber("liquid: evaporated", ledger.evaporated, "m^3");
+        rows.add("bridges that have dried", scene.contacts().movingLiquid().driedBridges());
+    }
+    rows.addNumber("liquid unaccounted for", ledger.unaccounted(), "m^3");
+    const PendularState state = pendularState(scene, false);
+    rows.addNumber("share of the liquid in films", state.shareInFilms, "");
+    rows.addNumber("bridges of a grain", state.bridgesOfAGrain, "");
+    rows.addNumber("liquid over solid", state.liquidOverSolid, "");
+    rows.addNumber("saturation at a density of 0.6", state.saturation(0.6), "");
+}
+
+void addHealth(SummaryRows& rows, const Scene& scene) {
+    const auto& grains = scene.particleHandler.store();
+    std::size_t touching = 0, bridged = 0;
+    for (const BlockState& state : scene.contacts().store().states) {
+        touching += static_cast<std::size_t>(std::popcount(state.touching));
+        bridged += static_cast<std::size_t>(std::popcount(state.bridged));
+    }
+    double speed2 = 0;
+    for (const TranslationRecord& grain : grains.translation)
+        speed2 = std::max(speed2, squaredNorm(grain.velocity));
+    rows.add("touching contacts", touching);
+    rows.add("bridges", bridged);
+    rows.add("lists of contacts made", scene.contacts().rebuildCount());
+    if (scene.contacts().events().isListening()) {
+        const ContactEventCounts& counts = scene.contactEventCounts();
+        rows.add("touches begun", counts.touchesBegun);
+        rows.add("touches ended", counts.touchesEnded);
+        rows.add("bridges formed", counts.bridgesFormed);
+        rows.add("bridges ruptured", counts.bridgesRuptured);
+    }
+    if (scene.movesLiquid()) addLiquid(rows, scene);
+    rows.addNumber("largest speed", std::sqrt(speed2), "m/s");
+    rows.addNumber("kinetic energy", kineticEnergy(grains), "J");
+    if (!scene.keepsEnergyLedger()) return;
+    const EnergyLedger& ledger = scene.energyLedger();
+    for (const auto& entry : EnergyLedger::entries())
+        rows.addNumber(fmt::format("energy: {}", entry.name), ledger.*entry.member, "J");
+    rows.addNumber("energy lost", ledger.lost(), "J");
+    rows.addNumber("energy unaccounted for", scene.energyUnaccountedFor(), "J");
+    if (gainsByPressing(scene.laws().friction))
+        rows.add("note on friction",
+                 "springs of Mindlin gain energy where contacts are pressed deeper (see energy: "
+                 "lost_in_stiffening); those of MindlinIncremental do not");
+}
+
+void addDomain(SummaryRows& rows, const Scene& scene) {
+    const OverlapWatch& overlaps = scene.contacts().overlaps();
+    rows.addNumber("largest overlap met", overlaps.largestOverlap(), "of the effective radius");
+    rows.add("evaluations out of domain", overlaps.countAbove());
+    if (scene.laws().hasLargestCapillaryNumber)
+        rows.add("evaluations above the largest capillary number",
+                 scene.contacts().capillaryNumbers().countAbove());
+    if (!broken(scene).empty()) rows.add("bridges out of domain now", bridgesOut(scene));
+}
+
+void addTimes(SummaryRows& rows, const Scene& scene) {
+    const StepTimes& times = scene.stepTimes();
+    const double total = times.total();
+    const auto seconds = times.seconds();
+    rows.addNumber("wall time", total, "s");
+    for (std::size_t part = 0; part < StepTimes::names.size(); ++part) {
+        if (part == static_cast<std::size_t>(StepTimes::Part::Ledger) && !scene.keepsEnergyLedger()) continue;
+        if (part == static_cast<std::size_t>(StepTimes::Part::Liquid) && !scene.movesLiquid()) continue;
+        rows.addNumber(fmt::format("wall time: {}", StepTimes::names[part]), seconds[part], "s",
+                       fmt::format(" ({:.1f} %)", 100 * seconds[part] / total));
+    }
+}
+
+void addSpecies(SummaryRows& rows, const ContactLaws& laws) {
+    rows.add("species", laws.name);
+    for (std::size_t k = 0; k < laws.speciesCount(); ++k) {
+        const auto owner = fmt::format("species {}", k);
+        const auto index = static_cast<int>(k);
+        const std::string_view type = laws.ofPair(index, index).name;
+        if (type != laws.name) rows.add(owner, type);
+        rows.add(owner + ": density", laws.density(k), "kg/m^3");
+        for (const FieldValue& field : laws.fields(index, index))
+            rows.add(fmt::format("{}: {}", owner, field.name), field.value, field.unit);
+    }
+}
+
+SummaryRows rowsOf(const Scene& scene) {
+    SummaryRows rows;
+    addRun(rows, scene);
+    addHealth(rows, scene);
+    scene.addPartsTo(rows);
+    addDomain(rows, scene);
+    addTimes(rows, scene);
+    return rows;
+}
+
+void writeFile(const Scene& scene, SummaryRows rows) {
+    addSpecies(rows, scene.laws());
+    for (const std::string& warning : warnings(scene, false)) rows.add("warning", warning);
+    CsvFile file(SummaryFile::pathOf(scene.getName()), "quantity,value,unit");
+    rows.write(file);
+    file.close();
+}
+
+}  // namespace
+
+void RunSummary::prepare(Scene& scene) { scene.measureStepTimes(); }
+
+void RunSummary::write(const Scene& scene) {
+    const Clock::time_point now = Clock::now();
+    if (now < next) return;
+    next = now + std::chrono::seconds(1);
+    SummaryRows rows = rowsOf(scene);
+    if (written)
+        rows.addNumber("wall time since the summary before",
+                       std::chrono::duration<double>(now - *written).count(), "s");
+    written = now;
+    writeFile(scene, std::move(rows));
+}
+
+void RunSummary::complete(const Scene& scene) {
+    const SummaryRows rows = rowsOf(scene);
+    writeFile(scene, rows);
+    if (scene.isQuiet()) return;
+    std::string text = "Summary of the run\n" + rows.shown();
+    for (const std::string& warning : warnings(scene, true)) text += "Warning: " + warning + ".\n";
+    writeToLog(text);
+}
+
+}  // namespace pendular

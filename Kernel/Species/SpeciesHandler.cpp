@@ -1,0 +1,15 @@
+#include "Kernel/Species/SpeciesHandler.h"
+
+namespace pendular {
+
+void refuseSpeciesWithoutLaws(int number) {
+    throw InputError(
+        fmt::format("Species {} has no laws yet: it was added after the last mixAll().", number));
+}
+
+void refuseSpeciesNumber(std::ptrdiff_t number, std::size_t count) {
+    throw InputError(
+        fmt::format("There is no species {}; the scene has {} (counted from 0).", number, count));
+}
+
+}  // namespace pendular
