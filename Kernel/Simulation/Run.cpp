@@ -55,10 +55,7 @@ private:
     unsigned before;
 };
 
-Run::Run() : timeStep(unset) {
-    reportUncaughtExceptions();
-    hearRestartSignal();
-}
+Run::Run() : timeStep(unset) { prepareProgram(); }
 
 void Run::setName(std::string beginning) {
     if (beginning.empty())
