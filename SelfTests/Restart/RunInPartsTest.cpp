@@ -274,10 +274,12 @@ TEST_F(RunInParts, stopsWhereItIsAskedTo) {
         std::thread other;
         scene.before = [&](Parts& s) {
             if (s.getNumberOfTimeSteps() == 250) other = std::thread([&] { scene.requestStop(); });
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            if (s.getNumberOfTimeSteps() == 300) other.join();
         };
         EXPECT_TRUE(contains(stopOf(scene, [&] { scene.runTo(end); }), "requestStop() has stopped the run"));
-        other.join();
+        EXPECT_GE(scene.getNumberOfTimeSteps(), 251u);
+        EXPECT_LE(scene.getNumberOfTimeSteps(), 301u);
+        if (other.joinable()) other.join();
     }
     expectSame(whole, inParts("part", [](Parts& scene) { scene.runTo(end); }));
 }

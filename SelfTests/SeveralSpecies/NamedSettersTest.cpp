@@ -36,7 +36,9 @@ TEST(NamedSetter, refusesWhatItsTableSays) {
             std::vector<double> good;
             for (const SetterValue& value : setter.values) good.push_back(within(value.range));
             EXPECT_EQ(refusal([&] { species->set(setter.name, good); }), "");
-            if (setter.gives.empty()) EXPECT_EQ(species->get(setter.name), good.front());
+            if (setter.gives.empty()) {
+                EXPECT_EQ(species->get(setter.name), good.front());
+            }
             for (std::size_t k = 0; k < good.size(); ++k) {
                 const Range& range = setter.values[k].range;
                 std::vector<double> wrong{std::nan(""), infinity};
