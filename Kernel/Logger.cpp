@@ -1,14 +1,51 @@
 #include "Kernel/Logger.h"
 
 #include <cstdio>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 namespace pendular {
 
+namespace {
+
+std::mutex access;
+std::shared_ptr<const LogSink> chosen;  // null: standard error
+
+std::shared_ptr<const LogSink> chosenSink() {
+    const std::scoped_lock lock(access);
+    return chosen;
+}
+
+}  // namespace
+
+void setLogSink(LogSink sink) {
+    auto next = sink ? std::make_shared<const LogSink>(std::move(sink)) : nullptr;
+    const std::scoped_lock lock(access);
+    chosen.swap(next);
+}
+
+bool hasLogSink() { return chosenSink() != nullptr; }
+
 // Not by fmt::print, which throws where it cannot write.
-void writeToLog(std::string_view text) noexcept {
+void writeToLog(std::string_view text, LogLevel level) noexcept {
+    try {
+        if (const auto sink = chosenSink()) {
+            if (text.ends_with('\n')) text.remove_suffix(1);
+            return (*sink)(level, text);
+        }
+    } catch (...) {
+        return;
+    }
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
     std::clearerr(stderr);
+}
+
+void Logger::write(LogLevel level, std::string line) {
+    // A sink is told the level.
+    if (level == LogLevel::Warn && !hasLogSink()) line.insert(0, "Warning: ");
+    writeToLog(line += '\n', level);
 }
 
 }  // namespace pendular

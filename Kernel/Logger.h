@@ -3,18 +3,29 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace pendular {
 
-/// Writes a text to standard error. What cannot be written there (a full disk, a closed pipe) is lost: a log
-/// never ends a run.
-void writeToLog(std::string_view text) noexcept;
+/// How much a user has to read it; a level shows itself and those before it. Progress is of no logger: how
+/// far a run is, a line that stands for the one before.
+enum class LogLevel { None, Warn, Info, Verbose, Debug, Progress };
 
-/// How much a user has to read it; a level shows itself and those before it.
-enum class LogLevel { None, Warn, Info, Verbose, Debug };
+/// What takes each text of the log, without the end of its last line.
+using LogSink = std::function<void(LogLevel, std::string_view)>;
+
+/// From now on the log of the whole program (loggers, warnings, progress, summaries) goes to this function
+/// instead of standard error, and to standard error again for an empty one. It is called by the thread that
+/// runs the scene, by several at a time where several scenes run; what it throws is lost.
+void setLogSink(LogSink sink);
+[[nodiscard]] bool hasLogSink();
+
+/// Writes a text to the log: standard error, or what setLogSink() was given. What cannot be written there (a
+/// full disk, a closed pipe) is lost: a log never ends a run.
+void writeToLog(std::string_view text, LogLevel level = LogLevel::Info) noexcept;
 
 /// The text of a line, in the form of fmt, which the compiler checks against the values: a {} for each of
 /// them. MercuryDPM's % does not compile.
@@ -29,7 +40,7 @@ struct LogText {
     fmt::format_string<Values...> text;
 };
 
-/// Lines for the user of a run, on standard error: logger(INFO, "{} grains", number).
+/// Lines for the user of a run, in the log: logger(INFO, "{} grains", number).
 class Logger {
 public:
     template <class... Values>
@@ -48,10 +59,7 @@ public:
     [[nodiscard]] bool isQuiet() const { return quiet; }
 
 private:
-    static void write(LogLevel level, std::string line) {
-        if (level == LogLevel::Warn) line.insert(0, "Warning: ");
-        writeToLog(line += '\n');
-    }
+    static void write(LogLevel level, std::string line);
 
     LogLevel shown = LogLevel::Info;
     bool quiet = false;

@@ -9,9 +9,9 @@
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Contacts/SeveralSpeciesHandler.h"
 #include "Kernel/Simulation/Program.h"
-#include "Kernel/Species/DerivedSetters.h"
 #include "Kernel/Species/LawNames.h"
 #include "Kernel/Species/Laws.h"
+#include "Kernel/Species/Setter.h"
 
 using namespace pendular;
 
@@ -50,14 +50,15 @@ std::string setterOf(std::string_view field) {
     return name;
 }
 
-void describe(const DerivedSetter& setter) {
+template <class Law>
+void describe(const Setter<Law>& setter) {
     std::string values, ranges;
     for (const SetterValue& value : setter.values) {
         values += fmt::format("{}{}", values.empty() ? "" : ", ", value.name);
         ranges +=
             fmt::format("{}{} {}", ranges.empty() ? "" : ", ", value.name, value.range.text(value.unit));
     }
-    fmt::print("Also `{}({})`, {}: sets {}.\n\n", setter.name, values, ranges, setter.gives);
+    fmt::print("Also `{}({})`, {}: sets {}.\n\n", setterOf(setter.name), values, ranges, setter.gives);
 }
 
 template <class Law>
@@ -78,7 +79,7 @@ void describeLaw() {
                    formula(field.mixing), field.meaning, field.source);
     }
     fmt::print("\n");
-    for (const DerivedSetter& setter : derivedSetters<Law>()) describe(setter);
+    for (const auto& setter : settersOf<Law>()) describe(setter);
 }
 
 /// Describes the law or the species of this name; all laws for "all".

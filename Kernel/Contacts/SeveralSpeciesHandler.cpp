@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "Kernel/Contacts/PopularSpecies.h"
+#include "Kernel/Contacts/SpeciesRegistry.h"
 #include "Kernel/Species/LawNames.h"
 
 namespace pendular {
@@ -13,15 +14,11 @@ namespace pendular {
 std::vector<std::string_view> instantiatedSpecies() { return lawNames<PopularSpecies>(); }
 
 AnySpecies* SeveralSpeciesHandler::addByName(std::string_view type) {
-    AnySpecies* added = nullptr;
-    withLawNamed<PopularSpecies>("instantiated species", type, [&]<class S>() { added = &add<S>({}); });
-    return added;
+    return speciesTypeNamed(type).add(*this);
 }
 
 AnyLaws* SeveralSpeciesHandler::setPairTypeByName(int a, int b, std::string_view type) {
-    AnyLaws* own = nullptr;
-    withLawNamed<PopularSpecies>("instantiated species", type, [&]<class S>() { own = &ownOf<S>(a, b); });
-    return own;
+    return speciesTypeNamed(type).setPair(*this, a, b);
 }
 
 std::size_t SeveralSpeciesHandler::checked(std::size_t index) const {

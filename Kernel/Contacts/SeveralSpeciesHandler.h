@@ -75,8 +75,13 @@ public:
     S* copyAndAddObject(const S& species) {
         return &add<S>(species).species;
     }
-    /// Adds a species of which nothing is set, of one of the types in instantiatedSpecies(): its fields are
-    /// set by their names. Throws InputError, with the nearest names, if there is none of this name.
+    /// Adds a species of this type of which nothing is set: its fields are set by their names.
+    template <class S>
+    AnySpecies* addOfType() {
+        return &add<S>({});
+    }
+    /// The same for the name of one of the types in instantiatedSpecies(), or of one that was registered
+    /// (SpeciesRegistry.h). Throws InputError, with the nearest names, if there is none of this name.
     AnySpecies* addByName(std::string_view type);
 
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
@@ -87,7 +92,12 @@ public:
     void setPairType(const First* a, const Second* b) {
         static_cast<void>(ownOf<Type>(a->getIndex(), b->getIndex()));
     }
-    /// The same for a type in instantiatedSpecies(); fields of the pair can be set by their names.
+    /// The same; fields of the pair can be set by their names.
+    template <class Type>
+    AnyLaws* setPairOfType(int a, int b) {
+        return &ownOf<Type>(a, b);
+    }
+    /// The same for the name of a type, as in addByName().
     AnyLaws* setPairTypeByName(int a, int b, std::string_view type);
     /// The pair's own values, of laws of this type: nothing is set in them but what the driver sets.
     template <class Type, class First, class Second>

@@ -1,9 +1,12 @@
 #include "Kernel/Simulation/Program.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/auxv.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -13,6 +16,8 @@
 #include <new>
 #include <system_error>
 
+#include "Kernel/Host.h"
+#include "Kernel/InputError.h"
 #include "Kernel/Logger.h"
 #include "Kernel/RunError.h"
 #include "Kernel/Simulation/RunControl.h"
@@ -30,8 +35,19 @@ void openClosedStreams() {
             static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY));
 }
 
+std::atomic<bool> hadScene{false};
+
+/// Whether this code is part of the program itself, not of a library that it has loaded.
+bool isInProgram() {
+    Dl_info here{}, program{};
+    return dladdr(&hadScene, &here) != 0 &&
+           dladdr(reinterpret_cast<const void*>(getauxval(AT_PHDR)), &program) != 0 &&
+           here.dli_fbase == program.dli_fbase;
+}
+
 /// Before main(), and so before the command line is read.
 const bool isPrepared = [] {
+    if (isHosted() || !isInProgram()) return false;
     openClosedStreams();
     hearRestartSignal();
     return true;
@@ -81,6 +97,24 @@ int runProgram(const std::function<int()>& body) {
     } catch (...) {
         return printCurrentException();
     }
+}
+
+void setHosted() {
+    if (isHosted()) return;
+    if (hadScene)
+        throw InputError(
+            "setHosted(): there has been a scene already, which has set the signals and the end of the "
+            "program; "
+            "call it before the first one.");
+    markAsHosted();
+    forgetRestartSignal();
+}
+
+void prepareProgram() {
+    hadScene = true;
+    if (isHosted()) return;
+    reportUncaughtExceptions();
+    hearRestartSignal();
 }
 
 void reportUncaughtExceptions() {

@@ -28,8 +28,9 @@ Progress::Progress(std::string ofWhat, double endTime, double time, std::size_t 
       firstTime(time),
       firstStep(step),
       nextLook(step),
-      terminal(isatty(STDERR_FILENO) == 1),
-      interval(terminal ? std::chrono::milliseconds(250) : std::chrono::minutes(1)),
+      sunk(hasLogSink()),
+      terminal(!sunk && isatty(STDERR_FILENO) == 1),
+      interval(terminal || sunk ? std::chrono::milliseconds(250) : std::chrono::minutes(1)),
       nextShown(started + interval) {}
 
 Progress::~Progress() { endLine(); }
@@ -67,7 +68,7 @@ void Progress::print(double time, std::size_t step, const RunNumbers& numbers) {
         line += "  " + part;
     }
     if (terminal) line.resize(width, ' ');
-    writeToLog(terminal ? "\r" + line : line + "\n");
+    writeToLog(terminal ? "\r" + line : line + "\n", LogLevel::Progress);
     shown = true;
 }
 

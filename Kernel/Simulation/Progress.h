@@ -16,7 +16,8 @@ struct RunNumbers {
 
 /// How far a run is, how fast, and the time left: a line on the terminal that is renewed a few times a
 /// second; where standard error is no terminal, a plain line for each minute. What does not fit into the line
-/// is left out, from its end. It takes a hundredth of the run's time at most.
+/// is left out, from its end. A sink of the log (setLogSink()) gets a whole line a few times a second. It
+/// takes a hundredth of the run's time at most.
 class Progress {
 public:
     /// @param ofWhat the name of the run, at the start of the line
@@ -26,6 +27,8 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// The run ends at another time (s).
+    void setEnd(double time) { end = time; }
     /// To be called after each step: whether show() is to be called. It looks at the clock some twenty times
     /// a second.
     [[nodiscard]] bool isDue(std::size_t step);
@@ -54,7 +57,7 @@ private:
     std::string name;
     double end, firstTime;  // s
     std::size_t firstStep, nextLook;
-    bool terminal, shown = false;
+    bool sunk, terminal, shown = false;
     Clock::duration interval;
     Clock::time_point started = Clock::now(), nextShown;
 };

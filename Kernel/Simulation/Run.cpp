@@ -2,63 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "Kernel/Files/FileName.h"
-#include "Kernel/Files/SetAside.h"
 #include "Kernel/InputError.h"
-#include "Kernel/RunError.h"
-#include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/State/RestartFile.h"
 
 namespace pendular {
 
-namespace {
-
 /// Shorter steps are a slip: light passes less than an atom in them, and a run of a microsecond takes 1e12.
 /// (A late end is none: "until continueSolve() says so".)
-constexpr Range timeStepRange{1e-18, infinity, true, false};
-
-std::string_view withoutFullStop(std::string_view sentence) {
-    return sentence.substr(0, sentence.size() - (sentence.ends_with('.') ? 1 : 0));
-}
-
-}  // namespace
-
-class Run::Within {
-public:
-    enum Call : unsigned {
-        Solving = 1,
-        SettingUp = 2,
-        Stepping = 4,
-        Writing = 8,
-        Completing = 16,
-        Saving = 32,
-        Any = 63
-    };
-
-    Within(Run& of, Call call, unsigned refusedIn, std::string_view name) : run(of), before(of.underWay) {
-        if ((before & refusedIn) != 0)
-            throw InputError(
-                fmt::format("Simulation: {} cannot be called from this hook of the same scene.", name));
-        run.underWay |= call;
-    }
-    Within(const Within&) = delete;
-    Within& operator=(const Within&) = delete;
-    ~Within() { run.underWay = before; }
-
-private:
-    Run& run;
-    unsigned before;
-};
-
-Run::Run() : timeStep(unset) {
-    reportUncaughtExceptions();
-    hearRestartSignal();
-}
+static constexpr Range timeStepRange{1e-18, infinity, true, false};
 
 void Run::setName(std::string beginning) {
     if (beginning.empty())
@@ -79,6 +35,7 @@ void Run::setTimeStep(double step) {
 void Run::setTimeMax(double end) {
     checkValue("Simulation", "maximum time", end, "s", notNegative);
     timeMax = end;
+    timeMaxIsSet = true;
 }
 
 void Run::requireTimeStep() const { checkValue("Simulation", "time step", timeStep, "s", timeStepRange); }
@@ -192,110 +149,12 @@ void Run::initialise() {
     setUp();
 }
 
-void Run::solve() {
-    if (begun)
-        throw InputError(
-            "Simulation: the run has begun already; solve() runs a scene once, from its start or from a "
-            "restart file.");
-    const Within solving(*this, Within::Solving, Within::Any, "solve()");
-    try {
-        runWhole();
-    } catch (...) {
-        lock.reset();
-        throw;
-    }
-    lock.reset();
-}
-
-void Run::runWhole() {
-    RunControl control;  // hears signals from here on
-    {
-        const Within settingUp(*this, Within::SettingUp, 0, {});
-        setUp();
-    }
-    control.follow(restarts);
-    try {
-        begin();
-        stepToTheEnd(control);
-    } catch (const RunError& error) {
-        stopped = error.what();
-        throw RunError(withLastState(error.what()));
-    } catch (const RunStopped&) {
-        throw;
-    } catch (const std::exception& problem) {  // a full disk
-        stopped = problem.what();
-        askedToStop = false;
-        completeWhatCanBe();
-        throw;
-    }
-}
-
-/// Two runs of one name would write into each other's files.
-void Run::lockName() {
-    const bool writesByName = restarts.kept || (!outputs.empty() && name != unnamed);
-    if ((underWay & Within::Solving) == 0 || !writesByName) return;
-    lock.emplace(name + ".pendular-lock", fmt::format("The files {}-* are", name),
-                 "give this run another name or folder", restarts.kept);
-}
-
-/// From here on the restart file is one of this run: what goes on mixes no two runs. That of an earlier run
-/// is not lost before there is the new one.
-void Run::begin() {
-    const bool keepsOther = restarts.kept && !(isRestarted() && isOwnRestartFile(restartSource));
-    std::vector<std::filesystem::path> former = std::move(replaced);
-    if (keepsOther) former.push_back(restartFile());
-    SetAside aside(std::move(former));
-    if (!isRestarted()) writeAll();
-    if (keepsOther) writeRestart(restartFile());
-    aside.remove();
-}
-
-/// Steps until the maximum time; both it and the time step may change on the way.
-std::size_t Run::lastStep() const {
-    const double most = 1e18;  // steps, more than any run has
-    const double remaining = std::ceil((timeMax - timeBefore) / timeStep * (1 - 1e-12));
-    return stepsBefore + static_cast<std::size_t>(std::clamp(remaining, 0.0, most));
-}
-
-void Run::stepToTheEnd(RunControl& control) {
-    std::optional<Progress> progress;
-    if (!isQuiet())
-        progress.emplace(std::filesystem::path(name).filename().string(), timeMax, getTime(), steps);
-    const auto isAskedToStop = [&] {
-        if (control.schedule() != restarts) control.follow(restarts);  // a hook has changed it
-        const RunControl::Request request = control.request(steps);
-        if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());
-        return request == RunControl::Request::Stop;
-    };
-    bool stops = isAskedToStop();
-    while (!stops && steps < lastStep() && continueSolve()) {
-        stepOnce(steps + 1 < lastStep());
-        writeOutputs(false);
-        if (progress && progress->isDue(steps))
-            progress->show(getTime(), steps, [this] { return numbers(); });
-        stops = isAskedToStop();
-    }
-    if (progress) progress->finish(getTime(), steps, [this] { return numbers(); });
-    // Before the last output: a run that goes on from here knows nothing of one that is not due.
-    if (restarts.kept) writeRestart(restartFile());
-    if (steps > 0) writeOutputs(true);
-    if (stops) throw stop();
-    complete();
-}
-
-/// Completes the files of a run that was asked to stop; returns what ends it.
-RunStopped Run::stop() {
-    const RunStopped reason =
-        RunControl::stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string());
-    stopped = reason.what();
-    askedToStop = true;
-    complete();
-    return reason;
-}
-
 void Run::step(std::size_t count) {
     if (!begun) requireBegun("step()");
     const Within stepping(*this, Within::Stepping, Within::Any, "step()");
+    if (course)
+        throw InputError(
+            "Simulation: step() writes no outputs, and this run goes on in parts; call runSteps() instead.");
     for (std::size_t k = 1; k <= count; ++k) stepOnce(k < count);
 }
 
@@ -345,6 +204,10 @@ void Run::prepareOutputs() {
 
 void Run::completeAll() {
     const Within completing(*this, Within::Completing, Within::Any, "completeAll()");
+    if (course)
+        throw InputError(
+            "Simulation: completeAll() ends the files of a run that goes on in parts; call finishRun() "
+            "instead.");
     complete();
 }
 
@@ -363,26 +226,8 @@ void Run::completeWhatCanBe() {
     for (const KeptOutput& output : outputs) {
         try {
             if (output.complete) output.complete();
-        } catch (const std::exception&) {}
+        } catch (...) {}
     }
-}
-
-/// Writes the state as it is, and adds to a sentence where it is.
-std::string Run::withLastState(std::string sentence) {
-    const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
-    try {
-        writeLastState(grains, contacts, sentence);
-        writeAll();
-        completeOutputs();
-    } catch (const std::exception& problem) {
-        return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
-                           problem.what());
-    }
-    const std::string restart = restartFileSteps ? fmt::format("; the state after {} steps is in {}",
-                                                               *restartFileSteps, restartFile().string())
-                                                 : "";
-    return fmt::format("{}; the last whole step is in {} and {}{}.", withoutFullStop(sentence), grains,
-                       contacts, restart);
 }
 
 }  // namespace pendular

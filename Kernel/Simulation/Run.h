@@ -1,14 +1,16 @@
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Files/FileLock.h"
 #include "Kernel/InputError.h"
 #include "Kernel/Logger.h"
 #include "Kernel/RunError.h"
@@ -25,7 +27,7 @@ namespace pendular {
 class Run {
 public:
     Run();
-    virtual ~Run() = default;
+    virtual ~Run();
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
@@ -92,6 +94,8 @@ public:
     [[nodiscard]] bool wasAskedToStop() const { return askedToStop; }
     /// Steps that had been done when this program began: 0 unless it goes on from a restart file.
     [[nodiscard]] std::size_t getFirstStep() const { return firstStep; }
+    /// Whether the run has come to its end, or was stopped: its files are complete, and it goes no further.
+    [[nodiscard]] bool hasEnded() const { return ended; }
     [[nodiscard]] const StepTimes& stepTimes() const { return times; }
 
     /// Sets up, and steps until the maximum time. A run that cannot go on ends with a RunError; the grains
@@ -102,6 +106,21 @@ public:
     /// lasts, there is a file NAME.pendular-lock, and another run of this name is refused, also in another
     /// process.
     void solve();
+    /// Runs in parts: begins the run, or goes on with it, until its time is the given one (s) or a part of a
+    /// step above, with all that solve() does on the way, and the same bits and files. Between parts all may
+    /// be read and changed as in a hook. The run ends where solve() would end it: at getTimeMax(), if that
+    /// was set, where continueSolve() says so, or where it is stopped. A run whose maximum time was not set
+    /// goes on until finishRun(). Throws as solve() does; then the run has ended.
+    void runTo(double time);
+    /// The same for so many steps.
+    void runSteps(std::size_t count);
+    /// Ends a run in parts here, as solve() does at the maximum time: with the restart file, the last
+    /// outputs, and complete files. Nothing where it has ended. A scene that goes without it completes the
+    /// files of its outputs, but writes nothing more, and no hook of the driver is called.
+    void finishRun();
+    /// Asks the run to stop after its step, as SIGTERM does: it ends with RunStopped. One that has not begun
+    /// or is between two parts stops at once when it goes on. Also for other threads and handlers of signals.
+    void requestStop() noexcept { stopAsked.store(true, std::memory_order_relaxed); }
     /// Checks the scene and computes the forces at its start, or takes them from the restart file. For a
     /// driver that steps by itself. Like solve() and step(), it throws InputError in hooks of this scene.
     void initialise();
@@ -144,12 +163,21 @@ protected:
     }
     StepTimes::Part enter(StepTimes::Part part) { return times.enter(part); }
     [[nodiscard]] StepTimes& stepTimer() { return times; }
+    /// For the destructor of the class that has all of the scene.
+    void completeLeftRun() noexcept;
 
 private:
     void visitIntervals(StateArchive& archive);
     /// Marks, for as long as it lives, that one of the calls below is under way; throws InputError where any
     /// of the given ones is.
     class Within;
+    /// What there is of a run while it lasts: the signals it hears, the lock of its name, its progress.
+    struct Course;
+    /// Where a part of the run ends; a whole run has no end of its own.
+    struct PartEnd {
+        double time = std::numeric_limits<double>::infinity();  // s
+        std::size_t steps = std::numeric_limits<std::size_t>::max();
+    };
 
     /// Does what initialise() says.
     virtual void setUp() = 0;
@@ -168,13 +196,22 @@ private:
     static double timeAfter(std::size_t done, std::size_t before, double beforeTime, double length) {
         return done == before ? beforeTime : beforeTime + static_cast<double>(done - before) * length;
     }
-    [[nodiscard]] std::size_t lastStep() const;
-    void runWhole();
-    void begin();
+    [[nodiscard]] std::size_t stepAt(double time) const;
+    [[nodiscard]] std::size_t lastStep(const PartEnd& end) const;
+    /// Throws InputError where the run cannot go on in parts.
+    void requireInParts(std::string_view call) const;
+    void beginRun();
+    void beginFiles();
+    void runPart(const PartEnd& end);
+    template <class Body>
+    void endingWithErrors(Body&& body);
+    void leaveCourse();
+    [[nodiscard]] bool isAskedToStop();
     void lockName();
     void stepOnce(bool another);
     void complete();
-    void stepToTheEnd(RunControl& control);
+    void stepUntil(const PartEnd& end);
+    void endRun(bool stops);
     void writeOutputs(bool atEnd);
     [[nodiscard]] RunStopped stop();
     void completeOutputs();
@@ -187,6 +224,7 @@ private:
     std::deque<KeptOutput> outputs;  // one that is called may add another one
     StepTimes times;
     double timeStep, timeMax = 0;  // s
+    bool timeMaxIsSet = false;     // else the run in parts has no end, and timeMax is that of the part
     std::size_t saveCount = 0;
     std::size_t steps = 0, firstStep = 0;
     std::size_t stepsBefore = 0;  // those with another time step
@@ -199,8 +237,10 @@ private:
     std::filesystem::path restartSource;          // empty: a run from its beginning
     std::string stopped;                          // why; empty: it is not
     bool askedToStop = false;
-    unsigned underWay = 0;         // calls, as bits of Within
-    std::optional<FileLock> lock;  // of the name, while solve() lasts
+    unsigned underWay = 0;           // calls, as bits of Within
+    std::unique_ptr<Course> course;  // while a run lasts
+    bool ended = false;
+    std::atomic<bool> stopAsked{false};
 };
 
 }  // namespace pendular

@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "Kernel/Host.h"
 #include "Kernel/Logger.h"
 #include "Kernel/Species/Field.h"
 
@@ -92,6 +93,12 @@ void hearRestartSignal() {
     sigprocmask(SIG_UNBLOCK, &blocked, nullptr);
 }
 
+void forgetRestartSignal() {
+    struct sigaction now {};
+    sigaction(SIGUSR1, nullptr, &now);
+    if (now.sa_handler == takeNote) std::signal(SIGUSR1, SIG_DFL);
+}
+
 void ignoreClosedPipes() {
     struct sigaction before {};
     sigaction(SIGPIPE, nullptr, &before);
@@ -104,9 +111,9 @@ void RunControl::follow(const RestartSchedule& given) {
     nextLook = needsClock ? 0 : std::numeric_limits<std::size_t>::max();
 }
 
-RunControl::RunControl(const RestartSchedule& given) {
+RunControl::RunControl(const RestartSchedule& given) : listens(!isHosted()) {
     follow(given);
-    if (listening.runs++ > 0) return;
+    if (!listens || listening.runs++ > 0) return;
     ignoreClosedPipes();
     const struct sigaction action = noteTaking();
     for (std::size_t k = 0; k < signals.size(); ++k) {
@@ -117,6 +124,7 @@ RunControl::RunControl(const RestartSchedule& given) {
 }
 
 RunControl::~RunControl() {
+    if (!listens) return;
     // After a run that was asked to stop, the second of two signals that are one request may still come.
     if (--listening.runs > 0 || stopSignal.load() != 0) return;
     for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &listening.before[k], nullptr);
@@ -144,15 +152,17 @@ RunControl::Request RunControl::request(std::size_t steps) {
     if (restartAsked.load(std::memory_order_relaxed)) {
         restartAsked = false;
         write = true;
-        if (!restarts.kept) writeToLog("SIGUSR1: this run keeps no restart file.\n");
+        if (!restarts.kept) writeToLog("SIGUSR1: this run keeps no restart file.\n", LogLevel::Warn);
     }
-    if (restarts.count > 0 && steps % restarts.count == 0) write = true;
+    if (restarts.count > 0 && steps % restarts.count == 0 && counted != steps) write = true;
+    counted = steps;
     return write && restarts.kept ? Request::WriteRestart : Request::None;
 }
 
-RunStopped RunControl::stopped(double time, std::size_t steps, const std::string& restartFile) {
-    const int signal = stopSignal.load();
-    const std::string reason = signal == SIGINT ? "SIGINT"
+RunStopped RunControl::stopped(double time, std::size_t steps, const std::string& restartFile, bool byCall) {
+    const int signal = byCall ? 0 : stopSignal.load();
+    const std::string reason = byCall             ? "requestStop()"
+                               : signal == SIGINT ? "SIGINT"
                                : signal == SIGTERM
                                    ? "SIGTERM"
                                    : fmt::format("the limit of {:g} s of wall time", wallTimeLimit);

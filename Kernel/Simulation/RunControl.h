@@ -37,9 +37,13 @@ void hearRestartSignal();
 /// written there fails. A program that handles the signal goes on to do so.
 void ignoreClosedPipes();
 
+/// SIGUSR1 does again what it did before hearRestartSignal().
+void forgetRestartSignal();
+
 /// Listens, for as long as it lives, to what is asked of a run from outside. SIGINT, SIGTERM and the limit of
 /// wall time end the run after the step, the first two at once when one of them comes again a second later or
-/// more; SIGUSR1 writes a restart file and goes on.
+/// more; SIGUSR1 writes a restart file and goes on. In a program of somebody else (setHosted()) signals are
+/// left to that.
 class RunControl {
 public:
     enum class Request { None, WriteRestart, Stop };
@@ -53,13 +57,15 @@ public:
     void follow(const RestartSchedule& given);
     [[nodiscard]] const RestartSchedule& schedule() const { return restarts; }
 
-    /// What is asked for when so many steps have been done. Costs two loads; looks at the clock, where there
-    /// is a limit, some twenty times a second.
+    /// What is asked for when so many steps have been done; asked again at the same step, it writes no file
+    /// for the count of steps. Costs two loads; looks at the clock, where there is a limit, some twenty times
+    /// a second.
     [[nodiscard]] Request request(std::size_t steps);
 
     /// What ends a run that was asked to stop.
-    /// @param time s; @param restartFile empty: none is kept
-    [[nodiscard]] static RunStopped stopped(double time, std::size_t steps, const std::string& restartFile);
+    /// @param time s; @param restartFile empty: none is kept; @param byCall requestStop() has asked
+    [[nodiscard]] static RunStopped stopped(double time, std::size_t steps, const std::string& restartFile,
+                                            bool byCall = false);
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -67,8 +73,10 @@ private:
     void lookAtClock(std::size_t steps);
 
     RestartSchedule restarts;
+    bool listens;  // to signals
     bool outOfTime = false, restartDue = false;
     std::size_t nextLook = 0;             // steps
+    std::optional<std::size_t> counted;   // steps for which the count was looked at
     std::optional<std::size_t> lastLook;  // steps; a run that goes on does not begin at 0
     Clock::time_point lastLooked = Clock::now(), lastRestart = lastLooked;
 };

@@ -14,6 +14,7 @@ template <class... Types>
 class Simulation : public Scene {
 public:
     Simulation() { setLaws(ownLaws); }
+    ~Simulation() override { completeLeftRun(); }
 
     SpeciesHandlerOf<Types...> speciesHandler;
 
@@ -25,6 +26,7 @@ template <class S>
 class Simulation<S> : public Scene {
 public:
     Simulation() { setLaws(*ownLaws); }
+    ~Simulation() override { completeLeftRun(); }
 
     SpeciesHandler<S> speciesHandler;
 

@@ -11,6 +11,7 @@ template <class S>
 class SuperquadricSimulation : public Simulation<S> {
 public:
     SuperquadricSimulation() { this->setLaws(ownLaws); }
+    ~SuperquadricSimulation() override { this->completeLeftRun(); }
 
     SuperquadricHandler superquadricHandler{this->particleHandler};
 

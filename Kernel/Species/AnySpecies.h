@@ -1,11 +1,13 @@
 #pragma once
 
+#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <typeinfo>
 #include <vector>
 
-#include "Kernel/Species/Field.h"
+#include "Kernel/Species/Setter.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -26,11 +28,23 @@ public:
     [[nodiscard]] virtual std::string_view getName() const = 0;
     [[nodiscard]] virtual std::vector<NamedField> fields() = 0;
 
-    /// Sets a field by its name, after the check that its table demands. Throws InputError, also if there is
-    /// no such field: with the nearest names.
-    virtual void set(std::string_view field, double value);
+    /// Setters that compute fields from other values.
+    [[nodiscard]] virtual std::vector<NamedSetter> derivedSetters() { return {}; }
+
+    /// All that can be set by its name: what values it takes, their units and ranges. The fields first, then
+    /// the derived ones.
+    [[nodiscard]] virtual std::vector<NamedSetter> setters();
+    /// Sets a field, or calls a setter, by its name, after the check that its table demands. Throws
+    /// InputError, also if there is no such name: with the nearest ones; and where it takes another number of
+    /// values.
+    void set(std::string_view name, double value) { set(name, {&value, 1}); }
+    void set(std::string_view name, std::initializer_list<double> values) {
+        set(name, {values.begin(), values.size()});
+    }
+    void set(std::string_view name, std::span<const double> values);
     [[nodiscard]] bool has(std::string_view field);
-    [[nodiscard]] virtual double get(std::string_view field);
+    /// A field, or what a setter of one value has set.
+    [[nodiscard]] double get(std::string_view name);
     /// The law of this type, for its own functions; null if there is none.
     template <class Law>
     [[nodiscard]] Law* find() {
@@ -46,7 +60,7 @@ public:
 
 private:
     [[nodiscard]] virtual const void* lawOf(const std::type_info& law) const = 0;
-    [[nodiscard]] NamedField fieldOf(std::string_view name);
+    [[nodiscard]] NamedSetter setterOf(std::string_view name);
 };
 
 /// A species of a scene, whatever its type.
@@ -58,9 +72,8 @@ public:
     [[nodiscard]] virtual const double& densityPlace() const = 0;
     /// @param density kg/m^3
     virtual void setDensity(double density) = 0;
-    /// The same as setDensity() for the field "density".
-    void set(std::string_view field, double value) override;
-    [[nodiscard]] double get(std::string_view field) override;
+    /// With the density.
+    [[nodiscard]] std::vector<NamedSetter> setters() override;
 
     /// Derives what is unset and follows from other values, in a copy, and checks that. Throws InputError.
     virtual void complete() = 0;

@@ -35,6 +35,9 @@ public:
 
     [[nodiscard]] std::string_view getName() const override { return S::name; }
     [[nodiscard]] std::vector<NamedField> fields() override { return namedFields<MixedOf>(species); }
+    [[nodiscard]] std::vector<NamedSetter> derivedSetters() override {
+        return namedSetters<MixedOf>(species);
+    }
     [[nodiscard]] int getIndex() const override { return species.getIndex(); }
     [[nodiscard]] const double& densityPlace() const override { return species.density; }
     void setDensity(double density) override { species.setDensity(density); }
@@ -65,6 +68,7 @@ public:
 
     [[nodiscard]] std::string_view getName() const override { return S::name; }
     [[nodiscard]] std::vector<NamedField> fields() override { return namedFields(laws); }
+    [[nodiscard]] std::vector<NamedSetter> derivedSetters() override { return namedSetters(laws); }
 
 private:
     [[nodiscard]] const void* lawOf(const std::type_info& law) const override { return lawOfType(laws, law); }

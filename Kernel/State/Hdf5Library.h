@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "Kernel/Host.h"
 #include "Kernel/State/Hdf5File.h"
 
 namespace pendular::hdf5 {
@@ -47,9 +48,11 @@ inline hid_t nativeType(NumberKind kind) {
 }
 
 /// The library prints no messages of its own, and does not try to complete files when the program ends (a
-/// full disk is not less full then).
+/// full disk is not less full then). In a program of somebody else, who may use the library too, it does both
+/// as that program has it.
 inline void makeQuiet() {
     static const bool once = [] {
+        if (isHosted()) return false;
         H5dont_atexit();
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
         return true;

@@ -8,6 +8,7 @@
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Support/Refusal.h"
 
 namespace pendular {
 namespace {
@@ -41,6 +42,14 @@ TEST(Program, isNotEndedBySigusr1BeforeItHasARun) {
     sigaction(SIGUSR1, nullptr, &now);
     EXPECT_NE(now.sa_handler, SIG_DFL);
     std::raise(SIGUSR1);
+}
+
+/// The first scene has set signals and the end of the program already.
+TEST(Program, becomesNoHostAfterItsFirstScene) {
+    { const Simulation<Species<LinearViscoelastic>> scene; }
+    const std::string text = support::refusal([] { setHosted(); });
+    EXPECT_TRUE(support::isOneSentence(text));
+    EXPECT_TRUE(support::contains(text, "call it before the first one"));
 }
 
 TEST(Logger, showsLinesUpToItsLevel) {

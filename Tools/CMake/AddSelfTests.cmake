@@ -1,5 +1,6 @@
 # A folder below SelfTests/ with a *Test.cpp in it is a test program, made of all .cpp files in the folder.
 #   SelfTests/CompileFail/*.cpp  must not compile, with the message they expect (CheckCompileFailure.cmake)
+#   SelfTests/Hosts/Library/     a library of species, loaded by the test program of SelfTests/Hosts/
 #   SelfTests/OutOfTree/         a driver outside the tree, built against the installed kernel (CheckOutOfTree.cmake)
 # Labels, by the beginning of the suite's name:
 #   fast   all that are not named otherwise
@@ -77,6 +78,19 @@ precompile_headers(PrecompiledTests PrecompiledTests ${precompiledHeaders} <gtes
 foreach(folder IN LISTS testFolders)
     pendular_add_self_test(${folder})
 endforeach()
+
+# A library of species that a test loads: compiled as a driver is, and not linked to the kernel, which is in the
+# program, whole and with its symbols shown, so that nothing is there twice.
+add_library(QuadraticSpring MODULE "${selfTests}/Hosts/Library/QuadraticSpring.cpp")
+target_compile_features(QuadraticSpring PRIVATE cxx_std_20)
+target_include_directories(QuadraticSpring PRIVATE $<TARGET_PROPERTY:PendularKernel,INTERFACE_INCLUDE_DIRECTORIES>)
+target_compile_options(QuadraticSpring PRIVATE $<TARGET_PROPERTY:PendularKernel,INTERFACE_COMPILE_OPTIONS>)
+target_link_libraries(QuadraticSpring PRIVATE Eigen3::Eigen fmt::fmt)
+set_target_properties(QuadraticSpring PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
+add_warnings(QuadraticSpring)
+set_target_properties(SelfTestHosts PROPERTIES ENABLE_EXPORTS ON DEFINE_SYMBOL ""
+                      LINK_LIBRARY_OVERRIDE "WHOLE_ARCHIVE,PendularKernel,Pendular::Kernel")
+add_dependencies(SelfTestHosts QuadraticSpring)
 
 # What must not compile: the flags of a driver, in a file for the compiler.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" configuration)

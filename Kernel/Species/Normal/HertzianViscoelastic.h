@@ -55,6 +55,31 @@ struct HertzianViscoelastic : HertzianContact<HertzianViscoelastic> {
         setDissipation(std::sqrt(2.0) * alpha);
     }
 
+    static std::vector<Setter<HertzianViscoelastic>> setters() {
+        using Law = HertzianViscoelastic;
+        using Values = std::span<const double>;
+        const SetterValue restitution{"restitution", "", fromZeroTo(1)};
+        std::vector<Setter<Law>> all = HertzianContact::setters();
+        all.push_back({"restitutionCoefficient",
+                       {restitution},
+                       "dissipation",
+                       [](Law& law, Values v) { law.setRestitutionCoefficient(v[0]); },
+                       [](const Law& law) {
+                           return isSet(law.dissipation) ? law.getRestitutionCoefficient() : unset;
+                       }});
+        all.push_back({"effectiveElasticModulusAndRestitutionCoefficient",
+                       {{"modulus", "Pa", positive}, restitution},
+                       "effectiveElasticModulus and dissipation",
+                       [](Law& law, Values v) {
+                           law.setEffectiveElasticModulusAndRestitutionCoefficient(v[0], v[1]);
+                       }});
+        all.push_back(
+            {"tsujiDampingFactor", {{"alpha", "", notNegative}}, "dissipation", [](Law& law, Values v) {
+                 law.setTsujiDampingFactor(v[0]);
+             }});
+        return all;
+    }
+
     /// e at every speed: exp(-pi beta / sqrt(5 - beta^2)), 0 from the critical beta = sqrt(5) on.
     [[nodiscard]] double getRestitutionCoefficient() const {
         const double rest = 5 - dissipation * dissipation;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "Kernel/Species/Normal/Shared/PlasticBranches.h"
+#include "Kernel/Species/Setter.h"
 
 namespace pendular {
 
@@ -64,6 +65,18 @@ struct LinearPlasticViscoelastic {
         setUnloadingStiffnessMax(unloadingMax);
         setCohesionStiffness(cohesion);
         setPenetrationDepthMax(depth);
+    }
+
+    static std::vector<Setter<LinearPlasticViscoelastic>> setters() {
+        return {{"plasticParameters",
+                 {{"loadingStiffness", "N/m", positive},
+                  {"unloadingStiffnessMax", "N/m", positive},
+                  {"cohesionStiffness", "N/m", notNegative},
+                  {"penetrationDepthMax", "", positive}},
+                 "these four",
+                 [](LinearPlasticViscoelastic& law, std::span<const double> v) {
+                     law.setPlasticParameters(v[0], v[1], v[2], v[3]);
+                 }}};
     }
 
     [[nodiscard]] std::optional<std::string> objection(const Bodies&) const {

@@ -6,6 +6,7 @@
 
 #include "Kernel/Species/Law.h"
 #include "Kernel/Species/Normal/Shared/ContactTime.h"
+#include "Kernel/Species/Setter.h"
 
 namespace pendular {
 
@@ -55,6 +56,21 @@ struct LinearViscoelastic {
         const double logarithm = std::log(restitution);
         const double dampingRatio = -logarithm / std::hypot(logarithm, std::numbers::pi);
         setDissipation(2 * dampingRatio * std::sqrt(0.5 * mass * stiffness));
+    }
+
+    static std::vector<Setter<LinearViscoelastic>> setters() {
+        using Law = LinearViscoelastic;
+        using Values = std::span<const double>;
+        const SetterValue restitution{"restitution", "", positiveUpTo(1)}, mass{"mass", "kg", positive};
+        constexpr std::string_view gives = "stiffness and dissipation, for two grains of this mass each";
+        return {{"collisionTimeAndRestitutionCoefficient",
+                 {{"collisionTime", "s", positive}, restitution, mass},
+                 gives,
+                 [](Law& law, Values v) { law.setCollisionTimeAndRestitutionCoefficient(v[0], v[1], v[2]); }},
+                {"stiffnessAndRestitutionCoefficient",
+                 {{"stiffness", "N/m", positive}, restitution, mass},
+                 gives,
+                 [](Law& law, Values v) { law.setStiffnessAndRestitutionCoefficient(v[0], v[1], v[2]); }}};
     }
 
     /// The time (s) for which two grains of the given mass (kg) each touch: half the period of the damped

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "Kernel/Species/Law.h"
+#include "Kernel/Species/Setter.h"
 
 namespace pendular {
 
@@ -40,6 +41,14 @@ struct HertzianContact {
         checkValue(Law::name, "elastic modulus", elasticModulus, "Pa", positive);
         checkValue(Law::name, "Poisson's ratio", poissonRatio, "", {-1, 0.5, false, true});
         setEffectiveElasticModulus(computeEffectiveElasticModulus(elasticModulus, poissonRatio));
+    }
+
+    static std::vector<Setter<Law>> setters() {
+        return {
+            {"elasticModulusAndPoissonRatio",
+             {{"elasticModulus", "Pa", positive}, {"poissonRatio", "", {-1, 0.5, false, true}}},
+             "effectiveElasticModulus of two bodies of this material",
+             [](Law& law, std::span<const double> v) { law.setElasticModulusAndPoissonRatio(v[0], v[1]); }}};
     }
 
     template <class Prepared>

@@ -1,0 +1,257 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "Kernel/Files/FileLock.h"
+#include "Kernel/Files/SetAside.h"
+#include "Kernel/InputError.h"
+#include "Kernel/RunError.h"
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/RunWithin.h"
+#include "Kernel/Species/Field.h"
+
+// The course of a run from its begin to its end, in one part or several.
+
+namespace pendular {
+
+namespace {
+
+std::string_view withoutFullStop(std::string_view sentence) {
+    return sentence.substr(0, sentence.size() - (sentence.ends_with('.') ? 1 : 0));
+}
+
+}  // namespace
+
+struct Run::Course {
+    RunControl control;  // hears signals from here on
+    std::optional<FileLock> lock;
+    std::optional<Progress> progress;
+};
+
+Run::Run() : timeStep(unset) { prepareProgram(); }
+
+Run::~Run() = default;
+
+void Run::solve() {
+    if (course && underWay == 0)
+        throw InputError(
+            "Simulation: this run goes on in parts; runTo() or runSteps() take it further, and finishRun() "
+            "ends it.");
+    if (begun)
+        throw InputError(
+            "Simulation: the run has begun already; solve() runs a scene once, from its start or from a "
+            "restart file.");
+    const Within solving(*this, Within::Solving, Within::Any, "solve()");
+    timeMaxIsSet = true;  // 0 is a time, too
+    beginRun();
+    runPart({});
+}
+
+void Run::runTo(double time) {
+    checkValue("Simulation", "time of runTo()", time, "s", notNegative);
+    const Within solving(*this, Within::Solving, Within::Any, "runTo()");
+    requireInParts("runTo()");
+    // Also before it begins, as what will come until then is counted at set-up.
+    if (!timeMaxIsSet) timeMax = std::max(timeMax, time);
+    if (!course) beginRun();
+    if (stepAt(time) < steps || time < timeBefore * (1 - 1e-12))
+        throw InputError(fmt::format(
+            "Simulation: time of runTo() = {:.6g} s; the run is at {:.6g} s already, so take a later time.",
+            time, getTime()));
+    runPart({.time = time});
+}
+
+void Run::runSteps(std::size_t count) {
+    const Within solving(*this, Within::Solving, Within::Any, "runSteps()");
+    requireInParts("runSteps()");
+    if (!course) beginRun();
+    if (!timeMaxIsSet) timeMax = std::max(timeMax, getTime() + static_cast<double>(count) * timeStep);
+    const std::size_t most = std::numeric_limits<std::size_t>::max() - steps;
+    runPart({.steps = steps + std::min(count, most)});
+}
+
+void Run::finishRun() {
+    const Within solving(*this, Within::Solving, Within::Any, "finishRun()");
+    if (ended) return;
+    if (!course)
+        throw InputError(
+            "Simulation: finishRun() ends a run in parts, and there is none; call runTo() or runSteps() "
+            "before "
+            "it.");
+    timeMax = std::min(timeMax, getTime());
+    endingWithErrors([&] { endRun(false); });
+}
+
+void Run::requireInParts(std::string_view call) const {
+    if (ended && stopped.empty())
+        throw InputError(
+            fmt::format("Simulation: {} cannot go on: the run has ended at {:.6g} s, and its files are "
+                        "complete; set a later maximum time before, or go on from its restart file.",
+                        call, getTime()));
+    if (ended)
+        throw InputError(fmt::format("Simulation: {} cannot go on: this run has stopped ({}).", call,
+                                     withoutFullStop(stopped)));
+    if (begun && !course)
+        throw InputError(fmt::format(
+            "Simulation: the scene has begun already, by initialise(); {} begins a run by itself, "
+            "from its start or from a restart file.",
+            call));
+}
+
+void Run::beginRun() {
+    course = std::make_unique<Course>();
+    try {
+        const Within settingUp(*this, Within::SettingUp, 0, {});
+        setUp();
+    } catch (const std::exception& problem) {
+        if (begun) stopped = problem.what();
+        leaveCourse();
+        throw;
+    } catch (...) {
+        leaveCourse();
+        throw;
+    }
+    course->control.follow(restarts);
+    endingWithErrors([&] { beginFiles(); });
+    if (!isQuiet())
+        course->progress.emplace(std::filesystem::path(name).filename().string(), timeMax, getTime(), steps);
+}
+
+void Run::runPart(const PartEnd& end) {
+    endingWithErrors([&] { stepUntil(end); });
+}
+
+/// What is thrown ends the run, with files as complete as can be.
+template <class Body>
+void Run::endingWithErrors(Body&& body) {
+    try {
+        try {
+            body();
+        } catch (const RunError& error) {
+            stopped = error.what();
+            throw RunError(withLastState(error.what()));
+        } catch (const RunStopped&) {
+            throw;
+        } catch (const std::exception& problem) {  // a full disk
+            stopped = problem.what();
+            askedToStop = false;
+            completeWhatCanBe();
+            throw;
+        }
+    } catch (...) {
+        if (stopped.empty()) {
+            stopped = "by an error of an unknown kind";
+            completeWhatCanBe();
+        }
+        leaveCourse();
+        throw;
+    }
+}
+
+void Run::leaveCourse() {
+    course.reset();
+    ended = begun;
+}
+
+void Run::completeLeftRun() noexcept {
+    if (!course) return;
+    completeWhatCanBe();
+    leaveCourse();
+}
+
+/// Two runs of one name would write into each other's files.
+void Run::lockName() {
+    const bool writesByName = restarts.kept || (!outputs.empty() && name != unnamed);
+    if ((underWay & Within::Solving) == 0 || !writesByName) return;
+    course->lock.emplace(name + ".pendular-lock", fmt::format("The files {}-* are", name),
+                         "give this run another name or folder", restarts.kept);
+}
+
+/// From here on the restart file is one of this run: what goes on mixes no two runs. That of an earlier run
+/// is not lost before there is the new one.
+void Run::beginFiles() {
+    const bool keepsOther = restarts.kept && !(isRestarted() && isOwnRestartFile(restartSource));
+    std::vector<std::filesystem::path> former = std::move(replaced);
+    if (keepsOther) former.push_back(restartFile());
+    SetAside aside(std::move(former));
+    if (!isRestarted()) writeAll();
+    if (keepsOther) writeRestart(restartFile());
+    aside.remove();
+}
+
+/// The step with which this time (s) is reached, with the time step as it is now.
+std::size_t Run::stepAt(double time) const {
+    const double most = 1e18;  // steps, more than any run has
+    const double remaining = std::ceil((time - timeBefore) / timeStep * (1 - 1e-12));
+    return stepsBefore + static_cast<std::size_t>(std::clamp(remaining, 0.0, most));
+}
+
+/// Of a part of the run, whose maximum time and time step may change on the way.
+std::size_t Run::lastStep(const PartEnd& end) const {
+    return std::min(end.steps, stepAt(timeMaxIsSet ? std::min(end.time, timeMax) : end.time));
+}
+
+bool Run::isAskedToStop() {
+    RunControl& control = course->control;
+    if (control.schedule() != restarts) control.follow(restarts);  // a hook has changed it
+    const RunControl::Request request = control.request(steps);
+    if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());
+    return request == RunControl::Request::Stop || stopAsked.load(std::memory_order_relaxed);
+}
+
+void Run::stepUntil(const PartEnd& end) {
+    std::optional<Progress>& progress = course->progress;
+    if (progress) progress->setEnd(timeMax);
+    bool stops = isAskedToStop(), goesOn = true;
+    while (!stops && steps < lastStep(end) && (goesOn = continueSolve())) {
+        stepOnce(steps + 1 < lastStep(end));
+        writeOutputs(false);
+        if (progress && progress->isDue(steps))
+            progress->show(getTime(), steps, [this] { return numbers(); });
+        stops = isAskedToStop();
+    }
+    if (progress) progress->finish(getTime(), steps, [this] { return numbers(); });
+    if (stops || !goesOn || (timeMaxIsSet && steps >= stepAt(timeMax))) endRun(stops);
+}
+
+void Run::endRun(bool stops) {
+    // Before the last output: a run that goes on from here knows nothing of one that is not due.
+    if (restarts.kept) writeRestart(restartFile());
+    if (steps > 0) writeOutputs(true);
+    if (stops) throw stop();
+    complete();
+    leaveCourse();
+}
+
+/// Completes the files of a run that was asked to stop; returns what ends it.
+RunStopped Run::stop() {
+    const RunStopped reason =
+        RunControl::stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string(),
+                            stopAsked.load(std::memory_order_relaxed));
+    stopped = reason.what();
+    askedToStop = true;
+    complete();
+    return reason;
+}
+
+/// Writes the state as it is, and adds to a sentence where it is.
+std::string Run::withLastState(std::string sentence) {
+    const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
+    try {
+        writeLastState(grains, contacts, sentence);
+        writeAll();
+        completeOutputs();
+    } catch (const std::exception& problem) {
+        return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
+                           problem.what());
+    }
+    const std::string restart = restartFileSteps ? fmt::format("; the state after {} steps is in {}",
+                                                               *restartFileSteps, restartFile().string())
+                                                 : "";
+    return fmt::format("{}; the last whole step is in {} and {}{}.", withoutFullStop(sentence), grains,
+                       contacts, restart);
+}
+
+}  // namespace pendular
