@@ -1,4 +1,5 @@
-# A folder below SelfTests/ with a *Test.cpp in it is a test program, made of all .cpp files in the folder.
+# A folder below SelfTests/ with a *Test.cpp in it is a test program, made of all .cpp files in the folder. One more has
+# the tests of all studies, Tools/Studies/*/Tests/*.cpp (PENDULAR_BUILD_STUDIES).
 #   SelfTests/CompileFail/*.cpp  must not compile, with the message they expect (CheckCompileFailure.cmake)
 #   SelfTests/OutOfTree/         a driver outside the tree, built against the installed kernel (CheckOutOfTree.cmake)
 # Labels, by the beginning of the suite's name:
@@ -18,24 +19,10 @@ endif()
 
 set(selfTests "${PROJECT_SOURCE_DIR}/SelfTests")
 
-# Takes those out of a list of sources that test a study.
-function(pendular_remove_tests_of_studies list)
-    foreach(source IN LISTS ${list})
-        file(STRINGS "${source}" includes REGEX "^#include \"Tools/AccuracyVersusCost/")
-        if(includes)
-            list(REMOVE_ITEM ${list} "${source}")
-        endif()
-    endforeach()
-    set(${list} "${${list}}" PARENT_SCOPE)
-endfunction()
-
-function(pendular_add_self_test folder)
+function(pendular_add_self_test folder sources)
     string(REPLACE "/" "" joined "${folder}")
     set(name "SelfTest${joined}")
-    file(GLOB sources CONFIGURE_DEPENDS "${selfTests}/${folder}/*.cpp")
-    if(NOT PENDULAR_BUILD_STUDIES)
-        pendular_remove_tests_of_studies(sources)
-    endif()
+    file(GLOB sources CONFIGURE_DEPENDS "${sources}")
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel GTest::gtest_main)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
@@ -64,13 +51,16 @@ list(TRANSFORM testFolders REPLACE "/[^/]*$" "")
 list(REMOVE_DUPLICATES testFolders)
 list(REMOVE_ITEM testFolders CompileFail OutOfTree)
 if(NOT PENDULAR_BUILD_STUDIES)
-    list(REMOVE_ITEM testFolders AccuracyVersusCost Species/Composition)
+    list(REMOVE_ITEM testFolders Species/Composition)
 endif()
 list(GET testFolders 0 keeperOfTests)
 string(REPLACE "/" "" keeperOfTests "SelfTest${keeperOfTests}")
 foreach(folder IN LISTS testFolders)
-    pendular_add_self_test(${folder})
+    pendular_add_self_test(${folder} "${selfTests}/${folder}/*.cpp")
 endforeach()
+if(PENDULAR_BUILD_STUDIES AND TARGET PendularDrivers)
+    pendular_add_self_test(Studies "${PROJECT_SOURCE_DIR}/Tools/Studies/*/Tests/*.cpp")
+endif()
 
 # What must not compile: the flags of a driver, in a file for the compiler.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" configuration)
