@@ -27,10 +27,9 @@ std::vector<DerivedSetter> derivedSetters() {
     std::vector<DerivedSetter> found;
     const SetterValue restitution{"restitution", "", positiveUpTo(1)}, mass{"mass", "kg", positive};
     if constexpr (std::derived_from<Law, HertzianContact<Law>>)
-        found.push_back(
-            {"setElasticModulusAndPoissonRatio",
-             {{"elasticModulus", "Pa", positive}, {"poissonRatio", "", {-1, 0.5, false, true}}},
-             "effectiveElasticModulus of two bodies of this material"});
+        found.push_back({"setElasticModulusAndPoissonRatio",
+                         {{"elasticModulus", "Pa", positive}, {"poissonRatio", "", {-1, 0.5, false, true}}},
+                         "effectiveElasticModulus of two bodies of this material"});
     if constexpr (std::same_as<Law, HertzianViscoelastic>) {
         const SetterValue fromZero{"restitution", "", fromZeroTo(1)};
         found.push_back({"setRestitutionCoefficient", {fromZero}, "dissipation"});
