@@ -12,7 +12,7 @@
 #include "Kernel/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/BridgeChoice.h"
-#include "Tools/AccuracyVersusCost/BridgeTiming.h"
+#include "Tools/Timing/BridgeTiming.h"
 
 using namespace pendular;
 

@@ -3,7 +3,7 @@
 #   Tools/install-dependencies.sh           installs
 #   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
 #   With --readers also those with which self-tests read the files of a run; without them, these tests are skipped.
-#   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz).
+#   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz), clang-format and clang-tidy.
 set -euo pipefail
 
 check=no readers=no clang=no
@@ -40,7 +40,9 @@ fi
 if [[ $clang == yes ]]; then
     packages+='
 clang|clang++|sanitizers and fuzz targets
-libclang-rt-dev||libFuzzer and the sanitizers'
+libclang-rt-dev||libFuzzer and the sanitizers
+clang-format-14|clang-format-14|check of the format
+clang-tidy|clang-tidy|check for faults'
 fi
 
 is_installed() {  # package, program

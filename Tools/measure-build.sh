@@ -8,7 +8,7 @@
 # --edit DRIVER     the driver that is touched
 # --threads N       files that are compiled at the same time
 # --build FOLDER    where the build folders are made, and removed again; a temporary one if not given
-# --all             also builds everything, with the tests, before the edit
+# --all             also builds everything, with the tests and the studies, before the edit
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 runs=3 threads=1 edit=WetTower build="${TMPDIR:-/tmp}" all=""
@@ -49,7 +49,7 @@ for ((run = 1; run <= runs; ++run)); do
     folder=$work/build
     tests=OFF
     [[ -z $all ]] || tests=ON
-    quietly cmake --preset release -S "$source_folder" -B "$folder" -D CMAKE_CXX_COMPILER_LAUNCHER= -D PENDULAR_BUILD_TESTS=$tests
+    quietly cmake --preset release -S "$source_folder" -B "$folder" -D CMAKE_CXX_COMPILER_LAUNCHER= -D PENDULAR_BUILD_TESTS=$tests -D PENDULAR_BUILD_STUDIES=$tests
     for target in $targets $all; do build_target "$target" "$folder" "$target"; done
     quietly cmake --build "$folder" --parallel "$threads" --target "$edit"
     sleep 1  # the time of a file has to be later than that of what was made from it

@@ -63,11 +63,11 @@ draw_figure 4a 1.0 10
 draw_figure 4b 1.0 80
 
 write_tables() {  # program, output folder
-    quietly build/release/Tools/"$1" --output "$2"
+    quietly build/release/Tools/Studies/"$1" --output "$2"
     local table
     for table in "$2"/*.csv; do
         rm -f "$table.new"
-        { Tools/describe-machine.sh "Tools/$1, one thread" && cat "$table"; } >"$table.new"
+        { Tools/describe-machine.sh "Tools/Studies/$1, one thread" && cat "$table"; } >"$table.new"
         mv "$table.new" "$table"
     done
 }
@@ -75,12 +75,12 @@ write_tables() {  # program, output folder
 say "Figures 3, 4, 5, 6 and 9 of Yang, Sega and Harting"
 models_output=$output/bridge-models
 write_tables bridge-figures "$models_output"
-quietly gnuplot -c Tools/plot-bridge-figures.gp "$models_output"
+quietly gnuplot -c Tools/Studies/BridgeModels/plot-bridge-figures.gp "$models_output"
 
 say "The eight tests of Chung and Ooi"
 impacts_output=$output/chung-ooi
 write_tables impact-figures "$impacts_output"
-quietly gnuplot -c Tools/plot-impact-figures.gp "$impacts_output"
+quietly gnuplot -c Tools/Studies/ChungOoi/plot-impact-figures.gp "$impacts_output"
 
 say "Figures 6 to 13 of the force balance model of wet particle-wall collisions"
 wet_output=$output/wet-wall

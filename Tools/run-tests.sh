@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Pendular and runs its tests, except those labelled `long` (for these: ctest
-# --preset long). With CI=true, warnings are errors, the tests run a second time under the address and
-# undefined-behaviour sanitizers, and the readers of files read random files, 20 s each (libFuzzer).
+# --preset long). With CI=true, format and faults that clang-tidy finds are checked first, warnings are errors, the studies
+# are built and tested too, the tests run a second time under the address and undefined-behaviour sanitizers, the readers
+# of files read random files, 20 s each (libFuzzer), and those of threads run under the thread sanitizer.
+# At the end it says what each stage took.
 #   Tools/run-tests.sh
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
@@ -9,13 +11,36 @@ source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 jobs=$(getconf _NPROCESSORS_ONLN)
+table=$(mktemp) clock=$(mktemp)
+end() {
+    if [[ -s $table ]]; then
+        echo "== Where the time went (seconds, and those of all processors)"
+        cat "$table"
+    fi
+    rm -f "$table" "$clock"
+}
+trap end EXIT
 
+# In processor: the seconds of all commands that have ended. Not printed: a shell of its own would see only its own.
+read_processor() {
+    times >"$clock"
+    processor=$(awk 'NR == 2 { gsub("[ms]", " "); printf "%.0f", 60 * $1 + $2 + 60 * $3 + $4 }' "$clock")
+}
+stage() {  # name, command...
+    local name=$1 begin=$SECONDS before status=0
+    shift
+    echo "== $name"
+    read_processor
+    before=$processor
+    "$@" || status=$?
+    read_processor
+    printf '%6d %6d  %s\n' $((SECONDS - begin)) $((processor - before)) "$name" >>"$table"
+    return "$status"
+}
 build_and_test() {  # preset
-    echo "== Building (preset $1, folder build/$1)"
-    cmake --preset "$1"
-    cmake --build --preset "$1" --parallel "$jobs"
-    echo "== Testing (preset $1)"
-    ctest --preset "$1" --parallel "$jobs"
+    stage "Configuring (preset $1, folder build/$1)" cmake --preset "$1"
+    stage "Building (preset $1)" cmake --build --preset "$1" --parallel "$jobs"
+    stage "Testing (preset $1)" ctest --preset "$1" --parallel "$jobs"
 }
 
 if [[ ${CI:-} == true ]]; then
@@ -23,10 +48,13 @@ if [[ ${CI:-} == true ]]; then
         export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
         export CCACHE_SLOPPINESS=pch_defines,time_macros
     fi
-    Tools/install-dependencies.sh --clang --readers
+    stage "Installing" Tools/install-dependencies.sh --clang --readers
     export PENDULAR_REQUIRE_DEPENDENCIES=1  # no test may leave out what needs them
+    stage "Format" Tools/check-format.sh
+    stage "clang-tidy" Tools/check-tidy.sh
     build_and_test ci
     build_and_test ci-asan-ubsan
+    build_and_test ci-tsan
 else
     Tools/install-dependencies.sh
     build_and_test release

@@ -1,5 +1,5 @@
-/// A sphere meets a rigid plane at varied angles: beside the measurements of Kharaz, Gorham and Salman (2001),
-/// and test 4 of Chung and Ooi (2011), whose computed curve is that of a spring factor of 1.
+/// A sphere meets a rigid plane at varied angles: beside the measurements of Kharaz, Gorham and Salman
+/// (2001), and test 4 of Chung and Ooi (2011), whose computed curve is that of a spring factor of 1.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

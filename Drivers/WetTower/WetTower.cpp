@@ -16,7 +16,8 @@ struct WetTower : Simulation<HertzianViscoelasticMindlinLiquidBridgeBagheriSpeci
             grain.setPosition({1e-4 * (k % 3), 0, 1.2e-3 + 2.2e-3 * k});
             particleHandler.copyAndAddObject(grain);
         }
-        setGravity({0, 0, -9.81}), setTimeStep(shortestContactTime() / 30), setTimeMax(0.3), setSaveCount(5000);
+        setGravity({0, 0, -9.81}), setTimeStep(shortestContactTime() / 30), setTimeMax(0.3),
+            setSaveCount(5000);
     }
     void writeOutput() override {
         if (isQuiet()) return;

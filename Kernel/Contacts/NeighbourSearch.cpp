@@ -247,7 +247,8 @@ std::array<int, 3> NeighbourSearch::Level::cellOf(const Vector<double>& p) const
 }
 
 std::array<int, 2> NeighbourSearch::Level::cellRange(int axis, double x, double reach) const {
-    if ((!wraps[axis] || slides[axis]) && !repeats[axis]) return {cellAlong(axis, x - reach), cellAlong(axis, x + reach)};
+    if ((!wraps[axis] || slides[axis]) && !repeats[axis])
+        return {cellAlong(axis, x - reach), cellAlong(axis, x + reach)};
     const double first = endlessCell(axis, x - reach), last = endlessCell(axis, x + reach);
     // Never a cell twice; with so few cells all of them are looked at.
     if (last - first + 1 >= cells[axis]) return {0, cells[axis] - 1};

@@ -126,7 +126,8 @@ struct BridgeLawCost {
 };
 
 /// In forces of LiquidBridgeBagheri: the order of the kernel's laws where there is no time to measure. From
-/// Tools/Results/bridges.csv (an Intel Xeon with AVX-512); nothing for a law that the kernel does not ship.
+/// Tools/Studies/Results/bridges.csv (an Intel Xeon with AVX-512); nothing for a law that the kernel does not
+/// ship.
 std::optional<BridgeLawCost> nominalBridgeCost(std::string_view law);
 
 /// From one list to the next, of grains that flow; a bed at rest keeps its list far longer.

@@ -5,7 +5,7 @@ Scene: Bagheri, Roy, Poeschel (capillary bridge forces in MercuryDPM), Table 1 a
 at first contact, pulls with F(0) while the spheres overlap and with F(S) beyond, up to the rupture distance.
 Contact: the series of independent_collisions.py with F(0) as constant attraction. Beyond: energy is
 conserved, so speeds follow from the work of the bridge, and times from one more quadrature.
-Usage: python3 independent_wet_collision.py > IndependentWetCollision.h   (Debian: python3-mpmath)
+Usage: python3 independent_wet_collision.py | clang-format > IndependentWetCollision.h   (Debian: python3-mpmath)
 """
 import sys
 from pathlib import Path

@@ -75,9 +75,9 @@ TEST(HeavyShearedGrains, haveTheStressesOfOtherCodes) {
 /// pressures of 4.608 +- 0.012 and 4.578 +- 0.011, shear stresses of 1.839 and 1.828, each +- 0.005: within
 /// two standard errors. So neither the kernel's scheme nor its step makes stresses smaller (50 steps a
 /// contact change 1 - e^2 by 0.02 %). The size of the scene does matter: by either code 4096 grains give
-/// 0.7 to 0.9 % more than 1000 (Tools/Results/sheared-grains.csv). Errors fall with the root of the strain:
-/// over 150 that of the difference of the two is 0.6 % for the pressure and 0.7 % for the shear stress; four
-/// of them.
+/// 0.7 to 0.9 % more than 1000 (Tools/Studies/Results/sheared-grains.csv). Errors fall with the root of the
+/// strain: over 150 that of the difference of the two is 0.6 % for the pressure and 0.7 % for the shear
+/// stress; four of them.
 TEST(LongShearedGrains, haveTheStressesOfAPlainCode) {
     constexpr double stiffness = 1e5, restitution = 0.7, solidFraction = 0.55, strain = 150;
     using Smooth = Species<LinearViscoelastic>;

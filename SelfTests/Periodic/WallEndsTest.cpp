@@ -18,7 +18,7 @@ using scenes::GrainMotion;
 using Dry = Species<HertzianViscoelastic, Mindlin>;
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
 
-constexpr double needed = r;      // m, from a face: so far a grain on it meets a wall
+constexpr double needed = r;  // m, from a face: so far a grain on it meets a wall
 
 template <class S = Dry>
 std::unique_ptr<ThroughFaces<S>> sceneWith(std::initializer_list<int> axes = {0},

@@ -27,9 +27,38 @@ const std::string tools = folders::tools;
 const std::string drivers = folders::drivers;
 const std::filesystem::path source = folders::source;
 
-TEST(Documentation, referencePageIsWhatTheToolPrints) {
-    EXPECT_EQ(contentOf(source / "Kernel/Species/REFERENCE.md"),
-              run(tools + "/species --describe all").output);
+std::string referencePage() { return contentOf(folders::binary / "Reference/species.md"); }
+
+/// A section for each law that `species --list` names, and in each row of a table a cell for each column.
+TEST(Documentation, referencePageDescribesEveryLaw) {
+    std::multiset<std::string> listed, described;
+    std::istringstream list(run(tools + "/species --list").output), page(referencePage());
+    for (std::string line; std::getline(list, line) && !line.starts_with("Species");)
+        if (line.starts_with("  ")) listed.insert(line.substr(2, line.find(' ', 2) - 2));
+    listed.erase("none");
+    int rows = 0;
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with("## ")) described.insert(line.substr(3));
+        if (!line.starts_with("| ")) continue;
+        ++rows;
+        EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 9) << line;
+        EXPECT_EQ(line.find("|  |"), std::string::npos) << line;
+    }
+    EXPECT_GT(listed.size(), 40u);
+    EXPECT_GT(rows, 100);
+    EXPECT_EQ(listed, described);
+}
+
+/// Unit, range, default and mixing of a volume, as the header of its law has them.
+TEST(Documentation, referencePageHasTheRowOfAField) {
+    const std::string page = referencePage();
+    const std::size_t section = page.find("\n## LiquidBridgeBagheri\n");
+    ASSERT_NE(section, std::string::npos);
+    EXPECT_NE(
+        page.substr(section, page.find("\n## ", section + 1) - section)
+            .find("\n| liquidBridgeVolume | `setLiquidBridgeVolume` | m^3 | at least 0 m^3 and finite | "
+                  "must be set | (a + b) / 2 | "),
+        std::string::npos);
 }
 
 /// Every setter in the headers of the laws is described, and every one that is described is in a header.
@@ -39,7 +68,7 @@ TEST(Documentation, referencePageHasEverySetter) {
         for (const auto& entry :
              std::filesystem::recursive_directory_iterator(source / "Kernel/Species" / kind))
             if (entry.path().extension() == ".h") headers += contentOf(entry.path());
-    const std::string page = contentOf(source / "Kernel/Species/REFERENCE.md");
+    const std::string page = referencePage();
     const auto namesIn = [](const std::string& text, const std::string& before) {
         std::set<std::string> names;
         const std::regex pattern(before + "(set[A-Z]\\w*)");
@@ -115,51 +144,6 @@ TEST(BridgeForce, takesTheNamesThatOptionsHad) {
     EXPECT_EQ(run(bridge + "--help").output.find("--r1"), std::string::npos);
 }
 
-/// The separation of the largest exact force in a case of a table of bridge-figures, in R.
-double separationOfMostForce(const std::filesystem::path& table, const std::string& startOfCase) {
-    std::istringstream lines(contentOf(table));
-    double most = 0, where = 0;
-    for (std::string line; std::getline(lines, line);) {
-        if (!line.starts_with(startOfCase)) continue;
-        std::istringstream cells(line.substr(startOfCase.size()));
-        double separation = 0, force = 0;
-        char comma = 0;
-        if ((cells >> separation >> comma >> force) && force > most) most = force, where = separation;
-    }
-    return where;
-}
-
-// Yang, Sega and Harting: for theta = 60 degrees (Figure 3) and for V* = 0.25 (Figure 4) the force is largest
-// at S/R of about 0.5, here to half of the first decimal.
-TEST(BridgeFigures, writesTablesWithTheMaximumOfThePaper) {
-    const auto folder = std::filesystem::temp_directory_path() / "pendular-bridge-figures";
-    const Result result = run(tools + "/bridge-figures --output " + folder.string());
-    ASSERT_EQ(result.exitCode, 0) << result.output;
-    EXPECT_NEAR(separationOfMostForce(folder / "figure-3.csv", "60,0.133,1,"), 0.5, 0.051);
-    EXPECT_NEAR(separationOfMostForce(folder / "figure-4.csv", "48,0.25,1,"), 0.5, 0.051);
-    for (const int number : {3, 4, 5, 9})
-        EXPECT_TRUE(contentOf(folder / ("figure-" + std::to_string(number) + ".csv"))
-                        .starts_with("contact_angle_deg,volume_over_sphere,radius_ratio,separation_over_R,"));
-    // Figure 6: off the axis without a force, where the bridge on the axis would push with 0.317 R gamma; at
-    // 90 degrees and the larger gap no drop reaches both spheres.
-    const std::string outlines = contentOf(folder / "figure-6.csv");
-    EXPECT_TRUE(
-        outlines.starts_with("contact_angle_deg,volume_over_sphere,separation_over_R,part,x_over_R,"));
-    const auto forcesOf = [&](const std::string& startOfCase) {
-        const std::size_t begin = outlines.find("\n" + startOfCase);
-        const std::string line = outlines.substr(begin + 1, outlines.find('\n', begin + 1) - begin - 1);
-        const std::size_t last = line.rfind(','), before = line.rfind(',', last - 1);
-        return std::pair{std::stod(line.substr(before + 1)), std::stod(line.substr(last + 1))};
-    };
-    EXPECT_EQ(forcesOf("90,0.5,0.572,0,").first, 0);
-    EXPECT_NEAR(forcesOf("90,0.5,0.572,0,").second, -0.317, 5e-4);
-    EXPECT_EQ(forcesOf("132,0.65,1.144,0,").first, 0);
-    EXPECT_NEAR(forcesOf("90,0.65,1.144,0,").first, 0.788, 5e-4);
-    expectOneSentence(run(tools + "/bridge-figures --points 1"), "points = 1");
-    expectOneSentence(run(tools + "/bridge-figures --output /proc/nowhere"), "cannot be written");
-    std::filesystem::remove_all(folder);
-}
-
 // V* = 1.6 for two grains of 0.5 mm. The refusal names the option that helps, and no law ignores it.
 TEST(TwoParticleCollision, solvesOutsideOfTheTableWhereTold) {
     const auto folder = std::filesystem::temp_directory_path() / "pendular-outside-of-the-table";
@@ -202,7 +186,7 @@ TEST(TwoParticleCollision, writesItsTwoTables) {
 /// Those that have their options read by Tools/read-options.sh.
 TEST(Scripts, refuseOptionsInOneSentence) {
     int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(source / "Tools")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "Tools")) {
         const std::string script = entry.path().string(), name = entry.path().filename().string();
         if (entry.path().extension() != ".sh" ||
             contentOf(script).find("\nread_options ") == std::string::npos)
@@ -214,7 +198,9 @@ TEST(Scripts, refuseOptionsInOneSentence) {
         EXPECT_EQ(unknown.output, name + ": there is no option --no-such; see --help\n");
         EXPECT_EQ(unknown.exitCode, 2);
         EXPECT_EQ(help.exitCode, 0);
-        EXPECT_NE(help.output.find("\n  Tools/" + name + " ["), std::string::npos) << help.output;
+        EXPECT_NE(help.output.find("\n  " + entry.path().lexically_relative(source).string() + " ["),
+                  std::string::npos)
+            << help.output;
         EXPECT_EQ(help.output.find("set -euo"), std::string::npos);
     }
     EXPECT_GE(count, 5);
@@ -246,19 +232,6 @@ TEST(Programs, refuseWhatIsNoNumber) {
           {bridge + "--points ''", "--points: the value is empty"},
           {bridge + "--no-such 1", "--no-such; see --help"}})
         expectOneSentence(run(command), part);
-}
-
-TEST(Programs, refuseWhatIsNoNumberOfGrains) {
-    const std::string costs = tools + "/output-costs";
-    if (!std::filesystem::exists(costs)) GTEST_SKIP() << "a build with sanitizers has no output-costs";
-    expectOneSentence(run(costs + " --particles -5"), "--particles: '-5' is not a whole number, 0 or");
-    expectOneSentence(run(costs + " --particles 0"), "number of grains = 0");
-    expectOneSentence(run(costs + " --particles 1000000000000"),
-                      "number of grains = 1000000000000 is out of range");
-    const std::string fields = tools + "/field-costs";
-    expectOneSentence(run(fields + " --particles 0"), "number of grains = 0");
-    expectOneSentence(run(fields + " --strain nan"), "strain");
-    expectOneSentence(run(fields + " --samples 0"), "samples");
 }
 
 TEST(UserDefinedLaw, runs) {

@@ -1,4 +1,5 @@
-# A folder below SelfTests/ with a *Test.cpp in it is a test program, made of all .cpp files in the folder.
+# A folder below SelfTests/ with a *Test.cpp in it is a test program, made of all .cpp files in the folder. One more has
+# the tests of all studies, Tools/Studies/*/Tests/*.cpp (PENDULAR_BUILD_STUDIES).
 #   SelfTests/CompileFail/*.cpp  must not compile, with the message they expect (CheckCompileFailure.cmake)
 #   SelfTests/Hosts/Library/     a library of species, loaded by the test program of SelfTests/Hosts/
 #   SelfTests/OutOfTree/         a driver outside the tree, built against the installed kernel (CheckOutOfTree.cmake)
@@ -19,24 +20,10 @@ endif()
 
 set(selfTests "${PROJECT_SOURCE_DIR}/SelfTests")
 
-# Takes those out of a list of sources that test a study.
-function(pendular_remove_tests_of_studies list)
-    foreach(source IN LISTS ${list})
-        file(STRINGS "${source}" includes REGEX "^#include \"Tools/AccuracyVersusCost/")
-        if(includes)
-            list(REMOVE_ITEM ${list} "${source}")
-        endif()
-    endforeach()
-    set(${list} "${${list}}" PARENT_SCOPE)
-endfunction()
-
-function(pendular_add_self_test folder)
+function(pendular_add_self_test folder sources)
     string(REPLACE "/" "" joined "${folder}")
     set(name "SelfTest${joined}")
-    file(GLOB sources CONFIGURE_DEPENDS "${selfTests}/${folder}/*.cpp")
-    if(NOT PENDULAR_BUILD_STUDIES)
-        pendular_remove_tests_of_studies(sources)
-    endif()
+    file(GLOB sources CONFIGURE_DEPENDS "${sources}")
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel GTest::gtest_main)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
@@ -65,7 +52,7 @@ list(TRANSFORM testFolders REPLACE "/[^/]*$" "")
 list(REMOVE_DUPLICATES testFolders)
 list(REMOVE_ITEM testFolders CompileFail OutOfTree)
 if(NOT PENDULAR_BUILD_STUDIES)
-    list(REMOVE_ITEM testFolders AccuracyVersusCost Species/Composition)
+    list(REMOVE_ITEM testFolders Species/Composition)
 endif()
 # The precompiled header of all tests, in a target of its own: a test program depends on no other one.
 file(WRITE "${PROJECT_BINARY_DIR}/Generated/PrecompiledTests.cpp" "")
@@ -76,8 +63,11 @@ add_warnings(PrecompiledTests)
 precompile_headers(PrecompiledTests PrecompiledTests ${precompiledHeaders} <gtest/gtest.h>
                    "Kernel/Simulation/Simulation.h")
 foreach(folder IN LISTS testFolders)
-    pendular_add_self_test(${folder})
+    pendular_add_self_test(${folder} "${selfTests}/${folder}/*.cpp")
 endforeach()
+if(PENDULAR_BUILD_STUDIES AND TARGET PendularDrivers)
+    pendular_add_self_test(Studies "${PROJECT_SOURCE_DIR}/Tools/Studies/*/Tests/*.cpp")
+endif()
 
 # A library of species that a test loads: compiled as a driver is, and not linked to the kernel, which is in the
 # program, whole and with its symbols shown, so that nothing is there twice.

@@ -117,7 +117,7 @@ TEST(BridgeChoice, everyLawOfTheKernelIsAChoice) {
 // The table of costs repeats the measured ones: forces to the two figures that it gives, 5 %, and
 // preparations, which repeat to a tenth from one measurement to the next, to that.
 TEST(BridgeChoice, nominalCostsAreThoseOfTheMeasuredTable) {
-    std::ifstream table(folders::source / "Tools/Results/bridges.csv");
+    std::ifstream table(folders::source / "Tools/Studies/Results/bridges.csv");
     std::map<std::string, std::pair<double, double>> measured;  // ns; of force and preparation
     for (std::string line; std::getline(table, line);) {
         std::vector<std::string> cells;

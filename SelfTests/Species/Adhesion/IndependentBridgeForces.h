@@ -11,19 +11,17 @@
 #include <array>
 #include <limits>
 
-namespace pendular::independent
-{
+namespace pendular::independent {
 
-struct BridgeForce
-{
-    double radius1, radius2;          // m; infinity for a wall
-    double volume;                    // m^3
-    double contactAngle;              // rad
-    double surfaceTension;            // N/m
-    double separation;                // m
-    double ruptureDistance;           // m
-    double willett;                   // N, attraction positive; the simplified form
-    double classicalWillett, bagheri; // N, attraction positive
+struct BridgeForce {
+    double radius1, radius2;           // m; infinity for a wall
+    double volume;                     // m^3
+    double contactAngle;               // rad
+    double surfaceTension;             // N/m
+    double separation;                 // m
+    double ruptureDistance;            // m
+    double willett;                    // N, attraction positive; the simplified form
+    double classicalWillett, bagheri;  // N, attraction positive
 };
 
 inline constexpr double wall = std::numeric_limits<double>::infinity();
@@ -433,4 +431,4 @@ inline constexpr std::array<BridgeForce, 200> bridgeForces = {{
 }};
 // clang-format on
 
-} // namespace pendular::independent
+}  // namespace pendular::independent

@@ -8,20 +8,17 @@
 #include <array>
 #include <limits>
 
-namespace pendular::independent
-{
+namespace pendular::independent {
 
-struct VolumeInterval
-{
-    int contactAngle; // degrees
-    double from, to;  // V*, rounded to 7 digits
+struct VolumeInterval {
+    int contactAngle;  // degrees
+    double from, to;   // V*, rounded to 7 digits
 };
 
 // Bagheri: where each failure begins, going up in volume from the usable middle; infinity where not below 10.
-struct BagheriFailure
-{
-    int contactAngle; // degrees
-    double pole, negativeCTheta, noAttraction; // V*, rounded to 7 digits
+struct BagheriFailure {
+    int contactAngle;                           // degrees
+    double pole, negativeCTheta, noAttraction;  // V*, rounded to 7 digits
 };
 
 // Classical Willett: f4 > 0 or f3 < 0 (the union of the next two).
@@ -124,4 +121,4 @@ inline constexpr std::array<BagheriFailure, 10> bagheriFirstFailures = {{
     {90, 6.160351e-03, 5.379523e-03, 5.590299e-01},
 }};
 
-} // namespace pendular::independent
+}  // namespace pendular::independent

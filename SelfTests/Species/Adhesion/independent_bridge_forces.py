@@ -3,7 +3,7 @@
 
 Source: Bagheri, Roy, Poeschel, capillary bridge forces in MercuryDPM, Appendix A (A.1 to A.5); its symbols.
 The exponent of the second term of b_c is the printed -0.0139; the paper's own code snippet has -0.01391.
-Usage: python3 independent_bridge_forces.py > IndependentBridgeForces.h   (Debian: python3-mpmath)
+Usage: python3 independent_bridge_forces.py | clang-format > IndependentBridgeForces.h   (Debian: python3-mpmath)
 """
 import random
 from mpmath import mp, mpf, cbrt, cos, exp, inf, log, pi, sin, sqrt

@@ -2,7 +2,7 @@
 """Volumes V* in [1e-12, 10] at which the classical Willett and the Bagheri fit fail, for ten contact angles.
 
 Each condition is a function of ln V*, scanned on a grid and bisected at 50 digits.
-Usage: python3 independent_thresholds.py > IndependentThresholds.h
+Usage: python3 independent_thresholds.py | clang-format > IndependentThresholds.h
 """
 from mpmath import exp, inf, linspace, log, mpf, radians
 from independent_bridge_forces import bagheri_coefficients, classical_coefficients

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Species/Laws.h"
+#include "Kernel/Walls/AxisymmetricWall.h"
+#include "Tools/Studies/BulkComparison/BulkScene.h"
+
+namespace pendular::bulk {
+
+/// A scene of the comparison, with the laws of LIGGGHTS' `hertz tangential history`.
+class PeerScene : public Simulation<HertzianViscoelasticMindlinSpecies> {
+public:
+    using Material = HertzianViscoelasticMindlinSpecies;
+
+    /// @param hopperIsClosed grains settle on a plane in the slit
+    explicit PeerScene(const BulkScene& given, bool hopperIsClosed = false) {
+        const Material* grains = speciesHandler.copyAndAddObject(material(PeerMaterial::density));
+        const Material* heavy = speciesHandler.copyAndAddObject(material(3 * PeerMaterial::density));
+        const Material* walls = speciesHandler.copyAndAddObject(material(PeerMaterial::density));
+        for (const Material* other : {grains, heavy})
+            speciesHandler.getMixedObject(other, walls)->setSlidingFrictionCoefficient(given.wallFriction);
+        for (int axis = 0; axis < 3; ++axis)
+            if (given.periodic[static_cast<std::size_t>(axis)])
+                setPeriodic(axis, given.lowest[axis], given.highest[axis]);
+        Vec3D down = Vec3D::Zero();
+        down[given.up] = -PeerMaterial::gravity;
+        setGravity(down);
+        addWalls(given, walls, hopperIsClosed);
+        for (const PeerGrain& row : given.grains) add(row, row.kind == GrainKind::Intruder ? heavy : grains);
+    }
+
+    /// As of other codes' files.
+    [[nodiscard]] std::vector<PeerGrain> grainsNow(const BulkScene& given) const {
+        const ParticleStore& store = particleHandler.store();
+        std::vector<PeerGrain> rows;
+        for (const std::uint32_t at : store.place) {
+            const TranslationRecord& grain = store.translation[at];
+            rows.push_back(given.grains[store.identity[at]]);
+            rows.back().position = toEigen(grain.position);
+            rows.back().velocity = toEigen(grain.velocity);
+        }
+        return rows;
+    }
+
+private:
+    static Material material(double density) {
+        using M = PeerMaterial;
+        Material made;
+        made.setDensity(density);
+        made.setElasticModulusAndPoissonRatio(M::elasticModulus, M::poissonRatio);
+        made.setEffectiveShearModulus(computeEffectiveShearModulus(M::elasticModulus, M::poissonRatio));
+        made.setRestitutionCoefficient(M::restitution);
+        made.setSlidingFrictionCoefficient(M::friction);
+        made.setSpringFactor(1);  // as the peers have it
+        return made;
+    }
+    void addWalls(const BulkScene& given, const Material* walls, bool hopperIsClosed) {
+        if (given.cylinder > 0) {
+            FiniteCylinder wall;
+            wall.setSpecies(walls);
+            const Vec3D middle(0, 0, 0.5 * (given.lowest.z() + given.highest.z()));
+            wall.set(Vec3D::UnitZ(), middle, given.cylinder,
+                     given.highest.z() - given.lowest.z() + 8 * PeerMaterial::radius);
+            wall.setAngularVelocity({0, 0, given.spin}, Vec3D::Zero());
+            wallHandler.copyAndAddObject(wall);
+            return;
+        }
+        const auto plane = [&](const Vec3D& outward, const Vec3D& point) {
+            InfiniteWall wall;
+            wall.setSpecies(walls);
+            wall.set(outward, point);
+            wallHandler.copyAndAddObject(wall);
+        };
+        if (given.name != "hopper") {
+            plane(-Vec3D::UnitZ(), given.lowest);
+            return;
+        }
+        plane(-Vec3D::UnitX(), given.lowest);
+        plane(Vec3D::UnitX(), given.highest);
+        if (hopperIsClosed) {
+            plane(-Vec3D::UnitZ(), {0, 0, -PeerMaterial::radius});
+            return;
+        }
+        Outlet below;
+        below.setPlane(-Vec3D::UnitZ(), given.lowest);
+        outletHandler.copyAndAddObject(below);
+    }
+    void add(const PeerGrain& row, const Material* species) {
+        SphericalParticle grain;
+        grain.setSpecies(species);
+        grain.setRadius(row.radius);
+        grain.setPosition(row.position);
+        grain.setVelocity(row.velocity);
+        if (row.kind == GrainKind::Held) grain.fixParticle();
+        particleHandler.copyAndAddObject(grain);
+    }
+};
+
+/// Grains and places of a scene that begins at rest: settled by the default at a small step.
+inline BulkScene startOf(const std::string& name, std::uint64_t seed) {
+    BulkScene scene = bulkScene(name, seed);
+    if (!scene.settles) return scene;
+    PeerScene settling(scene, true);
+    settling.setTimeStep(0.2 * PeerMaterial::rayleighTime());
+    settling.acceptUnstableTimeStep();
+    settling.initialise();
+    settling.step(static_cast<std::size_t>(0.5 / settling.getTimeStep()));
+    scene.grains = settling.grainsNow(scene);
+    for (PeerGrain& grain : scene.grains) grain.velocity = Vec3D::Zero();
+    if (name == "impact") scene.grains.push_back(intruder(scene));
+    return scene;
+}
+
+}  // namespace pendular::bulk

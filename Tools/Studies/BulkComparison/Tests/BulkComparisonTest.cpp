@@ -1,0 +1,84 @@
+/// The figures that are compared with LIGGGHTS and LAMMPS, and the files between them.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "SelfTests/Support/TestFolder.h"
+#include "Tools/Studies/AccuracyVersusCost/BulkFigures.h"
+#include "Tools/Studies/BulkComparison/PeerFiles.h"
+
+namespace pendular::bulk {
+namespace {
+
+// Two grains that overlap across a periodic face: F = 4/3 E* R*^(1/2) d^(3/2), and l F of the pair.
+TEST(BulkComparison, findsOverlapsAcrossAFace) {
+    BulkScene scene = bulkScene("bed", 1);
+    const double overlap = 1e-5, r = 1e-3, width = scene.highest.x();  // m
+    const PeerGrain one{GrainKind::Free, r, 2500, {0.5 * r, 1e-3, 1e-3}, Vec3D::Zero()};
+    PeerGrain two = one;
+    two.position.x() = width - (1.5 * r - overlap);
+    const Overlaps found = overlapsOf(scene, {one, two});
+    EXPECT_EQ(found.coordination, 1);
+    const double modulus = 5e6 / (2 * (1 - 0.2 * 0.2)), distance = 2 * r - overlap;
+    const double exact = distance * 4.0 / 3 * modulus * std::sqrt(0.5 * r) * std::pow(overlap, 1.5);
+    // Positions of 1e-2 m round to 2e-18 m, 2e-13 of the overlap.
+    EXPECT_NEAR(found.virial / exact, 1, 1e-12);
+}
+
+// A grain leaves in each frame: the flow is its mass over the time between frames.
+TEST(BulkComparison, findsASteadyFlow) {
+    BulkScene scene = bulkScene("hopper", 1);
+    const PeerGrain grain{GrainKind::Free, 1e-3, 2500, {0, 0, 0.01}, Vec3D::Zero()};
+    scene.grains.assign(200, grain);
+    FrameFigures figures(scene);
+    std::vector<PeerGrain> left = scene.grains;
+    for (int k = 0; k <= 150; ++k, left.pop_back()) figures.add(scene.interval * k, left);
+    ASSERT_TRUE(figures.survived());
+    const double mass = 4.0 / 3 * std::numbers::pi * 1e-9 * 2500;
+    const std::map<std::string, double> found = [&] {
+        const auto all = figures.figures();
+        return std::map<std::string, double>(all.begin(), all.end());
+    }();
+    EXPECT_NEAR(found.at("flow_kg/s") * scene.interval / mass, 1, 1e-9);
+}
+
+TEST(BulkComparison, aLostGrainOrARunThatEndsEarlyIsNoSurvivor) {
+    const BulkScene scene = bulkScene("bed", 1);
+    FrameFigures early(scene), lost(scene);
+    early.add(0.5 * scene.endTime, scene.grains);
+    EXPECT_FALSE(early.survived());
+    auto fewer = scene.grains;
+    fewer.pop_back();
+    lost.add(0, fewer);
+    lost.add(scene.endTime, fewer);
+    EXPECT_FALSE(lost.survived());
+}
+
+TEST(BulkComparison, readsTheStartAndTheFramesThatItWrites) {
+    const support::TestFolder folder;
+    const std::string data = (folder.path() / "start").string(), frames = (folder.path() / "frames").string();
+    const BulkScene scene = bulkScene("drum", 3);
+    EXPECT_GT(scene.grains.size(), 1000u);
+    writePeerData(data, scene);
+    BulkScene read = bulkScene("drum", 4);
+    readPeerData(data, read);
+    ASSERT_EQ(read.grains.size(), scene.grains.size());
+    for (std::size_t k = 0; k < read.grains.size(); ++k) {
+        EXPECT_EQ(read.grains[k].kind, scene.grains[k].kind);
+        EXPECT_LT((read.grains[k].position - scene.grains[k].position).norm(), 1e-17);
+        EXPECT_LT((read.grains[k].velocity - scene.grains[k].velocity).norm(), 1e-15);
+        EXPECT_NEAR(read.grains[k].radius / scene.grains[k].radius, 1, 1e-15);
+    }
+    std::ofstream file(frames);  // the last frame is cut off
+    file << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff pp\n0 1\n0 1\n0 1\n"
+            "ITEM: ATOMS id x y z vx vy vz\n2 0 0 0 nan 0 0\nITEM: TIMESTEP\n8\nITEM: NUMBER OF ATOMS\n2\n";
+    file.close();
+    FrameFigures figures(scene);
+    readPeerFrames(frames, scene, 1e-5, figures);
+    EXPECT_FALSE(figures.survived());
+    EXPECT_THROW(readPeerData(frames, read), InputError);
+}
+
+}  // namespace
+}  // namespace pendular::bulk

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Has clang-tidy look for the faults that .clang-tidy lists, in files of the kernel and the headers they include. Ends with
+# an exit code other than 0 if it finds one.
+#   Tools/check-tidy.sh [--since COMMIT | --all | FILE...]
+# --since COMMIT  files that differ from this commit; origin/main if not given, or where that is what is checked out,
+#                 the commit before it
+# --all           all .cpp files: some minutes
+# Files of one folder are read as one, which takes a quarter of the time. Where two of them use a name twice, so that they
+# do not compile together, they are read apart.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
+folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$folder/build/tidy
+
+# The files of a group, as one, or where that does not compile its halves.
+check() {
+    local unit output half=$(($# / 2))
+    unit=$(mktemp "$build/group-XXXXXX.cpp")
+    printf '#include "%s"\n' "$@" >"$unit"
+    if output=$(xargs -a "$build/flags" clang-tidy --quiet --config-file="$folder/.clang-tidy" "$unit" -- 2>&1); then
+        rm "$unit"
+        return
+    fi
+    rm "$unit"
+    if (($# == 1)) || [[ $output != *clang-diagnostic-error* ]]; then
+        echo "$output"
+        return 1
+    fi
+    check "${@:1:half}" && check "${@:half+1}"
+}
+
+changed_since() {  # commit
+    git -C "$folder" rev-parse --quiet --verify "$1^{commit}" >/dev/null || refuse "there is no commit $1; give one with --since, or --all"
+    git -C "$folder" diff --name-only --diff-filter=d "$1" -- 'Kernel/*.cpp' 'Kernel/*.h'
+}
+
+case ${1:-} in
+    -h | --help) print_head; exit 0 ;;
+    --group) shift; check "$@"; exit ;;
+    --all) (($# == 1)) || refuse "--all has no value; see --help"; files=$(git -C "$folder" ls-files 'Kernel/*.cpp') ;;
+    --since) (($# == 2)) || refuse "--since needs a value; see --help"; files=$(changed_since "$2") ;;
+    -*) refuse "there is no option $1; see --help" ;;
+    "")
+        since=origin/main
+        if git -C "$folder" diff --quiet origin/main 2>/dev/null; then since=HEAD~1; fi
+        files=$(changed_since "$since")
+        ;;
+    *) files=$(for file; do realpath --relative-to "$folder" "$file"; done) ;;
+esac
+if [[ -z $files ]]; then
+    echo "check-tidy.sh: no file of the kernel has changed"
+    exit 0
+fi
+for program in clang++ clang-tidy; do
+    command -v "$program" >/dev/null || refuse "$program is not installed (Tools/install-dependencies.sh --clang)"
+done
+
+# The flags of clang for a file of the kernel, with those for HDF5; and what CMake generates.
+cmake -S "$folder" -B "$build" -D CMAKE_CXX_COMPILER=clang++ -D CMAKE_BUILD_TYPE=Release -D CMAKE_EXPORT_COMPILE_COMMANDS=ON \
+    -D PENDULAR_PRECOMPILED_HEADERS=OFF -D PENDULAR_BUILD_TESTS=OFF >/dev/null
+sed -n 's/^ *"command": ".*clang++ \(.*\) -o .*Kernel\/State\/Hdf5File.cpp",$/\1/p' "$build/compile_commands.json" >"$build/flags"
+awk -F/ '{ name = $0; sub("/[^/]*$", "", name); row[name] = row[name] " " $0 } END { for (name in row) print row[name] }' <<<"$files" |
+    xargs -P "$(getconf _NPROCESSORS_ONLN)" -L 1 "$folder/Tools/check-tidy.sh" --group
