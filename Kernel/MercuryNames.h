@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "Kernel/Logger.h"
+#include "Kernel/Base/Logger.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Species/TimeStepAdvice.h"

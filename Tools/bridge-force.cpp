@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/LawNames.h"

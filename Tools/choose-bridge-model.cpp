@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/BridgeChoice.h"
 #include "Tools/Timing/BridgeTiming.h"

@@ -11,7 +11,7 @@
 
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Files/CsvFile.h"
-#include "Kernel/Logger.h"
+#include "Kernel/Base/Logger.h"
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Shapes/MeshSolid.h"
 #include "Kernel/Shapes/SphereGroups.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Sizes/SizeSample.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/SummaryFile.h"
 

@@ -11,7 +11,7 @@
 #include "Kernel/Math/CountedRandom.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Particles/GrainSums.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"
 
 namespace pendular {

@@ -12,7 +12,7 @@
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Particles/GrainSums.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Sizes/SizeLaws.h"
 
 namespace pendular {

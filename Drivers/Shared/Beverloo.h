@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

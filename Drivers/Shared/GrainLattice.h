@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Particles/GrainFile.h"
 
 namespace pendular {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/ParticleHandler.h"
 
 namespace pendular {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/NeighbourSearch.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/PeriodicBox.h"

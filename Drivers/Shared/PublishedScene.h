@@ -10,7 +10,7 @@
 #include "Drivers/Shared/PublishedMaterials.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/GrainSums.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"

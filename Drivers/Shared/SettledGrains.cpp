@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "Drivers/Shared/GrainLattice.h"
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Particles/GrainFile.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Species/Adhesion/NoAdhesion.h"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Output/RunTable.h"
 

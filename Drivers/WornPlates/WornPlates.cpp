@@ -3,7 +3,7 @@
 #include <array>
 
 #include "Drivers/Shared/CommandLine.h"
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Output/RunTable.h"
 #include "Kernel/Walls/TriangleWall.h"

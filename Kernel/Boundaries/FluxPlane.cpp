@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/RigidWall.h"
 

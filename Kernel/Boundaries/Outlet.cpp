@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "Kernel/InputError.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/RigidWall.h"
 

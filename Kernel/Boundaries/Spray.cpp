@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/Resolution.h"
 #include "Kernel/Walls/RigidWall.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

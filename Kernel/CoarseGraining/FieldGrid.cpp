@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

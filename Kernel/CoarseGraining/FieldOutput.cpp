@@ -10,7 +10,7 @@
 #include "Kernel/CoarseGraining/SceneState.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Files/FileName.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/RunTable.h"
 #include "Kernel/Particles/PeriodicBox.h"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Math/GaussLegendre.h"
 #include "Kernel/Math/Pack.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

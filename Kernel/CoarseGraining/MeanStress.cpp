@@ -2,7 +2,7 @@
 
 #include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Contacts/ObservedContact.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/Particles/ParticleHandler.h"

@@ -12,9 +12,9 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/GrainMasses.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Output/PolyData.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Simulation/Scene.h"

@@ -2,7 +2,7 @@
 
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Math/CountedRandom.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Walls/WallHandler.h"
 #include "Kernel/Particles/PeriodicBox.h"
 

@@ -4,8 +4,8 @@
 
 #include "Kernel/Contacts/ContactRecall.h"
 #include "Kernel/Contacts/RememberedContacts.h"
-#include "Kernel/LargePages.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/LargePages.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {

@@ -5,7 +5,7 @@
 
 #include "Kernel/Contacts/Rearrangement.h"
 #include "Kernel/Contacts/WakeBlock.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

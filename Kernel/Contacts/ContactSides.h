@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "Kernel/Math/Pack.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Particles/ParticleStore.h"
 
 namespace pendular {

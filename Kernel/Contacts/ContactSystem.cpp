@@ -8,7 +8,7 @@
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Math/ExactSum.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

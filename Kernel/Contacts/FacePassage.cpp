@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/Prefetch.h"
-#include "Kernel/LargePages.h"
+#include "Kernel/Base/LargePages.h"
 #include "Kernel/Math/Pack.h"
 
 namespace pendular {

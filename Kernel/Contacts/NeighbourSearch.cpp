@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

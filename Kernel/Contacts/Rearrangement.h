@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

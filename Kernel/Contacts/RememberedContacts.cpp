@@ -4,7 +4,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

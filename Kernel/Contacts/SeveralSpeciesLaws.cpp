@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "Kernel/Contacts/PopularSpecies.h"
-#include "Kernel/InputError.h"
-#include "Kernel/Logger.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Logger.h"
 #include "Kernel/Species/LawNames.h"
 
 namespace pendular {

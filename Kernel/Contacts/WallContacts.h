@@ -5,7 +5,7 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 

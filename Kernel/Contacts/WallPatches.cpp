@@ -2,7 +2,7 @@
 
 #include "Kernel/Contacts/ContactPatch.h"
 #include "Kernel/Contacts/WallContacts.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Walls/PartCover.h"
 
 namespace pendular {

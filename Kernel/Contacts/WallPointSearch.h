@@ -4,7 +4,7 @@
 
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/WallContacts.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Walls/Wall.h"
 
 namespace pendular {

@@ -11,7 +11,7 @@
 #include <cstring>
 
 #include "Kernel/Files/OwnFile.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

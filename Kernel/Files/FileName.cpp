@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

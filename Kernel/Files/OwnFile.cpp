@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

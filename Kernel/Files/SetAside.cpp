@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "Kernel/Files/WrittenBeside.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "Kernel/Files/OwnFile.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -9,7 +9,7 @@
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/Pack.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

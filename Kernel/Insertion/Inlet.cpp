@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/ApartTexts.h"

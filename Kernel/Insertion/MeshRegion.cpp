@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/RigidWall.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Species/Field.h"
 

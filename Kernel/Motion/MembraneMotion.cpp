@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 namespace {

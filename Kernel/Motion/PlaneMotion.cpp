@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "Kernel/Math/ExactSum.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "Kernel/Contacts/ParticleSum.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

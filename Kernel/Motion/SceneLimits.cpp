@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Walls/Membrane.h"

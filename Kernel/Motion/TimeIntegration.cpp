@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "Kernel/Contacts/ParticleSum.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

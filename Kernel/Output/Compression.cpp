@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

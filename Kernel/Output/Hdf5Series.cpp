@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Output/FieldFile.h"
 #include "Kernel/Output/FrameIndex.h"
 #include "Kernel/State/Hdf5File.h"

@@ -7,7 +7,7 @@
 
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Files/WrittenBeside.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Output/FrameIndex.h"
 
 namespace pendular {

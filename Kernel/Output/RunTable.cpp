@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -10,7 +10,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Files/FileName.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Math/Scalar.h"
 #include "Kernel/Output/BoxFields.h"
 #include "Kernel/Output/ShapeFields.h"

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "Kernel/Files/TextFile.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 
 namespace pendular {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernel/Math/Servo.h"
+#include "Kernel/Particles/Servo.h"
 
 namespace pendular {
 

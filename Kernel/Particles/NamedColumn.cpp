@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "Kernel/Files/FileName.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Particles/Resolution.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Particles/Resolution.h"
 
 namespace pendular {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/LargePages.h"
+#include "Kernel/Base/LargePages.h"
 #include "Kernel/Math/Vector.h"
 #include "Kernel/Particles/GrainColumn.h"
 #include "Kernel/Particles/PlaceIndex.h"

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/InputError.h"
-#include "Kernel/Logger.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Logger.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Particles/BodyHandler.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Shapes/SphereGroups.h"
 
 namespace pendular {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandler.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Walls/PlaneDrive.h"
 
 namespace pendular {

@@ -7,10 +7,10 @@
 
 #include "Kernel/Boundaries/SprayHandler.h"
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Particles/ParticleHandler.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/StepTimes.h"

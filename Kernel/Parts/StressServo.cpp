@@ -6,7 +6,7 @@
 
 #include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Particles/MovingBodies.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Shapes/SphereGroups.h"
 #include "Kernel/Shapes/SphereSlices.h"
 #include "Kernel/Species/Field.h"

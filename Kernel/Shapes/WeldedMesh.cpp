@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

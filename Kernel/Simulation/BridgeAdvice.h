@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/BridgeChoice.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

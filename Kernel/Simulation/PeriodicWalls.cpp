@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "Kernel/Motion/GrainSizes.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Walls/WornWall.h"
 
 namespace pendular {

@@ -16,10 +16,10 @@
 #include <new>
 #include <system_error>
 
-#include "Kernel/Host.h"
-#include "Kernel/InputError.h"
-#include "Kernel/Logger.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/Host.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Logger.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/RunControl.h"
 
 namespace pendular {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "Kernel/Logger.h"
+#include "Kernel/Base/Logger.h"
 
 namespace pendular {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "Kernel/Files/FileName.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/State/RestartFile.h"

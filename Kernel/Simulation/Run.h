@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/InputError.h"
-#include "Kernel/Logger.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Logger.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/OutputInterval.h"
 #include "Kernel/Simulation/Progress.h"
 #include "Kernel/Simulation/RunControl.h"

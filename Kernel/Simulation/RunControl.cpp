@@ -11,8 +11,8 @@
 #include <limits>
 #include <utility>
 
-#include "Kernel/Host.h"
-#include "Kernel/Logger.h"
+#include "Kernel/Base/Host.h"
+#include "Kernel/Base/Logger.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

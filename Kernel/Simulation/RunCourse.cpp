@@ -6,8 +6,8 @@
 
 #include "Kernel/Files/FileLock.h"
 #include "Kernel/Files/SetAside.h"
-#include "Kernel/InputError.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"

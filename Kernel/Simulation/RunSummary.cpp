@@ -20,7 +20,7 @@
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Files/CsvFile.h"
-#include "Kernel/Logger.h"
+#include "Kernel/Base/Logger.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Parts/AdaptiveStep.h"

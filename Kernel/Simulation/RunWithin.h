@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Run.h"
 
 // For the sources of Run, and for no others.

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Simulation/LastState.h"
 #include "Kernel/Simulation/SceneCheck.h"

@@ -106,7 +106,7 @@ public:
     void setStrainRate(int axis, double rate);
     /// The same by a servo, so that the mean stress along the axis (Pa, compression positive; 0 is a target
     /// too) becomes the target: the rate is the difference over the stiffness of the contacts and the time
-    /// (s), and what it takes to follow grains that flow or creep (Kernel/Math/Servo.h), at most the largest
+    /// (s), and what it takes to follow grains that flow or creep (Kernel/Particles/Servo.h), at most the largest
     /// rate (1/s), 0.1 / time if it is not given. The time must be more than half a step; take at least twice
     /// the time in which sound passes the scene. The stress is looked at 100 times in it, or at each step.
     /// A run in which the servo has strained the scene by a factor of e^3 in one direction ends.

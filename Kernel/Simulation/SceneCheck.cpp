@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "Kernel/Contacts/GrainShapes.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/Resolution.h"
 
 namespace pendular {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "Kernel/Contacts/GrainShapes.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/TimeIntegration.h"
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/SceneInside.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Simulation/SceneInside.h"

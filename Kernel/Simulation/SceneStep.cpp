@@ -1,5 +1,5 @@
-#include "Kernel/InputError.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 

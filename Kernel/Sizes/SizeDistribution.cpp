@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Math/GaussLegendre.h"
 
 namespace pendular {

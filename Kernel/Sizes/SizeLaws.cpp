@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Sizes/SizeTable.h"
 
 namespace pendular {

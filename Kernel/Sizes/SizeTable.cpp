@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "Kernel/Files/TextFile.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

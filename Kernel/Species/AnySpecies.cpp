@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Species/LawNames.h"
 
 namespace pendular {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Species/BridgeLaws.h"
 
 namespace pendular {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Math/ApartTexts.h"
 #include "Kernel/Species/DomainLimit.h"
 

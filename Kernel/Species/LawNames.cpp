@@ -6,7 +6,7 @@
 #include <cctype>
 #include <utility>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Species/KnownValues.h"
 #include "Kernel/Species/Species.h"
 #include "Kernel/State/StateArchive.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular::hdf5 {
 

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "Kernel/Host.h"
+#include "Kernel/Base/Host.h"
 #include "Kernel/State/Hdf5File.h"
 
 namespace pendular::hdf5 {

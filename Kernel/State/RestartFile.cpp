@@ -13,7 +13,7 @@
 
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "Kernel/LargePages.h"
+#include "Kernel/Base/LargePages.h"
 #include "Kernel/State/Hdf5File.h"
 
 namespace pendular {

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <ranges>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/InfiniteWall.h"
 #include "Kernel/Walls/WallHandler.h"

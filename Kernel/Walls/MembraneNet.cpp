@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Shapes/WeldedMesh.h"
 
 namespace pendular {

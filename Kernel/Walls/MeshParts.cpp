@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Shapes/WeldedMesh.h"
 #include "Kernel/Walls/BoxTree.h"
 #include "Kernel/Walls/PartCover.h"

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "Kernel/Math/Servo.h"
+#include "Kernel/Particles/Servo.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Walls/Pose.h"
 #include "Kernel/Walls/Wall.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Walls/BoxTree.h"
 #include "Kernel/Walls/MeshParts.h"
 #include "Kernel/Walls/PartCover.h"

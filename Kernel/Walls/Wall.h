@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/SphericalParticle.h"
 #include "Kernel/Walls/PlaneDrive.h"
 #include "Kernel/Walls/SurfaceAtFaces.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "Kernel/InputError.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 namespace {

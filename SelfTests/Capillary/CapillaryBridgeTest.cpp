@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "SelfTests/Capillary/IndependentBridges.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Math/Scalar.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 

@@ -9,7 +9,7 @@
 
 #include "Kernel/CoarseGraining/FieldSums.h"
 #include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"

@@ -1,7 +1,7 @@
 // Faults of the readers that were found by fuzzing, or on the way to it.
 #include <gtest/gtest.h>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Output/PolyData.h"
 #include "Kernel/State/RestartFile.h"
 #include "Kernel/Walls/TriangleWall.h"

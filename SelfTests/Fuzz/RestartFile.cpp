@@ -1,6 +1,6 @@
 #include "Kernel/State/RestartFile.h"
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "Kernel/Host.h"
+#include "Kernel/Base/Host.h"
 #include "Kernel/Simulation/Progress.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/RunControl.h"

@@ -1,4 +1,4 @@
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Support/Refusal.h"

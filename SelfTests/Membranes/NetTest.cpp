@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Walls/MembraneNet.h"
 #include "SelfTests/Support/Refusal.h"
 

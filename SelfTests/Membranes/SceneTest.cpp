@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Math/Random.h"
-#include "Kernel/RunError.h"
+#include "Kernel/State/Random.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Membranes/MembraneScene.h"

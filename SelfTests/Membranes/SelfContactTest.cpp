@@ -1,7 +1,7 @@
 // A membrane does not touch itself: where it would, that is said.
 #include <gtest/gtest.h>
 
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Motion/ContactBound.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Species/Adhesion/ReversibleAdhesive.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Simulation/OutputForm.h"
 #include "Kernel/Simulation/OutputInterval.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

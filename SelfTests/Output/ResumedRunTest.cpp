@@ -8,7 +8,7 @@
 #include <set>
 #include <thread>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/FieldFile.h"
 #include "Kernel/Output/Hdf5Output.h"

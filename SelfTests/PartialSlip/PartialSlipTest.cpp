@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "BuildFolders.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/PartialSlip/ElasticImpact.h"
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Periodic/Lattice.h"
 #include "SelfTests/Periodic/MovingImages.h"

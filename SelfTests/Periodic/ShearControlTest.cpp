@@ -5,7 +5,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Parts/StressServo.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"

@@ -7,7 +7,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/HomogeneousStrain.h"
 #include "Kernel/Parts/StressServo.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/State/RestartFile.h"
 #include "SelfTests/Restart/ChildRun.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Laws.h"
 #include "SelfTests/Scenes/SettlingBox.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "Drivers/Shared/GrainRows.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"

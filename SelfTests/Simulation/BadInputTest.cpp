@@ -3,8 +3,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "Kernel/InputError.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"

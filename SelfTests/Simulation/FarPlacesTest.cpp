@@ -7,7 +7,7 @@
 
 #include "Kernel/Particles/GrainFile.h"
 #include "Kernel/Particles/Resolution.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <functional>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Support/Refusal.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "BuildFolders.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/MercuryNames.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/State/StateArchive.h"

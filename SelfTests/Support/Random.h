@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 
 namespace pendular::support {
 

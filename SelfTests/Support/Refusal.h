@@ -5,7 +5,7 @@
 #include <cctype>
 #include <string>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 
 namespace pendular::support {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 // How work is shared by threads.
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

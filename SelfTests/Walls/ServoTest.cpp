@@ -1,4 +1,4 @@
-// Planes that follow the force on them: servos. Kernel/Math/Servo.h has the law, whose closed forms are
+// Planes that follow the force on them: servos. Kernel/Particles/Servo.h has the law, whose closed forms are
 // tested in SelfTests/Math.
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidFilmsBagheri.h"
 #include "Kernel/Species/Adhesion/LiquidFilmsWillett.h"

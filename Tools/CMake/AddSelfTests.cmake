@@ -55,7 +55,7 @@ if(NOT PENDULAR_BUILD_STUDIES)
     list(REMOVE_ITEM testFolders Species/Composition)
 endif()
 # The precompiled header of all tests, in a target of its own: a test program depends on no other one.
-file(WRITE "${PROJECT_BINARY_DIR}/Generated/PrecompiledTests.cpp" "")
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/Generated/PrecompiledTests.cpp" CONTENT "")
 add_library(PrecompiledTests OBJECT "${PROJECT_BINARY_DIR}/Generated/PrecompiledTests.cpp")
 target_link_libraries(PrecompiledTests PRIVATE $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel
                       GTest::gtest_main)
@@ -106,7 +106,7 @@ endforeach()
 
 # A header compiles alone (its .cpp does not show it: a precompiled header comes before). Those that drivers include are
 # compiled here, each by itself; not all, as it takes a second or two for each.
-file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/Kernel/*.h"
+file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/Kernel/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Base/*.h"
      "${PROJECT_SOURCE_DIR}/Kernel/Files/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Walls/*.h")
 foreach(header IN LISTS headers)
     cmake_path(REPLACE_EXTENSION header .cpp OUTPUT_VARIABLE source)

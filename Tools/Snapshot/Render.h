@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "Kernel/Files/WrittenBeside.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Tools/Snapshot/PovScene.h"
 
 namespace pendular::snapshot {

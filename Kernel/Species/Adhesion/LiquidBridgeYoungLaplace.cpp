@@ -6,7 +6,7 @@
 
 #include "Kernel/Capillary/BridgeTableMaking.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 

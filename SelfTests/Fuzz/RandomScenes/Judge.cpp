@@ -14,7 +14,7 @@
 #include <map>
 #include <set>
 
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "SelfTests/Fuzz/RandomScenes/RandomScene.h"
 #include "SelfTests/Fuzz/RandomScenes/Watch.h"
 #include "SelfTests/Restart/StateContent.h"

@@ -2,7 +2,7 @@
 
 #include <deque>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Species/SpeciesInScene.h"
 
 namespace pendular::fuzz {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "SelfTests/Fuzz/RandomScenes/Feature.h"
 #include "SelfTests/Fuzz/RandomScenes/Judge.h"
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Math/Vector.h"
 
 // Equal grains whose near neighbours are all joined by bridges of the same resistance.

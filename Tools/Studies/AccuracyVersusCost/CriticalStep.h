@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Tools/Studies/AccuracyVersusCost/CriticalMaterial.h"
 

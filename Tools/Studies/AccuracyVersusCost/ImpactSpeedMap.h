@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "Kernel/Files/CsvFile.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Tools/Studies/AccuracyVersusCost/CollisionCases.h"
 #include "Tools/Studies/AccuracyVersusCost/CollisionTheory.h"
 #include "Tools/Studies/AccuracyVersusCost/SeenCollision.h"

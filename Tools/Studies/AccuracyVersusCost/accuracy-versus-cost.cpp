@@ -4,7 +4,7 @@
 #include <array>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/Studies/AccuracyVersusCost/BridgeChart.h"
 #include "Tools/Studies/AccuracyVersusCost/BulkChart.h"

@@ -16,7 +16,7 @@
 #include "Kernel/Capillary/CapillaryBridge.h"
 #include "Kernel/Capillary/FreeDrop.h"
 #include "Kernel/Files/CsvFile.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Adhesion/Shared/ToroidalBridge.h"
 #include "Kernel/Species/Adhesion/Shared/UnequalToroid.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "Drivers/Shared/GrainLattice.h"
-#include "Kernel/InputError.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Species/LawNames.h"
 
 // Four small scenes that Pendular, LIGGGHTS and LAMMPS can all have: only spheres, planes and a cylinder.

@@ -4,7 +4,7 @@
 
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
-#include "Kernel/RunError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/Studies/BulkComparison/PeerFiles.h"
 #include "Tools/Studies/BulkComparison/PeerScene.h"

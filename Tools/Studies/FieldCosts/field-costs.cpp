@@ -14,7 +14,7 @@
 #include "Drivers/Shared/SettledGrains.h"
 #include "Kernel/CoarseGraining/FieldSums.h"
 #include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Simulation/Program.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Math/Random.h"
+#include "Kernel/State/Random.h"
 
 namespace pendular {
 

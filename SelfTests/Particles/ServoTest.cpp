@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Math/Servo.h"
+#include "Kernel/Particles/Servo.h"
 
 namespace pendular {
 namespace {

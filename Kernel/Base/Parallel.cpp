@@ -1,4 +1,4 @@
-#include "Kernel/Parallel.h"
+#include "Kernel/Base/Parallel.h"
 
 #include <unistd.h>
 

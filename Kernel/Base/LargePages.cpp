@@ -1,4 +1,4 @@
-#include "Kernel/LargePages.h"
+#include "Kernel/Base/LargePages.h"
 
 #ifdef __linux__
     #include <sys/mman.h>

@@ -1,4 +1,4 @@
-#include "Kernel/Host.h"
+#include "Kernel/Base/Host.h"
 
 #include <atomic>
 

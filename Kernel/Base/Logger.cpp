@@ -1,4 +1,4 @@
-#include "Kernel/Logger.h"
+#include "Kernel/Base/Logger.h"
 
 #include <cstdio>
 #include <memory>
