@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Contacts/ObservedContact.h"
 
 namespace pendular {
