@@ -5,6 +5,7 @@
 
 #include "BuildFolders.h"
 #include "Kernel/CoarseGraining/FieldOutput.h"
+#include "Kernel/CoarseGraining/SceneState.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/CsvRows.h"

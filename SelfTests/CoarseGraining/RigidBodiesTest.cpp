@@ -8,6 +8,7 @@
 #include "Kernel/CoarseGraining/Clusters.h"
 #include "Kernel/CoarseGraining/FieldOutput.h"
 #include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/CoarseGraining/SceneState.h"
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
