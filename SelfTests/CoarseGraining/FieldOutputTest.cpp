@@ -5,6 +5,7 @@
 
 #include "BuildFolders.h"
 #include "Kernel/CoarseGraining/FieldOutput.h"
+#include "Kernel/CoarseGraining/SceneState.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "SelfTests/Restart/ChildRun.h"

@@ -7,6 +7,8 @@
 #include "BuildFolders.h"
 #include "Kernel/CoarseGraining/FieldOutput.h"
 #include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Output/BoxFields.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"

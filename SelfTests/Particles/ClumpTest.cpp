@@ -6,6 +6,7 @@
 
 #include "Kernel/CoarseGraining/FieldSums.h"
 #include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Output/SceneFields.h"
 #include "Kernel/Shapes/MeshSolid.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

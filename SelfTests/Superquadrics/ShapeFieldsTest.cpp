@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Output/ShapeFields.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "Kernel/Superquadrics/ExtremeContact.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
