@@ -69,7 +69,8 @@ public:
 /// loaded, where it registers none, and what registerSpecies() would throw.
 ///
 /// The library is compiled with the headers and flags of the kernel and not linked to it: the program has the
-/// kernel, all of it, and lets the library use it (Kernel/README.md says how), so that nothing is there twice.
+/// kernel, all of it, and lets the library use it (Kernel/README.md says how), so that nothing is there
+/// twice.
 void loadSpeciesLibrary(const std::filesystem::path& library);
 
 /// The names of those that were registered, in this order.
