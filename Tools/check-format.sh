@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Says which .h and .cpp files do not have the format of .clang-format, and ends with exit code 1 if there are any.
 #   Tools/check-format.sh [--fix] [FILE...]
-# Without names: all files that git knows. --fix writes the format.
+# Without names: all of them. --fix writes the format.
 # clang-format 14 it is; other versions break lines in other places.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
@@ -16,7 +16,7 @@ program=$(command -v clang-format-14 || command -v clang-format) ||
 [[ $("$program" --version) == *"version 14."* ]] || refuse "$program is not version 14 (Debian package clang-format-14)"
 if (($# == 0)); then
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
-    mapfile -t files < <(git ls-files '*.h' '*.cpp')
+    mapfile -t files < <(find Kernel Drivers SelfTests Tools -name '*.h' -o -name '*.cpp')
     set -- "${files[@]}"
 fi
 "$program" "${mode[@]}" "$@"

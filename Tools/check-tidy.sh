@@ -2,8 +2,8 @@
 # Has clang-tidy look for the faults that .clang-tidy lists, in files of the kernel and the headers they include. Ends with
 # an exit code other than 0 if it finds one.
 #   Tools/check-tidy.sh [--since COMMIT | --all | FILE...]
-# --since COMMIT  files that differ from this commit; origin/main if not given, or where that is what is checked out,
-#                 the commit before it
+# --since COMMIT  files that differ from this commit; if it is not given, from origin/main, or from the commit before
+#                 this one where nothing differs from origin/main
 # --all           all .cpp files: some minutes
 # Files of one folder are read as one, which takes a quarter of the time. Where two of them use a name twice, so that they
 # do not compile together, they are read apart.
@@ -29,21 +29,23 @@ check() {
     check "${@:1:half}" && check "${@:half+1}"
 }
 
+all_files() { (cd "$folder" && find Kernel -name '*.cpp' | sort); }
+exists() { git -C "$folder" rev-parse --quiet --verify "$1^{commit}" >/dev/null 2>&1; }  # commit
 changed_since() {  # commit
-    git -C "$folder" rev-parse --quiet --verify "$1^{commit}" >/dev/null || refuse "there is no commit $1; give one with --since, or --all"
+    exists "$1" || refuse "there is no commit $1; give one with --since, or --all"
     git -C "$folder" diff --name-only --diff-filter=d "$1" -- 'Kernel/*.cpp' 'Kernel/*.h'
 }
 
 case ${1:-} in
     -h | --help) print_head; exit 0 ;;
     --group) shift; check "$@"; exit ;;
-    --all) (($# == 1)) || refuse "--all has no value; see --help"; files=$(git -C "$folder" ls-files 'Kernel/*.cpp') ;;
+    --all) (($# == 1)) || refuse "--all has no value; see --help"; files=$(all_files) ;;
     --since) (($# == 2)) || refuse "--since needs a value; see --help"; files=$(changed_since "$2") ;;
     -*) refuse "there is no option $1; see --help" ;;
     "")
-        since=origin/main
-        if git -C "$folder" diff --quiet origin/main 2>/dev/null; then since=HEAD~1; fi
-        files=$(changed_since "$since")
+        since=HEAD~1
+        if exists origin/main && ! git -C "$folder" diff --quiet origin/main; then since=origin/main; fi
+        if exists "$since"; then files=$(changed_since "$since"); else files=$(all_files); fi
         ;;
     *) files=$(for file; do realpath --relative-to "$folder" "$file"; done) ;;
 esac
@@ -56,7 +58,7 @@ for program in clang++ clang-tidy; do
 done
 
 # The flags of clang for a file of the kernel, with those for HDF5; and what CMake generates.
-cmake -S "$folder" -B "$build" -D CMAKE_CXX_COMPILER=clang++ -D CMAKE_BUILD_TYPE=Release -D CMAKE_EXPORT_COMPILE_COMMANDS=ON \
+cmake -G Ninja -S "$folder" -B "$build" -D CMAKE_CXX_COMPILER=clang++ -D CMAKE_BUILD_TYPE=Release -D CMAKE_EXPORT_COMPILE_COMMANDS=ON \
     -D PENDULAR_PRECOMPILED_HEADERS=OFF -D PENDULAR_BUILD_TESTS=OFF >/dev/null
 sed -n 's/^ *"command": ".*clang++ \(.*\) -o .*Kernel\/State\/Hdf5File.cpp",$/\1/p' "$build/compile_commands.json" >"$build/flags"
 awk -F/ '{ name = $0; sub("/[^/]*$", "", name); row[name] = row[name] " " $0 } END { for (name in row) print row[name] }' <<<"$files" |
