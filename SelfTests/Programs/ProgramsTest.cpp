@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <numbers>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -232,6 +234,33 @@ TEST(Programs, refuseWhatIsNoNumber) {
           {bridge + "--points ''", "--points: the value is empty"},
           {bridge + "--no-such 1", "--no-such; see --help"}})
         expectOneSentence(run(command), part);
+}
+
+/// m/s, at which the weight of a sphere is its drag by Schiller and Naumann: by bisection.
+double fallingSpeed(double radius, double density, double ofAir, double viscosity) {
+    const double weight = 4.0 / 3 * std::numbers::pi * radius * radius * radius * density * 9.81;
+    double low = 0, high = 100;
+    for (int k = 0; k < 100; ++k) {
+        const double speed = 0.5 * (low + high), reynolds = ofAir * speed * 2 * radius / viscosity;
+        const double drag =
+            6 * std::numbers::pi * viscosity * radius * speed * (1 + 0.15 * std::pow(reynolds, 0.687));
+        (drag < weight ? low : high) = speed;
+    }
+    return low;
+}
+
+TEST(UserDefinedPart, fallsAtTheSpeedOfItsDrag) {
+    const support::TestFolder folder;
+    const auto ran = run(drivers + "/UserDefinedPart/UserDefinedPart --output " + folder.path().string());
+    EXPECT_EQ(ran.exitCode, 0);
+    double x = 0, y = 0, z = 0;
+    const std::size_t at = ran.output.find("velocity: ");
+    ASSERT_NE(at, std::string::npos) << ran.output;
+    ASSERT_EQ(std::sscanf(ran.output.c_str() + at, "velocity: %lf %lf %lf", &x, &y, &z), 3);
+    // After 1 s, some 13 times m / (drag over speed), exp(-13) is left of the difference; digits end at 1e-4.
+    EXPECT_NEAR(x, 0.5, 2e-4);
+    EXPECT_NEAR(y, 0, 1e-4);
+    EXPECT_NEAR(z, -fallingSpeed(1e-4, 2500, 1.2, 1.8e-5), 3e-4);
 }
 
 TEST(UserDefinedLaw, runs) {
