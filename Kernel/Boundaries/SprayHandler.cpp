@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactLiquid.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/LiquidLedger.h"
-#include "Kernel/Base/InputError.h"
-#include "Kernel/Base/Parallel.h"
 #include "Kernel/Particles/GrainFilms.h"
 #include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/State/StateArchive.h"
@@ -125,7 +125,7 @@ void SprayHandler::fly(const SprayStep& step) {
 
 void SprayHandler::dry(const SprayStep& step, Droplet& droplet, double time) {
     const Evaporation& law = step.contacts.movingLiquid().evaporation();
-    if (!law.dropsDry() || step.time <= law.startTime()) return;
+    if (!law.dropletsEvaporate() || step.time <= law.startTime()) return;
     droplet.radius = law.radiusLeftAfter(droplet.radius, time);
     const double left = std::min(wholeVolume(droplet.radius), droplet.volume);
     step.contacts.movingLiquid().addEvaporated(droplet.volume - left);

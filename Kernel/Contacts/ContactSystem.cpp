@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <atomic>
 
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactList.h"
 #include "Kernel/Contacts/FacePassage.h"
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Math/ExactSum.h"
-#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 
@@ -38,7 +38,7 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     const bool isNear = unlisted >= std::min(skin.width(), listBefore) ||
                         (liquid.formsAtFilms(*species) && liquid.largestFilmContact(grains) > filmsReach);
     const bool isTime =
-        stepsListed % IdleLanes::interval == 0 && idleLanes.areWorthAList(contacts, skin.listCost());
+        stepsListed % IdleLanes::interval == 0 && idleLanes.newListPays(contacts, skin.listCost());
     if (!isNear && !isTime) return false;
     // What came late says nothing of how long a list lasts.
     if (rebuilds > 0 && unlisted >= skin.width()) skin.choose(unlisted, stepsListed);

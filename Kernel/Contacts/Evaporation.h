@@ -38,7 +38,7 @@ public:
     void setStartTime(double time);
 
     [[nodiscard]] bool acts() const { return fastest > 0; }
-    [[nodiscard]] bool dropsDry() const { return fastest > 0 || drop > 0; }
+    [[nodiscard]] bool dropletsEvaporate() const { return fastest > 0 || drop > 0; }
     [[nodiscard]] bool seesCurvature() const { return kelvin > 0; }
     [[nodiscard]] std::size_t interval() const { return steps; }
     [[nodiscard]] double startTime() const { return start; }

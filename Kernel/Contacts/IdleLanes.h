@@ -19,7 +19,7 @@ public:
 
     /// To be asked every `interval` steps since the list.
     /// @param listCost ns
-    [[nodiscard]] bool areWorthAList(const ContactStore& store, double listCost) {
+    [[nodiscard]] bool newListPays(const ContactStore& store, double listCost) {
         const double idle = count(store);
         if (atFirst < 0) atFirst = idle;
         lost += (idle - atFirst) * static_cast<double>(interval) * laneCost;

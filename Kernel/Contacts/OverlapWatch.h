@@ -62,7 +62,7 @@ public:
         setThreshold();
     }
     /// Whether one has come since then.
-    [[nodiscard]] bool isSurprised() const { return expectedWasSmaller; }
+    [[nodiscard]] bool hasExceededExpected() const { return expectedWasSmaller; }
 
     /// Of the effective radius.
     [[nodiscard]] double largestOverlap() const { return largest; }

@@ -10,8 +10,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/OwnFile.h"
 
 namespace pendular {
 
@@ -56,14 +56,14 @@ FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, 
             throw InputError(
                 fmt::format("{} in use by another run{}: wait for its end, or {}.", subject, holder, advice));
         }
-    } while (!isThatOfThePath() && ++tries < 100);  // its owner has just removed it
+    } while (!isStillAtPath() && ++tries < 100);  // its owner has just removed it
     const std::string number = std::to_string(owner);
     // For the sentence only: a full disk is told where results are written.
     if (ftruncate(descriptor, 0) == 0)
         static_cast<void>(pwrite(descriptor, number.data(), number.size(), 0) > 0);
 }
 
-bool FileLock::isThatOfThePath() const {
+bool FileLock::isStillAtPath() const {
     struct stat here {};
     struct stat there {};
     return fstat(descriptor, &here) == 0 && lstat(path.c_str(), &there) == 0 && here.st_dev == there.st_dev &&
@@ -72,7 +72,7 @@ bool FileLock::isThatOfThePath() const {
 
 FileLock::~FileLock() {
     if (descriptor < 0) return;
-    if (owner == getpid() && isThatOfThePath()) unlink(path.c_str());
+    if (owner == getpid() && isStillAtPath()) unlink(path.c_str());
     close(descriptor);
 }
 

@@ -24,7 +24,7 @@ public:
     ~FileLock();
 
 private:
-    [[nodiscard]] bool isThatOfThePath() const;
+    [[nodiscard]] bool isStillAtPath() const;
 
     std::filesystem::path path;
     int descriptor = -1;

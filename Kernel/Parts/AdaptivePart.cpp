@@ -54,7 +54,7 @@ void AdaptivePart::afterMotion(StepContext& step) {
 }
 
 void AdaptivePart::afterForces(StepContext& step) {
-    if (step.contacts.overlaps().isSurprised()) adaptive.pressed();
+    if (step.contacts.overlaps().hasExceededExpected()) adaptive.noteDeeperOverlap();
 }
 
 void AdaptivePart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {

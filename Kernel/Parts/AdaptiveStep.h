@@ -47,7 +47,7 @@ public:
         surprised |= grainShift > supposedSpeed * length || wall > supposedWallSpeed;
     }
     /// A contact is pressed deeper than was supposed.
-    void pressed() { surprised = true; }
+    void noteDeeperOverlap() { surprised = true; }
     [[nodiscard]] bool isDue() const {
         return isSet() && stepsSince > 0 && (surprised || stepsSince >= interval);
     }

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Boundaries/SprayHandler.h"
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Particles/ParticleHandler.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/StepTimes.h"
@@ -37,7 +37,7 @@ void LiquidPart::refuseWhereNoneMoves(const StepContext& scene, double densityOf
         "but no species of this scene moves liquid; take an adhesion law whose name begins with "
         "LiquidMigration, or leave it out.";
     if (!sprays.isEmpty()) throw InputError(fmt::format("Simulation: there is a spray, {}", advice));
-    if (scene.contacts.movingLiquid().evaporation().dropsDry())
+    if (scene.contacts.movingLiquid().evaporation().dropletsEvaporate())
         throw InputError(fmt::format("Simulation: evaporation is set, {}", advice));
     if (densityOfFilms > 0)
         throw InputError(fmt::format("Simulation: the density of the liquid is set, {}", advice));

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "Kernel/Base/Logger.h"
 #include "Kernel/Contacts/CapillaryWatch.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactLiquid.h"
@@ -20,7 +21,6 @@
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Files/CsvFile.h"
-#include "Kernel/Base/Logger.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Parts/AdaptiveStep.h"
@@ -28,12 +28,12 @@
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
-#include "Kernel/Step/StepTimes.h"
 #include "Kernel/Simulation/SummaryFile.h"
-#include "Kernel/Step/SummaryRows.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Friction/MindlinSecant.h"
+#include "Kernel/Step/StepTimes.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 namespace {
@@ -128,7 +128,7 @@ void addLiquid(SummaryRows& rows, const Scene& scene) {
         rows.addNumber("liquid: lost by sprays", ledger.lost, "m^3");
         rows.add("droplets in flight", scene.sprayHandler.droplets().size());
     }
-    if (scene.getEvaporation().dropsDry()) {
+    if (scene.getEvaporation().dropletsEvaporate()) {
         rows.addNumber("liquid: evaporated", ledger.evaporated, "m^3");
         rows.add("bridges that have dried", scene.contacts().movingLiquid().driedBridges());
     }

@@ -14,7 +14,7 @@ namespace pendular {
 Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
     // A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
     particleHandler.callBeforeRemoval([this](std::uint32_t place) {
-        inside->bookEnded(inside->contacts.endContactsOf(particleHandler.store(), place));
+        inside->bookEnergyOfEnded(inside->contacts.endContactsOf(particleHandler.store(), place));
     });
     particleHandler.callToFinishStep([this] {
         const StepTimes::Part before = enter(StepTimes::Part::Sum);
@@ -22,7 +22,7 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
         enter(before);
     });
     wallHandler.callBeforeRemoval([this](int wall) {
-        inside->bookEnded(inside->contacts.endContactsAtWall(particleHandler.store(), wall));
+        inside->bookEnergyOfEnded(inside->contacts.endContactsAtWall(particleHandler.store(), wall));
     });
 }
 
@@ -166,7 +166,7 @@ void Scene::addOwnPart(std::unique_ptr<StepPart> part) {
 Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                        const SphericalParticle& like, const InsertOptions& options) {
     requireImagesAtRest("grains");
-    return inside->tellOf(
+    return inside->reportShortfall(
         insertGrains(InletPart::placesOf(inside->context), sizes, region, amount, like, options));
 }
 
@@ -177,7 +177,7 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
     const Inserted made =
         insertClumps(InletPart::placesOf(inside->context), bodyHandler, sizes, region, amount, like, options);
     if (hasBegun()) BodyPart::warnOfGaps(inside->context, before);
-    return inside->tellOf(made);
+    return inside->reportShortfall(made);
 }
 
 void Scene::requireImagesAtRest(std::string_view what) const {

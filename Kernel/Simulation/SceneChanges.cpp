@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Motion/TimeIntegration.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -15,7 +15,7 @@
 
 namespace pendular {
 
-void Scene::Inside::bookEnded(double stored) {
+void Scene::Inside::bookEnergyOfEnded(double stored) {
     if (context.ledger) context.ledger->driver -= stored;
 }
 
@@ -63,7 +63,7 @@ void Scene::Inside::takeOverChanges() {
         ParticleStore& grains = particles.store();
         if (periodicWalls.haveEnds()) wrapPlaced(grains, changes, hadEnds);
         if (newLaws || newBodies) {
-            bookEnded(contacts.renew(grains));
+            bookEnergyOfEnded(contacts.renew(grains));
             renewAccelerations(changes);
         } else if (!contacts.takeIn(grains, changes.added)) {
             contacts.listNow(grains);
@@ -137,7 +137,7 @@ void Scene::Inside::refuseOverlapsOf(const GrainChanges& changes, int firstNewWa
 }
 
 /// Why less than the amount was inserted, and what helps.
-static std::array<std::string, 2> whyNotAll(const Inserted& made) {
+static std::array<std::string, 2> reasonOfShortfall(const Inserted& made) {
     if (made.wanted == 0)
         return {
             fmt::format("insert(): no grain came, because the first random one is heavier than the amount "
@@ -151,9 +151,9 @@ static std::array<std::string, 2> whyNotAll(const Inserted& made) {
             "take a smaller amount, a larger region, or more tries"};
 }
 
-Inserted Scene::Inside::tellOf(const Inserted& made) {
+Inserted Scene::Inside::reportShortfall(const Inserted& made) {
     if (made.number == made.wanted && made.wanted > 0) return made;
-    const auto [what, advice] = whyNotAll(made);
+    const auto [what, advice] = reasonOfShortfall(made);
     if (!scene.hasBegun()) throw InputError(fmt::format("{}; {}.", what, advice));
     if (!std::exchange(noRoomWasTold, true)) scene.logger(LogLevel::Warn, "{}.", what);
     return made;

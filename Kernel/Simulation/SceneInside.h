@@ -62,8 +62,8 @@ public:
     void takeOverChanges();
     void mixChangedLaws();
     /// What was stored (J) in contacts that the driver has ended.
-    void bookEnded(double stored);
-    [[nodiscard]] Inserted tellOf(const Inserted& made);
+    void bookEnergyOfEnded(double stored);
+    [[nodiscard]] Inserted reportShortfall(const Inserted& made);
 
     // SceneRestart.cpp
 
@@ -115,7 +115,7 @@ private:
     [[nodiscard]] ContactLaws& laws() const { return *context.laws; }
     [[nodiscard]] Features featuresOfScene() const;
     void refuseUnlessBridgesJoin() const;
-    void warnOfFedSprings() const;
+    void warnOfEnergyGainOfSprings() const;
     void warnOfSeams() const;
 
     [[nodiscard]] double stepLength() const { return scene.getTimeStep(); }

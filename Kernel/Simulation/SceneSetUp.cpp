@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/TimeIntegration.h"
-#include "Kernel/Base/Parallel.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -166,11 +166,11 @@ void Scene::Inside::warn() const {
         logger(LogLevel::Warn, "{}.", broken.text());
     if (const std::string remark = remarkOnFarGrains(scene.particleHandler.store()); !remark.empty())
         logger(LogLevel::Warn, "{}.", remark);
-    warnOfFedSprings();
+    warnOfEnergyGainOfSprings();
     warnOfSeams();
 }
 
-void Scene::Inside::warnOfFedSprings() const {
+void Scene::Inside::warnOfEnergyGainOfSprings() const {
     const double fewest =
         fewestStepsToDouble(laws(), checkedSizes, scene.wallHandler, contactScheme(context), stepLength());
     if (fewest > 1e7) return;

@@ -120,8 +120,9 @@ void Scene::Inside::bringBack(StepContext& step) {
 void Scene::Inside::bringBackAtWalls(StepContext& step) {
     ParticleStore& grains = step.grains();
     if (!periodicWalls.isBringingBackDue(grains, step.shifts.grains)) return;
-    bookEnded(contacts.goThroughFaces(grains, periodicWalls.outside(grains), periodicWalls.endsOfWalls(),
-                                      step.time + step.length, [&] { wrapAll(grains); }));
+    bookEnergyOfEnded(contacts.goThroughFaces(grains, periodicWalls.outside(grains),
+                                              periodicWalls.endsOfWalls(), step.time + step.length,
+                                              [&] { wrapAll(grains); }));
     bookWentRound(step);
 }
 

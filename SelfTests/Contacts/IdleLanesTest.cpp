@@ -21,31 +21,31 @@ ContactStore storeWith(std::size_t blocks, int touchingLanes) {
 TEST(IdleLanes, areWorthAListWhenTheyHaveCostAsMuch) {
     const ContactStore full = storeWith(100, 8), thinned = storeWith(100, 5);
     IdleLanes idle;
-    EXPECT_FALSE(idle.areWorthAList(full, 1e6));
-    for (int count = 1; count <= 4; ++count) EXPECT_FALSE(idle.areWorthAList(thinned, 1e6)) << count;
-    EXPECT_TRUE(idle.areWorthAList(thinned, 1e6));
+    EXPECT_FALSE(idle.newListPays(full, 1e6));
+    for (int count = 1; count <= 4; ++count) EXPECT_FALSE(idle.newListPays(thinned, 1e6)) << count;
+    EXPECT_TRUE(idle.newListPays(thinned, 1e6));
     idle.listed();
-    EXPECT_FALSE(idle.areWorthAList(thinned, 1e6));
+    EXPECT_FALSE(idle.newListPays(thinned, 1e6));
 }
 
 // What a list has left idle, no other list fills.
 TEST(IdleLanes, countFromThoseThatTheListLeft) {
     const ContactStore half = storeWith(1000, 4);
     IdleLanes idle;
-    for (int count = 0; count < 100; ++count) EXPECT_FALSE(idle.areWorthAList(half, 1e3)) << count;
+    for (int count = 0; count < 100; ++count) EXPECT_FALSE(idle.newListPays(half, 1e3)) << count;
 }
 
 // A block in which nothing acts is not computed to its end; bridges act.
 TEST(IdleLanes, areThoseOfBlocksThatAct) {
     const ContactStore full = storeWith(100, 8), none = storeWith(100, 0);
     IdleLanes parted;
-    EXPECT_FALSE(parted.areWorthAList(full, 1e3));
-    EXPECT_FALSE(parted.areWorthAList(none, 1e3));
+    EXPECT_FALSE(parted.newListPays(full, 1e3));
+    EXPECT_FALSE(parted.newListPays(none, 1e3));
     ContactStore bridged = full;
     for (BlockState& state : bridged.states) state = {.listed = 0xff, .touching = 1, .bridged = 0xfe};
     IdleLanes wet;
-    EXPECT_FALSE(wet.areWorthAList(full, 1e3));
-    EXPECT_FALSE(wet.areWorthAList(bridged, 1e3));
+    EXPECT_FALSE(wet.newListPays(full, 1e3));
+    EXPECT_FALSE(wet.newListPays(bridged, 1e3));
 }
 
 }  // namespace

@@ -285,7 +285,7 @@ TEST(Drying, ratesOfTheThreeLaws) {
     Evaporation diffusion;
     diffusion.setDiffusion(2.5e-5, 8.6e-3, 998);
     EXPECT_FALSE(diffusion.acts());
-    EXPECT_TRUE(diffusion.dropsDry());
+    EXPECT_TRUE(diffusion.dropletsEvaporate());
     const double life = 50e-6 * 50e-6 * 998 / (2 * 2.5e-5 * 8.6e-3);
     EXPECT_NEAR(life, 5.80, 0.005);
     EXPECT_NEAR(diffusion.radiusLeftAfter(50e-6, 0.75 * life), 25e-6, 1e-15);
