@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
-#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Base/Logger.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Shapes/MeshSolid.h"
 #include "Kernel/Shapes/SphereGroups.h"

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Output/BoxFields.h"
 #include "Kernel/Output/ParaViewSeries.h"
 #include "Kernel/Simulation/Program.h"

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "Drivers/Shared/RunOptions.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Insertion/ClumpInsertion.h"
 #include "Kernel/Math/CountedRandom.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Particles/GrainSums.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"
 
 namespace pendular {

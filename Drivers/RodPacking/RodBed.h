@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "Drivers/Shared/RunOptions.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Particles/GrainSums.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Sizes/SizeLaws.h"
 
 namespace pendular {

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/PeriodicBox.h"

@@ -8,9 +8,9 @@
 
 #include "Drivers/Shared/GrainRows.h"
 #include "Drivers/Shared/PublishedMaterials.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/GrainSums.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"

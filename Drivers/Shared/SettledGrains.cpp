@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "Drivers/Shared/GrainLattice.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/Particles/GrainFile.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Species/Adhesion/NoAdhesion.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/State/Random.h"
 
 namespace pendular::scenes {
 

@@ -7,9 +7,9 @@
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/ShearedSuspension/SuspensionLaws.h"
 #include "Kernel/CoarseGraining/Clusters.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Output/RunTable.h"
+#include "Kernel/State/Random.h"
 
 namespace {
 

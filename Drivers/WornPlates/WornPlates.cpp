@@ -3,9 +3,9 @@
 #include <array>
 
 #include "Drivers/Shared/CommandLine.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Output/RunTable.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Walls/TriangleWall.h"
 
 namespace {

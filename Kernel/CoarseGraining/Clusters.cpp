@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/ObservedContact.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"

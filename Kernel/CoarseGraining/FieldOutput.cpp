@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/CoarseGraining/FieldFiles.h"
 #include "Kernel/CoarseGraining/SceneState.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Files/FileName.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/RunTable.h"
 #include "Kernel/Particles/PeriodicBox.h"

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Math/GaussLegendre.h"
 #include "Kernel/Math/Pack.h"
-#include "Kernel/Base/Parallel.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

@@ -1,8 +1,8 @@
 #include "Kernel/CoarseGraining/MeanStress.h"
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Contacts/ObservedContact.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/Particles/ParticleHandler.h"

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/GrainMasses.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Output/PolyData.h"
-#include "Kernel/Base/Parallel.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Simulation/Scene.h"

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Particles/ParticleStore.h"
 
 namespace pendular {
 

@@ -1,10 +1,10 @@
 #include "Kernel/Contacts/ContactLiquid.h"
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Math/CountedRandom.h"
-#include "Kernel/Base/RunError.h"
-#include "Kernel/Walls/WallHandler.h"
 #include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 

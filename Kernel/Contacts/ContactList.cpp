@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "Kernel/Contacts/ContactRecall.h"
-#include "Kernel/Contacts/RememberedContacts.h"
 #include "Kernel/Base/LargePages.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/ContactRecall.h"
+#include "Kernel/Contacts/RememberedContacts.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/Rearrangement.h"
 #include "Kernel/Contacts/WakeBlock.h"
-#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "Kernel/Math/Pack.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Math/Pack.h"
 #include "Kernel/Particles/ParticleStore.h"
 
 namespace pendular {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Base/LargePages.h"
+#include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Math/Pack.h"
 
 namespace pendular {

@@ -10,8 +10,8 @@
 namespace pendular {
 
 ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& laws,
-                                      const ParticleStore& grains, const PeriodicBox& periodic,
-                                      const Bucket& bucket, const Wall* wall, std::uint32_t contact) {
+                               const ParticleStore& grains, const PeriodicBox& periodic, const Bucket& bucket,
+                               const Wall* wall, std::uint32_t contact) {
     const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
     const BlockState& state = contacts.states[contact / Pack::lanes];
     const std::size_t lane = contact % Pack::lanes;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/ContactStore.h"
 
 namespace pendular {
 

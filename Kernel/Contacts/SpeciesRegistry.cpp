@@ -7,9 +7,9 @@
 #include <mutex>
 #include <string>
 
-#include "Kernel/Contacts/PopularSpecies.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Logger.h"
+#include "Kernel/Contacts/PopularSpecies.h"
 #include "Kernel/Species/LawNames.h"
 
 namespace pendular {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 

@@ -1,8 +1,8 @@
 #include "Kernel/Contacts/WallPatches.h"
 
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactPatch.h"
 #include "Kernel/Contacts/WallContacts.h"
-#include "Kernel/Base/Parallel.h"
 #include "Kernel/Walls/PartCover.h"
 
 namespace pendular {

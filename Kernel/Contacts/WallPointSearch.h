@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/WallContacts.h"
-#include "Kernel/Base/Parallel.h"
 #include "Kernel/Walls/Wall.h"
 
 namespace pendular {

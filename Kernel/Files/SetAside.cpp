@@ -5,8 +5,8 @@
 #include <system_error>
 #include <utility>
 
-#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/WrittenBeside.h"
 
 namespace pendular {
 

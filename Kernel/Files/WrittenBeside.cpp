@@ -7,8 +7,8 @@
 #include <cstring>
 #include <utility>
 
-#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/OwnFile.h"
 
 namespace pendular {
 

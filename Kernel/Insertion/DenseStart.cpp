@@ -6,10 +6,10 @@
 #include <numeric>
 #include <utility>
 
+#include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/Pack.h"
-#include "Kernel/Base/Parallel.h"
 
 namespace pendular {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Math/ExactSum.h"
 
 namespace pendular {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "Kernel/Contacts/ParticleSum.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/ParticleSum.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Contacts/ParticleSum.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/ParticleSum.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {

@@ -8,9 +8,9 @@
 #include <cstring>
 #include <filesystem>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
-#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

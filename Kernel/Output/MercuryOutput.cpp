@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Files/FileName.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"

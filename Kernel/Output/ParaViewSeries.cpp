@@ -5,9 +5,9 @@
 #include <sstream>
 #include <utility>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Files/WrittenBeside.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Output/FrameIndex.h"
 
 namespace pendular {

@@ -6,11 +6,11 @@
 #include <array>
 #include <cstdint>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Files/FileName.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Math/Scalar.h"
 #include "Kernel/Output/BoxFields.h"
 #include "Kernel/Output/ShapeFields.h"

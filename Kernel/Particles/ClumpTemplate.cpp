@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Files/TextFile.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/TextFile.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 
 namespace pendular {

@@ -8,8 +8,8 @@
 
 namespace pendular {
 
-/// How the length of a periodic scene along an axis changes: the rate is that of its logarithm, and the stress
-/// (compression positive) that along the axis.
+/// How the length of a periodic scene along an axis changes: the rate is that of its logarithm, and the
+/// stress (compression positive) that along the axis.
 struct AxisStrain : ControlledRate {
     double oneWay = 0;  // strain by the servo since the sign of its rate changed
 };

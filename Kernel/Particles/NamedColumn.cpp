@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "Kernel/Files/FileName.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileName.h"
 
 namespace pendular {
 

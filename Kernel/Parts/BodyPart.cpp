@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Logger.h"
+#include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Particles/BodyHandler.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Shapes/SphereGroups.h"
 
 namespace pendular {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandler.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Walls/PlaneDrive.h"
 
 namespace pendular {

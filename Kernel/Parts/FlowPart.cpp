@@ -7,13 +7,13 @@
 #include <cmath>
 #include <utility>
 
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/EnergyAccount.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Parts/StressServo.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/Step/StepTimes.h"
 

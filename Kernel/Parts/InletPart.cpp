@@ -1,7 +1,7 @@
 #include "Kernel/Parts/InletPart.h"
 
-#include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Base/Logger.h"
+#include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Motion/StabilityLimit.h"
 
 namespace pendular {

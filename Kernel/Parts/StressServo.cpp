@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Particles/MovingBodies.h"
-#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 namespace {

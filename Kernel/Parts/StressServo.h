@@ -25,10 +25,10 @@ struct DiagonalStress {
 [[nodiscard]] DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore& grains,
                                             const HomogeneousStrain& strain, const LeesEdwards& shear = {});
 
-/// Sets the rates of the controlled axes, and of a controlled shear, by their servos (Kernel/Particles/Servo.h).
-/// The law is that of a wall that is moved by its force, with the stiffness of the contacts for a gain that
-/// nobody needs to guess; stable for steps below 2 x time, and without overshoot for steps up to time. Throws
-/// RunError where the grains cannot bear the stress.
+/// Sets the rates of the controlled axes, and of a controlled shear, by their servos
+/// (Kernel/Particles/Servo.h). The law is that of a wall that is moved by its force, with the stiffness of
+/// the contacts for a gain that nobody needs to guess; stable for steps below 2 x time, and without overshoot
+/// for steps up to time. Throws RunError where the grains cannot bear the stress.
 /// @param interval s, since this was called last; @param now s
 void controlStress(HomogeneousStrain& strain, LeesEdwards& shear, const DiagonalStress& stress,
                    double interval, double now);

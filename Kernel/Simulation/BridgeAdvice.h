@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/State/Random.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/BridgeChoice.h"
+#include "Kernel/State/Random.h"
 
 // For a driver that wants to know at set-up whether its bridge law is the right one. Not part of a
 // Simulation: it is compiled and run only where it is asked for.

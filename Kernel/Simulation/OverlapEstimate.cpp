@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Particles/MovingBodies.h"

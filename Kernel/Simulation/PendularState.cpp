@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {

@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Base/InputError.h"
-#include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Motion/GrainSizes.h"
+#include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Walls/WornWall.h"
 
 namespace pendular {

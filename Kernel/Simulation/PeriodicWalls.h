@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/WallHandler.h"

@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "Kernel/Files/FileName.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileName.h"
 #include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/State/RestartFile.h"

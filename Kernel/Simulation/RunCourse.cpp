@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "Kernel/Files/FileLock.h"
-#include "Kernel/Files/SetAside.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Files/FileLock.h"
+#include "Kernel/Files/SetAside.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"

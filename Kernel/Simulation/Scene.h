@@ -22,10 +22,10 @@
 #include "Kernel/Insertion/ClumpInsertion.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Motion/Integrator.h"
-#include "Kernel/Simulation/OutputForm.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Simulation/DomainBox.h"
+#include "Kernel/Simulation/OutputForm.h"
 #include "Kernel/Simulation/Run.h"
 #include "Kernel/Simulation/StabilityAdvice.h"
 #include "Kernel/Step/StepPart.h"
@@ -106,10 +106,10 @@ public:
     void setStrainRate(int axis, double rate);
     /// The same by a servo, so that the mean stress along the axis (Pa, compression positive; 0 is a target
     /// too) becomes the target: the rate is the difference over the stiffness of the contacts and the time
-    /// (s), and what it takes to follow grains that flow or creep (Kernel/Particles/Servo.h), at most the largest
-    /// rate (1/s), 0.1 / time if it is not given. The time must be more than half a step; take at least twice
-    /// the time in which sound passes the scene. The stress is looked at 100 times in it, or at each step.
-    /// A run in which the servo has strained the scene by a factor of e^3 in one direction ends.
+    /// (s), and what it takes to follow grains that flow or creep (Kernel/Particles/Servo.h), at most the
+    /// largest rate (1/s), 0.1 / time if it is not given. The time must be more than half a step; take at
+    /// least twice the time in which sound passes the scene. The stress is looked at 100 times in it, or at
+    /// each step. A run in which the servo has strained the scene by a factor of e^3 in one direction ends.
     void setTargetStress(int axis, double stress, double time, std::optional<double> largestRate = {});
     /// In a run, of a scene that was set up with setLeesEdwards(): it holds from the next step on, and all
     /// grains get the change of the flow.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Particles/Resolution.h"
 
 namespace pendular {

@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 
 namespace pendular {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "Kernel/Files/TextFile.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/TextFile.h"
 
 namespace pendular {
 

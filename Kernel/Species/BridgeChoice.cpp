@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "Kernel/State/Random.h"
 #include "Kernel/Species/BridgeLaws.h"
+#include "Kernel/State/Random.h"
 
 namespace pendular {
 

@@ -11,9 +11,9 @@
 #include <cstring>
 #include <string_view>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/WrittenBeside.h"
-#include "Kernel/Base/InputError.h"
 
 namespace pendular {
 

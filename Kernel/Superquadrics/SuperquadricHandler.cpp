@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/InfiniteWall.h"
 #include "Kernel/Walls/WallHandler.h"

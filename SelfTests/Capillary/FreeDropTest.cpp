@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Capillary/CapillaryBridge.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Capillary/CapillaryBridge.h"
 #include "Kernel/Math/Scalar.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 

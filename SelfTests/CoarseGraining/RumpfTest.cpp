@@ -9,9 +9,9 @@
 
 #include "Kernel/CoarseGraining/FieldSums.h"
 #include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/State/Random.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
 namespace pendular {

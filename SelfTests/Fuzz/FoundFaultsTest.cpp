@@ -1,8 +1,8 @@
 // Faults of the readers that were found by fuzzing, or on the way to it.
 #include <gtest/gtest.h>
 
-#include "Kernel/State/Random.h"
 #include "Kernel/Output/PolyData.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/State/RestartFile.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Fuzz/Target.h"

@@ -2,8 +2,8 @@
 // sentence. A short form, for every machine, of what libFuzzer does (preset fuzz; README of this folder).
 #include <gtest/gtest.h>
 
-#include "Kernel/State/Random.h"
 #include "Kernel/State/Hdf5File.h"
+#include "Kernel/State/Random.h"
 #include "SelfTests/Fuzz/Target.h"
 
 namespace pendular::fuzz {

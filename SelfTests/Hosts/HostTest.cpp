@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "Kernel/Base/Host.h"
-#include "Kernel/Simulation/Progress.h"
 #include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/Progress.h"
 #include "Kernel/Simulation/RunControl.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/State/Hdf5File.h"

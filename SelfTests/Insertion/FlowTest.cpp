@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Support/Refusal.h"

@@ -3,9 +3,9 @@
 
 #include <set>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"

@@ -1,10 +1,10 @@
 // Membranes and grains in one scene.
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/StateHash.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "Kernel/State/Random.h"
 #include "Kernel/Motion/ContactBound.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
@@ -11,6 +10,7 @@
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/State/Random.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"

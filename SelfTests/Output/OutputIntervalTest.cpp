@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "Kernel/State/Random.h"
 #include "Kernel/Simulation/OutputForm.h"
 #include "Kernel/Simulation/OutputInterval.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/State/Random.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"

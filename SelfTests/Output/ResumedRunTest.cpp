@@ -8,12 +8,12 @@
 #include <set>
 #include <thread>
 
-#include "Kernel/State/Random.h"
 #include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/FieldFile.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/MercuryOutput.h"
 #include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/State/Random.h"
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/Refusal.h"
 

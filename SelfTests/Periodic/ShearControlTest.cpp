@@ -1,11 +1,11 @@
 // Shear whose rate changes, shear together with strain, and shear under stresses.
 #include <gtest/gtest.h>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/CoarseGraining/MeanStress.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Parts/StressServo.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"

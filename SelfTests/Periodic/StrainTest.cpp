@@ -3,11 +3,11 @@
 
 #include <array>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/CoarseGraining/MeanStress.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/HomogeneousStrain.h"
 #include "Kernel/Parts/StressServo.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Friction/Mindlin.h"

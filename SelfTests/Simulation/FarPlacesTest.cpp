@@ -5,9 +5,9 @@
 #include <fstream>
 #include <numbers>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Particles/GrainFile.h"
 #include "Kernel/Particles/Resolution.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

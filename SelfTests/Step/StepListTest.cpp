@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/Base/InputError.h"
-#include "Kernel/MercuryNames.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/MercuryNames.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/State/StateArchive.h"

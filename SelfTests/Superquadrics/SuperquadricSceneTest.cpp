@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/CoarseGraining/FieldOutput.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Math/CountedRandom.h"
-#include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/SlidingFriction.h"

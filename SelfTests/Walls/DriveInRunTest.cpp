@@ -1,8 +1,8 @@
 // Planes that are moved by forces, and what a run changes of them: loads, grains that go, restarts.
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

@@ -6,7 +6,6 @@
 
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Adhesion/LiquidFilmsBagheri.h"
 #include "Kernel/Species/Adhesion/LiquidFilmsWillett.h"
@@ -14,6 +13,7 @@
 #include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/Friction/MindlinSecant.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/State/Random.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/GrainCloud.h"
 #include "SelfTests/Support/Refusal.h"

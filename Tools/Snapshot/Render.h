@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/WrittenBeside.h"
 #include "Tools/Snapshot/PovScene.h"
 
 namespace pendular::snapshot {

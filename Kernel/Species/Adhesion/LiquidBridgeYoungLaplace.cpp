@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Capillary/BridgeTableMaking.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
-#include "Kernel/Base/RunError.h"
 
 namespace pendular {
 

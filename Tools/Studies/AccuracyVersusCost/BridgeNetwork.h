@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "Kernel/State/Random.h"
 #include "Kernel/Math/Vector.h"
+#include "Kernel/State/Random.h"
 
 // Equal grains whose near neighbours are all joined by bridges of the same resistance.
 

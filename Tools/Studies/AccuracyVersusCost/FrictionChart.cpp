@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/CsvFile.h"
 #include "Kernel/Species/Adhesion/Shared/BridgeError.h"
 #include "Tools/Studies/AccuracyVersusCost/FrictionErrors.h"
 #include "Tools/Studies/AccuracyVersusCost/FrictionTiming.h"

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "Drivers/Shared/ParsedCommandLine.h"
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Capillary/CapillaryBridge.h"
 #include "Kernel/Capillary/FreeDrop.h"
 #include "Kernel/Files/CsvFile.h"
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Adhesion/Shared/ToroidalBridge.h"
 #include "Kernel/Species/Adhesion/Shared/UnequalToroid.h"

@@ -14,9 +14,9 @@
 #include "Drivers/Shared/SettledGrains.h"
 #include "Kernel/CoarseGraining/FieldSums.h"
 #include "Kernel/CoarseGraining/SceneState.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Simulation/Program.h"
+#include "Kernel/State/Random.h"
 
 using namespace pendular;
 

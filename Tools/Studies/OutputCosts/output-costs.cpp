@@ -8,9 +8,9 @@
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Simulation/LastState.h"
 #include "Kernel/Output/MercuryOutput.h"
 #include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Simulation/LastState.h"
 #include "Kernel/Simulation/Program.h"
 
 using namespace pendular;

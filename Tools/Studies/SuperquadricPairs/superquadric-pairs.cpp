@@ -10,10 +10,10 @@
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Base/InputError.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/Shapes/SuperquadricPair.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Field.h"
+#include "Kernel/State/Random.h"
 
 using namespace pendular;
 
