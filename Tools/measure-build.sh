@@ -1,28 +1,31 @@
 #!/usr/bin/env bash
 # Measures what it takes to build Pendular: in a fresh folder, without a compiler cache, the targets one after the
 # other (each row is what a target takes beyond those before it), and last, one driver again after its .cpp was
-# touched: the time from an edit to the program. Of several runs, each in a folder of its own, each column has its median.
+# touched: the time from an edit to the program. With --all also what an edit of one header of the kernel makes anew,
+# tests included. Of several runs, each in a folder of its own, each column has its median.
 #   Tools/measure-build.sh [--runs 3] [--threads 1] [--targets "NAME..."] [--edit WetTower] [--build FOLDER] [--all] > build.csv
 # --targets NAMES   the default is PendularKernel PendularDrivers WetTower TwoParticleCollision accuracy-versus-cost
 #                   bridge-scenes
 # --edit DRIVER     the driver that is touched
 # --threads N       files that are compiled at the same time
 # --build FOLDER    where the build folders are made, and removed again; a temporary one if not given
-# --all             also builds everything, with the tests and the studies, before the edit
+# --all             also builds everything, with the tests and the studies, before the edits
+# --header FILE     the header that is touched then; Kernel/Motion/PlaneMotion.h if not given
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-runs=3 threads=1 edit=WetTower build="${TMPDIR:-/tmp}" all=""
+runs=3 threads=1 edit=WetTower header=Kernel/Motion/PlaneMotion.h build="${TMPDIR:-/tmp}" all=""
 targets="PendularKernel PendularDrivers WetTower TwoParticleCollision accuracy-versus-cost bridge-scenes"
 command_line="Tools/measure-build.sh $*"
 source "$tools/read-options.sh"
 arguments=()
 for argument; do if [[ $argument == --all ]]; then all=all; else arguments+=("$argument"); fi; done
-read_options runs threads targets edit build -- "${arguments[@]}"
+read_options runs threads targets edit header build -- "${arguments[@]}"
 require_number runs "$runs"
 require_number threads "$threads"
 source_folder=$(dirname "$tools")
 edited=$source_folder/Drivers/$edit/$edit.cpp
 require_file edit "$edited"
+require_file header "$source_folder/$header"
 [[ -d $build && -w $build ]] || refuse "--build is '$build'; there is no such folder that can be written"
 [[ -x /usr/bin/time ]] || refuse "/usr/bin/time is not installed (Debian package time)"
 work=$(mktemp -d "$build/pendular-build-XXXXXX")
@@ -55,6 +58,10 @@ for ((run = 1; run <= runs; ++run)); do
     sleep 1  # the time of a file has to be later than that of what was made from it
     touch "$edited"
     build_target "edit $edit" "$folder" "$edit"
+    if [[ -n $all ]]; then
+        touch "$source_folder/$header"
+        build_target "edit $(basename "$header")" "$folder" all
+    fi
     rm -rf "$folder"
 done
 
@@ -62,6 +69,8 @@ commit=$(git -C "$source_folder" rev-parse --short HEAD 2>/dev/null || echo unkn
 git -C "$source_folder" diff --quiet HEAD 2>/dev/null || commit=$commit+changes
 "$tools/describe-machine.sh" "$command_line"
 echo "target,wall_s,processor_s,largest_process_MB,runs,threads,commit"
-for target in $targets $all "edit $edit"; do
+rows=($targets $all "edit $edit")
+[[ -z $all ]] || rows+=("edit $(basename "$header")")
+for target in "${rows[@]}"; do
     echo "$target,$(median "$target" 1),$(median "$target" 2),$(median "$target" 3),$runs,$threads,$commit"
 done
