@@ -19,7 +19,7 @@ PrincipalAxes principalAxes(const Eigen::Matrix3d& inertia) {
     if (!inertia.allFinite() || (inertia - inertia.transpose()).cwiseAbs().maxCoeff() > roundOff * size)
         throw InputError("The inertia of a rigid body must be a finite symmetric matrix (kg m^2).");
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
-    const Vec3D moments = solver.eigenvalues();  // they grow
+    const Vec3D& moments = solver.eigenvalues();  // they grow
     if (!(moments[0] > 0) || moments[0] + moments[1] < (1 - roundOff) * moments[2])
         throw InputError(
             fmt::format("The principal moments of inertia of a rigid body are {:.6g}, {:.6g}, {:.6g} kg m^2; "
