@@ -237,7 +237,7 @@ RunStopped Run::stop() {
 }
 
 /// Writes the state as it is, and adds to a sentence where it is.
-std::string Run::withLastState(std::string sentence) {
+std::string Run::withLastState(const std::string& sentence) {
     const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
     try {
         writeLastState(grains, contacts, sentence);

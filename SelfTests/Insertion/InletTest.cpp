@@ -394,7 +394,7 @@ TEST(Outlet, isRefusedWhereTheSceneCannotHaveIt) {
             for (int axis = 0; axis < 2; ++axis) s.setPeriodic(axis, 0, 9 * d);
             s.setLeesEdwards(0, 1, 10);
         },
-        "there can be no outlets");
+        "shear (setLeesEdwards()) and outlets cannot be combined");
     // In the run: before a step, so that positions belong to the time.
     FilledScene scene;
     Outlet outlet;

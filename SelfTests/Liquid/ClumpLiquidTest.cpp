@@ -199,8 +199,8 @@ TEST(ClumpLiquid, weightOfFilmsIsRefused) {
     WetClump scene(bent());
     scene.setLiquidDensity(1000);
     const std::string text = support::refusal([&] { scene.initialise(); });
-    EXPECT_TRUE(
-        support::contains(text, "the mass of films (setLiquidDensity()) is not known of rigid bodies"));
+    EXPECT_TRUE(support::contains(
+        text, "rigid bodies and the mass of films (setLiquidDensity()) cannot be combined"));
     EXPECT_TRUE(support::isOneSentence(text));
 }
 

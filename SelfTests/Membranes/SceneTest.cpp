@@ -278,7 +278,7 @@ TEST(Membrane, refusesWhatItCannotDo) {
     sheared.add(wavySheet());
     for (int axis = 0; axis < 3; ++axis) sheared.setPeriodic(axis, -0.05, 0.05);
     sheared.setLeesEdwards(0, 2, 1);
-    EXPECT_TRUE(support::contains(refusalOf([&] { sheared.initialise(); }), "there can be no walls"));
+    EXPECT_TRUE(support::contains(refusalOf([&] { sheared.initialise(); }), "and walls cannot be combined"));
 }
 
 TEST(Membrane, isRefusedInAPeriodicScene) {
@@ -287,7 +287,7 @@ TEST(Membrane, isRefusedInAPeriodicScene) {
     scene.setPeriodic(0, -0.05, 0.05);
     const std::string refused = support::refusal([&] { scene.initialise(); });
     EXPECT_TRUE(support::isOneSentence(refused));
-    EXPECT_TRUE(support::contains(refused, "wall 0, a membrane: it has no images"));
+    EXPECT_TRUE(support::contains(refused, "membranes (wall 0) and periodic faces"));
 }
 
 TEST(Membrane, isDrawnAsItIs) {

@@ -332,7 +332,7 @@ TEST(AdaptiveStep, isRefusedWhereItIsNotKnown) {
                                       for (const int axis : {0, 1, 2}) scene.setPeriodic(axis, -0.1, 0.1);
                                       scene.setLeesEdwards(0, 1, 1);
                                   }),
-                                  "does not know shear"));
+                                  "and shear (setLeesEdwards()) cannot be combined"));
     // Their kicks are weighed for steps that are known ahead.
     Box<Viscous> viscous;
     for (const std::size_t k : {0u, 1u}) {
