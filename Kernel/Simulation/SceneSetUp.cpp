@@ -132,7 +132,7 @@ void Scene::Inside::check() {
     parts.check(context);
     const double smallest = sizes.smallest();
     periodicWalls.check(scene.wallHandler, scene.wallHandler.hasChanges(), box, laws(), sizes,
-                        bodies.widest(), std::min(context.smallestRadius, smallest));
+                        sizes.hasBodies ? bodies.widest() : 0, std::min(context.smallestRadius, smallest));
     checkedStep = stepLength();
     scene.wallHandler.changesAreKnown();
     checkedSizes = std::move(sizes);

@@ -49,7 +49,7 @@ void StepList::check(const StepContext& context) const {
 }
 
 void StepList::begin(StepContext& context, bool isRestarted) const {
-    for (StepPart* const part : awake) part->begin(context, isRestarted);
+    for (StepPart* const part : parts) part->begin(context, isRestarted);  // also of those that sleep
 }
 
 void StepList::takeOver(StepContext& context, const SceneChanges& changes) const {
