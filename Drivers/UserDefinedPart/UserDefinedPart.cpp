@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
         SphericalParticle grain;
         grain.setSpecies(glass), grain.setRadius(1e-4);
         auto falling = scene.particleHandler.copyAndAddObject(grain);
-        scene.setGravity({0, 0, -9.81}), scene.setTimeStep(5e-6), scene.setTimeMax(1);
+        scene.setGravity({0, 0, -9.81}), scene.setTimeStep(5e-6), scene.setTimeMax(3);
         scene.solve();
         if (!options.quiet) fmt::print("velocity: {:.4f} m/s\n", fmt::join(falling.getVelocity(), " "));
     });

@@ -506,7 +506,7 @@ TEST(Drying, otherValuesAreRefusedAtARestart) {
          {std::pair(support::refusal([&] { run(2e-6, 0, 10, 0, true); }), "fastest"),
           std::pair(support::refusal([&] { run(1e-6, 1, 10, 0, true); }), "start"),
           std::pair(support::refusal([&] { run(1e-6, 0, 11, 0, true); }), "interval"),
-          std::pair(support::refusal([&] { run(1e-6, 0, 10, 1, true); }), "liquidDensity")}) {
+          std::pair(support::refusal([&] { run(1e-6, 0, 10, 1, true); }), "filmMass/density")}) {
         EXPECT_TRUE(support::isOneSentence(text));
         EXPECT_TRUE(support::contains(text, what));
     }
