@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/State/StateArchive.h"
@@ -57,7 +56,7 @@ void StepList::takeOver(StepContext& context, const SceneChanges& changes) const
 }
 
 void StepList::takeBack(StepContext& context) const {
-    for (StepPart* const part : awake | std::views::reverse) part->takeBack(context);
+    for (auto part = awake.rbegin(); part != awake.rend(); ++part) (*part)->takeBack(context);
 }
 
 void StepList::visitSettings(StateArchive& archive, StepContext& context) const {

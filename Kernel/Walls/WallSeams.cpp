@@ -1,5 +1,7 @@
 #include "Kernel/Walls/WallSeams.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
