@@ -81,7 +81,7 @@ std::uint32_t GrainGroups::of(const GrainState::Grain& grain) const {
 }
 
 FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups, FieldContent content)
-    : points(std::move(grid)),
+    : points(grid),
       weight(std::move(kernel)),
       kinds(std::move(groups)),
       stored(content == FieldContent::All ? count : countWithoutContacts) {

@@ -303,7 +303,7 @@ struct Box : FewSuperquadrics<Rough> {
     }
 };
 
-TEST(SuperquadricScene, givesTheSameBitsForAnyThreadsAndRestarts) {
+TEST(HeavySuperquadricScene, givesTheSameBitsForAnyThreadsAndRestarts) {
     const support::TestFolder folder;
     Box half(4);
     half.run(3000);

@@ -141,7 +141,7 @@ TEST(Piston, andAGrainCollideElastically) {
 /// the grains, sum m v^2 = <F (h - 2 r)> + 2 <E> with the energy E of the springs, because wall forces act at
 /// the centres, so that sum m <v^2> + M <V^2> = L (<h> - 2 r) + 2 <E>, but for M h V / T and its like at both
 /// ends.
-TEST(Piston, onAGasBearsItsPressure) {
+TEST(HeavyPiston, onAGasBearsItsPressure) {
     std::vector<GrainMotion> gas;
     for (int k = 0; k < 24; ++k)
         gas.push_back({.radius = radius,
@@ -227,7 +227,7 @@ TEST(Piston, theLedgerCloses) {
     }
 }
 
-TEST(Piston, hasTheSameBitsForAnyThreads) {
+TEST(HeavyPiston, hasTheSameBitsForAnyThreads) {
     const std::uint64_t one = PressedBox<Rough>().hashAfter(3000);
     for (const int threads : {2, 5}) {
         PressedBox<Rough> box;

@@ -69,7 +69,7 @@ std::uint64_t hashOfBox(bool otherPlanes, const Vec3D& surfaceVelocity, int thre
     return stateHash(scene.particleHandler.store());
 }
 
-TEST(PlaneAtRest, givesTheBitsOfAnyOtherWall) {
+TEST(HeavyPlaneAtRest, givesTheBitsOfAnyOtherWall) {
     for (const Vec3D& belt : {Vec3D(0, 0, 0), Vec3D(0.1, 0.05, 0)}) {
         const std::uint64_t expected = hashOfBox<Wet>(true, belt, 1);
         EXPECT_EQ(hashOfBox<Wet>(false, belt, 1), expected);

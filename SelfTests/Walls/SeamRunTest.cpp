@@ -221,7 +221,7 @@ TEST(SeamRun, theLedgerClosesAsOnAPlane) {
     ledgerOf(1e-7, false);
 }
 
-TEST(SeamRun, hasTheSameBitsForAnyThreadsAndThroughRestarts) {
+TEST(HeavySeamRun, hasTheSameBitsForAnyThreadsAndThroughRestarts) {
     const support::TestFolder folder;
     const auto file = folder.path() / "half.h5";
     const auto check = [&](const auto& species) {

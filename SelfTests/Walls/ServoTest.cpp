@@ -127,7 +127,7 @@ TEST(ServoWall, hasTheSameBitsForAnyThreadsAndThroughRestarts) {
 
 /// At rest under the servo the forces on all walls and the weight are in balance, and that on the lid is the
 /// target; the ledger closes as with any wall that moves.
-TEST(ServoWall, bringsABedToItsPressure) {
+TEST(HeavyServoWall, bringsABedToItsPressure) {
     ServedBox<Rough> box;
     box.keepEnergyLedger();
     for (std::size_t w = 0; w < 6; ++w) box.wallHandler.getObject(w).keepForces();

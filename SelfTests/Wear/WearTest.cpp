@@ -208,7 +208,7 @@ void expectSameWear(const PlateScene& one, const PlateScene& other) {
     EXPECT_EQ(stateHash(one.particleHandler.store()), stateHash(other.particleHandler.store()));
 }
 
-TEST(Wear, hasTheSameBitsForAnyThreadsAndThroughARestart) {
+TEST(HeavyWear, hasTheSameBitsForAnyThreadsAndThroughARestart) {
     const support::TestFolder folder;
     const auto whole = heap(1), threaded = heap(3);
     for (const auto* scene : {&whole, &threaded}) {

@@ -296,7 +296,7 @@ public:
     [[nodiscard]] std::uint64_t hash() const { return stateHash(particleHandler.store()); }
 };
 
-TEST(LiquidFilms, givesTheSameBitsForAnyThreadsAndLists) {
+TEST(HeavyLiquidFilms, givesTheSameBitsForAnyThreadsAndLists) {
     Cloud one(1), three(3), relisted(1);
     for (int k = 0; k < 10000; ++k) {
         one.step();
