@@ -5,44 +5,27 @@
 
 namespace pendular {
 
-namespace {
-
-/// Time counts for the ledger as long as this lives.
-class LedgerTime {
-public:
-    explicit LedgerTime(StepTimes& of) : times(of), before(of.enter(StepTimes::Part::Ledger)) {}
-    LedgerTime(const LedgerTime&) = delete;
-    LedgerTime& operator=(const LedgerTime&) = delete;
-    ~LedgerTime() { times.enter(before); }
-
-private:
-    StepTimes& times;
-    StepTimes::Part before;
-};
-
-}  // namespace
-
 Features AccountPart::features(const StepContext& /*scene*/) const {
     return kept ? Features{Feature::EnergyLedger} : Features{};
 }
 
 void AccountPart::takeOver(StepContext& scene, const SceneChanges& changes) {
-    const LedgerTime time(scene.times);
+    const StepTimes::Within ledgers(scene.times, StepTimes::Part::Ledger);
     if (changes.walls) EnergyAccount::wallsChanged(scene.walls, ledger);
 }
 
 void AccountPart::beforeMotion(StepContext& step) {
-    const LedgerTime time(step.times);
+    const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
     account.begin(step.grains(), step.contacts.store(), step.walls, step.gravity, step.length, ledger);
 }
 
 void AccountPart::afterMotion(StepContext& step) {
-    const LedgerTime time(step.times);
+    const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
     account.moved(step.grains(), step.gravity, ledger);
 }
 
 void AccountPart::finish(StepContext& step) {
-    const LedgerTime time(step.times);
+    const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
     account.finish(step.grains(), step.contacts, step.walls, step.gravity, step.length, *step.scheme, ledger);
     if (step.length > 0) EnergyAccount::finishWear(step.walls, step.time + step.length);
 }

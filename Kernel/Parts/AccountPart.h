@@ -11,7 +11,6 @@ class AccountPart : public StepPart {
 public:
     [[nodiscard]] std::string_view name() const override { return "energy"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
-    [[nodiscard]] bool needsFinishedStep() const override { return true; }
     void takeOver(StepContext& scene, const SceneChanges& changes) override;
     void beforeMotion(StepContext& step) override;
     void afterMotion(StepContext& step) override;

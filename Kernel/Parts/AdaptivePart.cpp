@@ -31,7 +31,7 @@ void AdaptivePart::prepare(StepContext& step) {
     if (!adaptive.isDue()) return;
     step.particles.finishStep();
     ParticleStore& grains = step.grains();
-    const StepTimes::Part before = step.times.enter(StepTimes::Part::Search);
+    const StepTimes::Within search(step.times, StepTimes::Part::Search);
     const GrainSizes sizes = sizesOfScene(*step.laws, grains, inlets);
     const double most = largestStepOf(step, sizes);
     const AdaptiveStep::Outlook outlook =
@@ -46,7 +46,6 @@ void AdaptivePart::prepare(StepContext& step) {
                              : sceneStabilityLimit(*step.laws, sizes, step.walls, contactScheme(step));
     step.length = adaptive.choose(step.length, most, outlook, bound, limit);
     step.contacts.expectOverlaps(adaptive.supposedOverlap());
-    step.times.enter(before);
 }
 
 void AdaptivePart::afterMotion(StepContext& step) {

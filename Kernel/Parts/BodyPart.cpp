@@ -25,8 +25,6 @@ void BodyPart::check(const StepContext& scene) { width = scene.bodies.refuseTooW
 
 void BodyPart::begin(StepContext& scene, bool /*isRestarted*/) { warnOfGaps(scene, 0); }
 
-void BodyPart::beforeMotion(StepContext& /*step*/) { haveMoved = false; }
-
 void BodyPart::moveGrains(StepContext& step) {
     ParticleStore& grains = step.grains();
     const double farthest =  // m^2
@@ -34,7 +32,6 @@ void BodyPart::moveGrains(StepContext& step) {
             ? RigidBodyMotion::finishAndBegin(grains, step.contacts.store(), step.gravity, step.unfinished,
                                               step.length, step.threads, *step.scheme, step.box)
             : RigidBodyMotion::begin(grains, step.length, step.threads, *step.scheme, step.box);
-    haveMoved = true;
     step.shifts.grains = std::max(step.shifts.grains, std::sqrt(farthest));
 }
 
@@ -48,7 +45,7 @@ void BodyPart::afterMotion(StepContext& step) {
 }
 
 void BodyPart::takeBack(StepContext& step) {
-    if (haveMoved) RigidBodyMotion::takeBack(step.grains(), step.length, *step.scheme);
+    if (step.grainsHaveMoved) RigidBodyMotion::takeBack(step.grains(), step.length, *step.scheme);
 }
 
 void BodyPart::warnOfGaps(const StepContext& scene, std::size_t first) {

@@ -12,7 +12,6 @@ public:
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     void check(const StepContext& scene) override;
     void begin(StepContext& scene, bool isRestarted) override;
-    void beforeMotion(StepContext& step) override;
     void moveGrains(StepContext& step) override;
     /// A scene that is strained may become too short for a body.
     void afterMotion(StepContext& step) override;
@@ -25,8 +24,7 @@ public:
     static void warnOfGaps(const StepContext& scene, std::size_t first);
 
 private:
-    double width = 0;        // m
-    bool haveMoved = false;  // in this step
+    double width = 0;  // m
 };
 
 }  // namespace pendular

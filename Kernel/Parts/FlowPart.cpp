@@ -21,18 +21,6 @@ namespace pendular {
 
 namespace {
 
-/// Sets a state. Throws InputError, and leaves it, where the scene does not go together with it.
-template <class State>
-void takeUnlessRefused(State& now, const State& asked, const FlowPart::Refusal& refuse) {
-    const State before = std::exchange(now, asked);
-    try {
-        refuse();
-    } catch (const InputError&) {
-        now = before;
-        throw;
-    }
-}
-
 /// Grains whose images move otherwise from now on get another velocity; the account knows it.
 /// @param changeAt (place, m): by how much, m/s
 template <class Function>

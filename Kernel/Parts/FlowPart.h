@@ -3,12 +3,27 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <utility>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/HomogeneousStrain.h"
 #include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Step/StepPart.h"
 
 namespace pendular {
+
+/// Sets a state. Throws InputError, and leaves it, where the refusal throws one: the scene does not go
+/// together with it.
+template <class State, class Refusal>
+void takeUnlessRefused(State& now, const State& asked, Refusal&& refuse) {
+    const State before = std::exchange(now, asked);
+    try {
+        refuse();
+    } catch (const InputError&) {
+        now = before;
+        throw;
+    }
+}
 
 /// Images of a periodic scene that move: shear and strain, at a rate or by a servo.
 class FlowPart : public StepPart {

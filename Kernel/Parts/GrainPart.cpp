@@ -23,8 +23,6 @@ Features GrainPart::features(const StepContext& scene) const {
     return found;
 }
 
-void GrainPart::beforeMotion(StepContext& /*step*/) { haveMoved = false; }
-
 void GrainPart::moveGrains(StepContext& step) {
     ParticleStore& grains = step.grains();
     double farthest;  // m^2
@@ -37,12 +35,11 @@ void GrainPart::moveGrains(StepContext& step) {
         step.times.enter(StepTimes::Part::Motion);
         farthest = TimeIntegration::begin(grains, step.length, step.threads, *step.scheme, step.box);
     }
-    haveMoved = true;
     step.shifts.grains = std::sqrt(farthest);
 }
 
 void GrainPart::takeBack(StepContext& step) {
-    if (haveMoved) TimeIntegration::takeBack(step.particles.store(), step.length, *step.scheme);
+    if (step.grainsHaveMoved) TimeIntegration::takeBack(step.particles.store(), step.length, *step.scheme);
 }
 
 void GrainPart::finishLeftStep(const StepContext& step) {

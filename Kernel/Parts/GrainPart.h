@@ -10,15 +10,11 @@ public:
     [[nodiscard]] std::string_view name() const override { return "grains"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
-    void beforeMotion(StepContext& step) override;
     void moveGrains(StepContext& step) override;
     void takeBack(StepContext& step) override;
 
     /// The end of a step that was left to whoever asks for the grains: of these and of rigid bodies.
     static void finishLeftStep(const StepContext& step);
-
-private:
-    bool haveMoved = false;  // in this step
 };
 
 }  // namespace pendular

@@ -12,11 +12,10 @@ Features SprayPart::features(const StepContext& /*scene*/) const {
 void SprayPart::prepare(StepContext& step) { sprays.emit(step.particles.films(), step.time + step.length); }
 
 void SprayPart::finish(StepContext& step) {
-    const StepTimes::Part before = step.times.enter(StepTimes::Part::Liquid);
+    const StepTimes::Within liquid(step.times, StepTimes::Part::Liquid);
     sprays.advance({step.grains(), step.particles.films(), step.contacts, step.walls, step.box, step.gravity,
                     step.time + step.length, step.length, step.shifts.grains, step.smallestRadius,
                     step.threads});
-    step.times.enter(before);
 }
 
 void SprayPart::visitState(StateArchive& archive, StepContext& scene) {

@@ -64,10 +64,9 @@ void Run::setRestartInterval(double seconds) {
 void Run::writeRestart(const std::filesystem::path& file) {
     requireBegun("writeRestart()");
     const Within saving(*this, Within::Saving, Within::Saving, "writeRestart()");
-    const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+    const StepTimes::Within spent(times, StepTimes::Part::Output);
     writeRestartFile(file, [&](StateArchive& archive) { visitAll(archive); });
     if (isOwnRestartFile(file)) restartFileSteps = steps;
-    times.enter(before);
 }
 
 void Run::requireBegun(std::string_view call) const {
@@ -171,10 +170,9 @@ void Run::stepOnce(bool another) {
 void Run::writeAll() {
     requireBegun("writeAll()");
     const Within writing(*this, Within::Writing, Within::Writing | Within::Saving, "writeAll()");
-    const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+    const StepTimes::Within spent(times, StepTimes::Part::Output);
     for (const KeptOutput& output : outputs) output.write();
     writeOutput();
-    times.enter(before);
 }
 
 /// What is due after this step; at the end of the run, what was not. An output with an interval knows by
@@ -187,9 +185,8 @@ void Run::writeOutputs(bool atEnd) {
         return atEnd || output.interval.isDueAfter(steps - stepsBefore, timeStep, timeBefore);
     };
     const auto timed = [&](const auto& write) {
-        const StepTimes::Part before = times.enter(StepTimes::Part::Output);
+        const StepTimes::Within spent(times, StepTimes::Part::Output);
         write();
-        times.enter(before);
     };
     for (KeptOutput& output : outputs)
         if (isDue(output)) timed(output.write);

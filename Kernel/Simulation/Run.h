@@ -161,7 +161,6 @@ protected:
     [[nodiscard]] double timeAfterNextStep() const {
         return timeAfter(steps + 1, stepsBefore, timeBefore, timeStep);
     }
-    StepTimes::Part enter(StepTimes::Part part) { return times.enter(part); }
     [[nodiscard]] StepTimes& stepTimer() { return times; }
     /// For the destructor of the class that has all of the scene.
     void completeLeftRun() noexcept;
@@ -217,7 +216,7 @@ private:
     void completeOutputs();
     void completeWhatCanBe();
     [[nodiscard]] bool isOwnRestartFile(const std::filesystem::path& file) const;
-    [[nodiscard]] std::string withLastState(std::string sentence);
+    [[nodiscard]] std::string withLastState(const std::string& sentence);
 
     static constexpr std::string_view unnamed = "pendular";
     std::string name{unnamed};

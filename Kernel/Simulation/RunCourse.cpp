@@ -237,21 +237,21 @@ RunStopped Run::stop() {
 }
 
 /// Writes the state as it is, and adds to a sentence where it is.
-std::string Run::withLastState(std::string sentence) {
-    const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv",
-                      remark = sentence;
-    if (sentence.ends_with('.')) sentence.pop_back();
+std::string Run::withLastState(const std::string& sentence) {
+    const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
     try {
-        writeLastState(grains, contacts, remark);
+        writeLastState(grains, contacts, sentence);
         writeAll();
         completeOutputs();
     } catch (const std::exception& problem) {
-        return fmt::format("{}; writing the last state failed: {}", sentence, problem.what());
+        return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
+                           problem.what());
     }
     const std::string restart = restartFileSteps ? fmt::format("; the state after {} steps is in {}",
                                                                *restartFileSteps, restartFile().string())
                                                  : "";
-    return fmt::format("{}; the last whole step is in {} and {}{}.", sentence, grains, contacts, restart);
+    return fmt::format("{}; the last whole step is in {} and {}{}.", withoutFullStop(sentence), grains,
+                       contacts, restart);
 }
 
 }  // namespace pendular

@@ -17,9 +17,8 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
         inside->bookEnergyOfEnded(inside->contacts.endContactsOf(particleHandler.store(), place));
     });
     particleHandler.callToFinishStep([this] {
-        const StepTimes::Part before = enter(StepTimes::Part::Sum);
+        const StepTimes::Within sum(stepTimer(), StepTimes::Part::Sum);
         GrainPart::finishLeftStep(inside->context);
-        enter(before);
     });
     wallHandler.callBeforeRemoval([this](int wall) {
         inside->bookEnergyOfEnded(inside->contacts.endContactsAtWall(particleHandler.store(), wall));
@@ -61,13 +60,9 @@ void Scene::writeLastState(const std::filesystem::path& grains, const std::files
 void Scene::setGravity(const Vec3D& acceleration) {
     for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
     particleHandler.finishStep();  // with the gravity that it had
-    const Vector<double> before = std::exchange(inside->context.gravity, toVector(acceleration));
-    try {
+    takeUnlessRefused(inside->context.gravity, toVector(acceleration), [&] {
         if (getPeriodicBox().imagesMove) inside->refuseForMovingImages();
-    } catch (const InputError&) {
-        inside->context.gravity = before;
-        throw;
-    }
+    });
     particleHandler.setGravity(inside->context.gravity);
     inside->adaptive.chooseAnew();
     inside->gravityChanged |= hasBegun();

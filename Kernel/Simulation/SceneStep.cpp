@@ -13,6 +13,7 @@ StepContext& Scene::Inside::contextNow(double length) {
     context.timeAfter = length > 0 ? scene.timeAfterNextStep() : context.time;
     context.number = scene.getNumberOfTimeSteps();
     context.shifts = {};
+    context.grainsHaveMoved = false;
     return context;
 }
 
@@ -78,10 +79,11 @@ void Scene::Inside::finishStep(bool another) {
 void Scene::Inside::moveAll(StepContext& step) {
     parts.call(&StepPart::beforeMotion, step);
     step.finishesLast = scene.particleHandler.takeUnfinishedStep();
+    step.grainsHaveMoved = true;
     parts.call(&StepPart::moveGrains, step);
     refuseRunaway(step.shifts.grains);
     parts.call(&StepPart::moveSurroundings, step);
-    refuseRunaway(step.shifts.grains);
+    refuseRunaway(step.shifts.grains);  // with what a flow carries them
     step.shifts.walls = scene.wallHandler.moveTo(step.time + step.length);
     periodicWalls.follow(scene.wallHandler, step.shifts.walls, step.time + step.length);
     step.times.enter(StepTimes::Part::Search);
@@ -104,9 +106,8 @@ void Scene::Inside::findForces(StepContext& step) {
 
 void Scene::Inside::bookWentRound(const StepContext& step) {
     if (!step.account) return;
-    const StepTimes::Part before = step.times.enter(StepTimes::Part::Ledger);
+    const StepTimes::Within ledger(step.times, StepTimes::Part::Ledger);
     step.account->wentRound(step.grains(), step.gravity, *step.ledger);
-    step.times.enter(before);
 }
 
 void Scene::Inside::bringBack(StepContext& step) {

@@ -69,8 +69,12 @@ constexpr std::array table{
     Conflict{Membranes, PeriodicFaces, "a membrane has no images", "leave setPeriodic() out"},
 };
 
-bool isIn(const Conflict& conflict, Feature a, Feature b) {
+bool isOf(const Conflict& conflict, Feature a, Feature b) {
     return (conflict.a == a && conflict.b == b) || (conflict.a == b && conflict.b == a);
+}
+
+bool isIn(const Conflict& conflict, const Features& scene) {
+    return scene.has(conflict.a) && scene.has(conflict.b);
 }
 
 }  // namespace
@@ -84,12 +88,12 @@ std::string sentence(const Conflict& conflict, const Features& scene) {
 
 void refuseConflicts(const Features& scene, std::span<const Conflict> table) {
     for (const Conflict& conflict : table)
-        if (scene.has(conflict.a) && scene.has(conflict.b)) throw InputError(sentence(conflict, scene));
+        if (isIn(conflict, scene)) throw InputError(sentence(conflict, scene));
 }
 
 void refuseConflictsOf(const Features& some, const Features& scene) {
     for (const Conflict& conflict : conflicts())
-        if ((some.has(conflict.a) || some.has(conflict.b)) && scene.has(conflict.a) && scene.has(conflict.b))
+        if ((some.has(conflict.a) || some.has(conflict.b)) && isIn(conflict, scene))
             throw InputError(sentence(conflict, scene));
 }
 
@@ -108,7 +112,7 @@ std::string conflictMatrix() {
         text += fmt::format("| {} {} |", row + 1, nameOf(shown[row]));
         for (const Feature column : shown) {
             const bool no =
-                std::ranges::any_of(table, [&](const Conflict& c) { return isIn(c, shown[row], column); });
+                std::ranges::any_of(table, [&](const Conflict& c) { return isOf(c, shown[row], column); });
             text += no ? " no |" : " |";
         }
         text += '\n';

@@ -50,13 +50,14 @@ struct StepContext {
     EnergyLedger* ledger = nullptr;    // null: none is kept
     EnergyAccount* account = nullptr;  // null: the same
 
-    double time = 0;            // s, at the start of the step
-    double length = 0;          // s, of the step; 0 at the start of a run, where forces are found
-    double timeAfter = 0;       // s, at its end, with the bits that the scene's time will have
-    std::size_t number = 0;     // of steps that have been done
-    double unfinished = 0;      // s, length of the last step, whose end may be left to this one
-    bool finishesLast = false;  // it is: the motion of this step does both at once
-    Shifts shifts = {};         // of this step
+    double time = 0;               // s, at the start of the step
+    double length = 0;             // s, of the step; 0 at the start of a run, where forces are found
+    double timeAfter = 0;          // s, at its end, with the bits that the scene's time will have
+    std::size_t number = 0;        // of steps that have been done
+    double unfinished = 0;         // s, length of the last step, whose end may be left to this one
+    bool finishesLast = false;     // it is: the motion of this step does both at once
+    bool grainsHaveMoved = false;  // in this step, so that taking it back moves them back
+    Shifts shifts = {};            // of this step
 
     /// The grains as they are, in the middle of a step.
     [[nodiscard]] ParticleStore& grains() const;

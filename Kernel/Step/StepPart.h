@@ -23,7 +23,8 @@ struct SceneChanges {
 
 /// Something that acts in the steps of a scene. A scene calls its parts in the order of their list, phase by
 /// phase, and takes a step that fails back in the opposite order. A driver adds a part of its own by
-/// addPart(). No part is called in a scene that does not have its features.
+/// addPart(). A part whose features the scene does not have sleeps: only begin(), visitSetting() and
+/// visitState() are called.
 ///
 /// Errors: a part throws InputError or RunError with one sentence; in a run both end it, with the sentence.
 class StepPart {

@@ -59,6 +59,19 @@ public:
         return std::exchange(current, part);
     }
 
+    /// Time counts for a part as long as this lives, and then for the one before.
+    class Within {
+    public:
+        Within(StepTimes& of, Part part) : times(of), before(of.enter(part)) {}
+        Within(const Within&) = delete;
+        Within& operator=(const Within&) = delete;
+        ~Within() { times.enter(before); }
+
+    private:
+        StepTimes& times;
+        Part before;
+    };
+
     /// s, since measuring began: the sum of all parts.
     [[nodiscard]] double total() const { return on ? secondsBetween(started, Clock::now()) : 0; }
     /// s, of each part. What they leave of the total is other: the set-up, the driver's own actions.

@@ -12,19 +12,10 @@
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Random.h"
+#include "SelfTests/Support/ShearOf.h"
 
 namespace pendular {
 namespace {
-
-/// Shear at a rate (1/s).
-LeesEdwards shearOf(int flow, int gradient, double rate) {
-    LeesEdwards shear;
-    shear.flow = flow;
-    shear.gradient = gradient;
-    shear.rate = rate;
-    shear.isSet = true;
-    return shear;
-}
 
 using support::Random;
 using Points = std::vector<Vector<double>>;
@@ -57,7 +48,7 @@ std::vector<std::size_t> firstOfClusters(const Points& points, const PeriodicBox
 
 TEST(Clusters, areThoseOfAllPairs) {
     PeriodicBox open, periodic{{0, 0, 0}, {4, 5, 3}}, sheared = periodic, one{{0, 0, 0}, {4, 0, 0}};
-    shearOf(0, 1, 0.5).settle(sheared).move(sheared, 1.3);
+    support::shearOf(0, 1, 0.5).settle(sheared).move(sheared, 1.3);
     std::uint64_t seed = 0;
     for (const PeriodicBox& box : {open, periodic, sheared, one}) {
         const Points points = randomPoints(400, {4, 5, 3}, ++seed);
@@ -82,7 +73,7 @@ TEST(Clusters, areThoseOfAllPairs) {
 /// through a face has no end.
 TEST(Clusters, knowTheirSizeThroughFacesAndWhetherTheyEnd) {
     PeriodicBox box{{0, 0, 0}, {4, 4, 4}};
-    shearOf(0, 1, 0.5).settle(box).move(box, 0.7);
+    support::shearOf(0, 1, 0.5).settle(box).move(box, 0.7);
     for (const Vector<double>& along :
          {Vector<double>{0.5, 0, 0}, Vector<double>{0, 0.5, 0}, Vector<double>{0, 0, 0.5}}) {
         Points points;

@@ -21,19 +21,10 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/SharedData.h"
+#include "SelfTests/Support/ShearOf.h"
 
 namespace pendular {
 namespace {
-
-/// Shear at a rate (1/s).
-LeesEdwards shearOf(int flow, int gradient, double rate) {
-    LeesEdwards shear;
-    shear.flow = flow;
-    shear.gradient = gradient;
-    shear.rate = rate;
-    shear.isSet = true;
-    return shear;
-}
 
 using scenes::boxMaterial;
 using scenes::FewGrains;
@@ -48,7 +39,7 @@ using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 /// The box of the tables: 4 x 3 x 2 m, 0.5 /s, flow along x, gradient along y.
 PeriodicBox boxOfTables(double time) {
     PeriodicBox box{{0, 0, 0}, {4, 3, 2}};
-    shearOf(0, 1, 0.5).settle(box).move(box, time);
+    support::shearOf(0, 1, 0.5).settle(box).move(box, time);
     return box;
 }
 
@@ -100,7 +91,7 @@ TEST(LeesEdwards, searchFindsThePairsOfBruteForce) {
             for (const double time : {0.0, 0.7, 123.4}) {
                 if (flow == gradient) continue;
                 PeriodicBox box{{-1, 2, 0.5}, {5, 6, 4}};
-                shearOf(flow, gradient, time > 1 ? -0.3 : 0.4).settle(box).move(box, time);
+                support::shearOf(flow, gradient, time > 1 ? -0.3 : 0.4).settle(box).move(box, time);
                 std::vector<TranslationRecord> grains;
                 for (int k = 0; k < 300; ++k) {
                     const Vec3D place = Vec3D(1.5, 5, 2.5) + Vec3D(random.inCube(4));

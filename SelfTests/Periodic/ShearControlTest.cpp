@@ -14,6 +14,7 @@
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/ShearedCloud.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/ShearOf.h"
 #include "SelfTests/Support/TestFolder.h"
 
 namespace pendular {
@@ -231,8 +232,7 @@ TEST(ShearControl, aCrystalHasTheStressOfTheClosedForm) {
     EXPECT_NEAR(stress(1, 1), 283.404819290934, 6e-10 * 283);
     EXPECT_NEAR(stress(2, 2), 283.400391022337, 6e-10 * 283);
     EXPECT_NEAR(stress(0, 1), -35.2844524283493, 6e-10 * 283);
-    LeesEdwards shear;
-    shear.isSet = true;
+    const LeesEdwards shear = support::shearOf(0, 1, 0);
     const DiagonalStress same = diagonalStress(scene.contacts(), scene.particleHandler.store(), {}, shear);
     EXPECT_NEAR(same.shear, 35.2844524283493, 6e-10 * 283);
     // C44 = k / (sqrt(2) l) of the crystal that is not sheared; a shear of 5e-4 turns contacts by as much.

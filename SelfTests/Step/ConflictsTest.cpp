@@ -83,8 +83,9 @@ void addWornWall(PlainScene<S>& scene) {
     addWall(scene, wall);
 }
 
-template <class S>
-void addInlet(PlainScene<S>& scene) {
+/// @param scene with its species as `own`
+template <class Scene>
+void addInlet(Scene& scene) {
     Inlet inlet;
     inlet.setRegion(BoxRegion({-0.01, -0.01, 0.02}, {0.01, 0.01, 0.04}));
     inlet.setSizes(evenSizes(2 * radius, 2.1 * radius));
@@ -186,14 +187,7 @@ std::string refusalOfEllipsoids(Feature with) {
         if (with == Feature::StressServo) {
             scene.setTargetStress(2, 100, 0.1);
         } else {
-            Inlet inlet;
-            inlet.setRegion(BoxRegion({-0.01, -0.01, 0.02}, {0.01, 0.01, 0.04}));
-            inlet.setSizes(evenSizes(2 * radius, 2.1 * radius));
-            SphericalParticle grain;
-            grain.setSpecies(scene.own);
-            inlet.setGrain(grain);
-            inlet.setNumberFlow(10);
-            scene.inletHandler.copyAndAddObject(inlet);
+            addInlet(scene);
         }
         scene.initialise();
     });
