@@ -99,7 +99,7 @@ void FieldOutput::visitState(StateArchive& archive, const Scene& scene) {
         return;
     }
     archive.value(entry, last);
-    keptUntil = last;
+    if (archive.isReading()) keptUntil = last;
     archive.group(std::filesystem::path(nameOf(scene)).filename().string(), [&] {
         std::uint64_t states = sums.states();
         archive.same("withFlow", withFlow);

@@ -140,10 +140,11 @@ void ContactList::findWallContacts(const Grains& grains, const RememberedContact
     const Wall& wall = walls.getObject(w);
     const TranslationRecord& grain = grains.translation[i];
     if (grain.inverseMass == 0) return;
-    // A bridge may pass on to the next part of the wall: then all within its range are listed.
+    // A bridge may pass on to the next part of a wall, or to another wall: then all within its range are
+    // listed.
     bool far = laws.actsApart;
     if (laws.formsAtContact)
-        for (const auto& entry : old.of(formerPlace[i])) far |= entry.wall == w + 1 && isBridged(entry);
+        for (const auto& entry : old.of(formerPlace[i])) far |= entry.wall != 0 && isBridged(entry);
     double apart = reachOfAll;
     if (far || reachOfFilms > apart) {
         const double range = rangeOf(grains.species[i], wall.species, {grain.radius});

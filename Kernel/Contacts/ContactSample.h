@@ -49,6 +49,7 @@ struct ContactSample {
 struct EnergyRecord {
     ContactSample now, last;  // at the end of this step and of the one before
     double adhesionWork = 0;  // J, done against the adhesion since it began to act
+    double lastWall = -1;     // number of the wall that the last sample is of; -1: none
 
     /// J, in the springs and the adhesion, as the ledger counts it.
     [[nodiscard]] double stored() const {

@@ -121,8 +121,9 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
         return half * (last.*force * before.approach + now.*force * after.approach);
     };
     account.walls +=
-        half * (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall) -
-                dot(forceOnFirst(last) + forceOnFirst(now), kind.pistonVelocity));
+        half *
+        (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall) -
+         dot(forceOnFirst(last), kind.lastPistonVelocity) - dot(forceOnFirst(now), kind.pistonVelocity));
 
     // An image that moves is moved by the shear or strain.
     if (!second.isHeld) account.images += half * dot(forceOnFirst(last) + forceOnFirst(now), second.slide);

@@ -18,9 +18,11 @@ struct BodyMotion {
 /// What the laws of a contact say of its energy.
 struct ContactKind {
     bool isWall = false;
-    bool isPlastic = false;                  // the normal law has a history
-    bool adhesionBreaks = false;             // else it is a function of the separation, which loses nothing
-    Vector<double> pistonVelocity{0, 0, 0};  // m/s, of a wall whose kinetic energy is in the ledger
+    bool isPlastic = false;       // the normal law has a history
+    bool adhesionBreaks = false;  // else it is a function of the separation, which loses nothing
+    // m/s, of a wall whose kinetic energy is in the ledger, in the step; and of the wall that was touched
+    // before, if a contact has gone on with another one.
+    Vector<double> pistonVelocity{0, 0, 0}, lastPistonVelocity{0, 0, 0};
 };
 
 /// What a contact with a wall does to it in a step, of a record to which addContact() still has to come.

@@ -7,6 +7,7 @@
 #include "Kernel/Energy/ContactAccount.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/WornWall.h"
 
@@ -26,6 +27,8 @@ public:
     void begin(const Grains& grains, const ContactStore& contacts, const WallHandler& walls,
                const Vector<double>& gravity, double step, EnergyLedger& ledger) {
         atBegin = ledger;
+        endedAtBegin = ended;
+        ledger.driver -= std::exchange(ended, 0);
         potential = potentialEnergy(grains, gravity);
         if (step > 0)
             ledger.driver += kineticEnergy(grains) - ledger.kinetic +
@@ -44,8 +47,16 @@ public:
         ledger.membraneElastic = now;
     }
 
-    /// Where the step failed.
-    void takeBack(EnergyLedger& ledger) const { ledger = atBegin; }
+    /// Contacts have been ended between two steps, with what was stored in them (J). The driver has it from
+    /// the next step on, when the sums of what is stored no longer do.
+    void endedBetweenSteps(double stored) { ended += stored; }
+
+    /// The step has failed.
+    void takeBack(EnergyLedger& ledger) {
+        ledger = atBegin;
+        ended = endedAtBegin;
+    }
+    void visitState(StateArchive& archive) { archive.finite("endedBetweenSteps", ended); }
 
     /// What the walls have taken note of in finish() counts, at the end (s) of a step that has not failed.
     static void finishWear(const WallHandler& walls, double time) {
@@ -102,7 +113,11 @@ public:
             const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
             ContactKind kind{
                 .isWall = bucket.wall >= 0, .isPlastic = laws.isPlastic, .adhesionBreaks = laws.breaks};
-            if (kind.isWall) kind.pistonVelocity = pistonVelocity(walls, bucket.wall);
+            if (kind.isWall) {
+                kind.lastPistonVelocity = pistonVelocity(walls, static_cast<int>(record.lastWall));
+                kind.pistonVelocity = pistonVelocity(walls, bucket.wall);
+                record.lastWall = bucket.wall;
+            }
             const std::uint32_t first = block.first[lane], second = block.second[lane];
             BodyMotion other = kind.isWall ? BodyMotion{} : meanMotion(grains, second);
             if (!kind.isWall && box.imagesMove) {
@@ -198,6 +213,7 @@ private:
     }
     /// m/s, the mean in the step; zero of other walls.
     static Vector<double> pistonVelocity(const WallHandler& walls, int number) {
+        if (number < 0) return {0, 0, 0};
         const Wall& wall = walls.getObject(static_cast<std::size_t>(number));
         const PlaneDrive* const drive = wall.drive();
         return drive && drive->isPiston() ? drive->meanVelocity * wall.drivenNormal()
@@ -279,7 +295,8 @@ private:
     std::vector<std::uint32_t> rank;  // of the grain at each place in that order
     BodyAccount bodies;
     EnergyLedger atBegin;
-    double potential = 0;  // J, at the places where the grains are
+    double ended = 0, endedAtBegin = 0;  // J
+    double potential = 0;                // J, at the places where the grains are
 };
 
 }  // namespace pendular

@@ -10,30 +10,22 @@ namespace {
 constexpr const char* header =
     "time_s,wall,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm";
 
-void keepAll(WallHandler& walls) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        Wall& wall = walls.getObject(w);
-        if (!wall.keepsForces()) wall.keepForces(true, wall.getTorquePoint());
-    }
-}
-
 }  // namespace
 
 WallForceFile::WallForceFile(double time) : table("WallForceFile", "-wall-forces.csv", time) {}
 
-void WallForceFile::prepare(Scene& scene) const { keepAll(scene.wallHandler); }
+void WallForceFile::prepare(Scene& scene) const { scene.wallHandler.keepForces(); }
 
 void WallForceFile::write(Scene& scene) {
     const double time = scene.getTime();
     if (table.has(time)) return;
     for (std::size_t w = 0; w < scene.wallHandler.getSize(); ++w) {
         const Wall& wall = scene.wallHandler.getObject(w);
-        if (!wall.keepsForces()) continue;
+        if (wall.isRemoved()) continue;
         const Vec3D force = wall.getForce(), torque = wall.getTorque();
         table.of(scene, header)
             .row(time, w, force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z());
     }
-    keepAll(scene.wallHandler);
     table.wroteAt(time);
 }
 

@@ -6,8 +6,7 @@ namespace pendular {
 
 /// NAME-wall-forces.csv: the forces of the grains on each wall of a scene over time, and their torques, about
 /// the origin unless the driver has given keepForces() another point. Given to Simulation::addOutput(). All
-/// walls keep their forces; one that is added during the run does from the next output on, in which it has no
-/// row. A scene without walls gets no file.
+/// walls keep their forces, also those that are added during the run. A scene without walls gets no file.
 class WallForceFile {
 public:
     /// @param time s, from one of the outputs to the next; 0: whenever outputs are due

@@ -39,6 +39,7 @@ void AccountPart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {
                  "where it has 0");
     archive.finite("ledger", ledger);
     archive.finite("energyAtStart", energyAtStart);
+    if (kept) account.visitState(archive);
 }
 
 }  // namespace pendular

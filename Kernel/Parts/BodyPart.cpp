@@ -33,6 +33,7 @@ void BodyPart::moveGrains(StepContext& step) {
                                               step.length, step.threads, *step.scheme, step.box)
             : RigidBodyMotion::begin(grains, step.length, step.threads, *step.scheme, step.box);
     step.shifts.grains = std::max(step.shifts.grains, std::sqrt(farthest));
+    step.shifts.approach = 2 * step.shifts.grains;
 }
 
 void BodyPart::afterMotion(StepContext& step) {

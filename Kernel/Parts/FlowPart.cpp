@@ -144,11 +144,12 @@ void FlowPart::moveSurroundings(StepContext& step) {
     if (const auto objection = objectionToLengths(step.box, step.largestReach))
         throw RunError(fmt::format("At time {:.6g} s the {}", step.time, *objection));
     if (step.grains().count() == 0) {
-        step.shifts.grains = 0;
+        step.shifts.grains = step.shifts.approach = 0;
         return;
     }
     step.shifts.grains +=
         0.5 * rate * step.length * (step.largestReach + step.contacts.filmReach() + step.smallestRadius);
+    step.shifts.approach += rate * step.length * step.largestReach;
 }
 
 /// The grains are where they were before the step.

@@ -36,6 +36,7 @@ void GrainPart::moveGrains(StepContext& step) {
         farthest = TimeIntegration::begin(grains, step.length, step.threads, *step.scheme, step.box);
     }
     step.shifts.grains = std::sqrt(farthest);
+    step.shifts.approach = 2 * step.shifts.grains;
 }
 
 void GrainPart::takeBack(StepContext& step) {

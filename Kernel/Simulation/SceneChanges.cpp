@@ -16,7 +16,7 @@
 namespace pendular {
 
 void Scene::Inside::bookEnergyOfEnded(double stored) {
-    if (context.ledger) context.ledger->driver -= stored;
+    if (context.account) context.account->endedBetweenSteps(stored);
 }
 
 void Scene::Inside::mixChangedLaws() {

@@ -41,6 +41,8 @@ public:
     void prepare();
     /// Throws InputError where set-up would.
     void check();
+    /// Whether contacts work with springs at the end of the step.
+    [[nodiscard]] bool takesSpringsInStep(const GrainSizes& sizes) const;
     /// What the scene has; parts that it does not have sleep from now on.
     [[nodiscard]] Features wakeParts();
     /// Throws InputError where a change of gravity, shear or strain does not go together with the scene.

@@ -34,6 +34,7 @@ void Scene::Inside::visitScene(StateArchive& archive) {
     archive.finite("approachUnseen", approachUnseen);
     archive.value("smallestRadius", context.smallestRadius);
     archive.require(context.smallestRadius > 0, "smallestRadius", "is not positive");
+    archive.finite("largestReach", context.largestReach);
     archive.group("particles", [&] { scene.particleHandler.visitState(archive); });
 }
 

@@ -110,6 +110,14 @@ void Scene::Inside::refuseForMovingImages() {
     flow.check(context);
 }
 
+bool Scene::Inside::takesSpringsInStep(const GrainSizes& sizes) const {
+    const bool needsThem =
+        !sizes.hasBodies &&
+        schemeOfScene(laws(), sizes, scene.wallHandler, contactScheme(context)).contacts.springsInStep;
+    return needsThem ||
+           (adaptive.step().isSet() && integrator.contacts.implicitForces && laws().layout.hasTorque);
+}
+
 void Scene::Inside::check() {
     contextNow(stepLength());
     context.hasInlets = !scene.inletHandler.isEmpty();
@@ -120,15 +128,14 @@ void Scene::Inside::check() {
     refuseWear(scene.wallHandler, account.isKept(), laws().layout.hasTorque);
     GrainSizes sizes = sizesOf(scene.particleHandler.store());
     if (scene.hasBegun() && stepLength() != checkedStep) refuseOtherStep();
-    const bool checksStep = !context.acceptsUnstableStep && !adaptive.step().hasChosen();
+    const bool checksStep = !context.acceptsUnstableStep && !adaptive.step().hasChosen(),
+               willBeInStep = takesSpringsInStep(sizes);
+    context.springsInStep &= willBeInStep;
     checkScene(laws(), sizes, scene.wallHandler, checksStep ? stepLength() : 0, contactScheme(context));
-    context.springsInStep =
-        !sizes.hasBodies &&
-        schemeOfScene(laws(), sizes, scene.wallHandler, contactScheme(context)).contacts.springsInStep;
-    if (adaptive.step().isSet())
-        context.springsInStep |= integrator.contacts.implicitForces && laws().layout.hasTorque;
+    context.springsInStep = willBeInStep;
     refuseFarFaces(box, sizes.smallest());
-    context.largestReach = checkPeriodicLengths(laws(), sizes, scene.wallHandler, box);
+    context.largestReach =
+        std::max(context.largestReach, checkPeriodicLengths(laws(), sizes, scene.wallHandler, box));
     parts.check(context);
     const double smallest = sizes.smallest();
     periodicWalls.check(scene.wallHandler, scene.wallHandler.hasChanges(), box, laws(), sizes,

@@ -95,7 +95,7 @@ void Scene::Inside::findForces(StepContext& step) {
     bringBack(step);
     contacts.refresh(grains, step.shifts.grains, step.shifts.walls);
     if (periodicWalls.haveEnds()) bringBackAtWalls(step);
-    lookForDeepOverlaps(grains, 2 * step.shifts.grains);
+    lookForDeepOverlaps(grains, step.shifts.approach);
     step.times.enter(StepTimes::Part::Contacts);
     ContactTiming timing = contactScheme(step).contacts;
     timing.comingStep = stepLength();
@@ -121,9 +121,10 @@ void Scene::Inside::bringBack(StepContext& step) {
 void Scene::Inside::bringBackAtWalls(StepContext& step) {
     ParticleStore& grains = step.grains();
     if (!periodicWalls.isBringingBackDue(grains, step.shifts.grains)) return;
-    bookEnergyOfEnded(contacts.goThroughFaces(grains, periodicWalls.outside(grains),
-                                              periodicWalls.endsOfWalls(), step.time + step.length,
-                                              [&] { wrapAll(grains); }));
+    const double stored =
+        contacts.goThroughFaces(grains, periodicWalls.outside(grains), periodicWalls.endsOfWalls(),
+                                step.time + step.length, [&] { wrapAll(grains); });
+    if (step.ledger) step.ledger->driver -= stored;  // in the step, as finish() sums what is stored anew
     bookWentRound(step);
 }
 

@@ -21,9 +21,10 @@ struct EnergyLedger;
 struct GrainSizes;
 struct Integrator;
 
-/// m, how far the farthest grain and the farthest point of a wall have moved in the step.
+/// How far things have moved in the step, m.
 struct Shifts {
-    double grains = 0, walls = 0;
+    double grains = 0, walls = 0;  // the farthest grain, the farthest point of a wall
+    double approach = 0;           // of two grains that touch, at most
 };
 
 /// What a part of a step sees of its scene.
@@ -42,7 +43,7 @@ struct StepContext {
     Vector<double> gravity{0, 0, 0};     // m/s^2
     int threads = 1;
     double smallestRadius = std::numeric_limits<double>::infinity();  // m, of all grains that have been
-    double largestReach = 0;                   // m, of two centres that act on each other
+    double largestReach = 0;                   // m, of two centres that have acted on each other
     const GrainSizes* checkedSizes = nullptr;  // of the last check
     bool hasInlets = false;
     bool acceptsUnstableStep = false;

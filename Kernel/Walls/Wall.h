@@ -121,6 +121,10 @@ public:
     /// @param about m, the point of the torque
     void keepForces(bool keep = true, const Vec3D& about = Vec3D::Zero());
     [[nodiscard]] bool keepsForces() const { return forcesKept || drive() != nullptr; }
+    /// Keeps them also when no force moves the wall any more. What was kept stays.
+    void keepForcesFromNowOn() {
+        if (!forcesKept) keepForces(true, getTorquePoint());
+    }
     /// N, of all grains on the wall at the end of the last step; zero unless keepForces() was called or it is
     /// moved by forces.
     [[nodiscard]] Vec3D getForce() const { return toEigen(kept.force); }

@@ -41,8 +41,14 @@ void WallHandler::requireComplete(const Wall& wall, bool isPlaced) const {
 }
 
 void WallHandler::add(std::unique_ptr<Wall> wall) {
+    if (keepsForces) wall->keepForcesFromNowOn();
     walls.push_back(std::move(wall));
     ++changes;
+}
+
+void WallHandler::keepForces() {
+    keepsForces = true;
+    for (const auto& wall : walls) wall->keepForcesFromNowOn();
 }
 
 void WallHandler::refuseNumber(std::size_t number) const {

@@ -40,6 +40,8 @@ public:
         return *walls[number];
     }
     [[nodiscard]] bool isRemoved(std::size_t number) const { return getObject(number).isRemoved(); }
+    /// Keeps the forces on all walls (Wall::keepForces()), and on those that are added from now on.
+    void keepForces();
     /// Called with the number of a wall before it is removed.
     void callBeforeRemoval(std::function<void(int)> function) { beforeRemoval = std::move(function); }
     /// Walls from this number on were added since changesAreKnown().
@@ -66,6 +68,7 @@ private:
 
     std::vector<std::unique_ptr<Wall>> walls;
     std::function<void(int)> beforeRemoval;
+    bool keepsForces = false;   // of all walls
     std::uint64_t changes = 0;  // additions and removals
     std::uint64_t knownChanges = 0;
     std::size_t knownWalls = 0;
