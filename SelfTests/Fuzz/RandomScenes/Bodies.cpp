@@ -26,6 +26,30 @@ void addHeldGrains(Making& making) {
     }
 }
 
+/// Ellipsoids and rounded blocks.
+void addSuperquadrics(Making& making) {
+    if (!making.shapes) return;
+    const int count = std::min(making.draw.whole(4, 24), making.recipe.grains);
+    for (int k = 0; k < count; ++k) {
+        const auto cell = making.takeCell();
+        if (!cell) return;
+        const double size = 0.28 * making.scales.cell;
+        const auto half = [&](std::string_view name) {
+            return making.draw.give(name, making.draw.even(0.6, 1) * size);
+        };
+        const double x = half("half length x"), y = half("half length y"), z = half("half length z");
+        const int exponent = making.draw.oneIn(2) ? 2 : making.draw.whole(2, 6);
+        SuperquadricGrain grain(Superquadric{x, y, z, exponent, exponent});
+        grain.setSpecies(making.anyMaterial());
+        grain.setPosition(*cell);
+        const Vec3D axis = making.draw.direction();
+        grain.setOrientation({making.draw.even(-1, 1), axis.x(), axis.y(), axis.z()});
+        grain.setVelocity(making.scales.speed * making.draw.inCube(1));
+        grain.setAngularVelocity(making.draw.inCube(making.scales.speed / making.scales.radius));
+        making.shapes->copyAndAddObject(grain);
+    }
+}
+
 /// Two to four spheres in a row that overlap, or at random places.
 ClumpTemplate anyTemplate(Making& making) {
     std::vector<Ball> spheres;
@@ -122,6 +146,8 @@ std::vector<Feature> bodyFeatures() {
          .add = addHeldGrains,
          .loses = both | places,
          .kinds = {"held"}},
+        // A scene has them only by name, as it can have no other grains.
+        {.name = "Superquadrics", .share = 0, .add = addSuperquadrics, .kinds = {"body"}},
         {.name = "Clumps", .share = 0.2, .add = addClumps, .kinds = {"body"}, .excludes = {"outlet"}},
         {.name = "Joined", .share = 0.08, .add = addJoined, .kinds = {"body"}, .excludes = {"outlet"}},
         {.name = "JoinInRun",

@@ -56,7 +56,7 @@ public:
         double value = right;
         for (const WrongValue& other : wrong)
             if (other.number == given) value = other.value, isUsed = true;
-        hasGivenNoNumber |= !std::isfinite(value);
+        hasGivenNoNumber |= !std::isfinite(value * value);  // laws multiply what they are given
         ++given;
         if (kept.size() < mostOfRecord) kept += fmt::format(" {}={:.6g}", what, value);
         return value;
@@ -71,7 +71,7 @@ public:
     [[nodiscard]] const std::string& record() const { return kept; }
     /// Whether any of the wrong values has come to its turn.
     [[nodiscard]] bool usedWrong() const { return isUsed; }
-    /// Whether a value was not finite: a wrong one, or what followed from one.
+    /// Whether a value or its square was not finite: a wrong one, or what followed from one.
     [[nodiscard]] bool gaveNoNumber() const { return hasGivenNoNumber; }
 
 private:

@@ -31,8 +31,9 @@ namespace fs = std::filesystem;
 struct Way {
     fs::path folder;
     int threads = 1;
-    std::size_t stopAfter = 0;  // steps; a restart file is then kept; 0: goes on to its end
-    fs::path goesOnFrom = {};   // a restart file; empty: none
+    std::size_t stopAfter = 0;   // steps; a restart file is then kept; 0: goes on to its end
+    fs::path goesOnFrom = {};    // a restart file; empty: none
+    std::size_t stepsThere = 0;  // that had been done when it was written
 };
 
 /// One run of a scene, and what came of it.
@@ -79,8 +80,8 @@ RunEnd runOnce(const Recipe& recipe, const JudgeOptions& options, const Way& way
     const std::unique_ptr<RandomScene> made = sceneOf(recipe);
     Scene& scene = made->scene();
     const Scales scales(recipe);
-    Making making(scene, made->species(), made->actions, recipe,
-                  way.goesOnFrom.empty() ? 0 : scales.restartStep);
+    Making making(scene, made->species(), made->actions, recipe, static_cast<int>(way.stepsThere));
+    making.shapes = made->shapes();
     Watch watch(making, recipe.wrong.empty());
     const int between = stepsBetweenLooks(recipe);
     made->beforeStep = [&] { watch.begin(); };
@@ -177,6 +178,35 @@ void compare(const RunEnd& whole, const RunEnd& other, const fs::path& wholeFold
         faults.push_back(fmt::format("{}, files: other bytes in {}", kind, files));
 }
 
+/// After how many steps a run of so many goes on from a restart file.
+std::vector<std::size_t> restartSteps(const Recipe& recipe, int count, std::size_t steps) {
+    if (!Hdf5File::isAvailable()) return {};
+    std::vector<std::size_t> stops{static_cast<std::size_t>(Scales(recipe).restartStep)};
+    if (count > 1) stops.clear();
+    for (int k = 1; count > 1 && k <= count; ++k)
+        stops.push_back(steps * static_cast<std::size_t>(k) / static_cast<std::size_t>(count + 1));
+    std::erase_if(stops, [&](std::size_t stop) { return stop == 0 || stop >= steps; });
+    return stops;
+}
+
+/// With one and three threads in turn: handing over to them takes most of the time of such small scenes. A
+/// run that does not come to a stop is made again without stops.
+RunEnd runInParts(const Recipe& recipe, const JudgeOptions& options, const fs::path& folder,
+                  const std::vector<std::size_t>& stops) {
+    Way way{.folder = folder, .threads = stops.empty() || recipe.seed % 2 == 0 ? 3 : 1};
+    for (const std::size_t stop : stops) {
+        way.stopAfter = stop;
+        const RunEnd part = runOnce(recipe, options, way);
+        if (part.end != "ended" || part.steps != stop)
+            return runOnce(recipe, options, {.folder = folder, .threads = 3});
+        way = {.folder = folder,
+               .threads = 4 - way.threads,
+               .goesOnFrom = folder / "run-restart.h5",
+               .stepsThere = stop};
+    }
+    return runOnce(recipe, options, way);
+}
+
 Verdict judgeHere(const Recipe& recipe, const JudgeOptions& options, const fs::path& folder) {
     const fs::path wholeFolder = folder / "whole", partsFolder = folder / "parts",
                    threadsFolder = folder / "three";
@@ -185,19 +215,8 @@ Verdict judgeHere(const Recipe& recipe, const JudgeOptions& options, const fs::p
     Verdict verdict{whole.end, whole.sentence, whole.faults, whole.record, 0};
     if (whole.end == "refused" || !verdict.faults.empty()) return verdict;
 
-    const auto restartStep = static_cast<std::size_t>(Scales(recipe).restartStep);
-    // Three threads in one of the parts: handing over to them takes most of the time of such small scenes.
-    const int before = recipe.seed % 2 == 0 ? 3 : 1, after = 4 - before;
-    RunEnd parts =
-        runOnce(recipe, options, {.folder = partsFolder, .threads = before, .stopAfter = restartStep});
-    const bool goesOn = parts.end == "ended" && parts.steps == restartStep && restartStep < whole.steps &&
-                        Hdf5File::isAvailable();
-    if (goesOn)
-        parts =
-            runOnce(recipe, options,
-                    {.folder = partsFolder, .threads = after, .goesOnFrom = partsFolder / "run-restart.h5"});
-    else if (restartStep < whole.steps || parts.steps < restartStep)
-        parts = runOnce(recipe, options, {.folder = partsFolder, .threads = 3});
+    const std::vector<std::size_t> stops = restartSteps(recipe, options.restarts, whole.steps);
+    const RunEnd parts = runInParts(recipe, options, partsFolder, stops);
     std::vector<std::string> differences;
     compare(whole, parts, wholeFolder, partsFolder, "threads and restart", differences);
     if (differences.empty()) return verdict;
@@ -206,7 +225,7 @@ Verdict judgeHere(const Recipe& recipe, const JudgeOptions& options, const fs::p
     compare(whole, threads, wholeFolder, threadsFolder, "three threads", verdict.faults);
     if (!verdict.faults.empty()) return verdict;
     for (std::string& difference : differences)
-        verdict.faults.push_back(fmt::format("restart after {} steps{}", restartStep,
+        verdict.faults.push_back(fmt::format("restart after {} steps{}", fmt::join(stops, ", "),
                                              difference.substr(std::string("threads and restart").size())));
     return verdict;
 }

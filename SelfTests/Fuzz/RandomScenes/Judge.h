@@ -26,14 +26,15 @@ struct Verdict {
 
 struct JudgeOptions {
     double seconds = 20;  // of processor time, after which a scene is one that does not end
+    int restarts = 1;     // in the run that is compared; with one at a step of the recipe, else evenly spread
     /// What a test adds to the scene at the end of its set-up, to see whether it is found.
     std::function<void(Making&)> sabotage = {};
 };
 
 /// Runs the scene of a recipe in a process of its own, which may crash: with one thread from the start to the
-/// end; and with three to some step, and from there on from its restart file. What must hold: each run ends,
-/// by itself or with one sentence and with no other exception; what Watch looks at; both runs end in the same
-/// state, bit for bit, with the same sentence and with the same files.
+/// end; and with one and three threads in turn, from restart file to restart file. What must hold: each run
+/// ends, by itself or with one sentence and with no other exception; what Watch looks at; both runs end in
+/// the same state, bit for bit, with the same sentence and with the same files.
 Verdict judge(const Recipe& recipe, const JudgeOptions& options = {});
 
 /// The smallest recipe with a fault of the same kind that is found by leaving out one feature after the

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Superquadrics/SuperquadricHandler.h"
 #include "SelfTests/Fuzz/RandomScenes/Draws.h"
 #include "SelfTests/Fuzz/RandomScenes/Feature.h"
 
@@ -64,6 +65,8 @@ public:
     const Scales scales;
     /// Of the feature that is added now.
     Draws draw;
+    /// Those of a scene of superquadrics; null: its grains are spheres.
+    SuperquadricHandler* shapes = nullptr;
     /// Steps that had been done where the scene goes on from a restart file; 0: it begins.
     const int goesOnFrom;
 

@@ -3,6 +3,7 @@
 #include <deque>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Simulation/SuperquadricSimulation.h"
 #include "Kernel/Species/SpeciesInScene.h"
 
 namespace pendular::fuzz {
@@ -41,8 +42,8 @@ private:
     double density = unset;  // kg/m^3
 };
 
-template <class S>
-class SceneOfOne final : public Hooked<Simulation<S>>, public SpeciesOfScene {
+template <class S, class Base = Simulation<S>>
+class SceneOfOne : public Hooked<Base>, public SpeciesOfScene {
 public:
     SpeciesOfScene& species() override { return *this; }
     AnySpecies* add(std::string_view) override {
@@ -54,6 +55,12 @@ public:
 
 private:
     std::deque<SpeciesByName<S>> named;
+};
+
+template <class S>
+class SceneOfShapes final : public SceneOfOne<S, SuperquadricSimulation<S>> {
+public:
+    SuperquadricHandler* shapes() override { return &this->superquadricHandler; }
 };
 
 /// Those of which most of the others are made: dry and wet, with a spin and without, liquid at rest and in
@@ -72,6 +79,8 @@ std::unique_ptr<RandomScene> sceneOf(const Recipe& recipe) {
     for (const std::string& name : recipe.features)
         if (featureNamed(name).is("material")) types.push_back(name + "Species");
     std::unique_ptr<RandomScene> made;
+    if (recipe.has("Superquadrics"))
+        return std::make_unique<SceneOfShapes<HertzianViscoelasticMindlinSpecies>>();
     if (types.size() == 1 && Scales(recipe).isOneType)
         OneTypes::forEach([&]<class S>() {
             if (types[0] == S::name) made = std::make_unique<SceneOfOne<S>>();

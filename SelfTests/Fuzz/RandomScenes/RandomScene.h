@@ -13,6 +13,8 @@ public:
     virtual ~RandomScene() = default;
     [[nodiscard]] virtual Scene& scene() = 0;
     [[nodiscard]] virtual SpeciesOfScene& species() = 0;
+    /// Null where its grains are spheres.
+    [[nodiscard]] virtual SuperquadricHandler* shapes() { return nullptr; }
 
     Actions actions;
     std::function<void()> beforeStep, afterStep;  // of the one who watches
@@ -46,8 +48,8 @@ public:
     [[nodiscard]] bool continueSolve() const override { return this->getNumberOfTimeSteps() < stopAfter; }
 };
 
-/// A Simulation<S> where the recipe has one type of species that there is such a one for, and its seed says
-/// so; else a Simulation<>.
+/// A SuperquadricSimulation where the recipe asks for one. A Simulation<S> where the recipe has one type of
+/// species that there is such a one for, and its seed says so; else a Simulation<>.
 std::unique_ptr<RandomScene> sceneOf(const Recipe& recipe);
 
 }  // namespace pendular::fuzz

@@ -1,0 +1,141 @@
+#include "SelfTests/Fuzz/RandomScenes/Composition.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "Kernel/Step/Conflicts.h"
+#include "SelfTests/Fuzz/RandomScenes/Draws.h"
+#include "SelfTests/Fuzz/RandomScenes/Feature.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular::fuzz {
+
+namespace {
+
+using support::contains;
+
+constexpr std::array<std::string_view, 56> composed{
+    // materials
+    "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticMindlinLiquidBridgeWillett",
+    "HertzianViscoelasticMindlinViscousLiquidBridgeWillett",
+    "LinearViscoelasticSlidingFrictionLiquidMigrationWillett",
+    // methods
+    "VelocityVerlet", "SpringsInStep", "AdamsMoulton", "AdaptiveStep", "Ledger", "Events", "ContactColumn",
+    // space
+    "Periods", "Shear", "ShearServo", "Strain", "StressServo", "Gravity", "GravityChange", "Domain",
+    // bodies
+    "HeldGrains", "Clumps", "Superquadrics", "JoinInRun", "BodyChange",
+    // walls
+    "Planes", "Cylinder", "Rod", "Tube", "Funnel", "MovingPlane", "VibratingPlane", "Belt", "WallThatComes",
+    "Mesh", "MovingMesh", "Wear", "WornVertices", "Membrane", "Piston", "ForceServo",
+    // liquid
+    "Films", "LiquidDensity", "Evaporation", "Spray", "JoinAtStart",
+    // grains that come and go
+    "Insert", "InsertedClumps", "InsertInRun", "Inlet", "Outlet", "FluxPlane",
+    // changes in the run
+    "TimeStepChange", "MaterialChange", "Remove",
+    // outputs
+    "ParaView", "Fields"};
+
+/// A sentence that is not in the table of conflicts.
+struct RefusedElsewhere {
+    std::string_view partOfSentence, why;
+};
+constexpr std::array refusedElsewhere{
+    RefusedElsewhere{"need steps of one length; set it before the run begins",
+                     "refused where the step is changed"},
+    RefusedElsewhere{"needs steps of one length; set it before the run begins",
+                     "refused where the step is changed"},
+    RefusedElsewhere{"along this axis stays; strain", "a matter of axes: others can be strained"},
+    RefusedElsewhere{"is above the stability limit", "a matter of the numbers of a scene"},
+    RefusedElsewhere{"walls are not repeated", "not built: images of walls"},
+    RefusedElsewhere{"in shear or strain grains cannot be inserted", "not built: insert() in a flow"},
+    RefusedElsewhere{"superquadrics touch InfiniteWall only", "not built: shapes at other walls"},
+    RefusedElsewhere{"is no superquadric", "not built: spheres beside shapes"},
+    RefusedElsewhere{"fields take grains for spheres", "not built: fields of shapes"},
+};
+
+/// A seed with which grains are many, and fill their box.
+std::uint64_t fullScene(std::uint64_t seed) {
+    for (seed *= 1000;; ++seed) {
+        Recipe recipe;
+        recipe.seed = seed;
+        const Scales scales(recipe);
+        const int cells = scales.cells[0] * scales.cells[1] * scales.cells[2];
+        if (scales.touching && cells >= 36 && Draws(recipe, "Grains").whole(0, 40) > 28) return seed;
+    }
+}
+
+bool hasAnyOf(const std::vector<std::string>& features, const std::vector<std::string_view>& words) {
+    return std::ranges::any_of(features, [&](const std::string& name) {
+        return std::ranges::any_of(words, [&](std::string_view w) { return featureNamed(name).is(w); });
+    });
+}
+
+/// The first of the composed features that is what a feature needs, and that no other one excludes.
+void addNeeded(std::vector<std::string>& features, const Feature& feature) {
+    if (feature.needs.empty() || hasAnyOf(features, feature.needs)) return;
+    for (const std::string_view name : composed) {
+        const Feature& other = featureNamed(name);
+        const bool isIt =
+            std::ranges::any_of(feature.needs, [&](std::string_view word) { return other.is(word); });
+        if (!isIt || exclude(other, feature)) continue;
+        features.emplace_back(name);
+        return;
+    }
+}
+
+bool isConflict(const std::string& sentence) {
+    return std::ranges::any_of(conflicts(), [&](const Conflict& conflict) {
+        return contains(sentence, "cannot be combined") && contains(sentence, conflict.why) &&
+               contains(sentence, conflict.advice);
+    });
+}
+
+}  // namespace
+
+std::span<const std::string_view> composedFeatures() { return composed; }
+
+std::string_view whyNoPair(std::string_view a, std::string_view b) {
+    const Feature &first = featureNamed(a), &second = featureNamed(b);
+    const auto both = [&](std::string_view word) { return first.is(word) && second.is(word); };
+    if (both("integrator")) return "a scene has one integrator";
+    if (both("shear") || both("strain")) return "a scene has one shear and one strain";
+    const auto are = [&](std::string_view word, std::string_view other) {
+        return (first.is(word) && second.is(other)) || (first.is(other) && second.is(word));
+    };
+    if (are("driven wall", "room")) return "a lid stands where grains would come";
+    const auto isOneOf = [&](std::string_view word) { return first.is(word) || second.is(word); };
+    if (isOneOf("Superquadrics") &&
+        (isOneOf("material") || isOneOf("moving liquid") || !first.needs.empty() || !second.needs.empty()))
+        return "superquadrics have one type of species, which has no liquid";
+    return {};
+}
+
+Recipe recipeWith(std::span<const std::string_view> names, std::uint64_t seed) {
+    Recipe recipe;
+    recipe.seed = fullScene(seed);
+    std::vector<std::string> features(names.begin(), names.end());
+    for (const std::string_view name : names) addNeeded(features, featureNamed(name));
+    if (std::ranges::find(features, "Superquadrics") == features.end()) features.emplace_back("Grains");
+    for (const Feature& feature : allFeatures())
+        if (std::ranges::find(features, feature.name) != features.end())
+            recipe.features.push_back(feature.name);
+    return recipe;
+}
+
+Verdict judgeComposition(const Recipe& recipe) {
+    Verdict verdict = judge(recipe, {.restarts = 3});
+    const bool isKnown = verdict.end == "ended" || isConflict(verdict.sentence) ||
+                         std::ranges::any_of(refusedElsewhere, [&](const RefusedElsewhere& one) {
+                             return contains(verdict.sentence, one.partOfSentence);
+                         });
+    if (!isKnown)
+        verdict.faults.push_back(
+            fmt::format("no sentence of the table of conflicts: it {}: {}", verdict.end, verdict.sentence));
+    return verdict;
+}
+
+}  // namespace pendular::fuzz

@@ -1,0 +1,54 @@
+// Each two features of a scene go together, or are refused with a sentence of the table of conflicts.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "SelfTests/Fuzz/RandomScenes/Composition.h"
+#include "SelfTests/Support/Random.h"
+
+namespace pendular::fuzz {
+namespace {
+
+void judgeOne(std::span<const std::string_view> names, std::uint64_t seed) {
+    const Recipe recipe = recipeWith(names, seed);
+    const Verdict verdict = judgeComposition(recipe);
+    if (!verdict.faults.empty())
+        ADD_FAILURE() << fmt::format("{}:\n{}", fmt::join(names, " and "), report(recipe, verdict));
+}
+
+class Composition : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Composition, ofEachWithTheLaterOnes) {
+    const std::span<const std::string_view> all = composedFeatures();
+    for (std::size_t other = GetParam() + 1; other < all.size(); ++other)
+        if (whyNoPair(all[GetParam()], all[other]).empty())
+            judgeOne(std::array{all[GetParam()], all[other]}, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, Composition, testing::Range<std::size_t>(0, composedFeatures().size()),
+                         [](const auto& feature) { return std::string(composedFeatures()[feature.param]); });
+
+/// Triples at random; each failure names its seed and its recipe.
+void judgeTriples(std::uint64_t first, std::uint64_t count) {
+    const std::span<const std::string_view> all = composedFeatures();
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        support::Random random(seed);
+        std::array<std::string_view, 3> names;
+        const auto isNone = [&](std::size_t k) {
+            for (std::size_t other = 0; other < k; ++other)
+                if (names[k] == names[other] || !whyNoPair(names[k], names[other]).empty()) return true;
+            return false;
+        };
+        for (std::size_t k = 0; k < 3; ++k) do
+                names[k] =
+                    all[static_cast<std::size_t>(random.uniform(0, 1) * static_cast<double>(all.size()))];
+            while (isNone(k));
+        SCOPED_TRACE(fmt::format("triple of the seed {}", seed));
+        judgeOne(names, seed);
+    }
+}
+
+TEST(CompositionOfThree, atRandom) { judgeTriples(1, 100); }
+TEST(LongCompositionOfThree, atRandom) { judgeTriples(1000, 3000); }
+
+}  // namespace
+}  // namespace pendular::fuzz
