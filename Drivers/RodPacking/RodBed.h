@@ -48,7 +48,7 @@ public:
         options.run.apply(*this, nameOf(aspect));
         setTimeMax(options.endTime);
     }
-    /// What the files of its run begin with.
+    /// The beginning of the names of the files of the run with this aspect ratio.
     static std::string nameOf(double aspect) { return fmt::format("aspect-{:g}", aspect); }
 
     void setupInitialConditions() override {

@@ -173,7 +173,7 @@ struct Discharge {
     double change;                  // of the flow from the first half of the steady part to the second, of 1
 };
 
-/// Of the run through one orifice, what its files begin with.
+/// The beginning of the names of all files of the run through one orifice.
 inline std::string dischargeName(double orifice) { return fmt::format("orifice-{:g}", orifice); }
 
 /// Lets grains out of a hopper.
