@@ -27,7 +27,7 @@ struct Sweep {
     double time;              // s, that it takes
 };
 
-/// What a sweep meets first.
+/// The first thing that a sweep meets.
 struct SweepHit {
     double share = 2;            // of the way; above 1: nothing
     std::uint32_t grain = none;  // its place

@@ -27,7 +27,7 @@ public:
     /// m, of a class; 0 and infinity at the ends
     [[nodiscard]] double lowest(std::size_t sizeClass) const;
     [[nodiscard]] double highest(std::size_t sizeClass) const;
-    /// Of nothing, where no grain of the species has come.
+    /// What was counted of a species and a class of size; nothing where no grain of the species has come.
     [[nodiscard]] Entry of(std::size_t species, std::size_t sizeClass) const;
     [[nodiscard]] Entry all() const;
 

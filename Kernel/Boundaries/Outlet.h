@@ -11,9 +11,9 @@
 
 namespace pendular {
 
-/// Where grains leave a scene: each one whose centre is in a region, or beyond a plane, at the end of a step
-/// is counted and removed; in a scene that repeats itself, each one of which an image is there. Grains that
-/// are held in place stay.
+/// A place at which grains leave a scene: each one whose centre is in a region, or beyond a plane, at the end
+/// of a step is counted and removed; in a scene that repeats itself, each one of which an image is there.
+/// Grains that are held in place stay.
 class Outlet {
 public:
     /// Those in a region go.
@@ -60,11 +60,11 @@ public:
     [[nodiscard]] bool isEmpty() const { return outlets.empty(); }
     /// What has gone through an outlet. Throws InputError if there is none.
     [[nodiscard]] const GrainTally& tally(std::size_t outlet) const;
-    /// Through all of them.
+    /// What has gone through all outlets.
     [[nodiscard]] std::uint64_t removedNumber() const;
     [[nodiscard]] double removedMass() const;  // kg
 
-    // For the scene.
+    // Called by the scene, not by drivers.
 
     /// The run begins. Throws InputError for a region that is longer than the period, and for a plane across
     /// which the scene repeats itself: all grains have images beyond it.

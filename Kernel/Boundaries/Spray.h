@@ -55,7 +55,7 @@ public:
     /// kg/m^3; 0: droplets hand over no momentum
     [[nodiscard]] double liquidDensity() const { return density; }
     [[nodiscard]] double longestFlight() const { return longest; }
-    /// Of the largest droplet over V_d.
+    /// The volume of the largest droplet over V_d.
     [[nodiscard]] double largestShare() const { return 1 + spreadWidth(); }
 
     /// How many droplets have come out by a time (s).
