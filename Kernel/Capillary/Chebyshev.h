@@ -57,7 +57,8 @@ struct ChebyshevPlane {
     }
 };
 
-/// The same in three variables; coefficients are integers, in units of `unit`.
+/// A vector of `values` numbers as a product of Chebyshev series in three variables; coefficients are
+/// integers, in units of `unit`.
 template <std::size_t first, std::size_t second, std::size_t third, std::size_t values>
 struct ChebyshevProduct {
     static constexpr std::array<std::size_t, 3> shape{first, second, third};
