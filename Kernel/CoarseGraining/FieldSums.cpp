@@ -166,7 +166,7 @@ void FieldSums::forImagesAlong(std::size_t axis, double period, double low, doub
     }
 }
 
-/// The same along all three axes: calls use(shift, velocity) with those (m, m/s) of each image.
+/// Calls use(shift, velocity), in m and m/s, for each image that the grid can see, along all three axes.
 /// @param slid m, of images along the gradient of a shear, which has no period here
 template <class Use>
 void FieldSums::forImagesAlongAxes(const PeriodicBox& periodic, const Vector<double>& low,
@@ -563,7 +563,8 @@ void FieldSums::refuseMovingImages(const FieldGrid& grid, const PeriodicBox& per
 void FieldSums::add(const GrainState& state, int threads) {
     refuseMovingImages(points, state.periodic);
     if (hasContacts()) gatherContactsOfGrains(state, threads);
-    // By the points, so that fields of grains are the same bits with and without those of contacts.
+    // Whether the sums are few goes by the points, so that fields of grains are the same bits with and
+    // without those of contacts.
     const bool isSmall = sums.size() / stored * count <= fewSums;
     items.resize(isSmall ? static_cast<std::size_t>(std::max(threads, 1)) : shares);
     if (isSmall) {

@@ -47,7 +47,8 @@ Vector<double> toPoint(const GrainState& state, const GrainState::Contact& conta
     return ((radius + 0.5 * gap) / length) * contact.shift;
 }
 
-/// Of the rigid bodies in a frame. Without any, or where each is a single grain, nothing changes.
+/// Joins grains to the rigid bodies that a frame has. Without any, or where each is a single grain, nothing
+/// changes.
 void joinBodies(GrainState& state, const PolyData& grains) {
     const PolyDataField* const body = grains.pointField("body");
     if (!body) return;
