@@ -7,11 +7,11 @@
 
 namespace pendular {
 
-/// Where grains are in their rigid bodies, for sums over contacts: the force on a body acts with the branch
-/// from the other body's centre of mass to its own.
+/// The places of grains in their rigid bodies, for sums over contacts: the force on a body acts with the
+/// branch from the other body's centre of mass to its own.
 class BodyArms {
 public:
-    /// As the grains are now.
+    /// Takes the arms of the grains as they are now.
     explicit BodyArms(const ParticleStore& store) : grains(store), arms(store.bodies.armsInSpace(store)) {}
 
     [[nodiscard]] bool empty() const { return arms.empty(); }

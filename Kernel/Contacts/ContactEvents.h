@@ -26,7 +26,7 @@ public:
         events.swap(early);
         changesOfStep.clear();
     }
-    /// What has happened since then belongs to the next step.
+    /// Events since the last step belong to the next one.
     void leaveForNextStep();
     /// To be called before and after the forces of a bucket; after() also gives the columns of contacts that
     /// begin to act the numbers with which they start.

@@ -125,7 +125,7 @@ public:
     /// At the end of a step (s) that ends at a time (s), after move(): films and bridges dry. A bridge that
     /// gets too small for its gap ruptures in the next step.
     void dry(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, double time, double length);
-    /// What changes of volumes have given to bridges since this was called last.
+    /// The energy that changes of volumes have given to bridges since this was called last.
     [[nodiscard]] LiquidEnergy takeEnergy();
     /// Bridges that have dried to nothing.
     [[nodiscard]] std::uint64_t driedBridges() const { return driedOut; }

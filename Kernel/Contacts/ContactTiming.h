@@ -2,8 +2,7 @@
 
 namespace pendular {
 
-/// What contacts make of the step in which their forces are wanted; the default is that of the default
-/// integrator.
+/// How contacts use the step in which their forces are wanted; the default is that of the default integrator.
 struct ContactTiming {
     /// The change of a contact's own force enters the velocity that its dashpots see: they are implicit.
     bool implicitForces = true;

@@ -12,8 +12,8 @@ namespace pendular {
 
 namespace {
 
-/// What a grain sees before and behind a face may differ by this share of its radius. Walls are checked to a
-/// tenth of it, and the nearest point of a part may shift by a few times what the part does.
+/// A wall may look different to a grain before and behind a face, by this share of its radius. Walls are
+/// checked to a tenth of it, and the nearest point of a part may shift by a few times what the part does.
 constexpr double tolerance = 1e-3;
 
 }  // namespace
