@@ -44,24 +44,25 @@ public:
         ledger.membraneElastic = now;
     }
 
-    /// Where the step failed.
+    /// Takes the ledger back to where the step began, which has failed.
     void takeBack(EnergyLedger& ledger) const { ledger = atBegin; }
 
-    /// What the walls have taken note of in finish() counts, at the end (s) of a step that has not failed.
+    /// Lets what the walls have taken note of in finish() count, at the end (s) of a step that has not
+    /// failed.
     static void finishWear(const WallHandler& walls, double time) {
         for (WornWall* const worn : wornWalls(walls))
             if (worn) worn->finishStep(time);
     }
 
-    /// When the grains have moved.
+    /// Called when the grains have moved.
     void moved(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
         const double now = potentialEnergy(grains, gravity);
         ledger.stepError -= now - potential;
         potential = now;
     }
 
-    /// When grains may have gone round a periodic scene, to places where their potential energy is lower:
-    /// what the field gave them on their way stays in the account.
+    /// Called when grains may have gone round a periodic scene, to places where their potential energy is
+    /// lower: what the field gave them on their way stays in the account.
     void wentRound(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
         ledger.carried += potential - potentialEnergy(grains, gravity);
     }
@@ -75,7 +76,8 @@ public:
         if (grain.inverseMass > 0) ledger.images += dot(velocity, then + 0.5 * velocity) / grain.inverseMass;
         then += velocity;
     }
-    /// The same of a rigid body; its grains are told one by one.
+    /// In shear and strain: a rigid body goes over to an image that moves otherwise (m/s); its grains are
+    /// told one by one.
     void changedImageOfBody(const Grains& grains, std::size_t body, const Vector<double>& velocity,
                             EnergyLedger& ledger) {
         ledger.images += bodies.changeVelocity(grains.bodies[body], body, velocity);
@@ -141,7 +143,7 @@ public:
     }
 
 private:
-    /// Of a grain at the start of the step.
+    /// The motion of a grain at the start of the step.
     struct Motion {
         Vector<double> velocity, acceleration;     // m/s, m/s^2
         Vector<double> spin, angularAcceleration;  // rad/s, rad/s^2
