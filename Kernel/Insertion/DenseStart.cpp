@@ -195,7 +195,7 @@ private:
         return growth * std::ranges::min(least);
     }
 
-    /// What its neighbours do to a sphere.
+    /// The push of its neighbours on a sphere.
     struct Push {
         Point way{0, 0, 0};       // m, the sum of overlaps
         double least = infinity;  // radii would have to be multiplied by this

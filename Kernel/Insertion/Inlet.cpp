@@ -18,7 +18,7 @@ namespace pendular {
 namespace {
 
 constexpr std::string_view owner = "Inlet";
-/// Of the random numbers of places; three for each inlet.
+/// The purpose of the random numbers of places; three for each inlet.
 constexpr std::uint32_t purposeOfPlaces = 0x1258000;
 
 /// kg/m^3

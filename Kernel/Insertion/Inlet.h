@@ -93,7 +93,7 @@ public:
     /// Throws InputError if there is no such inlet.
     [[nodiscard]] const InletCount& count(std::size_t inlet) const;
 
-    // For the scene.
+    // Called by the scene, not by drivers.
 
     /// Smallest and largest radius (m) of the grains to come, and their species.
     struct Sizes {

@@ -42,7 +42,7 @@ struct InsertOptions {
     std::uint32_t tries = 10000;  ///< random places for each grain, up to looseFraction
 };
 
-/// What was inserted.
+/// The result of an insertion.
 struct Inserted {
     std::size_t number = 0, wanted = 0;
     double mass = 0, wantedMass = 0;  // kg; wanted: the amount asked for
@@ -55,7 +55,7 @@ struct Inserted {
 /// after some 20 points.)
 inline constexpr double looseFraction = 0.2;
 
-/// Where grains may come.
+/// The scene into which grains come.
 struct InsertionScene {
     ParticleHandler& particles;
     const WallHandler& walls;

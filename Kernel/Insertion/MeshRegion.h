@@ -10,7 +10,7 @@
 
 namespace pendular {
 
-/// What a closed surface of triangles holds. A point is inside if the surface winds around it once: a ray
+/// The inside of a closed surface of triangles. A point is inside if the surface winds around it once: a ray
 /// from it upwards leaves the surface once more than it enters it.
 class MeshRegion final : public Region {
 public:
