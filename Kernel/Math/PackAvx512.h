@@ -21,7 +21,7 @@ struct Mask {
     __mmask8 value;
 
     Mask() = default;
-    // Also from int, which is what & | ^ of two bool give.
+    // It takes int too, which is what & | ^ of two bool give.
     [[gnu::always_inline]] Mask(std::integral auto all) : value(all ? 0xff : 0x00) {}
     [[gnu::always_inline]] static Mask fromBits(std::uint8_t bits) {
         Mask mask;

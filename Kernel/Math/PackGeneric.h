@@ -28,7 +28,7 @@ struct Mask {
     part::Integers value[part::count];
 
     Mask() = default;
-    // Also from int, which is what & | ^ of two bool give.
+    // It takes int too, which is what & | ^ of two bool give.
     [[gnu::always_inline]] Mask(std::integral auto all) : Mask(fromBits(all ? 0xff : 0x00)) {}
     [[gnu::always_inline]] static Mask fromBits(std::uint8_t bits) {
         return map([&](int k) __attribute__((always_inline)) {
