@@ -13,7 +13,7 @@ namespace pendular {
 /// contact forces that the wall keeps, which is exact: no bit depends on the order of contacts.
 class PlaneMotion {
 public:
-    /// What moves them besides contacts.
+    /// The step, and what moves planes in it besides contacts.
     struct Step {
         double time;             // s, at its start
         double length;           // s
