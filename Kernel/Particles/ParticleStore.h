@@ -80,7 +80,7 @@ public:
     /// The identity of the grain that is added next: no identity is given twice.
     [[nodiscard]] std::uint32_t nextIdentity() const { return next; }
 
-    /// Of memory that the grains take.
+    /// The memory (bytes) that the grains take.
     [[nodiscard]] std::size_t bytes() const {
         std::size_t sum =
             bytesOf(translation, rotation, acceleration, earlier, species, identity) + place.bytes();
