@@ -10,7 +10,7 @@ struct Ball {
     double radius = 0;                // m
 };
 
-/// Of a solid of density 1: times the density (kg/m^3), its mass and its inertia.
+/// The mass and the inertia of a solid of density 1, to be multiplied by the density (kg/m^3).
 struct MassProperties {
     double volume = 0;                                  // m^3
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // m, of mass
