@@ -57,12 +57,12 @@ public:
     void follow(const RestartSchedule& given);
     [[nodiscard]] const RestartSchedule& schedule() const { return restarts; }
 
-    /// What is asked for when so many steps have been done; asked again at the same step, it writes no file
-    /// for the count of steps. Costs two loads; looks at the clock, where there is a limit, some twenty times
-    /// a second.
+    /// The request that holds when so many steps have been done; asked again at the same step, it writes no
+    /// file for the count of steps. Costs two loads; looks at the clock, where there is a limit, some twenty
+    /// times a second.
     [[nodiscard]] Request request(std::size_t steps);
 
-    /// What ends a run that was asked to stop.
+    /// The exception that ends a run which was asked to stop.
     /// @param time s; @param restartFile empty: none is kept; @param byCall requestStop() has asked
     [[nodiscard]] static RunStopped stopped(double time, std::size_t steps, const std::string& restartFile,
                                             bool byCall = false);
