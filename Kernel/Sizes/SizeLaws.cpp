@@ -50,7 +50,7 @@ SizeDistribution onRatios(double low, double high, double ratio, SizeBasis basis
         std::move(law));
 }
 
-/// Where a normal law is below the smallest double, in standard deviations.
+/// The distance from its mean at which a normal law is below the smallest double, in standard deviations.
 constexpr double farAway = 40;
 /// Panels that are half a standard deviation long are short enough for 16 nodes: the next term of the series
 /// of exp(-x^2 / 2) is below (1/4)^32.
