@@ -127,7 +127,7 @@ private:
         const MaskOf<T> isClosed = bridge.radii(x).neck < T(1e-3) * bridge.contactRadius;
         return isTooLong | isClosed | (x > T(0.98) * reach);
     }
-    /// Of equation 25, over Stokes' drag.
+    /// The drag of equation 25 over that of Stokes.
     T dragFactor(const BridgeMotion<T>& motion) const {
         const T speed = max(motion.approach, -motion.approach);
         const T reynolds = T(2) * bridge.contactRadius * density * speed / viscosity;

@@ -24,7 +24,7 @@ enum class ViscousScheme {
     Explicit   ///< its coefficient at the gap, times the speed that is predicted without it
 };
 
-/// What resists slip and rolling at a gap.
+/// The theory for what resists slip and rolling at a gap.
 enum class TangentialLubrication {
     None,
     Pair,    ///< leading logarithm of lubrication theory, for any two radii, with rolling
@@ -92,7 +92,8 @@ struct ViscousInteraction {
         }
         return found;
     }
-    /// Of a bridge that is prepared again, perhaps for another volume: what is still to be charged stays.
+    /// Goes on with the state of a bridge that is prepared again, perhaps for another volume: what is still
+    /// to be charged stays.
     template <class Law>
     void takeState(const Law& law, const ViscousInteraction& before) {
         if (squaredReach == 0) {  // there is no liquid, or it has not come yet where films have met
@@ -200,8 +201,8 @@ private:
         // The gap closes in the coming drift, whatever resists it; or it does not open.
         const MaskOf<T> closes = (!creeps) & (h > contact) & (fma(fma(k, before, wanted), dt, h) < T(0));
         if (!isKept) paid = select(closes | staysClosed, T(0), paid);
-        // With what others give, as in the last step, the bodies are brought to a stop at most: what they
-        // have gone too far, in the first step of a scene, is not made good.
+        // The bodies are brought to a stop at most, with what others give as in the last step: what they have
+        // gone too far, in the first step of a scene, is not made good.
         const T others = select(
             begins, T(0), fma(T(-2), motion.approach + drift, -(kick * motion.inverseMass * motion.last)));
         const T speed = wanted + others, own = max(drag * motion.inverseMass, T(1e-300));
@@ -242,7 +243,8 @@ struct ViscousNames {
     static constexpr std::string_view summary = JoinedName<Bridge::summary, resists>::value;
 };
 
-/// Where bridges form before a touch: below a gap, or where liquid moves at the films that there are.
+/// The field that says where bridges form before a touch: below a gap, or where liquid moves at the films
+/// that there are.
 template <bool movesLiquid>
 struct FilmContactField {
     double filmContactGap = 0;  // m
