@@ -26,7 +26,7 @@ struct Shifts {
     double grains = 0, walls = 0;
 };
 
-/// What a part of a step sees of its scene.
+/// The scene as a part of its step sees it.
 struct StepContext {
     ParticleHandler& particles;
     BodyHandler& bodies;

@@ -11,7 +11,7 @@ namespace pendular {
 class StateArchive;
 class SummaryRows;
 
-/// What hooks have changed since the last step.
+/// The changes that hooks have made since the last step.
 struct SceneChanges {
     bool laws = false;    // species or pairs
     bool walls = false;   // added, removed, or moved by other forces
@@ -36,9 +36,10 @@ public:
 
     /// In restart files, the summary and messages; one part has it.
     [[nodiscard]] virtual std::string_view name() const = 0;
-    /// What the scene has by this part; none: the part sleeps. Asked at set-up and after changes.
+    /// The features that the scene has by this part; none: the part sleeps. Asked at set-up and after
+    /// changes.
     [[nodiscard]] virtual Features features(const StepContext&) const { return {Feature::OwnPart}; }
-    /// What a part of a driver's own does not go together with: a is Feature::OwnPart.
+    /// The features that a part of a driver's own does not go together with: a is Feature::OwnPart.
     [[nodiscard]] virtual std::span<const Conflict> ownConflicts() const { return {}; }
     /// Whether finish() needs the velocities at the end of each step. Where no part does, the end of a step
     /// is done together with the start of the next one, which is faster.
@@ -69,9 +70,9 @@ public:
     /// before it.
     virtual void takeBack(StepContext&) {}
 
-    /// What check() and begin() need of a restart file.
+    /// Visits what check() and begin() need of a restart file.
     virtual void visitSetting(StateArchive&, StepContext&) {}
-    /// All else that it remembers.
+    /// Visits all else that the part remembers.
     virtual void visitState(StateArchive&, StepContext&) {}
     virtual void addTo(SummaryRows&) const {}
 };

@@ -79,7 +79,7 @@ public:
         std::array<double, names.size()> parts = spent;
         const double output = spent[static_cast<std::size_t>(Part::Output)], inSteps = total() - output;
         const double known = std::accumulate(spent.begin(), spent.end() - 1, -output);
-        // Of a short run, a measured step that was interrupted may stand for more time than there was.
+        // In a short run, a measured step that was interrupted may stand for more time than there was.
         if (known > inSteps)
             for (double& part : parts) part *= inSteps / known;
         parts[static_cast<std::size_t>(Part::Output)] = output;
