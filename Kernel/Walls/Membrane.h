@@ -9,7 +9,7 @@
 
 namespace pendular {
 
-/// Where the vertices of a membrane are, and what moves them. One entry for each vertex.
+/// The places of the vertices of a membrane, and what moves them. One entry for each vertex.
 struct MembraneState {
     using Column = std::vector<Vector<double>>;
 
@@ -22,7 +22,7 @@ struct MembraneState {
     Vector<double> gravity{0, 0, 0};  // m/s^2, that accelerations have
 };
 
-/// What forces did in the last step, J; for the energy ledger.
+/// The work (J) of forces in the last step, for the energy ledger.
 struct MembraneWork {
     double byGrains = 0;   // contacts, on all vertices
     double byLoads = 0;    // pressure on all vertices, weight of those that move
@@ -50,7 +50,7 @@ public:
     /// this velocity (m/s) and not by forces. Also in a run, again for the same ones too. Throws InputError
     /// if there is none.
     void hold(const std::function<bool(const Vec3D&)>& where, const Vec3D& velocity = Vec3D::Zero());
-    /// The same for all vertices at free edges.
+    /// Holds all vertices at free edges, as hold() does.
     void holdRim(const Vec3D& velocity = Vec3D::Zero());
     /// @param value Pa, pushes along the normals (of corners that run counter-clockwise towards the eye);
     /// negative against them. Also in a run: it acts from the end of the next step on.
@@ -104,7 +104,7 @@ public:
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const override;
     void visitState(StateArchive& archive) override;
 
-    // For MembraneMotion.
+    // Called by MembraneMotion.
     [[nodiscard]] const MembraneState& state() const { return now; }
     /// The vertices go on; the farthest (m) is told by the next moveTo().
     void goOn(MembraneState next, double farthest);
@@ -113,8 +113,8 @@ public:
     /// Contacts have ended, or none of its forces are known, since the last step.
     [[nodiscard]] bool hasOldForces() const { return forcesAreOld; }
     [[nodiscard]] TriangleWeights weightsAt(std::size_t triangle, const Vector<double>& point) const;
-    /// Where it goes through itself, if it does. It is looked for only when vertices may have come a quarter
-    /// of the shortest edge nearer to each other since the last look.
+    /// The place at which the membrane goes through itself, if it does. It is looked for only when vertices
+    /// may have come a quarter of the shortest edge nearer to each other since the last look.
     [[nodiscard]] std::optional<MembraneSurface::Crossing> findCrossing();
     MembraneWork work;
 

@@ -41,7 +41,7 @@ public:
 
     /// The vertices have moved.
     void update(std::span<const Point> at);
-    // As those of Wall; points get no velocity.
+    // These functions do what those of Wall do; points get no velocity.
     void listParts(const Point& centre, double reach, std::vector<std::uint32_t>& parts) const;
     /// Unit, of a triangle.
     [[nodiscard]] const Point& normalOf(std::uint32_t part) const { return faces[part].normal; }
@@ -74,7 +74,7 @@ private:
     [[nodiscard]] static Face faceOf(const Point& a, const Point& b, const Point& c);
     [[nodiscard]] static WallPoint nearest(const Face& face, const Point& centre);
     [[nodiscard]] static bool holds(const Face& face, const Point& point, double tolerance);
-    /// Where the way between two points goes through a face.
+    /// The point at which the way between two points goes through a face.
     [[nodiscard]] static std::optional<Point> crossing(const Face& face, const Point& from, const Point& to,
                                                        double tolerance);
     [[nodiscard]] bool meetSmoothly(std::uint32_t a, std::uint32_t b) const;

@@ -56,7 +56,7 @@ public:
     void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) override;
     void forgetStep() override { noted.clear(); }
     void finishStep(double time) override;
-    /// As that of RigidWall; what was worn off the wall that it was copied from does not count.
+    /// Joins a scene as a RigidWall does; what was worn off the wall that it was copied from does not count.
     void join(double time);
     void visitState(StateArchive& archive) override;
 

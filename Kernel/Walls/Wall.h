@@ -16,7 +16,7 @@ namespace pendular {
 
 class Membrane;
 
-/// Where a sphere is nearest to a part of a wall.
+/// The point of a part of a wall that is nearest to a sphere.
 struct WallPoint {
     Vector<double> normal;    // unit, from the sphere's centre to the wall
     double distance;          // m, from the centre to the surface; infinite: this part is not to be touched
@@ -83,7 +83,7 @@ public:
     [[nodiscard]] virtual std::optional<Vector<double>> facetNormal(std::uint32_t /*part*/) const {
         return {};
     }
-    /// Where its facets, if it has any, do not share their sides.
+    /// The edges at which its facets, if it has any, do not share their sides.
     [[nodiscard]] virtual std::vector<OpenEdge> openEdges() const { return {}; }
 
     /// Whether a centre that moves straight from one point to the other goes through the surface.
@@ -91,8 +91,8 @@ public:
         return false;
     }
 
-    /// What grains see of it that go through the faces of a scene which repeats itself. A shape that cannot
-    /// tell says that it goes through them: then only the run finds out.
+    /// The wall as it is seen by grains that go through the faces of a scene which repeats itself. A shape
+    /// that cannot tell says that it goes through them: then only the run finds out.
     [[nodiscard]] virtual SurfaceAtFaces atFaces(const PeriodicFaces& /*faces*/) const {
         return {.passes = true};
     }
@@ -130,11 +130,11 @@ public:
     /// @param touches contacts that act
     void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches);
     /// A contact has ended between two steps: its force (N) on a wall that is moved by forces acts no longer.
-    /// What is left is rounded: the next step, and a restart file, need the sum of the contacts that there
-    /// are.
+    /// The sum that is left is rounded: the next step, and a restart file, need the sum of the contacts that
+    /// there are.
     virtual void loseForce(const Vector<double>& force);
 
-    /// What a run has changed, and what must be as it was when the run began.
+    /// Visits what a run has changed, and what must be as it was when the run began.
     virtual void visitState(StateArchive& archive);
 
     /// It stands in the place of a wall that was removed.
