@@ -23,7 +23,7 @@ void forEachContactWithDashpot(const Loss& loss, Function&& function) {
     function(hertzian);
 }
 
-/// What the map says of one collision.
+/// The numbers of one collision in the map.
 struct Attraction {
     SeenCollision seen;
     double begin = 0;           // s, when the force turns

@@ -29,8 +29,8 @@ constexpr double lastPush = 1.5;  // over that at which it slides
 
 inline double mass() { return sphereMass(radius, density); }
 
-/// With the contact at rest under the weight, and the tangential stiffness k_t. The tangential oscillation of
-/// a solid sphere has the mass 2/7 m.
+/// The species with the contact at rest under the weight, and the tangential stiffness k_t. The tangential
+/// oscillation of a solid sphere has the mass 2/7 m.
 template <class Friction>
 Species<LinearViscoelastic, Friction> linearMaterial(const Push& push) {
     Species<LinearViscoelastic, Friction> species;

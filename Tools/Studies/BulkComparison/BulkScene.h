@@ -41,7 +41,7 @@ struct PeerGrain {
     Vec3D position, velocity;  // m, m/s
 };
 
-/// What all codes begin with. Periodic where there is no wall; gravity points along -`up`.
+/// The scene that all codes begin with. It is periodic where there is no wall; gravity points along -`up`.
 struct BulkScene {
     std::string name;
     double endTime, interval, measureFrom;  // s, run and frames; figures are of the time from then on

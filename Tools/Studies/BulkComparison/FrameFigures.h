@@ -107,7 +107,7 @@ private:
         sums[name].first += value;
         sums[name].second += 1;
     }
-    /// Of the middle 60 % of the grains, as of the study of laws; the stress of all.
+    /// Adds figures of the middle 60 % of the grains, as in the study of laws, and the stress of all.
     void addBed(const std::vector<PeerGrain>& grains) {
         std::vector<double> heights;
         double moment = 0, mass = 0;  // kg m, kg

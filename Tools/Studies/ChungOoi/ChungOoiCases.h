@@ -69,7 +69,7 @@ inline std::vector<ImpactCase> chungOoi3() {
     });
 }
 
-/// Of test 4, at an angle (degrees) from the normal.
+/// An impact of test 4, at an angle (degrees) from the normal.
 inline ImpactCase obliqueImpact(double degrees, const scenes::ImpactMaterial& contact) {
     const double angle = degrees * std::numbers::pi / 180;
     return {.contact = contact,
@@ -100,7 +100,7 @@ inline std::vector<ImpactCase> chungOoi5() {
         });
 }
 
-/// Of tests 6 to 8: rad/s.
+/// The spins (rad/s) of tests 6 to 8.
 inline std::vector<double> spins() {
     return joined(joined({0.175}, evenly(0.25, 6, 0.25)), evenly(7, 24, 1));
 }

@@ -87,7 +87,7 @@ void writeRestitutions(const Tables& tables) {
     error.print();
 }
 
-/// Of the contact point's way after an impact, from the normal, degrees.
+/// The angle (degrees) of the contact point's way after an impact, from the normal.
 double reboundAngle(const ImpactCase::Motion& after) {
     return std::atan2(after.sideways - after.rim, after.parting) * 180 / std::numbers::pi;
 }
