@@ -62,7 +62,7 @@ public:
     Actions& actions;
     const Recipe& recipe;
     const Scales scales;
-    /// Of the feature that is added now.
+    /// The random numbers of the feature that is added now.
     Draws draw;
     /// Steps that had been done where the scene goes on from a restart file; 0: it begins.
     const int goesOnFrom;
