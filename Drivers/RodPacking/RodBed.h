@@ -94,7 +94,8 @@ public:
         double bottom, top;
         [[nodiscard]] bool contains(double z) const { return z >= bottom && z < top; }
     };
-    /// From a quarter to three quarters of its height, which is twice that of its centre of mass.
+    /// The layer of the bed from a quarter to three quarters of its height, which is twice that of its centre
+    /// of mass.
     [[nodiscard]] Layer middle() {
         double sum = 0;
         for (std::size_t k = 0; k < bodyHandler.getSize(); ++k)

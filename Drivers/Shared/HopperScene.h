@@ -146,7 +146,7 @@ inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const Run
                {3 * hopper.grainDiameter, infinity, true, false});
     checkValue("HopperScene", "slope of the cone", hopper.coneSlope * 180 / std::numbers::pi, "degrees",
                {0, 80});
-    // Before any of them is made.
+    // The number of grains is checked before any of them is made.
     const double across = std::max(hopper.diameter - hopper.grainDiameter, 0.0) / hopper.grainDiameter,
                  inLayer = 0.25 * std::numbers::pi * across * across;
     constexpr double most = 1e6;

@@ -120,7 +120,7 @@ private:
                 options.law, options.contactAngle, options.cohesion));
         law.surfaceTension = options.cohesion * mass / relaxation() * radius * rate / pull;
     }
-    /// At random, where there is room.
+    /// Adds grains at random places where there is room.
     template <class Material>
     void addGrains(const Material* material) {
         UniformRandom random{options.seed};
