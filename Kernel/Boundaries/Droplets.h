@@ -47,8 +47,8 @@ public:
     /// again.
     void update(const ParticleStore& grains, const PeriodicBox& box, std::size_t lists, double shift,
                 double smallestRadius);
-    /// From any thread. Parts of walls are marched to by the distance that is free, up to 1e-4 of the
-    /// sphere's radius.
+    /// The first hit of a sweep, from any thread. Parts of walls are marched to by the distance that is free,
+    /// up to 1e-4 of the sphere's radius.
     [[nodiscard]] SweepHit firstHit(const Sweep& sweep, const ParticleStore& grains, const PeriodicBox& box,
                                     const WallHandler& walls) const;
 
