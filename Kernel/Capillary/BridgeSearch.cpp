@@ -181,7 +181,7 @@ std::optional<DelaunayArc> findAlongBranch(const BridgeConditions& conditions, d
     if (!start) return {};
     const Walk result = walk(branch, *start, gap);
     if (!result.arrived) return {};
-    // To rounding error, and at this very gap.
+    // The result is right to rounding error, and at this very gap.
     return stableOrNothing(branch.equations(),
                            convergeArc(branch.equations(), gap, result.arrived->arc, mostQuadratureNodes));
 }
