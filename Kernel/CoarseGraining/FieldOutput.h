@@ -36,8 +36,8 @@ public:
     FieldOutput& averagedOver(double seconds);
     /// Fields of each group of grains as well.
     FieldOutput& withGroups(const GrainGroups& groups);
-    /// Only fields of the grains themselves: no stress of contacts, traction, fabric, coordination, liquid.
-    /// It costs a fifth or less.
+    /// Takes only fields of the grains themselves: no stress of contacts, traction, fabric, coordination,
+    /// liquid. It costs a fifth or less.
     FieldOutput& withoutContacts();
     /// Velocities against the flow of setLeesEdwards(), or of a strain: then velocity is the deviation from
     /// the flow, and the kinetic stress is free of it also where the gradient is averaged over. A scene

@@ -389,7 +389,7 @@ void FieldSums::addContact(const GrainState& state, std::size_t number, Items& i
         addLine(state, end, -contact.shift, contact, group, items);
         return;
     }
-    // In the middle of the overlap or of the gap, as a fraction of the shift.
+    // The point in the middle of the overlap or of the gap, as a fraction of the shift.
     const double length = norm(contact.shift);
     const double middle = (first.radius + 0.5 * (length - first.radius - second.radius)) / length;
     addLine(state, first.position + middle * contact.shift, -middle * contact.shift, contact, group, items);

@@ -17,8 +17,8 @@ class GrainGroups {
 public:
     static GrainGroups none() { return {}; }
     static GrainGroups bySpecies(std::size_t species);
-    /// Between diameters (m): below the first, between, from the last on. Throws InputError unless they are
-    /// positive and increase.
+    /// Groups between diameters (m): below the first, between, from the last on. Throws InputError unless
+    /// they are positive and increase.
     static GrainGroups bySize(std::vector<double> diameters);
 
     [[nodiscard]] std::size_t count() const { return names.size(); }
