@@ -16,7 +16,7 @@ public:
 
     /// Keeps the changes of each step, for physics that follows from them.
     void watch(bool on) { watching = on; }
-    /// Those of this step, in the order of the list.
+    /// The changes of contacts in this step, in the order of the list.
     [[nodiscard]] const std::vector<ContactChange>& changes() const { return changesOfStep; }
 
     /// A step begins: what has ended since the last one, because bodies were removed or changed, belongs to

@@ -235,7 +235,7 @@ struct WallGeometry {
         if constexpr (S::hasContactTorque) g.spinDifference = own - wall;
     }
 
-    /// Those of the grains: walls are taken to keep their velocity for the step.
+    /// The accelerations of the grains: walls are taken to keep their velocity for the step.
     [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
                                                           Pack overlap) const {
         auto [wx, wy, wz] =

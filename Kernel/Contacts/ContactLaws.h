@@ -133,8 +133,8 @@ public:
                                double* interaction) const = 0;
     /// A bridge that was prepared again goes on with what it remembered.
     virtual void takeBridgeState(int a, int b, double* interaction, const double* before) const = 0;
-    /// Between two steps: if the separation (m) is not what it was at the end of the last one (by more than
-    /// roundOff, m), the bodies have been put there, and a bridge forgets how they moved.
+    /// Called between two steps: if the separation (m) is not what it was at the end of the last one (by more
+    /// than roundOff, m), the bodies have been put there, and a bridge forgets how they moved.
     virtual void checkGap(int a, int b, double* interaction, double separation, double roundOff) const = 0;
     [[nodiscard]] virtual double adhesiveForce(int a, int b, const double* interaction,
                                                double separation) const = 0;

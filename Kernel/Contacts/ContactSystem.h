@@ -42,9 +42,9 @@ public:
     void listNow(Grains& grains) { listNow(grains, true); }
     /// Bodies or laws have changed: contacts are listed again at once, and their bridges prepared again, for
     /// the volumes for which they were prepared: what has not changed keeps its bits.
-    /// Those that the change takes apart end, also where both bodies are held now, and those whose pair has
-    /// other laws now, which know nothing of what the contact remembers. Returns the energy (J) that was
-    /// stored in what has ended, where a ledger is kept.
+    /// Contacts whose bodies the change takes apart end, also where both bodies are held now, and contacts
+    /// whose pair has other laws now, which know nothing of what the contact remembers. Returns the energy
+    /// (J) that was stored in what has ended, where a ledger is kept.
     double renew(Grains& grains);
     /// Ends the contacts of the grain at a place, or at a wall, which is about to be removed; returns the
     /// energy (J) that was stored in them, where a ledger is kept.
@@ -94,7 +94,7 @@ public:
     /// exactly, so that a restart makes the same sum.
     void sumLostForces(const Grains& grains);
 
-    /// After the forces of a step (s) that ends at a time (s), in a scene in which liquid moves.
+    /// Called after the forces of a step (s) that ends at a time (s), in a scene in which liquid moves.
     void moveLiquid(Grains& grains, double time, double length);
     void setEvaporation(const Evaporation& law) { liquid.setEvaporation(law); }
     [[nodiscard]] const ContactLiquid& movingLiquid() const { return liquid; }
