@@ -33,7 +33,7 @@ public:
         return given;
     }
 
-    /// At the end of the step: what the bodies have gained (J), less the work of their contacts.
+    /// Called at the end of the step: what the bodies have gained (J), less the work of their contacts.
     /// @param meanOf (place of a grain) gives its mean velocity and spin in the step
     template <class MeanOf>
     void addGainBesidesContacts(const ParticleStore& grains, const ContactStore& contacts, double step,

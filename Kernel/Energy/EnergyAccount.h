@@ -22,7 +22,7 @@ class EnergyAccount {
 public:
     using Grains = ParticleStore;
 
-    /// Before the grains move by a step (s); without length at the start of a run.
+    /// Called before the grains move by a step (s); without length at the start of a run.
     void begin(const Grains& grains, const ContactStore& contacts, const WallHandler& walls,
                const Vector<double>& gravity, double step, EnergyLedger& ledger) {
         atBegin = ledger;
@@ -86,7 +86,7 @@ public:
         before[number].velocity += velocity;
     }
 
-    /// At the end of the step.
+    /// Ends the account of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
                 const Vector<double>& gravity, double step, const Integrator& scheme, EnergyLedger& ledger) {
         // Grains may have been sorted since the start of the step; the order of identities is the same.

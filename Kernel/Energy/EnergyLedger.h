@@ -55,7 +55,7 @@ struct EnergyLedger {
 
     double carried = 0;  // of the potential energy, by grains that have gone round a periodic scene
 
-    /// In all springs.
+    /// The energy in all springs.
     [[nodiscard]] double springs() const {
         return elastic + tangentialElastic + rollingElastic + torsionElastic;
     }
