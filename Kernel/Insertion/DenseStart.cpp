@@ -146,7 +146,7 @@ private:
         return maskFromBits(static_cast<std::uint8_t>((1U << left) - 1));
     }
 
-    /// In an order that depends on the spheres only.
+    /// Finds the pairs in an order that depends on the spheres only.
     std::vector<Pair> findPairs() {
         const NeighbourSearch search(asRecords(), skin, periodic, threads);
         border.resize(spheres.size());

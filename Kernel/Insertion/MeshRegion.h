@@ -18,7 +18,7 @@ public:
     /// belongs to two triangles, which go along it in opposite directions (corners are the same as for a
     /// TriangleWall: WeldedMesh.h), and the surface winds around no point of a sample more than once.
     explicit MeshRegion(std::span<const Triangle> triangles);
-    /// From a file, as readTriangles() has it.
+    /// A region from a file that readTriangles() reads.
     /// @param scale m for one unit of the file (1e-3 for a file in mm)
     static MeshRegion fromFile(const std::filesystem::path& path, double scale = 1) {
         return MeshRegion(readTriangles(path, scale));
