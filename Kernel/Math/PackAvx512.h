@@ -61,9 +61,9 @@ struct Pack {
     [[gnu::always_inline]] Pack(double all) : value(_mm512_set1_pd(all)) {}
     [[gnu::always_inline]] explicit Pack(__m512d native) : value(native) {}
 
-    /// From 64-byte aligned memory.
+    /// Loads from 64-byte aligned memory.
     [[gnu::always_inline]] static Pack load(const double* address) { return Pack(_mm512_load_pd(address)); }
-    /// To 64-byte aligned memory.
+    /// Stores to 64-byte aligned memory.
     [[gnu::always_inline]] void store(double* address) const { _mm512_store_pd(address, value); }
     [[gnu::always_inline]] static Pack fromLanes(const std::array<double, lanes>& values) {
         return Pack(_mm512_loadu_pd(values.data()));
