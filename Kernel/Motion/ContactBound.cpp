@@ -16,8 +16,8 @@ namespace {
 /// at none at all.
 constexpr double smallestOverlap = 1e-6;
 
-/// To the nearest multiple of the unit, a power of two, for values below 2^51 units: exact in sums of a few
-/// thousand.
+/// Rounds to the nearest multiple of the unit, a power of two, for values below 2^51 units: exact in sums of
+/// a few thousand.
 double inUnits(double value, double unit) {
     constexpr double rounds = 0x1.8p52;
     return (value + rounds * unit) - rounds * unit;

@@ -26,7 +26,7 @@ struct Integrator {
     [[nodiscard]] constexpr bool takesMeanAcceleration() const {
         return !remembersEarlier() && corrector == 0.5 && velocity0 - corrector * now == 0.5;
     }
-    /// One that has another coefficient is another one; the name says nothing.
+    /// Integrators are equal if their coefficients are; the name does not count.
     friend constexpr bool operator==(const Integrator& a, const Integrator& b) {
         return a.position0 == b.position0 && a.position1 == b.position1 && a.velocity0 == b.velocity0 &&
                a.velocity1 == b.velocity1 && a.corrector == b.corrector && a.now == b.now &&

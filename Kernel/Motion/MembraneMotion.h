@@ -24,7 +24,7 @@ public:
     /// Begins a step, before walls move. Throws RunError where a vertex moves too far, a triangle collapses,
     /// or a membrane goes through itself.
     void begin(const WallHandler& walls, const Step& step);
-    /// When the forces of contacts are known. A step of no length: at the start of a run.
+    /// Called when the forces of contacts are known. A step of no length: at the start of a run.
     /// @param keepsWork for the energy ledger
     void finish(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
                 const Step& step, bool keepsWork) const;

@@ -28,10 +28,10 @@ public:
 
     /// A step is about to begin: there is nothing to be taken back.
     void forget() { before.clear(); }
-    /// Before walls move. Throws RunError where a plane cannot go on.
+    /// Called before walls move. Throws RunError where a plane cannot go on.
     void begin(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
                const Step& step);
-    /// When the forces are known.
+    /// Called when the forces are known.
     static void finish(const WallHandler& walls, const Step& step);
     /// Undoes begin.
     void takeBack(const WallHandler& walls) const;
