@@ -22,7 +22,7 @@ struct LeesEdwards : ControlledRate {
     double began = 0;   // s, since when they have it
     double offset = 0;  // m, how far they had slid then
 
-    /// At the start of a run.
+    /// Fixes the speed of the images at the start of a run.
     LeesEdwards& settle(const PeriodicBox& box) {
         speed = rate * box.length.*axes[gradient];
         return *this;

@@ -112,7 +112,7 @@ public:
     /// kg/m^3, of films: their mass is part of that of their grains, as renewMasses() and all changes of a
     /// grain count it. 0: they have none.
     void setLiquidDensity(double density) { liquidDensity = density; }
-    /// When the laws are known: grains of a scene without friction have no spin.
+    /// Called when the laws are known: grains of a scene without friction have no spin.
     void settleSpin();
 
     /// Takes the memory for so many grains at once, instead of bit by bit.
@@ -200,7 +200,7 @@ public:
     /// Whether the last step was left unfinished, and nobody has asked for the grains since; who calls this
     /// finishes it.
     [[nodiscard]] bool takeUnfinishedStep() { return unfinished.exchange(false); }
-    /// From any thread: all others wait until it is done.
+    /// May be called from any thread: all others wait until it is done.
     void finishStep() const {
         if (!unfinished.load(std::memory_order_acquire)) [[likely]]
             return;
@@ -223,8 +223,8 @@ private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
-    /// At the density that its species has now, with the film that it has; its forces stay. Not of a grain
-    /// that is held.
+    /// Gives a grain the mass of the density that its species has now, with the film that it has; its forces
+    /// stay. Not for a grain that is held.
     void renewMass(std::uint32_t place);
     /// The inertia of a grain that moves by itself.
     [[nodiscard]] GrainInertia inertiaAt(std::uint32_t place) const;

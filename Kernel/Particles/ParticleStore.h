@@ -105,7 +105,7 @@ public:
 
     /// Puts the grain at order[k] to place k, for all k. The order holds all grains, and need hold no gaps.
     void reorder(const std::vector<std::uint32_t>& order, int threads = 1);
-    /// In the order of identities.
+    /// Visits the grains in the order of identities.
     void visitState(StateArchive& archive);
 
 private:

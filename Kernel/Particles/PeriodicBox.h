@@ -68,7 +68,7 @@ struct PeriodicBox {
                Vector<T>{T(strainRate.x) * apart.x, T(strainRate.y) * apart.y, T(strainRate.z) * apart.z};
     }
 
-    /// In which image along the gradient a position lies: 0 inside the box.
+    /// The image along the gradient in which a position lies: 0 inside the box.
     [[nodiscard]] double imageOf(const Vector<double>& p) const {
         return std::floor(dot(across, p - lowest));
     }
