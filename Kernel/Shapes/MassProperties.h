@@ -17,7 +17,7 @@ struct MassProperties {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // m^5, about the centre of mass
     double error = 0;  // of volume and moments of inertia, relative: a bound of what is computed
 
-    /// From the integrals over the solid of 1, of the place p, and of p p^T.
+    /// The properties from the integrals over the solid of 1, of the place p, and of p p^T.
     static MassProperties fromMoments(double volume, const Eigen::Vector3d& first,
                                       const Eigen::Matrix3d& second);
 };

@@ -169,7 +169,7 @@ std::vector<Ball> withNeighbours(std::span<const Ball> spheres, std::size_t own)
         if (k == own) continue;
         const double d = (spheres[k].centre - spheres[own].centre).norm(), r = spheres[own].radius,
                      s = spheres[k].radius;
-        // To round-off each lies within the other: the first one counts.
+        // The two lie within each other to round-off: the first one counts.
         const bool isSame = d + r <= s && d + s <= r;
         if (isSame ? k < own : d + r <= s) return {};
         if (!isSame && d < r + s && d + s > r) found.push_back(spheres[k]);
