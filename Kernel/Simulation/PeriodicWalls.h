@@ -42,7 +42,7 @@ public:
     /// The places of all grains that are outside.
     [[nodiscard]] std::vector<std::uint32_t> outside(const ParticleStore& grains) const;
 
-    /// After check().
+    /// Called after check().
     void visitState(StateArchive& archive);
 
 private:

@@ -14,7 +14,7 @@ struct RunStopped : std::runtime_error {
     int exitCode;  // of the program, as shells give it: 128 + the number of the signal
 };
 
-/// When a run writes restart files.
+/// The times at which a run writes restart files.
 struct RestartSchedule {
     bool kept = false;
     std::size_t count = 0;  // steps from one restart file to the next; 0: none for the steps
@@ -53,7 +53,7 @@ public:
     RunControl(const RunControl&) = delete;
     RunControl& operator=(const RunControl&) = delete;
 
-    /// From now on by this schedule, and by the limit of wall time as it is now.
+    /// Follows this schedule from now on, and by the limit of wall time as it is now.
     void follow(const RestartSchedule& given);
     [[nodiscard]] const RestartSchedule& schedule() const { return restarts; }
 

@@ -176,7 +176,7 @@ public:
 
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
     void listenToContacts(bool listen = true);
-    /// Those of the last step, and how many there have been.
+    /// The events of the last step, and how many there have been.
     [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const;
     [[nodiscard]] const ContactEventCounts& contactEventCounts() const;
 
@@ -189,7 +189,7 @@ public:
 
     /// All contacts that have a force, in the order of identities, as of the last step.
     [[nodiscard]] std::vector<ObservedContact> interactions() const;
-    /// Those of one grain. Throws InputError if there is no such grain.
+    /// The contacts of one grain. Throws InputError if there is no such grain.
     [[nodiscard]] std::vector<ObservedContact> interactionsOf(std::size_t identity) const;
     /// N, of all contacts on a grain, also on one that is held in place; without its weight.
     [[nodiscard]] Vec3D contactForceOn(std::size_t identity) const;

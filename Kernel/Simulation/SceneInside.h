@@ -37,7 +37,7 @@ public:
     // SceneSetUp.cpp
 
     void setUp();
-    /// When species, walls and grains are known.
+    /// Called when species, walls and grains are known.
     void prepare();
     /// Throws InputError where set-up would.
     void check();
