@@ -99,7 +99,7 @@ CutLaw lognormalSizes(double median, double geometricDeviation, double low, doub
     checkCuts(low, high);
     const double sigma = std::log(geometricDeviation);
     const double middle = std::log(median) - static_cast<int>(basis) * sigma * sigma;  // of the numbers
-    // From where the numbers vanish to where d^4 times the numbers does.
+    // The range goes from where the numbers vanish to where d^4 times the numbers does.
     const double from = std::max(low, std::exp(middle - farAway * sigma)),
                  to = std::min(high, std::exp(middle + 4 * sigma * sigma + farAway * sigma));
     const auto above = [=](double d, int k) {
