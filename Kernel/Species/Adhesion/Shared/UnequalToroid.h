@@ -24,7 +24,7 @@ struct UnequalToroid {
     /// Neck radius l, not where the arc is straight.
     [[nodiscard]] double neck() const;
     [[nodiscard]] double volume() const;
-    /// At the neck, pi l^2 (1/rho - 1/l) + 2 pi l.
+    /// The force at the neck, pi l^2 (1/rho - 1/l) + 2 pi l.
     [[nodiscard]] double gorgeForce() const;
 };
 

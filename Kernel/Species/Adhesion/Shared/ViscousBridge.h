@@ -118,7 +118,7 @@ struct ViscousInteraction {
         lastGap = gap;
         charged = start;
     }
-    /// Between two steps; bodies that have been put somewhere else have not moved there.
+    /// Called between two steps; bodies that have been put somewhere else have not moved there.
     void checkGap(T separation, T roundOff) {
         if (!(abs(separation - lastGap) <= roundOff)) lastGap = never;
     }
@@ -316,7 +316,7 @@ struct ViscousBridge : Bridge, FilmContactField<MovesLiquid<Bridge>> {
         return joinedFields<Law>(Bridge::fields(), added);
     }
 
-    // Those of the bridge, so that a refusal names this law.
+    // The setters are those of the bridge, made again so that a refusal names this law.
     void setLiquidBridgeVolume(double value) requires(!MovesLiquid<Bridge>) {
         setField(*this, &ViscousBridge::liquidBridgeVolume, value);
     }
@@ -391,8 +391,8 @@ struct ViscousBridge : Bridge, FilmContactField<MovesLiquid<Bridge>> {
         const double longest = dynamicRupture > 0 ? 1 + std::sqrt(largestCapillaryNumber) : 1;
         return longest * Bridge::range(bodies);
     }
-    /// At the roughness, where it is largest. The pair alone is stable at any step with the gap scheme; so is
-    /// a bed whose grains have no more than viscousNeighbours bridges.
+    /// The resistance at the roughness, where it is largest. The pair alone is stable at any step with the
+    /// gap scheme; so is a bed whose grains have no more than viscousNeighbours bridges.
     [[nodiscard]] BridgeResistance<double> largestResistance(const Bodies& bodies) const {
         auto bridge = withLiquid({}, bodies, this->liquidBridgeVolume);
         ViscousBridge law = *this;
