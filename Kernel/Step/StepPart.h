@@ -34,7 +34,7 @@ public:
     StepPart& operator=(const StepPart&) = delete;
     virtual ~StepPart() = default;
 
-    /// In restart files, the summary and messages; one part has it.
+    /// The name in restart files, the summary and messages; one part has it.
     [[nodiscard]] virtual std::string_view name() const = 0;
     /// The features that the scene has by this part; none: the part sleeps. Asked at set-up and after
     /// changes.
@@ -52,8 +52,8 @@ public:
     /// Hooks have changed something; before check().
     virtual void takeOver(StepContext&, const SceneChanges&) {}
 
-    /// Before a step, of a whole state: it may still choose the length of the step, or change velocities (the
-    /// energy ledger books that as given by the driver). It is not taken back.
+    /// Called before a step, with a whole state: it may still choose the length of the step, or change
+    /// velocities (the energy ledger books that as given by the driver). It is not taken back.
     virtual void prepare(StepContext&) {}
     virtual void beforeMotion(StepContext&) {}
     virtual void moveGrains(StepContext&) {}

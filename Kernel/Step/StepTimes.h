@@ -48,7 +48,7 @@ public:
         stepsSince = 0;
         active = false;
     }
-    /// From now on time counts for this part; returns the one before.
+    /// Lets time count for this part from now on; returns the one before.
     Part enter(Part part) {
         if (on && (active || part == Part::Output || current == Part::Output)) {
             const Clock::time_point now = Clock::now();
