@@ -51,7 +51,7 @@ public:
     [[nodiscard]] Mask isWithin(double gap) const { return depth > Pack(-gap); }
     [[nodiscard]] ContactGeometry<Pack> complete() const;
     void completeSpins(ContactGeometry<Pack>& /*g*/) const {}
-    /// Only for integrators that do not move rigid bodies.
+    /// Asked only by integrators that do not move rigid bodies.
     [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* /*acceleration*/,
                                                           Pack /*lever*/) const {
         const Vector<Pack> zero{Pack(0), Pack(0), Pack(0)};

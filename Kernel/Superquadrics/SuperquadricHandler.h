@@ -27,8 +27,8 @@ public:
     /// The shape of a grain, by its identity. Throws InputError if it is none of these.
     [[nodiscard]] const Superquadric& shapeOf(std::uint32_t grain) const;
     [[nodiscard]] bool isEmpty() const { return particles.storeInStep().bodies.empty(); }
-    /// In how many evaluations of a contact that acted Newton's method has not ended, and the search without
-    /// derivatives went on.
+    /// The number of evaluations of a contact that acted in which Newton's method has not ended, and the
+    /// search without derivatives went on.
     [[nodiscard]] std::uint64_t fallbacks() const { return fallbackCount; }
 
     [[nodiscard]] const Superquadric& shapeAt(const ParticleStore& grains,
