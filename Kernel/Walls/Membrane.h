@@ -40,7 +40,8 @@ class Membrane final : public Wall {
 public:
     /// Throws InputError as MembraneNet, and for triangles that go through each other.
     void set(std::span<const Triangle> triangles, const MembraneMaterial& material);
-    /// From a file: STL, OBJ, PLY or rows (readTriangles). @param scale m for one unit of the file
+    /// Sets the membrane from a file: STL, OBJ, PLY or rows (readTriangles). @param scale m for one unit of
+    /// the file
     void read(const std::filesystem::path& path, const MembraneMaterial& material, double scale = 1) {
         set(readTriangles(path, scale), material);
     }

@@ -84,7 +84,7 @@ private:
     std::optional<WornVertices> moving;
     std::vector<Vector<double>> vertices;  // m, of a wall whose vertices move
     double shapeShift = 0;                 // m, how far they went in the last step
-    /// In the step that is computed.
+    /// What a contact did to the wall in the step that is computed.
     struct Note {
         std::uint32_t part;
         Vector<double> point;  // m, in the body's frame
