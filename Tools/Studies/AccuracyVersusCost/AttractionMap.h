@@ -3,7 +3,8 @@
 #include "Kernel/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/DampedCollisions.h"
 
-// When the normal force of a damped contact pulls, how strongly, and what it means for the restitution.
+// A map of when the normal force of a damped contact pulls, how strongly, and what it means for the
+// restitution.
 
 namespace pendular {
 

@@ -16,7 +16,7 @@ struct Loss {
     double dampingOverCritical = 0;  // where nothing is left: 1 and more
 };
 
-/// From next to nothing left to no loss.
+/// The losses of all cases, from next to nothing left to no loss.
 inline constexpr std::array losses{Loss{0, 2}, Loss{0, 1}, Loss{0.02}, Loss{0.05}, Loss{0.1}, Loss{0.15},
                                    Loss{0.2},  Loss{0.25}, Loss{0.3},  Loss{0.4},  Loss{0.5}, Loss{0.6},
                                    Loss{0.7},  Loss{0.8},  Loss{0.9},  Loss{0.95}, Loss{1}};

@@ -100,12 +100,12 @@ public:
     }
     [[nodiscard]] double rupture() const { return ruptureDistance; }  // radii
 
-    /// Until the grains touch, stop or turn back. What is charged with the touch comes two steps later.
+    /// Runs until the grains touch, stop or turn back. What is charged with the touch comes two steps later.
     void approach() {
         while (gap() > 0 && closing() > stopped) step();
         if (gap() <= 0) step(), step();
     }
-    /// Until the bridge has ruptured, or the grains have stopped or turned back.
+    /// Runs until the bridge has ruptured, or the grains have stopped or turned back.
     void part() {
         while (gap() < 0) step();
         while (gap() < ruptureDistance && closing() < -stopped) step();

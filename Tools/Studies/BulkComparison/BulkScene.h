@@ -13,7 +13,7 @@
 
 namespace pendular::bulk {
 
-/// One for all grains and walls; only the drum's wall has another friction.
+/// The material of all grains and walls; only the drum's wall has another friction.
 struct PeerMaterial {
     static constexpr double density = 2500;     // kg/m^3
     static inline double elasticModulus = 5e6;  // Pa, Young's; bulk-figures --modulus-Pa

@@ -77,7 +77,7 @@ public:
         return !isLost && !energies.empty() && energies.back().x > scene.endTime - 1.5 * scene.interval;
     }
 
-    /// Only of a run that survived.
+    /// The figures of a run that survived.
     [[nodiscard]] std::vector<Figure> figures() const {
         std::vector<Figure> found;
         const auto mean = [&](const std::string& name) {

@@ -22,7 +22,7 @@ struct HertzImpact {
     [[nodiscard]] double contactTime() const {                                       // s
         return 2 * largestOverlap() / speed * scaledTime(std::pow(std::numbers::pi / 2, 0.8));
     }
-    /// In m, at a time (s) from the start of the touch; 0 after its end.
+    /// The overlap (m) at a time (s) from the start of the touch; 0 after its end.
     [[nodiscard]] double overlapAt(double time) const {
         if (time <= 0 || time >= contactTime()) return 0;
         const double wanted = std::min(time, contactTime() - time) * speed / largestOverlap();

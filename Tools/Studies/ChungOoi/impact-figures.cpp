@@ -21,7 +21,7 @@ class LargestError {
 public:
     LargestError(int test, std::string what, double limit)
         : test(test), what(std::move(what)), limit(limit) {}
-    /// In percent.
+    /// The error in percent.
     double of(double simulated, double theory, double scale) {
         const double error = (simulated - theory) / scale;
         largest = std::max(largest, std::abs(error));
