@@ -38,9 +38,8 @@ struct SweepHit {
 };
 
 /// Finds the first grain or wall that a sphere meets on its way through a step. Grains move straight, too,
-/// with the velocity that they have at its end; walls are where they are then. Of things that are met at the
-/// same point of the way, the grain with the lowest identity is the first, then the wall with the lowest
-/// number.
+/// with the velocity that they have at its end; walls are where they are then. If several are met at the same
+/// point of the way, the grain with the lowest identity is the first, then the wall with the lowest number.
 class SweptSearch {
 public:
     /// Grains have moved by so much at most (m) in a step; their order is new where contacts were listed
