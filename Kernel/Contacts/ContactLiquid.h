@@ -114,7 +114,7 @@ public:
     [[nodiscard]] bool formsAtFilms(const ContactLaws& laws) const;
     [[nodiscard]] double largestFilmContact(const ParticleStore& grains) const;
     /// Called at the end of a step (s), before move(): the contacts without a bridge whose films meet, in the
-    /// order of the list. For move() they need memory.
+    /// order of the list. They need memory for move().
     /// @param approached m, that bodies can have approached since they were listed
     const std::vector<FilmContact>& findFilmContacts(const ContactStore& store, const ContactLaws& laws,
                                                      const ParticleStore& grains, double length,

@@ -11,8 +11,8 @@ struct ContactTiming {
     /// force.
     bool timesTouches = true;
     /// With timesTouches: tangential springs are not kept ahead, but move to the force with the velocity in
-    /// the middle of the time that they move for, which is explicit. For grains that carry the velocity v + h
-    /// a.
+    /// the middle of the time that they move for, which is explicit. This is for grains that carry the
+    /// velocity v + h a.
     bool springsInStep = false;
     /// s, of the step that comes; 0: as long as the last one.
     double comingStep = 0;
