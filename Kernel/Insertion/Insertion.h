@@ -77,8 +77,8 @@ void refuseWithoutRoom(std::string_view owner, const Region& region, const WallH
                        const Vector<double>& way = {0, 0, 0});
 
 /// Inserts grains that overlap nothing: no grain, no wall, none of their images. A grain that finds no room
-/// is left out, and all smaller ones are tried. Of an amount that is less than the first random grain none
-/// comes.
+/// is left out, and all smaller ones are tried. No grain comes of an amount that is less than the first
+/// random grain.
 ///
 /// Throws InputError if the sizes do not fit the region, if it lies behind a wall, and if the solid fraction
 /// cannot be reached: with that which can.
