@@ -35,9 +35,9 @@ private:
     std::vector<std::pair<std::size_t, MembraneState>> before;  // of the wall of this number
 };
 
-/// N, of the grains on each vertex, by the contacts as they were last computed. Of each contact the force
-/// acts at the triangle's nearest point, with the couple that it has about it: force and torque are kept to
-/// round-off.
+/// The force (N) of the grains on each vertex, by the contacts as they were last computed. The force of each
+/// contact acts at the triangle's nearest point, with the couple that it has about it: force and torque are
+/// kept to round-off.
 [[nodiscard]] MembraneState::Column forcesOfGrains(const Membrane& membrane, int wall,
                                                    const ContactSystem& contacts,
                                                    const ParticleStore& grains);

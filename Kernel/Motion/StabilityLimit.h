@@ -30,8 +30,8 @@ inline constexpr double stabilityMargin = 0.9;
 
 /// The limit of an integrator for the fastest motion that it can follow, one that changes its sign from step
 /// to step (the root -1): it stands while spring (h w)^2 + dashpot h g <= 1, with the squared frequency w^2
-/// and the dashpot over the mass g. For velocity Verlet 1/4 and 1/2, for the default 1/4 and 1 (less what is
-/// implicit).
+/// and the dashpot over the mass g. The two are 1/4 and 1/2 for velocity Verlet, for the default 1/4 and 1
+/// (less what is implicit).
 struct SignChange {
     double spring, dashpot;
 
