@@ -26,7 +26,7 @@ public:
     [[nodiscard]] Vec3D getPosition() const { return toEigen(record().position); }
     [[nodiscard]] Vec3D getVelocity() const { return toEigen(record().velocity); }
     [[nodiscard]] double getRadius() const { return record().radius; }
-    /// kg; infinite for a grain that is held. Of a grain of a rigid body, its share of the body's mass.
+    /// kg; infinite for a grain that is held. For a grain of a rigid body it is its share of the body's mass.
     [[nodiscard]] double getMass() const;
     [[nodiscard]] bool isFixed() const { return record().inverseMass == 0; }
     [[nodiscard]] int getSpeciesIndex() const;
@@ -224,7 +224,7 @@ private:
     friend class GrainColumnReference;
 
     /// Gives a grain the mass of the density that its species has now, with the film that it has; its forces
-    /// stay. Not for a grain that is held.
+    /// stay. Nothing changes for a grain that is held.
     void renewMass(std::uint32_t place);
     /// The inertia of a grain that moves by itself.
     [[nodiscard]] GrainInertia inertiaAt(std::uint32_t place) const;
