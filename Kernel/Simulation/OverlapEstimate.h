@@ -7,7 +7,7 @@ namespace pendular {
 class Scene;
 
 /// The overlaps that a scene is about to have, estimated at set-up, beside the 5 % that its stability limit
-/// supposes. Of the pair of bodies whose contact is deepest for its size.
+/// supposes. The estimate for the pair of bodies whose contact is deepest for its size.
 struct OverlapEstimate {
     double byWeight = 0;  // of the smaller radius: a mean contact below all grains in a heap, and a pressure
     double bySpeed = 0;   // a collision with the largest speed, gained in a fall through the grains' height

@@ -71,8 +71,8 @@ public:
     /// ignored; the end time, outputs and threads may be others. At set-up only.
     void restartFrom(std::filesystem::path file);
     [[nodiscard]] bool isRestarted() const { return !restartSource.empty(); }
-    /// s, of the state in the restart file from which the run goes on; 0 where it starts from the start. For
-    /// set-up: a scene that goes on is set up with the walls that the run had added by then.
+    /// s, of the state in the restart file from which the run goes on; 0 where it starts from the start. This
+    /// is asked at set-up: a scene that goes on is set up with the walls that the run had added by then.
     [[nodiscard]] double restartTime() const;
     [[nodiscard]] std::filesystem::path restartFile() const { return restartFileOf(name); }
     /// Writes the state after the last step. Throws InputError if that fails, and in visitState().
@@ -119,10 +119,12 @@ public:
     /// files of its outputs, but writes nothing more, and no hook of the driver is called.
     void finishRun();
     /// Asks the run to stop after its step, as SIGTERM does: it ends with RunStopped. One that has not begun
-    /// or is between two parts stops at once when it goes on. Also for other threads and handlers of signals.
+    /// or is between two parts stops at once when it goes on. Other threads and handlers of signals may call
+    /// it, too.
     void requestStop() noexcept { stopAsked.store(true, std::memory_order_relaxed); }
-    /// Checks the scene and computes the forces at its start, or takes them from the restart file. For a
-    /// driver that steps by itself. Like solve() and step(), it throws InputError in hooks of this scene.
+    /// Checks the scene and computes the forces at its start, or takes them from the restart file. This is
+    /// for a driver that steps by itself. Like solve() and step(), it throws InputError in hooks of this
+    /// scene.
     void initialise();
     void step() { step(1); }
     /// Does this many steps: faster than one by one, as long as no hook looks at the grains.

@@ -61,8 +61,8 @@ public:
                     const SphericalParticle& like, const InsertOptions& options = {});
 
     /// Inserts clumps, each turned at random: a size is the diameter of a sphere of a clump's volume, so that
-    /// the template is scaled to it. For loose starts, up to a solid fraction of 0.2 or as far as clumps find
-    /// room. A clump of one sphere is one too.
+    /// the template is scaled to it. This is for loose starts, up to a solid fraction of 0.2 or as far as
+    /// clumps find room. A clump of one sphere is one too.
     Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                     const Clump& like, const InsertOptions& options = {});
 
@@ -135,8 +135,8 @@ public:
     /// nothing.
     void acceptUnstableTimeStep(bool accept = true);
     /// Grains may overlap each other and walls by up to this share of the smaller radius, at most 0.5, at
-    /// set-up and where they are added or put in a run; 0.05 without it. For soft grains that have settled in
-    /// another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
+    /// set-up and where they are added or put in a run; 0.05 without it. This is for soft grains that have
+    /// settled in another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
     /// (stabilityAdvice()).
     void acceptOverlaps(double share);
     /// Keeps account of the energy; costs time, and is off by default.
@@ -171,7 +171,8 @@ public:
     [[nodiscard]] double liquidOfWall(std::size_t wall) const;
 
     /// At the start of the run bridges join all bodies whose surfaces are not farther apart than the gap (m),
-    /// as if they had touched before; without it only those that touch. For bridges of constant volume.
+    /// as if they had touched before; without it only those that touch. This is for bridges of constant
+    /// volume.
     void joinAtStart(double gap);
 
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
