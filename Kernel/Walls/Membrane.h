@@ -48,13 +48,13 @@ public:
     [[nodiscard]] bool isSet() const { return net != nullptr; }
 
     /// From now on, the vertices at places (m; where they are now) for which the function is true move with
-    /// this velocity (m/s) and not by forces. Also in a run, again for the same ones too. Throws InputError
-    /// if there is none.
+    /// this velocity (m/s) and not by forces. It may be called in a run, too, and again for the same ones.
+    /// Throws InputError if there is none.
     void hold(const std::function<bool(const Vec3D&)>& where, const Vec3D& velocity = Vec3D::Zero());
     /// Holds all vertices at free edges, as hold() does.
     void holdRim(const Vec3D& velocity = Vec3D::Zero());
     /// @param value Pa, pushes along the normals (of corners that run counter-clockwise towards the eye);
-    /// negative against them. Also in a run: it acts from the end of the next step on.
+    /// negative against them. It may be called in a run: it acts from the end of the next step on.
     void setPressure(double value);
     /// Each vertex of mass m and velocity v has the force -rate m v, as in a fluid at rest; at set-up.
     /// @param rate 1/s
