@@ -64,7 +64,7 @@ public:
     /// small to be counted.
     void begin(double quantum);
     void close() { isClosed = true; }
-    /// m^3, that all sprays emit by a time (s), at most.
+    /// The volume (m^3) that all sprays emit by a time (s), at most.
     [[nodiscard]] double volumeBy(double time) const;
     /// Droplets come out until a time (s). Throws InputError if they are more liquid than the quantum was
     /// made for, or too many.
