@@ -44,7 +44,7 @@ public:
     [[nodiscard]] double measure(std::size_t kx) const;
     /// m, the point on the axis of cylindrical coordinates.
     [[nodiscard]] const Vector<double>& centre() const { return middle; }
-    /// m^3, of the box, or of the cylinder.
+    /// The volume (m^3) of the box, or of the cylinder.
     [[nodiscard]] double volume() const;
     /// "x", "y", "z", or "r", "theta", "z".
     [[nodiscard]] std::string_view nameOf(std::size_t axis) const;
