@@ -87,7 +87,8 @@ private:
     }
 };
 
-/// J, that the liquid of a scene has given to its bridges in a step, by coming to them or going from them.
+/// The energy (J) that the liquid of a scene has given to its bridges in a step, by coming to them or going
+/// from them.
 struct LiquidEnergy {
     double migration = 0, evaporation = 0;
 };

@@ -50,7 +50,7 @@ struct EnergyRecord {
     ContactSample now, last;  // at the end of this step and of the one before
     double adhesionWork = 0;  // J, done against the adhesion since it began to act
 
-    /// J, in the springs and the adhesion, as the ledger counts it.
+    /// The energy (J) in the springs and the adhesion, as the ledger counts it.
     [[nodiscard]] double stored() const {
         return last.elasticEnergy + last.sliding.stored() + last.rolling.stored() + last.torsion.stored() +
                adhesionWork;

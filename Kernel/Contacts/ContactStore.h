@@ -254,7 +254,7 @@ public:
     [[nodiscard]] std::uint32_t contactAt(std::uint32_t slot) const {
         return memory.blockOf[slot / Pack::lanes] * Pack::lanes + slot % Pack::lanes;
     }
-    /// N, on body 1.
+    /// The force (N) on body 1.
     [[nodiscard]] const Vector<double>& forceOf(std::size_t contact) const {
         const std::size_t slot = slotOf(contact);
         return memory.getLayout().hasTorque ? memory.records[slot].force : memory.forces[slot].force;

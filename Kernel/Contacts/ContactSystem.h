@@ -99,7 +99,7 @@ public:
     void setEvaporation(const Evaporation& law) { liquid.setEvaporation(law); }
     [[nodiscard]] const ContactLiquid& movingLiquid() const { return liquid; }
     [[nodiscard]] ContactLiquid& movingLiquid() { return liquid; }
-    /// J, that changes of the volumes of bridges have given to them since this was called last.
+    /// The energy (J) that changes of the volumes of bridges have given to them since this was called last.
     [[nodiscard]] LiquidEnergy takeLiquidEnergy() { return liquid.takeEnergy(); }
     [[nodiscard]] bool movesLiquid() const { return liquid.moves(); }
     [[nodiscard]] LiquidLedger liquidLedger(const Grains& grains) const {
@@ -162,7 +162,8 @@ public:
         });
     }
 
-    /// m^3, of the bridges of the grain at a place: half of each to another grain, all of one to a wall.
+    /// The liquid (m^3) of the bridges of the grain at a place: half of each to another grain, all of one to
+    /// a wall.
     [[nodiscard]] double liquidAt(const Grains& grains, std::uint32_t place) const;
 
     /// A number of the driver's own that is kept of each contact from its first touch (or bridge) until it
@@ -177,7 +178,7 @@ public:
 
     [[nodiscard]] ObservedContact observe(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
-    /// m, of the tangential spring.
+    /// The length (m) of the tangential spring.
     [[nodiscard]] double springLength(std::uint32_t contact) const;
 
 private:

@@ -14,7 +14,7 @@ struct ContactTiming {
     /// the middle of the time that they move for, which is explicit. This is for grains that carry the
     /// velocity v + h a.
     bool springsInStep = false;
-    /// s, of the step that comes; 0: as long as the last one.
+    /// The length (s) of the step that comes; 0: as long as the last one.
     double comingStep = 0;
 
     friend constexpr bool operator==(const ContactTiming&, const ContactTiming&) = default;

@@ -166,7 +166,7 @@ private:
     std::size_t mixedSpecies = 0, mixedPairs = 0;
 };
 
-/// The same, for the types that a scene names, or for any where it names none.
+/// The handler for the types that a scene names, or for any where it names none.
 template <class... Types>
 class SpeciesHandlerOf : public SeveralSpeciesHandler {
 public:

@@ -25,7 +25,7 @@ public:
     static SkinChoice fixed(double width) { return {width, 0}; }
 
     [[nodiscard]] double width() const { return chosen; }
-    /// ns, of the last list
+    /// The time (ns) of the last list.
     [[nodiscard]] double listCost() const { return rebuildCost; }
 
     /// Grains have come of which this is the smallest radius (m). A list that was made stays good: the skin
