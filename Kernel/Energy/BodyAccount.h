@@ -25,7 +25,7 @@ public:
         }
     }
 
-    /// J, that the change of a body's velocity gives it.
+    /// The energy (J) that the change of a body's velocity gives it.
     double changeVelocity(const RigidBody& body, std::size_t number, const Vector<double>& change) {
         Vector<double>& then = before[number].velocity;
         const double given = body.mass * dot(change, then + 0.5 * change);

@@ -158,7 +158,8 @@ private:
         return motion;
     }
 
-    /// m, from the centre of a grain to the surface of the wall that it touches, or has just left.
+    /// The vector (m) from the centre of a grain to the surface of the wall that it touches, or has just
+    /// left.
     static Vector<double> depthOf(const EnergyRecord& record, double radius) {
         const ContactSample& sample = record.now.acts() ? record.now : record.last;
         return (radius - 2 * sample.halfOverlap) * sample.normal;
@@ -198,7 +199,7 @@ private:
         }
         ledger.membranes = energyOfMembranes(walls);
     }
-    /// m/s, the mean in the step; zero of other walls.
+    /// The mean velocity (m/s) of a piston in the step; zero for other walls.
     static Vector<double> pistonVelocity(const WallHandler& walls, int number) {
         const Wall& wall = walls.getObject(static_cast<std::size_t>(number));
         const PlaneDrive* const drive = wall.drive();
@@ -234,8 +235,8 @@ private:
                 grains.translation[k].radius, grains.translation[k].inverseMass == 0};
     }
 
-    /// J, of the field of gravity, and of what an integrator other than velocity Verlet adds to the mean of
-    /// the two accelerations.
+    /// The work (J) of the field of gravity, and of what an integrator other than velocity Verlet adds to the
+    /// mean of the two accelerations.
     double workBesidesContacts(const Grains& grains, const ContactStore& contacts,
                                const Vector<double>& gravity, double step, const Integrator& scheme) const {
         ExactSum sum;
