@@ -100,7 +100,7 @@ private:
                       const ContactOutlook& outlook, double mean);
     void summarise(ContactBound& found) const;
     void chooseWeights(const ParticleStore& grains);
-    /// t, of the grain at a place in a contact with another one.
+    /// The weight t of the grain at a place in a contact with another one.
     [[nodiscard]] double weight(std::uint32_t place, std::uint32_t other) const {
         const double own = blocks[place].load, others = blocks[other].load;
         return own > 0 && others > 0 ? others / own : 1;

@@ -46,7 +46,7 @@ private:
     std::vector<Before> before;
 };
 
-/// N/m, of the normal springs of all contacts with a wall, exactly summed.
+/// The stiffness (N/m) of the normal springs of all contacts with a wall, exactly summed.
 [[nodiscard]] double wallStiffness(const ContactSystem& contacts, const ParticleStore& grains, int wall);
 
 }  // namespace pendular
