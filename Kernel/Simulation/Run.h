@@ -71,8 +71,9 @@ public:
     /// ignored; the end time, outputs and threads may be others. At set-up only.
     void restartFrom(std::filesystem::path file);
     [[nodiscard]] bool isRestarted() const { return !restartSource.empty(); }
-    /// s, of the state in the restart file from which the run goes on; 0 where it starts from the start. This
-    /// is asked at set-up: a scene that goes on is set up with the walls that the run had added by then.
+    /// The time (s) of the state in the restart file from which the run goes on; 0 where it starts from the
+    /// start. This is asked at set-up: a scene that goes on is set up with the walls that the run had added
+    /// by then.
     [[nodiscard]] double restartTime() const;
     [[nodiscard]] std::filesystem::path restartFile() const { return restartFileOf(name); }
     /// Writes the state after the last step. Throws InputError if that fails, and in visitState().

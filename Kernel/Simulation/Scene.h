@@ -119,11 +119,12 @@ public:
     /// a strain of 20 ends.
     /// @param largestRate 1/s, 1 / time if it is not given
     void setTargetShearStress(double stress, double time, std::optional<double> largestRate = {});
-    /// 1/s, in the last step.
+    /// The shear rate (1/s) in the last step.
     [[nodiscard]] double getShearRate() const;
-    /// 1/s, of the logarithm of the length along an axis, in the last step.
+    /// The rate (1/s) of the logarithm of the length along an axis, in the last step.
     [[nodiscard]] double getStrainRate(int axis) const;
-    /// m/s, of the flow of setLeesEdwards() at a place (m); it is at rest in the middle of the box.
+    /// The velocity (m/s) of the flow of setLeesEdwards() at a place (m); the flow is at rest in the middle
+    /// of the box.
     [[nodiscard]] Vec3D shearFlowAt(const Vec3D& place) const;
     [[nodiscard]] const PeriodicBox& getPeriodicBox() const;
     /// Threads, at least 1; the results do not depend on their number.
@@ -192,7 +193,7 @@ public:
     [[nodiscard]] std::vector<ObservedContact> interactions() const;
     /// The contacts of one grain. Throws InputError if there is no such grain.
     [[nodiscard]] std::vector<ObservedContact> interactionsOf(std::size_t identity) const;
-    /// N, of all contacts on a grain, also on one that is held in place; without its weight.
+    /// The force (N) of all contacts on a grain, also on one that is held in place; without its weight.
     [[nodiscard]] Vec3D contactForceOn(std::size_t identity) const;
 
     // The grains that can move:
