@@ -16,7 +16,7 @@ enum class SizeBasis { Number = 0, Length = 1, Area = 2, Volume = 3 };
 
 std::string_view nameOf(SizeBasis basis);
 
-/// m, of a diameter.
+/// The range (m) of diameters.
 inline constexpr Range diameterRange{2 * radiusRange.lowest, 2 * radiusRange.highest};
 
 /// A piece of a distribution in which the density of numbers is one smooth function of the diameter d:
