@@ -74,7 +74,7 @@ public:
 
     /// s, since measuring began: the sum of all parts.
     [[nodiscard]] double total() const { return on ? secondsBetween(started, Clock::now()) : 0; }
-    /// s, of each part. What they leave of the total is other: the set-up, the driver's own actions.
+    /// The seconds of each part. What they leave of the total is other: the set-up, the driver's own actions.
     [[nodiscard]] std::array<double, names.size()> seconds() const {
         std::array<double, names.size()> parts = spent;
         const double output = spent[static_cast<std::size_t>(Part::Output)], inSteps = total() - output;
