@@ -58,7 +58,7 @@ public:
         return {zero, zero, zero};
     }
 
-    /// 1/kg, of the tangential velocity to a tangential force: the mean over all directions.
+    /// The response (1/kg) of the tangential velocity to a tangential force: the mean over all directions.
     [[nodiscard]] const Pack& slidingResponse() const { return response; }
     /// The normal of the last step, if they touched in it; else zero.
     [[nodiscard]] const Vector<Pack>& lastNormal() const { return normalBefore; }
