@@ -70,7 +70,7 @@ public:
     [[nodiscard]] const std::vector<bool>& getHeld() const { return held; }
     [[nodiscard]] Vec3D getPosition(std::size_t vertex) const { return toEigen(now.position.at(vertex)); }
     [[nodiscard]] Vec3D getVelocity(std::size_t vertex) const { return toEigen(now.velocity.at(vertex)); }
-    /// N, by the grains, at the end of the last step.
+    /// The force (N) of the grains at the end of the last step.
     [[nodiscard]] Vec3D getForceOfGrains(std::size_t vertex) const {
         return toEigen(now.ofGrains.at(vertex));
     }
@@ -79,7 +79,7 @@ public:
     [[nodiscard]] double getVolume() const { return getNet().volume(now.position); }
     [[nodiscard]] double getKineticEnergy() const;  // J, of what is not held
     [[nodiscard]] double getElasticEnergy() const;  // J
-    /// kg, of the lightest vertex that moves; infinite where all are held
+    /// The mass (kg) of the lightest vertex that moves; infinite where all are held
     [[nodiscard]] double lightestVertex() const;
     [[nodiscard]] double squaredFrequency() const { return getNet().squaredFrequency(held); }  // 1/s^2
     [[nodiscard]] double massOfArea() const { return areaDensity; }                            // kg/m^2

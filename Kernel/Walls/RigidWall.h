@@ -33,7 +33,7 @@ public:
     /// without end and give them energy, as the surface does not go anywhere, so it is left out.
     void setSurfaceVelocity(const Vec3D& velocity);
 
-    /// m/s, of the wall's material at a point (m) of the scene.
+    /// The velocity (m/s) of the wall's material at a point (m) of the scene.
     /// On a belt with the whole surface velocity, also the part that grains do not feel.
     [[nodiscard]] Vec3D getVelocityAt(const Vec3D& point) const;
     [[nodiscard]] const Pose& getPose() const { return pose; }

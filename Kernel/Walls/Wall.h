@@ -79,7 +79,8 @@ public:
     /// the same bits as findPoints().
     [[nodiscard]] virtual std::optional<PlaneAtRest> planeAtRest() const { return {}; }
 
-    /// Unit, of a part that is a facet of a mesh, which may stand for a curved surface; none of others.
+    /// The unit normal of a part that is a facet of a mesh, which may stand for a curved surface; none for
+    /// others.
     [[nodiscard]] virtual std::optional<Vector<double>> facetNormal(std::uint32_t /*part*/) const {
         return {};
     }
@@ -100,7 +101,7 @@ public:
     /// Moves the wall to where it is at a time (s); returns how far (m) any point of its surface can have
     /// moved.
     virtual double moveTo(double /*time*/) { return 0; }
-    /// rad/s, with which the surface turns against the grains.
+    /// The angular velocity (rad/s) with which the surface turns against the grains.
     [[nodiscard]] virtual Vector<double> angularVelocity() const { return {0, 0, 0}; }
 
     /// How it is moved by the forces on it; null unless it is.
@@ -121,8 +122,8 @@ public:
     /// @param about m, the point of the torque
     void keepForces(bool keep = true, const Vec3D& about = Vec3D::Zero());
     [[nodiscard]] bool keepsForces() const { return forcesKept || drive() != nullptr; }
-    /// N, of all grains on the wall at the end of the last step; zero unless keepForces() was called or it is
-    /// moved by forces.
+    /// The force (N) of all grains on the wall at the end of the last step; zero unless keepForces() was
+    /// called or it is moved by forces.
     [[nodiscard]] Vec3D getForce() const { return toEigen(kept.force); }
     /// N m, about the point given to keepForces().
     [[nodiscard]] Vec3D getTorque() const { return toEigen(kept.torque); }
