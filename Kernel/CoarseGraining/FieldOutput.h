@@ -21,9 +21,9 @@ class StateArchive;
 /// Fields of a scene at points, averaged over time. Given to Simulation::addOutput():
 ///   addOutput(FieldOutput(FieldGrid("XZ", lowest, highest, 1e-3), KernelShape::Gauss, 1e-3)
 ///                 .withInterval(1e-3).averagedOver(0.1));
-/// For up to one resolved direction NAME-FIELDS.csv with the rows of all averages, else NAME-FIELDS.pvd for
-/// ParaView; after asHdf5() NAME-FIELDS.h5 for h5py and MATLAB. FIELDS is "coarse" unless another name is
-/// given.
+/// The file is, for up to one resolved direction, NAME-FIELDS.csv with the rows of all averages, else
+/// NAME-FIELDS.pvd for ParaView; after asHdf5() NAME-FIELDS.h5 for h5py and MATLAB. FIELDS is "coarse" unless
+/// another name is given.
 class FieldOutput {
 public:
     /// @param width m, of the kernel; @param cutOff m; see SmoothingKernel

@@ -92,7 +92,7 @@ bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint
     meetsWalls |= !now.empty();
     const double radius = grains.translation[passing.place].radius, touch = (1 - tolerance) * radius,
                  range = rangeAt(grains, passing.place, wall);
-    // Of two parts that the grain sees in the same place, as above their common edge, one is covered: that
+    // One of two parts that the grain sees in the same place, as above their common edge, is covered: that
     // goes on as such. In a shallow groove round-off may cover the other one; the contact is handed over
     // then.
     const double most = tolerance * radius;  // m
