@@ -117,7 +117,7 @@ void writeErrors(const std::vector<Triangle>& mesh, const MassProperties& solid,
     fmt::print("wrote {}\n", o.errors);
 }
 
-/// As few spheres as have an error of the volume below what is asked for, or all.
+/// The fewest spheres that have an error of the volume below what is asked for, or all.
 std::vector<Ball> fewest(std::vector<Ball> spheres, const MassProperties& solid, double volumeError) {
     for (std::size_t count = 1; volumeError > 0 && count < spheres.size(); ++count)
         if (std::abs(unionOfSpheres(std::span(spheres).first(count), 1e-3).volume / solid.volume - 1) <

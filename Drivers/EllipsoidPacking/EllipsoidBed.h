@@ -132,8 +132,8 @@ public:
         return material;
     }
 
-    /// What is between a quarter and three quarters of the height of the bed, which is twice that of its
-    /// centre of mass.
+    /// The middle of the bed: what is between a quarter and three quarters of its height, which is twice that
+    /// of its centre of mass.
     struct Middle {
         double grains = 0, solidFraction = 0, contacts = 0, largestOverlap = 0;
     };

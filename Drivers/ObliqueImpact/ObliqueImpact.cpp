@@ -113,7 +113,7 @@ private:
                     k + 1, table.string(), options.springFactorOf(k), options.angleOf(k)));
         return rows;
     }
-    /// Of the header and the first rows; 0 where there are none.
+    /// The size (bytes) of the header and the first rows; 0 for no rows.
     static std::uintmax_t bytesOf(const std::filesystem::path& table, std::size_t rows) {
         if (rows == 0) return 0;
         const std::vector<std::string> lines = linesOf(table);
@@ -121,8 +121,8 @@ private:
         for (std::size_t k = 0; k <= rows; ++k) bytes += lines[k].size() + 1;
         return bytes;
     }
-    /// Of a run that is not asked for it: what another run has left goes. Throws InputError where it is of
-    /// the rows that are kept.
+    /// Removes what another run has left of the energy, in a run without --energy. Throws InputError where it
+    /// is of the rows that are kept.
     void leaveNoEnergy(const std::filesystem::path& table) const {
         const std::filesystem::path part = table.string() + ".part";
         if (kept > 0 && (std::filesystem::exists(table) || std::filesystem::exists(part)))

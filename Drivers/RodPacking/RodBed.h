@@ -48,7 +48,7 @@ public:
         options.run.apply(*this, nameOf(aspect));
         setTimeMax(options.endTime);
     }
-    /// What the files of its run begin with.
+    /// The beginning of the names of the files of the run with this aspect ratio.
     static std::string nameOf(double aspect) { return fmt::format("aspect-{:g}", aspect); }
 
     void setupInitialConditions() override {
@@ -94,7 +94,8 @@ public:
         double bottom, top;
         [[nodiscard]] bool contains(double z) const { return z >= bottom && z < top; }
     };
-    /// From a quarter to three quarters of its height, which is twice that of its centre of mass.
+    /// The layer of the bed from a quarter to three quarters of its height, which is twice that of its centre
+    /// of mass.
     [[nodiscard]] Layer middle() {
         double sum = 0;
         for (std::size_t k = 0; k < bodyHandler.getSize(); ++k)

@@ -58,7 +58,7 @@ public:
         drum = addSteelWall(wall);
     }
 
-    /// Before the run begins.
+    /// Called before the run begins.
     /// @param speed rad/s about -y: at the bottom the wall moves towards +x
     void turn(double speed) { drum->setAngularVelocity({0, -speed, 0}, Vec3D::Zero()); }
 

@@ -14,7 +14,7 @@ namespace pendular {
 std::vector<Vec3D> latticeCells(const Vec3D& lowest, const Vec3D& highest, double edge,
                                 const std::function<bool(const Vec3D&)>& fits);
 
-/// Of a cell's edge against the diameter of the grain in it; grains are displaced by up to 0.04 radii along
+/// The edge of a cell over the diameter of the grain in it; grains are displaced by up to 0.04 radii along
 /// each axis, so that no two of them touch and none leaves its cell.
 inline constexpr double latticeLooseness = 1.05;
 

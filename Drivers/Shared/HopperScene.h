@@ -146,7 +146,7 @@ inline std::vector<GrainRow> settledHopperGrains(const Hopper& hopper, const Run
                {3 * hopper.grainDiameter, infinity, true, false});
     checkValue("HopperScene", "slope of the cone", hopper.coneSlope * 180 / std::numbers::pi, "degrees",
                {0, 80});
-    // Before any of them is made.
+    // The number of grains is checked before any of them is made.
     const double across = std::max(hopper.diameter - hopper.grainDiameter, 0.0) / hopper.grainDiameter,
                  inLayer = 0.25 * std::numbers::pi * across * across;
     constexpr double most = 1e6;
@@ -173,7 +173,7 @@ struct Discharge {
     double change;                  // of the flow from the first half of the steady part to the second, of 1
 };
 
-/// Of the run through one orifice, what its files begin with.
+/// The beginning of the names of all files of the run through one orifice.
 inline std::string dischargeName(double orifice) { return fmt::format("orifice-{:g}", orifice); }
 
 /// Lets grains out of a hopper.

@@ -9,9 +9,10 @@
 
 namespace pendular {
 
-/// What CLI11 lets through: an empty number, which it reads as 0; an empty text, which many programs would
-/// take for an option that is left out; a negative number for a count, which it reads as 1.8e19; one with a 0
-/// in front, which it reads as octal; more than 18 digits. Returns what is wrong, or nothing.
+/// Returns what is wrong with a text that CLI11 lets through: an empty number, which it reads as 0; an empty
+/// text, which many programs would take for an option that is left out; a negative number for a count, which
+/// it reads as 1.8e19; one with a 0 in front, which it reads as octal; more than 18 digits. Nothing is
+/// returned if all is well.
 inline std::string objectionTo(const std::string& kind, const std::string& text) {
     const bool isWhole = kind == "UINT" || kind == "INT";
     if (text.empty())

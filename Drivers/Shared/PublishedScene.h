@@ -26,7 +26,7 @@ public:
     /// J, of the motion of all centres.
     [[nodiscard]] double kineticEnergy() const { return translationalEnergy(particleHandler.store()); }
 
-    /// As of any scene; where softened grains cannot go on, the softening is named.
+    /// Solves as any scene does; where softened grains cannot go on, the error names the softening.
     void solve() {
         try {
             Simulation::solve();
@@ -38,7 +38,7 @@ public:
                                        softeningOfAll));
         }
     }
-    /// Of grains that have settled: warns where the softening lets them overlap more than is sound.
+    /// Warns where the softening lets grains that have settled overlap more than is sound.
     void tellOfSoftening() {
         double deepest = 0;  // of the smaller radius
         for (const ObservedContact& seen : interactions()) {

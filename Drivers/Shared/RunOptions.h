@@ -28,8 +28,8 @@ struct RunOptions {
     /// When the run of this scene begins, and so not before all of it has been checked, it removes the
     /// restart files that earlier runs of these names have left, unless they are to be gone on with.
     void forgetAtStart(Scene& scene, const std::vector<std::string>& runs) const;
-    /// What they say of a run that makes the initial state. It keeps only a restart file of its own, from
-    /// which --resume goes on, and not from one that an earlier run has left.
+    /// Gives a run that makes the initial state what these options say of it. It keeps only a restart file of
+    /// its own, from which --resume goes on, and not from one that an earlier run has left.
     void applyToPreparation(Scene& scene) const;
     /// Gives a scene a name in the folder, and what these options say of its run.
     void apply(Scene& scene, const std::string& run = "run") const;

@@ -27,7 +27,8 @@ std::vector<GrainRow> looseGrains(const Box& box, std::size_t count, double radi
             return (g.position - centre).norm() < g.radius + 1.1 * radius;
         });
     };
-    // As high as if the other grains took as much room again as their own lattice would.
+    // The place for the grains is as high as if the other grains took as much room again as their own lattice
+    // would.
     double room = static_cast<double>(count) * std::pow(edge, 3);
     for (const GrainRow& g : there) room += std::pow(2 * latticeLooseness * g.radius, 3);
     const Vec3D base = box.highest - box.lowest;
@@ -58,7 +59,8 @@ Settled settle(Settled loose, int threads) {
                 fall += 9.8 * grain.radius / grain.inverseMass;
             return translationalEnergy(grains) < 1e-3 * fall;
         };
-        // Not before a grain can have fallen through its radius.
+        // Grains fall from rest: before they can have fallen through a radius they would seem to be at rest
+        // again.
         const auto first = static_cast<std::size_t>(std::sqrt(2 * 1e-3 / 9.8) / step);
         do {
             scene.step();

@@ -22,8 +22,8 @@ struct Settled {
 /// The bed of Dosta et al. (2024) from a file of rows radius x y z (m), in the box of its peers' scripts.
 Settled publishedBedOf(const std::filesystem::path& positions);
 
-/// So many grains of one radius on a loose lattice, layer by layer from the floor of a box without lid, where
-/// they meet none of the grains that are there.
+/// A number of grains of one radius on a loose lattice, layer by layer from the floor of a box without lid,
+/// where they meet none of the grains that are there.
 std::vector<GrainRow> looseGrains(const Box& box, std::size_t count, double radius,
                                   std::span<const GrainRow> there);
 

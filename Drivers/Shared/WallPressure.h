@@ -7,9 +7,9 @@
 
 namespace pendular {
 
-/// What the grains in a vertical cylinder press on its wall, over depth, as a mean of several states; and
-/// Janssen's law. Source: Janssen (1895), Zeitschrift des VDI 39, 1045: with p = K s for the pressures p on
-/// the wall and s on a horizontal plane, and a friction mu of the wall that is mobilised everywhere,
+/// The pressure of the grains in a vertical cylinder on its wall, over depth, as a mean of several states;
+/// and Janssen's law. Source: Janssen (1895), Zeitschrift des VDI 39, 1045: with p = K s for the pressures p
+/// on the wall and s on a horizontal plane, and a friction mu of the wall that is mobilised everywhere,
 /// ds/d(depth) = g rho - 2 mu p / R, so p = K g rho l (1 - exp(-depth / l)), l = R / (2 mu K).
 class WallPressure {
 public:

@@ -57,7 +57,7 @@ private:
     [[nodiscard]] double pressure() const {
         return density * std::pow(rate * diameter / options.inertialNumber, 2);
     }
-    /// Of the face-centred lattice from which the grains start, along each axis.
+    /// The number of cells, along each axis, of the face-centred lattice from which the grains start.
     [[nodiscard]] int cells() const {
         return std::max(3, static_cast<int>(std::lround(std::cbrt(static_cast<double>(options.number) / 4))));
     }

@@ -105,7 +105,8 @@ private:
     static constexpr double cutOff = 6.5 / 3 * radius;
 
     [[nodiscard]] double relaxation() const { return options.stokes / rate; }  // s, m / (6 pi eta R)
-    /// Of 5e-6 of a grain's volume each, with the surface tension at which they have the cohesion number.
+    /// Gives the law bridges of 5e-6 of a grain's volume each, with the surface tension at which they have
+    /// the cohesion number.
     void setBridges(Law& law) const {
         law.liquidBridgeVolume = options.cohesion > 0 ? 5e-6 * mass / density : 0;
         law.contactAngle = options.contactAngle * constants::pi / 180;
@@ -119,7 +120,7 @@ private:
                 options.law, options.contactAngle, options.cohesion));
         law.surfaceTension = options.cohesion * mass / relaxation() * radius * rate / pull;
     }
-    /// At random, where there is room.
+    /// Adds grains at random places where there is room.
     template <class Material>
     void addGrains(const Material* material) {
         UniformRandom random{options.seed};

@@ -20,7 +20,7 @@ struct ModelC : LiquidBridgeClassicalWillett {
     [[nodiscard]] std::optional<std::string> objection(const Bodies&) const { return std::nullopt; }
 };
 
-/// The same between grains that are near enough, whether they have touched or not.
+/// Model C with bridges between all grains that are near enough, whether they have touched or not.
 struct ModelCNear : ModelC {
     static constexpr std::string_view name = "ModelCNear";
     static constexpr bool formsAtContact = false;

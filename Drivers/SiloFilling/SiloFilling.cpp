@@ -49,7 +49,7 @@ struct SiloFilling : Simulation<HertzianViscoelasticMindlinSpecies> {
     void actionsAfterTimeStep() override {
         const auto in = [&](double time) { return std::max<std::size_t>(stepsOf(time, getTimeStep()), 1); };
         const std::size_t step = getNumberOfTimeSteps();
-        // So that the friction of the wall is mobilised, as Janssen's balance had it.
+        // The floor sinks, so that the friction of the wall is mobilised, as Janssen's balance had it.
         if (step == in(o.fillTime + 0.2)) floor->setVelocity({0, 0, -2.5 * o.median});
         if (step == in(o.fillTime + 0.3)) floor->setVelocity({0, 0, 0});
         if (step % in(o.interval) == 0 && getTime() > o.endTime - o.averageTime) pressure.sample(*this, 1);

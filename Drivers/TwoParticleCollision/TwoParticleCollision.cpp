@@ -95,7 +95,7 @@ public:
                      ledger.total());
     }
 
-    /// Until the grains have parted and the bridge, if there is one, has ruptured.
+    /// Runs until the grains have parted and the bridge, if there is one, has ruptured.
     [[nodiscard]] bool continueSolve() const override { return !parted; }
 
     void visitState(StateArchive& archive) override {

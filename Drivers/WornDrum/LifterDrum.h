@@ -11,7 +11,7 @@ namespace pendular {
 
 /// A drum about the y axis with square bars along it on its inside, as triangles whose normals point in.
 struct LifterDrum {
-    /// Of a lifter, in a drum that turns about -y.
+    /// A face of a lifter, or the shell between two lifters, in a drum that turns about -y.
     enum class Face { Shell, Leading, Top, Trailing };
     static constexpr std::size_t faceCount = 4;
     static constexpr int facets = 6;  // of the shell between two lifters

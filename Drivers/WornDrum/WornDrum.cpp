@@ -63,7 +63,7 @@ public:
     void visitState(StateArchive& archive) override { table.visitState(archive); }
 
 private:
-    /// In the lower half of what the lifters leave free; they fall.
+    /// Adds grains in the lower half of what the lifters leave free; they fall.
     void addGrains() {
         UniformRandom random(1);
         SphericalParticle grain;

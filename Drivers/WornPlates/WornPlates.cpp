@@ -67,7 +67,8 @@ private:
         return 6 * jetRadius() * static_cast<double>(plate);
     }
 
-    /// Its middle is below that of the jet, which goes along -z; its normal is (-cos a, 0, sin a).
+    /// Adds a plate. Its middle is below that of the jet, which goes along -z; its normal is (-cos a, 0, sin
+    /// a).
     void addPlate(std::size_t number) {
         const double a = angles[number] * constants::pi / 180, half = 0.5 * plateLength(),
                      width = 4 * jetRadius();

@@ -27,7 +27,7 @@ void setLogSink(LogSink sink) {
 
 bool hasLogSink() { return chosenSink() != nullptr; }
 
-// Not by fmt::print, which throws where it cannot write.
+// fmt::print would throw where it cannot write.
 void writeToLog(std::string_view text, LogLevel level) noexcept {
     try {
         if (const auto sink = chosenSink()) {

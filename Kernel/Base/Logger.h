@@ -14,7 +14,7 @@ namespace pendular {
 /// far a run is, a line that stands for the one before.
 enum class LogLevel { None, Warn, Info, Verbose, Debug, Progress };
 
-/// What takes each text of the log, without the end of its last line.
+/// A function that takes each text of the log, without the end of its last line.
 using LogSink = std::function<void(LogLevel, std::string_view)>;
 
 /// From now on the log of the whole program (loggers, warnings, progress, summaries) goes to this function

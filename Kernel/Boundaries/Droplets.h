@@ -27,7 +27,7 @@ struct Sweep {
     double time;              // s, that it takes
 };
 
-/// What a sweep meets first.
+/// The first thing that a sweep meets.
 struct SweepHit {
     double share = 2;            // of the way; above 1: nothing
     std::uint32_t grain = none;  // its place
@@ -38,17 +38,16 @@ struct SweepHit {
 };
 
 /// Finds the first grain or wall that a sphere meets on its way through a step. Grains move straight, too,
-/// with the velocity that they have at its end; walls are where they are then. Of things that are met at the
-/// same point of the way, the grain with the lowest identity is the first, then the wall with the lowest
-/// number.
+/// with the velocity that they have at its end; walls are where they are then. If several are met at the same
+/// point of the way, the grain with the lowest identity is the first, then the wall with the lowest number.
 class SweptSearch {
 public:
     /// Grains have moved by so much at most (m) in a step; their order is new where contacts were listed
     /// again.
     void update(const ParticleStore& grains, const PeriodicBox& box, std::size_t lists, double shift,
                 double smallestRadius);
-    /// From any thread. Parts of walls are marched to by the distance that is free, up to 1e-4 of the
-    /// sphere's radius.
+    /// The first hit of a sweep, from any thread. Parts of walls are marched to by the distance that is free,
+    /// up to 1e-4 of the sphere's radius.
     [[nodiscard]] SweepHit firstHit(const Sweep& sweep, const ParticleStore& grains, const PeriodicBox& box,
                                     const WallHandler& walls) const;
 

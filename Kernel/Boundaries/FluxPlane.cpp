@@ -79,8 +79,8 @@ void FluxPlaneHandler::afterMotion(ParticleHandler& particles, double step,
             const double times = std::abs(crossing.times);
             const double mass = times * particles.massAt(crossing.place);
             const double liquid = times * liquidOf(crossing.place);
-            // Not the grain's own velocity, which is the one that contacts are to see: with most integrators
-            // that of the end of the step. A way errs by 1e-16 of its place.
+            // The velocity is that of the way. The grain's own velocity is the one that contacts are to see:
+            // with most integrators that of the end of the step. A way errs by 1e-16 of its place.
             const Vector<double> velocity = (1 / step) * (grain.position - from[crossing.place]);
             FluxCount& count = plane.count;
             const bool forwards = crossing.times > 0;

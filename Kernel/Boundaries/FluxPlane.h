@@ -42,12 +42,12 @@ public:
     /// Throws InputError if there is no such plane.
     [[nodiscard]] const FluxCount& count(std::size_t plane) const;
 
-    // For the scene.
+    // Called by the scene, not by drivers.
 
     /// The run begins. Throws InputError for a plane that is inclined to a direction in which the scene
     /// repeats itself: its images would be other planes.
     void begin(const PeriodicBox& periodic);
-    /// Before the grains of a step move, and when they have.
+    /// beforeMotion() is called before the grains of a step move, afterMotion() when they have.
     void beforeMotion(const ParticleStore& grains);
     /// @param step s; @param liquidOf the grain at a place, m^3
     void afterMotion(ParticleHandler& particles, double step,

@@ -24,10 +24,10 @@ public:
 
     [[nodiscard]] std::size_t speciesCount() const { return entries.size() / classCount(); }
     [[nodiscard]] std::size_t classCount() const { return borders.size() + 1; }
-    /// m, of a class; 0 and infinity at the ends
+    /// The limits (m) of a class of diameters; 0 and infinity at the ends.
     [[nodiscard]] double lowest(std::size_t sizeClass) const;
     [[nodiscard]] double highest(std::size_t sizeClass) const;
-    /// Of nothing, where no grain of the species has come.
+    /// What was counted of a species and a class of size; nothing where no grain of the species has come.
     [[nodiscard]] Entry of(std::size_t species, std::size_t sizeClass) const;
     [[nodiscard]] Entry all() const;
 

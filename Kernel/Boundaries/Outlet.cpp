@@ -83,7 +83,7 @@ double OutletHandler::removedMass() const {
     return sum;
 }
 
-/// What is new has come at the end of the step before, or after it.
+/// Grains that are new have come at the end of the step before, or after it.
 void OutletHandler::noteArrivals(std::uint32_t next, double time) {
     if (next > arrivals.back().next) arrivals.push_back({last, next});
     last = time;

@@ -11,17 +11,17 @@
 
 namespace pendular {
 
-/// Where grains leave a scene: each one whose centre is in a region, or beyond a plane, at the end of a step
-/// is counted and removed; in a scene that repeats itself, each one of which an image is there. Grains that
-/// are held in place stay.
+/// A place at which grains leave a scene: each one whose centre is in a region, or beyond a plane, at the end
+/// of a step is counted and removed; in a scene that repeats itself, each one of which an image is there.
+/// Grains that are held in place stay.
 class Outlet {
 public:
-    /// Those in a region go.
+    /// Lets grains in a region go.
     template <std::derived_from<Region> R>
     void setRegion(const R& where) {
         region = std::make_shared<const R>(where);
     }
-    /// Those beyond a plane go: on the side to which its normal points.
+    /// Lets grains beyond a plane go: on the side to which its normal points.
     /// @param normal of any length; @param point on it, m
     void setPlane(const Vec3D& normal, const Vec3D& point);
     /// Borders (m) between the classes of diameters by which grains are counted; one class without them.
@@ -29,9 +29,9 @@ public:
     /// s: only those go that have been in the scene at least so long. What is there when the run begins came
     /// then.
     void setLeastAge(double age);
-    /// Only those go for which the function is true. It is asked in the order of identities, on one thread,
-    /// only for grains that would go without it. A restart file cannot keep a function: it keeps that there
-    /// is one, and a scene without it does not go on.
+    /// Lets only those grains go for which the function is true. It is asked in the order of identities, on
+    /// one thread, only for grains that would go without it. A restart file cannot keep a function: it keeps
+    /// that there is one, and a scene without it does not go on.
     void setCondition(std::function<bool(const GrainReference&)> function);
 
 private:
@@ -60,16 +60,17 @@ public:
     [[nodiscard]] bool isEmpty() const { return outlets.empty(); }
     /// What has gone through an outlet. Throws InputError if there is none.
     [[nodiscard]] const GrainTally& tally(std::size_t outlet) const;
-    /// Through all of them.
+    /// What has gone through all outlets.
     [[nodiscard]] std::uint64_t removedNumber() const;
     [[nodiscard]] double removedMass() const;  // kg
 
-    // For the scene.
+    // Called by the scene, not by drivers.
 
     /// The run begins. Throws InputError for a region that is longer than the period, and for a plane across
     /// which the scene repeats itself: all grains have images beyond it.
     void begin(const PeriodicBox& periodic, const ParticleStore& grains, double time);
-    /// At the end of a step, at a time (s), in the order of identities. There are no rigid bodies.
+    /// Lets grains out at the end of a step, at a time (s), in the order of identities. There are no rigid
+    /// bodies.
     void letOut(ParticleHandler& particles, double time, int threads);
     void visitState(StateArchive& archive);
 
@@ -87,7 +88,7 @@ private:
     void noteArrivals(std::uint32_t next, double time);
     /// The first arrival that is not so old (s) yet at a time (s).
     [[nodiscard]] std::vector<Arrival>::const_iterator firstYoung(double age, double time) const;
-    /// Those that came later are too young for an outlet at a time (s).
+    /// The first identity that came too late: it and later ones are too young for an outlet at a time (s).
     [[nodiscard]] std::uint32_t firstTooYoung(const Outlet& outlet, double time) const;
     void visitArrivals(StateArchive& archive);
 

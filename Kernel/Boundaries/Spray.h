@@ -30,12 +30,12 @@ public:
     void setCone(const Vec3D& nozzle, const Vec3D& direction, double angle);
     /// Q, m^3/s
     void setFlow(double value);
-    /// m, of a droplet: V_d is its volume.
+    /// The radius (m) of a droplet: V_d is its volume.
     void setDropletRadius(double value);
     /// Volumes of droplets are even in V_d (1 - sqrt(3) s) to V_d (1 + sqrt(3) s): of mean V_d, and of the
     /// relative standard deviation s, at most 0.5.
     void setVolumeSpread(double value);
-    /// m/s, of a droplet as it starts
+    /// The speed (m/s) of a droplet as it starts.
     void setSpeed(double value);
     /// s: droplets come out between these times; 0 and the end of the run, if this is not called.
     void setTimes(double first, double last);
@@ -55,14 +55,14 @@ public:
     /// kg/m^3; 0: droplets hand over no momentum
     [[nodiscard]] double liquidDensity() const { return density; }
     [[nodiscard]] double longestFlight() const { return longest; }
-    /// Of the largest droplet over V_d.
+    /// The volume of the largest droplet over V_d.
     [[nodiscard]] double largestShare() const { return 1 + spreadWidth(); }
 
     /// How many droplets have come out by a time (s).
     [[nodiscard]] std::uint64_t countAt(double time) const;
     /// s: when droplet k, counted from 0, comes out.
     [[nodiscard]] double timeOf(std::uint64_t k) const;
-    /// m^3, that will have come out by a time (s), at most
+    /// The volume (m^3) that will have come out by a time (s), at most.
     [[nodiscard]] double volumeBy(double time) const;
     /// @param number of the spray in its scene
     [[nodiscard]] NewDroplet droplet(std::uint64_t k, std::size_t number) const;

@@ -14,7 +14,7 @@ class GrainFilms;
 class StateArchive;
 struct LiquidLedger;
 
-/// Where a droplet has ended in a step.
+/// A droplet that has ended in a step, and where.
 struct CaughtDroplet {
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
@@ -25,7 +25,7 @@ struct CaughtDroplet {
     double volume;            // m^3
 };
 
-/// What of a step (s) the droplets of a scene need: they fly in it, after its grains and walls have moved.
+/// A step as the droplets of a scene need it: they fly in it, after its grains and walls have moved.
 struct SprayStep {
     ParticleStore& grains;
     GrainFilms& films;
@@ -55,16 +55,16 @@ public:
     /// How many droplets a spray has emitted.
     [[nodiscard]] std::uint64_t emittedBy(std::size_t number) const;
     [[nodiscard]] const std::vector<Droplet>& droplets() const { return inFlight; }
-    /// Those that have ended in the last step, in the order in which they came out.
+    /// The droplets that have ended in the last step, in the order in which they came out.
     [[nodiscard]] const std::vector<CaughtDroplet>& caught() const { return caughtInStep; }
 
-    // For the scene.
+    // Called by the scene, not by drivers.
 
     /// The run begins. @param quantum m^3, in which liquid is counted. Throws InputError if droplets are too
     /// small to be counted.
     void begin(double quantum);
     void close() { isClosed = true; }
-    /// m^3, that all sprays emit by a time (s), at most.
+    /// The volume (m^3) that all sprays emit by a time (s), at most.
     [[nodiscard]] double volumeBy(double time) const;
     /// Droplets come out until a time (s). Throws InputError if they are more liquid than the quantum was
     /// made for, or too many.

@@ -78,7 +78,7 @@ double contactRadius(const BranchPoint& point) {
     return std::sqrt(std::min(point.arc.at(-span).squaredRadius, point.arc.at(span).squaredRadius));
 }
 
-/// What following the stable branch from a point leads to.
+/// The place to which following the stable branch from a point leads.
 struct Walk {
     std::optional<BranchPoint> arrived;  // the given gap
     std::optional<BranchEnd> end;        // or the end of the branch, before
@@ -129,7 +129,8 @@ std::optional<DelaunayArc> stableOrNothing(const BridgeEquations& equations,
     return converged->arc;
 }
 
-/// For contact angles so unlike that the first guess is poor: from the bridge with their mean on both bodies.
+/// The bridge for contact angles so unlike that the first guess is poor: found from the bridge with their
+/// mean on both bodies.
 std::optional<DelaunayArc> findByAngles(const BridgeConditions& conditions, double gap) {
     constexpr double shortestShare = 1e-3;
     const double mean = 0.5 * (conditions.first.contactAngle + conditions.second.contactAngle);
@@ -180,7 +181,7 @@ std::optional<DelaunayArc> findAlongBranch(const BridgeConditions& conditions, d
     if (!start) return {};
     const Walk result = walk(branch, *start, gap);
     if (!result.arrived) return {};
-    // To rounding error, and at this very gap.
+    // The result is right to rounding error, and at this very gap.
     return stableOrNothing(branch.equations(),
                            convergeArc(branch.equations(), gap, result.arrived->arc, mostQuadratureNodes));
 }

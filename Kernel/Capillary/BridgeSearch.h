@@ -27,7 +27,7 @@ std::optional<DelaunayArc> findDirectly(const BridgeConditions& conditions, cons
 /// rupture.
 std::optional<DelaunayArc> findAlongBranch(const BridgeConditions& conditions, double gap);
 
-/// Where the stable branch ends; nothing if no stable bridge was found to start from.
+/// The end of the stable branch; nothing if no stable bridge was found to start from.
 std::optional<BranchEnd> findBranchEnd(const BridgeConditions& conditions);
 
 /// The next point along the branch, stable or not, near enough for the branch to turn little on the way.

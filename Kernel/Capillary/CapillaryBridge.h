@@ -69,7 +69,7 @@ private:
     DelaunayArc arc_;
 };
 
-/// Where a bridge ends when the bodies are drawn apart at constant volume.
+/// The end of a bridge when the bodies are drawn apart at constant volume.
 struct Rupture {
     CapillaryBridge last;  // the last stable bridge; its gap is the rupture distance
     RuptureMode mode;

@@ -42,7 +42,7 @@ template <std::size_t first, std::size_t second, std::size_t values>
 struct ChebyshevPlane {
     std::array<double, first * second * values> coefficients;
 
-    /// Only terms up to T_(largest - 1) in each variable, if that is given.
+    /// The product at a place; only terms up to T_(largest - 1) in each variable count, if that is given.
     [[nodiscard]] std::array<double, values> at(double x, double y, std::size_t largest = 32) const {
         const auto tx = chebyshevPolynomials<first>(x);
         const auto ty = chebyshevPolynomials<second>(y);
@@ -57,7 +57,8 @@ struct ChebyshevPlane {
     }
 };
 
-/// The same in three variables; coefficients are integers, in units of `unit`.
+/// A vector of `values` numbers as a product of Chebyshev series in three variables; coefficients are
+/// integers, in units of `unit`.
 template <std::size_t first, std::size_t second, std::size_t third, std::size_t values>
 struct ChebyshevProduct {
     static constexpr std::array<std::size_t, 3> shape{first, second, third};
@@ -66,7 +67,8 @@ struct ChebyshevProduct {
 
     std::array<std::int32_t, first * second * third * values> coefficients;
 
-    /// At a value of the first variable; only terms up to T_(largest - 1) in it, if that is given.
+    /// The product at a value of the first variable; only terms up to T_(largest - 1) in it, if that is
+    /// given.
     [[nodiscard]] ChebyshevPlane<second, third, values> at(double x, std::size_t largest = 32) const {
         constexpr std::size_t size = second * third * values;
         const auto tx = chebyshevPolynomials<first>(x);

@@ -11,7 +11,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// What a body cuts off a drop that meets it, written so that a plane (curvature 0) is no special case.
+/// The part that a body cuts off a drop that meets it, written so that a plane (curvature 0) is no special
+/// case.
 struct CutOff {
     double height;      // of the drop's centre above the body, m
     double volume;      // m^3

@@ -149,7 +149,7 @@ void addLiquid(Clusters& clusters, const std::vector<ObservedContact>& contacts)
     }
 }
 
-/// What needs more than the points.
+/// Finds what needs more than the points.
 Clusters finished(const JoinedPoints& joined, const ParticleStore& grains,
                   std::vector<std::size_t> identities, const std::vector<ObservedContact>& contacts) {
     Clusters found = joined.clusters();

@@ -45,7 +45,7 @@ private:
 /// @param distance m; throws InputError unless it is positive and at most half of each period of the box
 [[nodiscard]] Clusters clustersOfPoints(const std::vector<Vector<double>>& points, const PeriodicBox& box,
                                         double distance);
-/// The same of the centres of grains.
+/// Grains whose centres are nearer to each other than a distance (m), of their nearest images, are joined.
 /// @param contacts that have a force, whose bridges are counted
 [[nodiscard]] Clusters clustersOfGrains(const ParticleStore& grains, const PeriodicBox& box,
                                         const std::vector<ObservedContact>& contacts, double distance);

@@ -25,7 +25,7 @@ public:
               double spacing);
 
     [[nodiscard]] bool isCylindrical() const { return cylindrical; }
-    /// Of each axis; 1 where it is averaged out.
+    /// The number of points along each axis; 1 where it is averaged out.
     [[nodiscard]] const std::array<std::size_t, 3>& counts() const { return number; }
     [[nodiscard]] std::size_t size() const { return number[0] * number[1] * number[2]; }
     [[nodiscard]] bool isResolved(std::size_t axis) const { return resolved[axis]; }
@@ -39,11 +39,12 @@ public:
     [[nodiscard]] double at(std::size_t axis, std::size_t k) const {
         return from[axis] + (static_cast<double>(k) + 0.5) * spacing(axis);
     }
-    /// By what sums of phi (1/m^D) become densities (1/m^3) at a point: the lengths averaged over, m^(3-D).
+    /// The number that sums of phi (1/m^D) are divided by to become densities (1/m^3) at a point: the lengths
+    /// averaged over, m^(3-D).
     [[nodiscard]] double measure(std::size_t kx) const;
     /// m, the point on the axis of cylindrical coordinates.
     [[nodiscard]] const Vector<double>& centre() const { return middle; }
-    /// m^3, of the box, or of the cylinder.
+    /// The volume (m^3) of the box, or of the cylinder.
     [[nodiscard]] double volume() const;
     /// "x", "y", "z", or "r", "theta", "z".
     [[nodiscard]] std::string_view nameOf(std::size_t axis) const;

@@ -110,7 +110,7 @@ void FieldOutput::visitState(StateArchive& archive, const Scene& scene) {
         archive.column<double>("sums", numbers);
         if (!archive.isReading()) return;
         sums.setNumbers(numbers, states);
-        // What was written at the end of that part is an average that goes on.
+        // The last row of that part was written at its end: it is an average that goes on.
         if (states > 0) keptUntil = std::nextafter(first, -INFINITY);
     });
     if (isTable()) return tableOf(scene).visitState(archive);

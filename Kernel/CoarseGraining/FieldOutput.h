@@ -21,9 +21,9 @@ class StateArchive;
 /// Fields of a scene at points, averaged over time. Given to Simulation::addOutput():
 ///   addOutput(FieldOutput(FieldGrid("XZ", lowest, highest, 1e-3), KernelShape::Gauss, 1e-3)
 ///                 .withInterval(1e-3).averagedOver(0.1));
-/// For up to one resolved direction NAME-FIELDS.csv with the rows of all averages, else NAME-FIELDS.pvd for
-/// ParaView; after asHdf5() NAME-FIELDS.h5 for h5py and MATLAB. FIELDS is "coarse" unless another name is
-/// given.
+/// The file is, for up to one resolved direction, NAME-FIELDS.csv with the rows of all averages, else
+/// NAME-FIELDS.pvd for ParaView; after asHdf5() NAME-FIELDS.h5 for h5py and MATLAB. FIELDS is "coarse" unless
+/// another name is given.
 class FieldOutput {
 public:
     /// @param width m, of the kernel; @param cutOff m; see SmoothingKernel
@@ -36,8 +36,8 @@ public:
     FieldOutput& averagedOver(double seconds);
     /// Fields of each group of grains as well.
     FieldOutput& withGroups(const GrainGroups& groups);
-    /// Only fields of the grains themselves: no stress of contacts, traction, fabric, coordination, liquid.
-    /// It costs a fifth or less.
+    /// Takes only fields of the grains themselves: no stress of contacts, traction, fabric, coordination,
+    /// liquid. It costs a fifth or less.
     FieldOutput& withoutContacts();
     /// Velocities against the flow of setLeesEdwards(), or of a strain: then velocity is the deviation from
     /// the flow, and the kinetic stress is free of it also where the gradient is averaged over. A scene

@@ -166,7 +166,7 @@ void FieldSums::forImagesAlong(std::size_t axis, double period, double low, doub
     }
 }
 
-/// The same along all three axes: calls use(shift, velocity) with those (m, m/s) of each image.
+/// Calls use(shift, velocity), in m and m/s, for each image that the grid can see, along all three axes.
 /// @param slid m, of images along the gradient of a shear, which has no period here
 template <class Use>
 void FieldSums::forImagesAlongAxes(const PeriodicBox& periodic, const Vector<double>& low,
@@ -389,7 +389,7 @@ void FieldSums::addContact(const GrainState& state, std::size_t number, Items& i
         addLine(state, end, -contact.shift, contact, group, items);
         return;
     }
-    // In the middle of the overlap or of the gap, as a fraction of the shift.
+    // The point in the middle of the overlap or of the gap, as a fraction of the shift.
     const double length = norm(contact.shift);
     const double middle = (first.radius + 0.5 * (length - first.radius - second.radius)) / length;
     addLine(state, first.position + middle * contact.shift, -middle * contact.shift, contact, group, items);
@@ -563,7 +563,8 @@ void FieldSums::refuseMovingImages(const FieldGrid& grid, const PeriodicBox& per
 void FieldSums::add(const GrainState& state, int threads) {
     refuseMovingImages(points, state.periodic);
     if (hasContacts()) gatherContactsOfGrains(state, threads);
-    // By the points, so that fields of grains are the same bits with and without those of contacts.
+    // Whether the sums are few goes by the points, so that fields of grains are the same bits with and
+    // without those of contacts.
     const bool isSmall = sums.size() / stored * count <= fewSums;
     items.resize(isSmall ? static_cast<std::size_t>(std::max(threads, 1)) : shares);
     if (isSmall) {

@@ -17,8 +17,8 @@ class GrainGroups {
 public:
     static GrainGroups none() { return {}; }
     static GrainGroups bySpecies(std::size_t species);
-    /// Between diameters (m): below the first, between, from the last on. Throws InputError unless they are
-    /// positive and increase.
+    /// Groups between diameters (m): below the first, between, from the last on. Throws InputError unless
+    /// they are positive and increase.
     static GrainGroups bySize(std::vector<double> diameters);
 
     [[nodiscard]] std::size_t count() const { return names.size(); }
@@ -49,7 +49,7 @@ private:
 /// velocity.
 class FieldSums {
 public:
-    /// What is summed, by its first place.
+    /// The sums, each by its first place.
     enum Sum : std::size_t {
         Number = 0,
         Volume = 1,
@@ -117,8 +117,8 @@ private:
     struct alignas(64) Eight {
         std::array<double, Pack::lanes> points;
     };
-    /// Where sums go, and which part of them one thread sums: of the outermost resolved axis, or of the
-    /// blocks where there is but one.
+    /// The part of the sums that one thread makes, and where they go: a part of the outermost resolved axis,
+    /// or of the blocks where there is but one.
     struct Slab {
         std::size_t begin, end;
         Eight* sums;

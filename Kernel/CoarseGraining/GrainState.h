@@ -34,8 +34,8 @@ struct GrainState {
         bool touching = true;
     };
 
-    /// Of a contact, m: from its point to the centres of its two bodies. Of two single grains both are parts
-    /// of the shift.
+    /// The branches (m) of a contact: from its point to the centres of its two bodies. Between two single
+    /// grains both are parts of the shift.
     struct Branches {
         Vector<double> toFirst, toSecond;
     };

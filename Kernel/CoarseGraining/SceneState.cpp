@@ -38,8 +38,8 @@ Vector<double> vectorAt(const PolyDataField& field, std::size_t k) {
     return {field.at(3 * k), field.at(3 * k + 1), field.at(3 * k + 2)};
 }
 
-/// From the centre of the first grain to the point of a contact, m: in the middle of the overlap or of the
-/// gap, at a wall on its surface.
+/// The way (m) from the centre of the first grain to the point of a contact: in the middle of the overlap or
+/// of the gap, at a wall on its surface.
 Vector<double> toPoint(const GrainState& state, const GrainState::Contact& contact) {
     if (contact.second == GrainState::Contact::wall) return contact.shift;
     const double length = norm(contact.shift), radius = state.grains[contact.first].radius,
@@ -47,7 +47,8 @@ Vector<double> toPoint(const GrainState& state, const GrainState::Contact& conta
     return ((radius + 0.5 * gap) / length) * contact.shift;
 }
 
-/// Of the rigid bodies in a frame. Without any, or where each is a single grain, nothing changes.
+/// Joins grains to the rigid bodies that a frame has. Without any, or where each is a single grain, nothing
+/// changes.
 void joinBodies(GrainState& state, const PolyData& grains) {
     const PolyDataField* const body = grains.pointField("body");
     if (!body) return;

@@ -17,9 +17,9 @@ void takeState(const Scene& scene, GrainState& state, FieldContent content = Fie
 
 GrainState stateOf(const Scene& scene, FieldContent content = FieldContent::All);
 
-/// The same of a frame for ParaView: its grains and contacts. In periodic directions (a length above 0) a
-/// contact leads to the nearest image. Throws InputError where a field is missing that is needed: with rigid
-/// bodies, those that tell where their grains are in them.
+/// The grains and contacts of a frame for ParaView. In periodic directions (a length above 0) a contact leads
+/// to the nearest image. Throws InputError where a field is missing that is needed: with rigid bodies, those
+/// that tell where their grains are in them.
 GrainState stateOf(const PolyData& grains, const PolyData& contacts, const PeriodicBox& periodic);
 
 }  // namespace pendular

@@ -69,7 +69,7 @@ private:
         return T(1.0);
     }
 
-    /// Of the function without its norm, over p from one end to the other, m.
+    /// The integral (m) of the function without its norm, over p from one end to the other.
     template <Number T>
     [[nodiscard]] T lineIntegral(const T& from, const T& to, const T& t2) const {
         switch (form) {

@@ -7,19 +7,21 @@
 
 namespace pendular {
 
-/// Where grains are in their rigid bodies, for sums over contacts: the force on a body acts with the branch
-/// from the other body's centre of mass to its own.
+/// The places of grains in their rigid bodies, for sums over contacts: the force on a body acts with the
+/// branch from the other body's centre of mass to its own.
 class BodyArms {
 public:
-    /// As the grains are now.
+    /// Takes the arms of the grains as they are now.
     explicit BodyArms(const ParticleStore& store) : grains(store), arms(store.bodies.armsInSpace(store)) {}
 
     [[nodiscard]] bool empty() const { return arms.empty(); }
-    /// m, from the centre of mass of its body to the centre of the grain at a place; zero for a grain in none
+    /// The arm (m) from the centre of mass of its body to the centre of the grain at a place; zero for a
+    /// grain in none
     [[nodiscard]] Vector<double> at(std::uint32_t place) const {
         return arms.empty() ? Vector<double>{0, 0, 0} : arms[place];
     }
-    /// m, from the centre of the first body to that of the second, or to the contact point at a wall
+    /// The branch (m) from the centre of the first body to that of the second, or to the contact point at a
+    /// wall
     [[nodiscard]] Vector<double> shiftOf(const ObservedContact& seen) const {
         if (arms.empty()) return seen.shift;
         const std::uint32_t first = grains.place[seen.particle1];

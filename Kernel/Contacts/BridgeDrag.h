@@ -4,7 +4,7 @@
 
 namespace pendular {
 
-/// What a bridge that resists sliding and rolling gives body 1.
+/// The force and torque on body 1 of a bridge that resists sliding and rolling.
 template <class T>
 struct BridgeDrag {
     Vector<T> force;   // N, at the contact point

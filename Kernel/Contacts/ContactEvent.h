@@ -21,7 +21,7 @@ struct ContactEvent {
     friend auto operator<=>(const ContactEvent&, const ContactEvent&) = default;
 };
 
-/// The same for a contact by its number in the list.
+/// What happened to a contact that is given by its number in the list.
 struct ContactChange {
     std::uint32_t contact;
     ContactEvent::Kind kind;

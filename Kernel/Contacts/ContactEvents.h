@@ -16,7 +16,7 @@ public:
 
     /// Keeps the changes of each step, for physics that follows from them.
     void watch(bool on) { watching = on; }
-    /// Those of this step, in the order of the list.
+    /// The changes of contacts in this step, in the order of the list.
     [[nodiscard]] const std::vector<ContactChange>& changes() const { return changesOfStep; }
 
     /// A step begins: what has ended since the last one, because bodies were removed or changed, belongs to
@@ -26,7 +26,7 @@ public:
         events.swap(early);
         changesOfStep.clear();
     }
-    /// What has happened since then belongs to the next step.
+    /// Events since the last step belong to the next one.
     void leaveForNextStep();
     /// To be called before and after the forces of a bucket; after() also gives the columns of contacts that
     /// begin to act the numbers with which they start.

@@ -20,11 +20,11 @@ struct ContactGeometry {
     Vector<T> spinLever;  // m/s, sum of spin x lever arm over the bodies; zero without torque
     Vector<T> spinSum;    // rad/s, of both bodies
 
-    // For bridges that resist sliding.
+    // Used by bridges that resist sliding:
     T lever;  // m, twice what lever arms are shorter than radii: the overlap; a bridge pulls in the middle of
               // its gap, or at the surface of the grain that is at a wall
 
-    // For laws with a torque of the contact's own.
+    // Used by laws with a torque of the contact's own:
     Vector<T> spinDifference;  // rad/s, of body 1 against body 2
     T asymmetry;               // (r2 - r1) / (r1 + r2), 1 at a wall: for bridges that resist rolling
     T rotationResponse;        // 1/kg, R*^2 (1/I1 + 1/I2): of R* times the relative spin, to the torque / R*
@@ -137,8 +137,8 @@ struct PairGeometry {
         return g;
     }
 
-    /// What follows from the spins, which only friction and bridges that resist motion read: later than
-    /// complete(), so that it lies in registers for a shorter time.
+    /// Completes what follows from the spins, which only friction and bridges that resist motion read: later
+    /// than complete(), so that it lies in registers for a shorter time.
     [[gnu::always_inline]] void completeSpins(ContactGeometry<Pack>& g) const {
         auto [wx1, wy1, wz1] = loadRecords<3>(numbers(rotation), 8, block.first.data());
         auto [wx2, wy2, wz2] = loadRecords<3>(numbers(rotation), 8, block.second.data());
@@ -235,7 +235,7 @@ struct WallGeometry {
         if constexpr (S::hasContactTorque) g.spinDifference = own - wall;
     }
 
-    /// Those of the grains: walls are taken to keep their velocity for the step.
+    /// The accelerations of the grains: walls are taken to keep their velocity for the step.
     [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
                                                           Pack overlap) const {
         auto [wx, wy, wz] =

@@ -16,7 +16,7 @@ template <class S>
 struct PreparedLaws {
     typename S::Normal::Prepared normal;
     typename S::Friction::Prepared friction;
-    /// Of bridges that resist motion, which ask it in each step.
+    /// Bridges that resist motion are asked in each step; other ones are not.
     static constexpr bool asksAdhesion = bridgeResists<typename S::Adhesion> != BridgeResists::Nothing;
     [[no_unique_address]] std::conditional_t<asksAdhesion, typename S::Adhesion, NoAdhesion> adhesion;
 
@@ -66,7 +66,7 @@ public:
           ledger(!contactStore.memory.energies.empty()),
           amongTorques(S::hasTorque || contactStore.memory.getLayout().hasTorque) {}
 
-    /// Of the contacts that this kernel has computed.
+    /// The overlaps and capillary numbers of the contacts that this kernel has computed.
     OverlapWatch overlaps;
     CapillaryWatch capillaryNumbers;
 
@@ -334,7 +334,7 @@ private:
         return select(touching, force.force, zero());
     }
 
-    /// What the bridges resist in this step; nothing where there are none.
+    /// The resistance of the bridges in this step; zero where there are none.
     /// @param push N, normal repulsion by what else acts in the contact; @param last N, by all that acted in
     /// it
     BridgeResistance<Pack> askResistance(std::size_t block, const ContactGeometry<Pack>& g, Mask bridged,
@@ -469,9 +469,10 @@ private:
         }
     }
 
-    // By value: what the kernel hands out by reference it would have to keep in memory in every step.
+    // Arguments are passed by value: what the kernel hands out by reference it would have to keep in memory
+    // in every step.
 
-    /// What the ledger reads of eight contacts, without their friction.
+    /// Writes what the ledger reads of eight contacts, without their friction.
     [[gnu::noinline, gnu::cold]] void writeSamples(std::size_t block, Pack normalX, Pack normalY,
                                                    Pack normalZ, Pack lever, Pack overlap,
                                                    Pack effectiveRadius, Pack effectiveMass, Pack elastic,

@@ -76,13 +76,14 @@ public:
     bool hasLargestCapillaryNumber = false;
     OverlapLimit overlapLimit;
 
-    /// Those of a pair alone: their own names, layout and flags, where a scene has species of several types.
+    /// The laws of a pair alone: their own names, layout and flags, where a scene has species of several
+    /// types.
     [[nodiscard]] virtual const ContactLaws& ofPair(int /*a*/, int /*b*/) const { return *this; }
     [[nodiscard]] std::string_view typeName(std::size_t species) const final {
         return ofPair(static_cast<int>(species), static_cast<int>(species)).name;
     }
     [[nodiscard]] bool turnGrains() const final { return layout.hasTorque; }
-    /// Where grains are no spheres, what they are; else null.
+    /// The shapes of the grains of a scene in which they are no spheres; else null.
     [[nodiscard]] virtual const GrainShapes* shapes() const { return nullptr; }
     virtual void mixAll() = 0;
     /// Whether a value of a species has been set since mixAll().
@@ -95,13 +96,13 @@ public:
     [[nodiscard]] virtual std::optional<std::string> objection(int a, int b, const Bodies& bodies) const = 0;
     [[nodiscard]] virtual ContactStiffness stiffness(int a, int b, const Bodies& bodies,
                                                      double effectiveMass) const = 0;
-    /// The same at the overlaps that there are, for many contacts at a time.
+    /// The stiffnesses of many contacts at a time, at the overlaps that they have.
     virtual void stiffnesses(int a, int b, std::span<const PressedPair> contacts,
                              std::span<ContactStiffness> found) const = 0;
     /// N/m, the slope of the normal law at an overlap (m).
     [[nodiscard]] virtual double normalStiffness(int a, int b, const Bodies& bodies,
                                                  double overlap) const = 0;
-    /// Of each law by its name, what is out of its domain.
+    /// What is out of the domain of each law, with the law's name.
     [[nodiscard]] virtual std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const = 0;
     /// m^3; nothing where no laws of the scene have a bridge
@@ -110,10 +111,10 @@ public:
     /// How liquid moves between the two; nothing where it does not.
     [[nodiscard]] virtual std::optional<LiquidRules> liquidRules(int a, int b) const = 0;
 
-    /// m: bodies that have not touched form a bridge below this gap; 0 where they must touch. Of bridges of a
-    /// fixed volume.
+    /// m: bodies that have not touched form a bridge below this gap; 0 where they must touch. This is for
+    /// bridges of a fixed volume.
     [[nodiscard]] virtual double filmContactGap(int a, int b) const = 0;
-    /// The same where liquid moves, for films of this thickness (m, of both bodies together).
+    /// The gap (m) as above where liquid moves, for films of this thickness (m, of both bodies together).
     [[nodiscard]] virtual double filmContactGap(int a, int b, const Bodies& bodies, double films) const = 0;
     /// Films have met: the bridge that liquid is about to make there will resist from the gap `start` (m) on,
     /// of which the bodies have gone up to `gap` (m).
@@ -124,20 +125,20 @@ public:
     [[nodiscard]] virtual BridgeSurface bridgeSurface(int a, int b, const Bodies& bodies, double volume,
                                                       double separation, bool solved) const = 0;
 
-    // What contacts remember, as numbers.
-    /// A bridge; where liquid moves, a contact without one.
+    // The functions below take what contacts remember as numbers.
+    /// Prepares a bridge; where liquid moves, a contact without one.
     virtual void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const = 0;
-    /// Where liquid moves: a bridge of this volume, m^3.
+    /// Prepares a bridge of this volume (m^3), where liquid moves.
     virtual void prepareBridge(int a, int b, const Bodies& bodies, double volume,
                                double* interaction) const = 0;
     /// A bridge that was prepared again goes on with what it remembered.
     virtual void takeBridgeState(int a, int b, double* interaction, const double* before) const = 0;
-    /// Between two steps: if the separation (m) is not what it was at the end of the last one (by more than
-    /// roundOff, m), the bodies have been put there, and a bridge forgets how they moved.
+    /// Called between two steps: if the separation (m) is not what it was at the end of the last one (by more
+    /// than roundOff, m), the bodies have been put there, and a bridge forgets how they moved.
     virtual void checkGap(int a, int b, double* interaction, double separation, double roundOff) const = 0;
     [[nodiscard]] virtual double adhesiveForce(int a, int b, const double* interaction,
                                                double separation) const = 0;
-    /// J: minus the work that a bridge still does from a separation (m) to its rupture, where liquid moves.
+    /// Minus the work (J) that a bridge still does from a separation (m) to its rupture, where liquid moves.
     [[nodiscard]] virtual double adhesionEnergy(int a, int b, const double* interaction,
                                                 double separation) const = 0;
     virtual void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const = 0;

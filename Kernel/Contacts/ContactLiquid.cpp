@@ -308,7 +308,7 @@ bool ContactLiquid::giveToWall(const ContactLaws& laws, std::size_t wall, double
     return isWet;
 }
 
-/// By identity: places change when contacts are listed again.
+/// Grains are remembered by identity: places change when contacts are listed again.
 void ContactLiquid::remember(const ParticleStore& grains) {
     for (const std::uint32_t place : places) looked.push_back(grains.identity[place]);
 }

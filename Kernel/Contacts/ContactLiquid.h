@@ -70,7 +70,7 @@ struct ListedLiquid {
         const ContactBlock& block = store.blocks[contact / Pack::lanes];
         return (which == 0 ? block.first : block.second)[contact % Pack::lanes];
     }
-    /// Those of pairs whose liquid does not move are left out: nothing can form there.
+    /// Contacts of pairs whose liquid does not move are left out: nothing can form there.
     template <class Function>
     void forEachContactOf(Number grain, Function&& function) const {
         if (grain >= store.sides.grainCount()) return;
@@ -87,7 +87,8 @@ private:
     }
 };
 
-/// J, that the liquid of a scene has given to its bridges in a step, by coming to them or going from them.
+/// The energy (J) that the liquid of a scene has given to its bridges in a step, by coming to them or going
+/// from them.
 struct LiquidEnergy {
     double migration = 0, evaporation = 0;
 };
@@ -104,28 +105,28 @@ public:
     [[nodiscard]] bool moves() const { return filmsOfGrains != nullptr; }
     /// Contacts have been listed again.
     void listed(const ContactStore& store, const ContactLaws& laws);
-    /// Before the forces of a step: bridges whose volumes have changed since the last one are prepared again;
-    /// where they have dried only, when the volume has changed by 0.1 % since the last preparation. (d ln F /
-    /// d ln V is 0 to 1, and the rupture distance goes as V^(1/3).) Until then observers see the forces that
-    /// were.
+    /// Prepares again, before the forces of a step, the bridges whose volumes have changed since the last
+    /// one; where they have dried only, when the volume has changed by 0.1 % since the last preparation. (d
+    /// ln F / d ln V is 0 to 1, and the rupture distance goes as V^(1/3).) Until then observers see the
+    /// forces that were.
     void prepareChanged(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains);
     /// Whether bridges of the scene form where films meet, and the largest gap (m) at which those of these
     /// grains can.
     [[nodiscard]] bool formsAtFilms(const ContactLaws& laws) const;
     [[nodiscard]] double largestFilmContact(const ParticleStore& grains) const;
-    /// At the end of a step (s), before move(): the contacts without a bridge whose films meet, in the order
-    /// of the list. For move() they need memory.
+    /// Called at the end of a step (s), before move(): the contacts without a bridge whose films meet, in the
+    /// order of the list. They need memory for move().
     /// @param approached m, that bodies can have approached since they were listed
     const std::vector<FilmContact>& findFilmContacts(const ContactStore& store, const ContactLaws& laws,
                                                      const ParticleStore& grains, double length,
                                                      double approached);
-    /// At the end of a step: what has begun and ended in it moves liquid. Bridges that form are added to the
-    /// events.
+    /// Called at the end of a step: what has begun and ended in it moves liquid. Bridges that form are added
+    /// to the events.
     void move(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, ContactEvents& events);
-    /// At the end of a step (s) that ends at a time (s), after move(): films and bridges dry. A bridge that
-    /// gets too small for its gap ruptures in the next step.
+    /// Called at the end of a step (s) that ends at a time (s), after move(): films and bridges dry. A bridge
+    /// that gets too small for its gap ruptures in the next step.
     void dry(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, double time, double length);
-    /// What changes of volumes have given to bridges since this was called last.
+    /// The energy that changes of volumes have given to bridges since this was called last.
     [[nodiscard]] LiquidEnergy takeEnergy();
     /// Bridges that have dried to nothing.
     [[nodiscard]] std::uint64_t driedBridges() const { return driedOut; }
@@ -142,7 +143,8 @@ public:
     /// m^3, what a wall has got back minus what it gave.
     [[nodiscard]] double ofWall(std::size_t wall) const { return wall < walls.size() ? walls[wall] : 0; }
     void visitState(StateArchive& archive);
-    /// When contacts have been listed that were read: throws InputError unless their volumes are whole.
+    /// Called when contacts have been listed that were read: throws InputError unless their volumes are
+    /// whole.
     void requireWhole(const StateArchive& archive, const ContactStore& store) const;
 
 private:

@@ -58,9 +58,10 @@ inline double patchDepth(double radius, double distance, double range) {
 /// @param rise m, of q out of the tangent plane at p; @param depth m, above 0
 inline double ownShareByRise(double rise, double depth) { return fadeIn(2 * rise / depth - 1); }
 
-/// The same for facets of one curved surface, which turn by less than smoothAngle, as for those that share an
-/// edge (README of Kernel/Walls): only the nearest counts, at any depth. They have not to share their corners
-/// to the last bit: a gap up to 1/20 of a is none, and one of a / 10 is one.
+/// From 0 to 1: how far q is a contact of its own where p and q are on facets of one curved surface, which
+/// turn by less than smoothAngle, as for facets that share an edge (README of Kernel/Walls): only the nearest
+/// counts, at any depth. They have not to share their corners to the last bit: a gap up to 1/20 of a is none,
+/// and one of a / 10 is one.
 /// @param gap m, between the facets
 inline double ownShareByGap(double gap, double radius, double depth) {
     return fadeIn(20 * gap / std::sqrt(radius * depth) - 1);

@@ -26,11 +26,11 @@ public:
     std::size_t into(ContactStore& store, const RememberedContacts& old) const;
 
 private:
-    /// Of each lane of the list: the number of what it remembers.
+    /// The number of what each lane of the list remembers.
     [[nodiscard]] std::vector<std::uint32_t> entriesOf(const RememberedContacts& old,
                                                        const ContactStore& store) const;
-    /// Of the blocks with memory: new contacts have no bridge yet, and what bodies or laws are now may differ
-    /// from what they were when the others were prepared.
+    /// Prepares the bridges of the blocks with memory: new contacts have no bridge yet, and what bodies or
+    /// laws are now may differ from what they were when the others were prepared.
     void prepareBridges(const std::vector<std::uint32_t>& entries, ContactStore& store) const;
     /// Calls function(bucket, block) for all blocks, several at the same time.
     template <class Function>

@@ -51,7 +51,7 @@ struct EnergyRecord {
     double adhesionWork = 0;  // J, done against the adhesion since it began to act
     double lastWall = -1;     // number of the wall that the last sample is of; -1: none
 
-    /// J, in the springs and the adhesion, as the ledger counts it.
+    /// The energy (J) in the springs and the adhesion, as the ledger counts it.
     [[nodiscard]] double stored() const {
         return last.elasticEnergy + last.sliding.stored() + last.rolling.stored() + last.torsion.stored() +
                adhesionWork;

@@ -36,7 +36,7 @@ struct alignas(64) ContactBlock {
     }
 };
 
-/// Where the eight grains of a block are nearest to their wall, in this step.
+/// The points of a wall that are nearest to the eight grains of a block, in this step.
 struct WallPointColumns {
     std::array<LaneColumn, 3> normal{};    // unit, into the wall
     std::array<LaneColumn, 3> velocity{};  // m/s, of the wall's surface
@@ -76,8 +76,9 @@ struct BlockState {
     friend bool operator==(const BlockState&, const BlockState&) = default;
 };
 
-/// What the kernel writes for a contact and the particle sum reads: the force on body 1, half the overlap
-/// (each body's lever arm is its radius minus that), n x force, and the normal force (repulsion positive).
+/// The record that the kernel writes for a contact and the particle sum reads: the force on body 1, half the
+/// overlap (each body's lever arm is its radius minus that), n x force, and the normal force (repulsion
+/// positive).
 struct alignas(64) ForceTorqueRecord {
     Vector<double> force;      // N
     double halfOverlap;        // m
@@ -85,7 +86,7 @@ struct alignas(64) ForceTorqueRecord {
     double normalForce;        // N
 };
 
-/// The same without friction: no torque, half the memory.
+/// The force record without friction: no torque, half the memory.
 struct alignas(32) ForceRecord {
     Vector<double> force;  // N, on body 1
     double normalForce;    // N, repulsion positive
@@ -124,7 +125,7 @@ public:
     std::vector<EnergyRecord> energies;      // empty unless a ledger is kept
     std::vector<std::uint32_t> blockOf;      // the block of contacts that has this block of memory
 
-    /// Of a bridge whose liquid moves: its volume, and the one for which it was prepared, negative (or -0) if
+    /// The volume of a bridge whose liquid moves, and the one for which it was prepared, negative (or -0) if
     /// it is to be prepared again for whatever change.
     static constexpr std::size_t liquidNumbers = 2;
     [[nodiscard]] double& volumeOf(std::size_t slot) { return liquid.at(slot, 0); }
@@ -231,8 +232,9 @@ public:
     std::vector<WallPointColumns> wallPoints;  // of the wall blocks, which come last
 
     ContactSides sides;
-    /// Of each block, m: while no two bodies have approached by this since they were listed, nothing in it
-    /// can begin to touch, or to form a bridge at its filmContactGap. Of no meaning for blocks with memory.
+    /// The gap (m) of each block: while no two bodies have approached by this since they were listed, nothing
+    /// in it can begin to touch, or to form a bridge at its filmContactGap. It has no meaning for blocks with
+    /// memory.
     std::vector<double> gaps;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks.size(); }
@@ -244,7 +246,7 @@ public:
         const BlockState& state = states[contact / Pack::lanes];
         return bitOf(state.touching | state.bridged, contact);
     }
-    /// Where the memory holds a contact.
+    /// The place at which the memory holds a contact.
     [[nodiscard]] std::size_t slotOf(std::size_t contact) const {
         return slots[contact / Pack::lanes] * std::size_t{Pack::lanes} + contact % Pack::lanes;
     }
@@ -252,7 +254,7 @@ public:
     [[nodiscard]] std::uint32_t contactAt(std::uint32_t slot) const {
         return memory.blockOf[slot / Pack::lanes] * Pack::lanes + slot % Pack::lanes;
     }
-    /// N, on body 1.
+    /// The force (N) on body 1.
     [[nodiscard]] const Vector<double>& forceOf(std::size_t contact) const {
         const std::size_t slot = slotOf(contact);
         return memory.getLayout().hasTorque ? memory.records[slot].force : memory.forces[slot].force;
@@ -282,8 +284,8 @@ public:
         return *std::upper_bound(buckets.begin(), buckets.end(), block,
                                  [](std::size_t b, const Bucket& bucket) { return b < bucket.end; });
     }
-    /// What orders the contacts of a grain, which is body 1 (0) or body 2 (1) of this one: other grains by
-    /// identity, then walls by number and part.
+    /// The key by which the contacts of a grain are ordered, which is body 1 (0) or body 2 (1) of this one:
+    /// other grains by identity, then walls by number and part.
     [[nodiscard]] std::uint64_t keyOf(std::uint32_t contact, std::uint32_t which,
                                       const std::vector<std::uint32_t>& identity) const {
         const ContactBlock& block = blocks[contact / Pack::lanes];

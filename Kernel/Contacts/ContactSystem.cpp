@@ -31,7 +31,7 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
 }
 
 bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift) {
-    // Also those that have gone again.
+    // Grains that have come and gone again since the last call need their places, too.
     contacts.sides.addGrains(grains.size());
     unlisted += grainShift + std::max(grainShift, wallShift);
     ++stepsListed;
@@ -40,7 +40,7 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     const bool isTime =
         stepsListed % IdleLanes::interval == 0 && idleLanes.newListPays(contacts, skin.listCost());
     if (!isNear && !isTime) return false;
-    // What came late says nothing of how long a list lasts.
+    // A list that ends early, because of grains that came later, says nothing of how long a list lasts.
     if (rebuilds > 0 && unlisted >= skin.width()) skin.choose(unlisted, stepsListed);
     listAgain(grains);
     return true;
@@ -77,7 +77,7 @@ void ContactSystem::listNow(Grains& grains, bool keepsBridges) {
         findWallPoints(grains, 0);
 }
 
-/// Its bridge forgets how the bodies moved if the change has put them somewhere else.
+/// The bridge of a contact forgets how the bodies moved if a change has put them somewhere else.
 void ContactSystem::checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact) {
     const std::size_t slot = contacts.slotOf(contact);
     const ObservedContact seen = observe(grains, bucket, contact);

@@ -42,9 +42,9 @@ public:
     void listNow(Grains& grains) { listNow(grains, true); }
     /// Bodies or laws have changed: contacts are listed again at once, and their bridges prepared again, for
     /// the volumes for which they were prepared: what has not changed keeps its bits.
-    /// Those that the change takes apart end, also where both bodies are held now, and those whose pair has
-    /// other laws now, which know nothing of what the contact remembers. Returns the energy (J) that was
-    /// stored in what has ended, where a ledger is kept.
+    /// Contacts whose bodies the change takes apart end, also where both bodies are held now, and contacts
+    /// whose pair has other laws now, which know nothing of what the contact remembers. Returns the energy
+    /// (J) that was stored in what has ended, where a ledger is kept.
     double renew(Grains& grains);
     /// Ends the contacts of the grain at a place, or at a wall, which is about to be removed; returns the
     /// energy (J) that was stored in them, where a ledger is kept.
@@ -65,10 +65,10 @@ public:
     double goThroughFaces(Grains& grains, std::span<const std::uint32_t> places,
                           const std::vector<bool>& hasEnds, double time,
                           const std::function<void()>& bringBack);
-    /// What contacts remember, by who they join: how they are listed is not kept. After prepare(); the
-    /// species, the walls and the grains are visited by themselves, before.
+    /// Visits what contacts remember, by who they join: how they are listed is not kept. It is called after
+    /// prepare(); the species, the walls and the grains are visited by themselves, before.
     void visitState(StateArchive& archive, Grains& grains);
-    /// Of all grains, m; it may have changed since prepare().
+    /// The smallest radius (m) of all grains; it may have changed since prepare().
     void setSmallestRadius(double radius) { skin.setSmallestRadius(radius); }
     /// Threads for the forces; the results do not depend on it.
     void setThreads(int count) { threads = count; }
@@ -83,23 +83,23 @@ public:
         computePairForces(grains, step, timing);
         computeWallForces(grains, step, timing);
     }
-    /// The first half of it: grains with grains.
+    /// The first half of computeForces(): grains with grains.
     void computePairForces(const Grains& grains, double step, ContactTiming timing = {});
-    /// The second half of it.
+    /// The second half of computeForces(): grains with walls.
     void computeWallForces(const Grains& grains, double step, ContactTiming timing = {});
 
     /// Gives a wall the sum of the forces of the last step.
     void sumForcesOn(const Grains& grains, std::size_t wall);
-    /// The same of walls that are moved by forces, where contacts have ended since then: exactly, so that a
-    /// restart makes the same sum.
+    /// Sums the forces again on walls that are moved by forces, where contacts have ended since then:
+    /// exactly, so that a restart makes the same sum.
     void sumLostForces(const Grains& grains);
 
-    /// After the forces of a step (s) that ends at a time (s), in a scene in which liquid moves.
+    /// Called after the forces of a step (s) that ends at a time (s), in a scene in which liquid moves.
     void moveLiquid(Grains& grains, double time, double length);
     void setEvaporation(const Evaporation& law) { liquid.setEvaporation(law); }
     [[nodiscard]] const ContactLiquid& movingLiquid() const { return liquid; }
     [[nodiscard]] ContactLiquid& movingLiquid() { return liquid; }
-    /// J, that changes of the volumes of bridges have given to them since this was called last.
+    /// The energy (J) that changes of the volumes of bridges have given to them since this was called last.
     [[nodiscard]] LiquidEnergy takeLiquidEnergy() { return liquid.takeEnergy(); }
     [[nodiscard]] bool movesLiquid() const { return liquid.moves(); }
     [[nodiscard]] LiquidLedger liquidLedger(const Grains& grains) const {
@@ -111,16 +111,16 @@ public:
     [[nodiscard]] const ContactStore& store() const { return contacts; }
     [[nodiscard]] const ContactLaws& laws() const { return *species; }
     [[nodiscard]] const PeriodicBox& periodicBox() const { return periodic; }
-    /// In shear and strain, where the images have gone.
+    /// Takes the box after the images have moved, in shear and strain.
     void setPeriodicBox(const PeriodicBox& box) { periodic = box; }
     /// m, the gap at which films meet, for which contacts were listed
     [[nodiscard]] double filmReach() const { return std::max(filmsReach, largestFilmContactGap()); }
-    /// Of memory that the contacts take.
+    /// The memory (bytes) that the contacts take.
     [[nodiscard]] std::size_t bytes() const { return contacts.bytes(); }
     [[nodiscard]] std::size_t rebuildCount() const { return rebuilds; }
-    /// Of all contacts since the scene began.
+    /// The overlaps of all contacts since the scene began.
     [[nodiscard]] const OverlapWatch& overlaps() const { return overlapWatch; }
-    /// Of the effective radius: see OverlapWatch::expect().
+    /// Takes the largest overlap to come, over the effective radius: see OverlapWatch::expect().
     void expectOverlaps(double largest) { overlapWatch.expect(largest); }
     [[nodiscard]] const CapillaryWatch& capillaryNumbers() const { return capillaryWatch; }
 
@@ -131,7 +131,8 @@ public:
         forEachWithMemory(grains, [&](std::uint32_t slot) { callIfActing(slot, function); });
     }
 
-    /// The same for the contacts of the grain at a place, in the order of its partners.
+    /// Calls function(bucket, contact) for each contact of the grain at a place that has a force, in the
+    /// order of its partners.
     template <class Function>
     void forEachActingOf(std::uint32_t place, Function&& function) const {
         for (const std::uint32_t side : sidesOf(place)) callIfActing(side / 2, function);
@@ -161,7 +162,8 @@ public:
         });
     }
 
-    /// m^3, of the bridges of the grain at a place: half of each to another grain, all of one to a wall.
+    /// The liquid (m^3) of the bridges of the grain at a place: half of each to another grain, all of one to
+    /// a wall.
     [[nodiscard]] double liquidAt(const Grains& grains, std::uint32_t place) const;
 
     /// A number of the driver's own that is kept of each contact from its first touch (or bridge) until it
@@ -169,13 +171,14 @@ public:
     /// name that is there already.
     std::size_t addColumn(const NamedColumn& column);
     [[nodiscard]] const std::vector<NamedColumn>& columns() const { return namedColumns; }
-    /// Of a contact as it was observed. Throws InputError if contacts have been listed again since then.
+    /// The value in a column for a contact as it was observed. Throws InputError if contacts have been listed
+    /// again since then.
     [[nodiscard]] double& columnOf(const ObservedContact& seen, std::size_t column);
     [[nodiscard]] double columnOf(const ObservedContact& seen, std::size_t column) const;
 
     [[nodiscard]] ObservedContact observe(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
-    /// m, of the tangential spring.
+    /// The length (m) of the tangential spring.
     [[nodiscard]] double springLength(std::uint32_t contact) const;
 
 private:
@@ -204,7 +207,8 @@ private:
     }
     void listNow(Grains& grains, bool keepsBridges);
     void listAgain(Grains& grains, bool keepsBridges = true, double reach = 0);
-    /// The same with contacts whose memory is in the store; returns how many of them are listed again.
+    /// Lists contacts again, with remembered ones whose memory is in the store; returns how many of these are
+    /// listed again.
     std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true,
                           double reach = 0);
     double endContact(Grains& grains, std::uint32_t contact);
@@ -222,7 +226,7 @@ private:
     void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number);
     void wake(std::size_t block, const Bucket& bucket, const Grains& grains);
     void findWallPoints(const Grains& grains, const Bucket& bucket, double step);
-    /// The same of all walls, of which one may stand for another: what is one contact is left once.
+    /// Finds the points at all walls, of which one may stand for another: what is one contact is left once.
     void findWallPoints(const Grains& grains, double step);
     void sumWallForces(const Grains& grains);
 

@@ -2,8 +2,7 @@
 
 namespace pendular {
 
-/// What contacts make of the step in which their forces are wanted; the default is that of the default
-/// integrator.
+/// How contacts use the step in which their forces are wanted; the default is that of the default integrator.
 struct ContactTiming {
     /// The change of a contact's own force enters the velocity that its dashpots see: they are implicit.
     bool implicitForces = true;
@@ -12,10 +11,10 @@ struct ContactTiming {
     /// force.
     bool timesTouches = true;
     /// With timesTouches: tangential springs are not kept ahead, but move to the force with the velocity in
-    /// the middle of the time that they move for, which is explicit. For grains that carry the velocity v + h
-    /// a.
+    /// the middle of the time that they move for, which is explicit. This is for grains that carry the
+    /// velocity v + h a.
     bool springsInStep = false;
-    /// s, of the step that comes; 0: as long as the last one.
+    /// The length (s) of the step that comes; 0: as long as the last one.
     double comingStep = 0;
 
     friend constexpr bool operator==(const ContactTiming&, const ContactTiming&) = default;

@@ -21,8 +21,9 @@ public:
     /// liquidDensity rho_l, kg/m^3; @param relativeHumidity RH, 0 to 1
     void setMassTransfer(double coefficient, double saturatedVapour, double liquidDensity,
                          double relativeHumidity = 0);
-    /// For droplets in flight: vapour diffuses away through gas at rest, and the radius a of a droplet obeys
-    /// a^2 = a0^2 - 2 D (rho_vs - rho_v) t / rho_l (the d^2 law). Without it, they dry as films do.
+    /// Lets droplets in flight dry by diffusion: vapour diffuses away through gas at rest, and the radius a
+    /// of a droplet obeys a^2 = a0^2 - 2 D (rho_vs - rho_v) t / rho_l (the d^2 law). Without it, they dry as
+    /// films do.
     /// @param diffusivity D, m^2/s; @param vapourDifference rho_vs - rho_v, kg/m^3; @param liquidDensity
     /// rho_l, kg/m^3
     void setDiffusion(double diffusivity, double vapourDifference, double liquidDensity);
@@ -48,7 +49,7 @@ public:
         const double vapour = kelvin > 0 ? std::exp(kelvin * pressure) : 1;
         return std::fmax(fastest * (vapour - humidity), 0);
     }
-    /// What is left of a volume (m^3) after a time (s).
+    /// The volume (m^3) that is left of one after a time (s).
     /// @param lossRate m^3/s, of a volume
     template <class LossRate>
     static double leftAfter(double volume, double time, LossRate&& lossRate) {
@@ -59,7 +60,7 @@ public:
         const double end = root - time * falls(middle * middle * middle * middle);
         return end > 0 ? end * end * end * end : 0;
     }
-    /// What is left of the radius (m) of a droplet in flight after a time (s).
+    /// The radius (m) that is left to a droplet in flight after a time (s).
     [[nodiscard]] double radiusLeftAfter(double radius, double time) const {
         if (drop > 0) return std::sqrt(std::fmax(radius * radius - drop * time, 0));
         return std::fmax(radius - flux() * time, 0);

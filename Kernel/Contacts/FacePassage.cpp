@@ -12,8 +12,8 @@ namespace pendular {
 
 namespace {
 
-/// What a grain sees before and behind a face may differ by this share of its radius. Walls are checked to a
-/// tenth of it, and the nearest point of a part may shift by a few times what the part does.
+/// A wall may look different to a grain before and behind a face, by this share of its radius. Walls are
+/// checked to a tenth of it, and the nearest point of a part may shift by a few times what the part does.
 constexpr double tolerance = 1e-3;
 
 }  // namespace
@@ -92,7 +92,7 @@ bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint
     meetsWalls |= !now.empty();
     const double radius = grains.translation[passing.place].radius, touch = (1 - tolerance) * radius,
                  range = rangeAt(grains, passing.place, wall);
-    // Of two parts that the grain sees in the same place, as above their common edge, one is covered: that
+    // One of two parts that the grain sees in the same place, as above their common edge, is covered: that
     // goes on as such. In a shallow groove round-off may cover the other one; the contact is handed over
     // then.
     const double most = tolerance * radius;  // m

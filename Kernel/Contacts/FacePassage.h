@@ -22,10 +22,11 @@ public:
                 const std::vector<bool>& hasEnds)
         : store(contacts), walls(wallHandler), laws(contactLaws), isFollowed(hasEnds) {}
 
-    /// Before the grains at these places are brought back, and when the points of the walls have been found:
-    /// what these grains see.
+    /// Notes what the grains at these places see, before they are brought back and when the points of the
+    /// walls have been found.
     void leave(const Grains& grains, std::span<const std::uint32_t> places);
-    /// When they have been: finds the parts. Throws RunError where a grain sees another surface than before.
+    /// Called when they have been brought back: finds the parts. Throws RunError where a grain sees another
+    /// surface than before.
     /// @param reach m, from the surface of a grain, within which contacts are listed; @param time s
     void arrive(const Grains& grains, double reach, double time);
 

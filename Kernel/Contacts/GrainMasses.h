@@ -14,7 +14,7 @@ class GrainMasses {
 public:
     GrainMasses(const ParticleStore& store, const ContactLaws& contactLaws);
 
-    /// kg, of the grain at a place.
+    /// The mass (kg) of the grain at a place.
     [[nodiscard]] double operator()(std::uint32_t place) const {
         if (!shares.empty() && shares[place] > 0) return shares[place];
         const double inverse = grains.translation[place].inverseMass;

@@ -2,8 +2,8 @@
 
 namespace pendular {
 
-/// Where the liquid of a scene is, and where it came from, in m^3. All are multiples of one quantum, so that
-/// the identity holds to the last bit.
+/// The account (m^3) of the liquid of a scene: where it is, and where it came from. All are multiples of one
+/// quantum, so that the identity holds to the last bit.
 struct LiquidLedger {
     double films = 0, bridges = 0;
     double walls = 0;     // what wet walls have got back minus what they gave: negative while they give

@@ -97,7 +97,7 @@ private:
         liquid.addToFilm(grain, volume);
         looked.push_back(grain);
     }
-    /// What body 1 gets of a volume, and what body 2 or the wall gets.
+    /// The parts of a volume that body 1 gets, and that body 2 or the wall gets.
     static std::pair<Quanta, Quanta> halves(Liquid& liquid, Number contact, Quanta volume) {
         const bool isDryWall = liquid.isAtWall(contact) && liquid.rulesOf(contact).wallDose == 0;
         const Quanta own = isDryWall ? volume : volume / 2;
@@ -181,7 +181,7 @@ private:
         return liquid.touches(contact) && liquid.volumeOf(contact) == 0 &&
                liquid.rulesOf(contact).largest > 0;
     }
-    /// What the film of a grain offers to one of the contacts that draw from it.
+    /// The volume that the film of a grain offers to one of the contacts that draw from it.
     static Quanta partOfFilm(Liquid& liquid, Number grain, Number contact) {
         const Quanta film = liquid.filmOf(grain);
         if (film == 0) return 0;

@@ -177,7 +177,7 @@ void NeighbourSearch::Level::build(const Points& points, const PeriodicBox& box,
     const double factor = enlargement(lengths, 2 * largest, members.size());
     divide(lengths, 2 * largest * factor);
     sort(points, threads);
-    // Of the smallest grains of a level some ten fit into a cell.
+    // Some ten of the smallest grains of a level fit into a cell.
     constexpr double crowded = 40;
     if (factor == 1 || box.isSheared() || crowding() < crowded) return;
     divideRepeatedly(lengths, 2 * largest);

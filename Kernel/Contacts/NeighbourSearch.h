@@ -86,7 +86,8 @@ private:
         /// Divides the scene's lengths (m) into cells of this size (m), or a little more where an axis is
         /// periodic.
         void divide(const std::array<double, 3>& lengths, double size);
-        /// The same with so few cells that a few are there for each member, by making the grid shorter.
+        /// Divides the lengths (m) into so few cells that a few are there for each member, by making the grid
+        /// shorter.
         void divideRepeatedly(const std::array<double, 3>& lengths, double size);
         void sort(const Points& points, int threads);
         /// The number of a place's cell along an axis of endless cells.

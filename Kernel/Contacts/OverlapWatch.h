@@ -34,14 +34,14 @@ public:
         }
         setThreshold();
     }
-    /// One that has counted nothing yet, for a part of the contacts.
+    /// A watch that has counted nothing yet, for a part of the contacts.
     [[nodiscard]] OverlapWatch part() const {
         OverlapWatch fresh = *this;
         fresh.above = 0;
         fresh.expectedWasSmaller = false;
         return fresh;
     }
-    /// The same for laws of their own limit, over the effective radius.
+    /// A watch that has counted nothing yet, for laws with a limit of their own (over the effective radius).
     [[nodiscard]] OverlapWatch part(double largestOverlap) const {
         OverlapWatch fresh = part();
         fresh.limit = largestOverlap;
@@ -61,10 +61,10 @@ public:
         expectedWasSmaller = false;
         setThreshold();
     }
-    /// Whether one has come since then.
+    /// Whether a larger overlap than the expected one has come since expect().
     [[nodiscard]] bool hasExceededExpected() const { return expectedWasSmaller; }
 
-    /// Of the effective radius.
+    /// The largest overlap so far, over the effective radius.
     [[nodiscard]] double largestOverlap() const { return largest; }
     /// Evaluations (contacts x steps) above the limit.
     [[nodiscard]] std::uint64_t countAbove() const { return above; }

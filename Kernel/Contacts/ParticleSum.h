@@ -8,7 +8,7 @@
 
 namespace pendular {
 
-/// What all contacts of a grain give it; lane 3 is of no meaning.
+/// The force and torque of all contacts of a grain; lane 3 has no meaning.
 template <bool hasTorque>
 struct ForceAndTorque {
     Four force{};   // N

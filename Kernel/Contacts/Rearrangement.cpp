@@ -11,7 +11,7 @@ Rearrangement::Rearrangement(std::vector<std::uint32_t> origins, std::size_t old
     std::vector<bool> isTaken(count);
     for (const std::uint32_t place : from)
         if (place != nothing) isTaken[place] = true;
-    // What comes to no new place goes to the places that are left, so that all of it is a permutation.
+    // Entries that come to no new place go to the places that are left, so that all of it is a permutation.
     std::uint32_t left = 0;
     for (std::uint32_t place = 0; place < count; ++place) {
         if (from[place] != nothing) continue;

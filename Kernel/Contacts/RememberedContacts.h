@@ -33,9 +33,9 @@ public:
 
     [[nodiscard]] std::size_t size() const { return entries.size(); }
     [[nodiscard]] const Entry& entry(std::uint32_t number) const { return entries[number]; }
-    /// Where the memory holds an entry.
+    /// The place at which the memory holds an entry.
     [[nodiscard]] std::uint32_t slotOf(std::uint32_t number) const { return slots[number]; }
-    /// Those of the grain that was at a place when they were taken or read, by wall and other.
+    /// The entries of the grain that was at a place when they were taken or read, by wall and other.
     [[nodiscard]] std::span<const Entry> of(std::uint32_t place) const {
         return {entries.data() + begins[place], entries.data() + begins[place + 1]};
     }

@@ -80,8 +80,9 @@ public:
     AnySpecies* addOfType() {
         return &add<S>({});
     }
-    /// The same for the name of one of the types in instantiatedSpecies(), or of one that was registered
-    /// (SpeciesRegistry.h). Throws InputError, with the nearest names, if there is none of this name.
+    /// Adds a species by the name of its type, which is one of instantiatedSpecies(), or of one that was
+    /// registered (SpeciesRegistry.h). Throws InputError, with the nearest names, if there is none of this
+    /// name.
     AnySpecies* addByName(std::string_view type);
 
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
@@ -92,12 +93,12 @@ public:
     void setPairType(const First* a, const Second* b) {
         static_cast<void>(ownOf<Type>(a->getIndex(), b->getIndex()));
     }
-    /// The same; fields of the pair can be set by their names.
+    /// Sets the laws of the contacts between two species; the fields of the pair can be set by their names.
     template <class Type>
     AnyLaws* setPairOfType(int a, int b) {
         return &ownOf<Type>(a, b);
     }
-    /// The same for the name of a type, as in addByName().
+    /// Sets the laws of a pair by the name of their type, as in addByName().
     AnyLaws* setPairTypeByName(int a, int b, std::string_view type);
     /// The pair's own values, of laws of this type: nothing is set in them but what the driver sets.
     template <class Type, class First, class Second>
@@ -114,7 +115,7 @@ public:
     void mixAll();
     /// The laws of a pair; null where the driver has to say which.
     [[nodiscard]] LawsOfType* lawsOf(int a, int b) const;
-    /// What to do where there are none: one sentence.
+    /// The sentence that says what to do where a pair has no laws.
     [[nodiscard]] std::string sentenceOfNone(int a, int b) const;
     /// Whether a value has been set, or a species added, since mixAll().
     [[nodiscard]] bool hasChanged() const;
@@ -165,7 +166,7 @@ private:
     std::size_t mixedSpecies = 0, mixedPairs = 0;
 };
 
-/// The same, for the types that a scene names, or for any where it names none.
+/// The handler for the types that a scene names, or for any where it names none.
 template <class... Types>
 class SpeciesHandlerOf : public SeveralSpeciesHandler {
 public:

@@ -95,7 +95,7 @@ void SeveralSpeciesLaws::prepare(const std::vector<Bucket>& buckets) {
     ofBuckets.clear();
     for (const Bucket& bucket : buckets) {
         const ContactLaws* const laws = find(bucket.species1, bucket.species2);
-        // Of grains that were added in the run: those at its start are checked before it.
+        // Only grains that were added in the run come here: those at its start are checked before it.
         if (!laws) throw RunError(species.sentenceOfNone(bucket.species1, bucket.species2));
         ofBuckets.push_back(laws);
     }

@@ -25,7 +25,7 @@ public:
     static SkinChoice fixed(double width) { return {width, 0}; }
 
     [[nodiscard]] double width() const { return chosen; }
-    /// ns, of the last list
+    /// The time (ns) of the last list.
     [[nodiscard]] double listCost() const { return rebuildCost; }
 
     /// Grains have come of which this is the smallest radius (m). A list that was made stays good: the skin
@@ -54,7 +54,7 @@ public:
         if (steps == 0 || smallestRadius == 0 || rebuildCost == 0) return;
         const double speed = approach / static_cast<double>(steps);
         const double best = std::sqrt(rebuildCost * speed * chosen / std::max(farCost, 1e-3 * rebuildCost));
-        // What was counted at one width tells little of a very different one.
+        // A count at one width tells little of a very different one.
         chosen = std::clamp(best, std::max(0.5 * chosen, 0.02 * smallestRadius),
                             std::min(2 * chosen, smallestRadius));
     }

@@ -9,7 +9,7 @@
 
 namespace pendular {
 
-/// What contacts of a species remember.
+/// The layout of what contacts of a species remember.
 template <class S>
 inline constexpr ContactLayout layoutOf{
     .history = columnsOf<S::Friction::template History>,
@@ -238,8 +238,8 @@ private:
     template <class T>
     using Interaction = typename Adhesion::template Interaction<T>;
 
-    // What the memory of a busy machine makes the kernel wait for is asked for so many blocks before. What
-    // gave most in large beds, among 1, 2 and 4 (the README).
+    // Data that the kernel would wait for on a busy machine is asked for so many blocks before: the numbers
+    // that gave most in large beds, among 1, 2 and 4 (the README).
     static constexpr std::size_t blocksAheadForBodies = 1, blocksAheadForMemory = 2;
 
     const typename S::Mixed& of(int a, int b) const { return species.mixture(a, b); }

@@ -28,7 +28,7 @@ struct KernelLayout {
     std::array<std::size_t, 6> sizes;
     friend bool operator==(const KernelLayout&, const KernelLayout&) = default;
 };
-/// Of the source file in which it is called.
+/// The layout of the source file in which it is called.
 static constexpr KernelLayout layoutOfThisFile() {
     std::size_t instructions = 0;
 #ifdef __FMA__
@@ -76,7 +76,8 @@ void loadSpeciesLibrary(const std::filesystem::path& library);
 /// The names of those that were registered, in this order.
 [[nodiscard]] std::vector<std::string_view> registeredSpecies();
 
-/// Of those of instantiatedSpecies() and registeredSpecies(). Throws InputError, with the nearest names.
+/// The type with this name among instantiatedSpecies() and registeredSpecies(). Throws InputError, with the
+/// nearest names.
 [[nodiscard]] SpeciesType speciesTypeNamed(std::string_view name);
 
 }  // namespace pendular

@@ -10,16 +10,16 @@ namespace pendular {
 namespace {
 
 constexpr std::size_t worthAThread = 256;  // grains near several parts
-/// Of the radius: surfaces in one plane are at distances that differ by round-off. The wall with the lower
-/// number counts there, instead of one or the other by chance; the second one is taken to lie this much
+/// Surfaces in one plane are at distances that differ by round-off. The wall with the lower number counts
+/// there, instead of one or the other by chance; the second one is taken to lie this share of the radius
 /// deeper.
 constexpr double orderOfWalls = 1e-12;
 
-/// Of the angle between the normals at two points (60 degrees) from which on facets that continue each other
-/// are not one contact: the far side of a narrow cone or tube.
+/// The cosine of the angle (60 degrees) between the normals at two points from which on facets that continue
+/// each other are not one contact: the far side of a narrow cone or tube.
 constexpr double endOfChain = 0.5;
-/// Of the range of a bridge: within this distance of a touch, the width of the liquid of another contact
-/// counts the less, so that a touch at a step or a groove is none of the liquid's, ...
+/// A share of the range of a bridge: within this distance of a touch, the width of the liquid of another
+/// contact counts the less, so that a touch at a step or a groove is none of the liquid's, ...
 constexpr double fadingOfLiquid = 0.1;
 /// ... but for this share of it: a crack is none at the moment of a touch, too.
 constexpr double leastOfLiquid = 0.02;

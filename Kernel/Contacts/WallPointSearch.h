@@ -9,8 +9,8 @@
 
 namespace pendular {
 
-/// Where grains are nearest to a wall, for the contacts of its bucket; and which of these contacts goes on as
-/// that with another part of the wall.
+/// Finds where grains are nearest to a wall, for the contacts of its bucket; and which of these contacts goes
+/// on as that with another part of the wall.
 class WallPointSearch {
 public:
     using Grains = ParticleStore;
@@ -89,7 +89,7 @@ private:
     }
     static Vector<Pack> toAllLanes(const Vector<double>& v) { return {Pack(v.x), Pack(v.y), Pack(v.z)}; }
 
-    /// The same for the contacts [c, end), which begin with a grain's first.
+    /// Finds the points of the contacts [c, end), which begin with a grain's first.
     static void findPart(ContactStore& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,
                          const ContactLaws& laws, double step, std::size_t c, std::size_t end,
                          std::vector<HandOver>& found) {
@@ -104,7 +104,7 @@ private:
             for (; c < end && grainOf(contacts, c) == grain; ++c)
                 parts.push_back(contacts.blocks[c / Pack::lanes].second[c % Pack::lanes]);
             points.resize(parts.size());
-            // Of a grain that has gone; another one may have its place.
+            // What is not listed is of a grain that has gone; another one may have its place.
             if (!ContactStore::bitOf(contacts.states[begin / Pack::lanes].listed, begin)) continue;
             const TranslationRecord& record = grains.translation[grain];
             if (laws.layout.interaction > 0 && record.radius != last.radius1) {

@@ -8,13 +8,13 @@
 
 namespace pendular {
 
-/// What rigid bodies add to the account of a step h: their kinetic energies are those of the bodies, while
-/// the work of each contact is counted with the mean velocities of the grains that it joins. What the two
-/// differ by is the work of the field and the error of the turn, which is of third order in h: the end of an
-/// arm goes on a curve, and its mean velocity is not the mean of two.
+/// The part of rigid bodies in the account of a step h: their kinetic energies are those of the bodies, while
+/// the work of each contact is counted with the mean velocities of the grains that it joins. The two differ
+/// by the work of the field and by the error of the turn, which is of third order in h: the end of an arm
+/// goes on a curve, and its mean velocity is not the mean of two.
 class BodyAccount {
 public:
-    /// Before the grains move. The contacts are those of the last step.
+    /// Called before the grains move. The contacts are those of the last step.
     void begin(const ParticleStore& grains, const ContactStore& contacts) {
         before.clear(), loads.clear();
         for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
@@ -25,7 +25,7 @@ public:
         }
     }
 
-    /// J, that the change of a body's velocity gives it.
+    /// The energy (J) that the change of a body's velocity gives it.
     double changeVelocity(const RigidBody& body, std::size_t number, const Vector<double>& change) {
         Vector<double>& then = before[number].velocity;
         const double given = body.mass * dot(change, then + 0.5 * change);
@@ -33,7 +33,7 @@ public:
         return given;
     }
 
-    /// At the end of the step: what the bodies have gained (J), less the work of their contacts.
+    /// Called at the end of the step: what the bodies have gained (J), less the work of their contacts.
     /// @param meanOf (place of a grain) gives its mean velocity and spin in the step
     template <class MeanOf>
     void addGainBesidesContacts(const ParticleStore& grains, const ContactStore& contacts, double step,

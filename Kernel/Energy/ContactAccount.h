@@ -15,7 +15,7 @@ struct BodyMotion {
     Vector<double> slide{0, 0, 0};     // m/s, where images move: of the one that is met, against itself
 };
 
-/// What the laws of a contact say of its energy.
+/// The properties of the laws of a contact that its energy depends on.
 struct ContactKind {
     bool isWall = false;
     bool isPlastic = false;       // the normal law has a history
@@ -25,7 +25,7 @@ struct ContactKind {
     Vector<double> pistonVelocity{0, 0, 0}, lastPistonVelocity{0, 0, 0};
 };
 
-/// What a contact with a wall does to it in a step, of a record to which addContact() still has to come.
+/// The wear of a wall by a contact with it in a step, from a record to which addContact() still has to come.
 /// @param slidingWork J, that the slider dissipates in the step; @param velocity of the grain at the start of
 /// the step, m/s; @param mass of the grain, kg
 ContactWear contactWear(const EnergyRecord& record, double slidingWork, const Vector<double>& velocity,

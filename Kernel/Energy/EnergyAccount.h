@@ -23,7 +23,7 @@ class EnergyAccount {
 public:
     using Grains = ParticleStore;
 
-    /// Before the grains move by a step (s); without length at the start of a run.
+    /// Called before the grains move by a step (s); without length at the start of a run.
     void begin(const Grains& grains, const ContactStore& contacts, const WallHandler& walls,
                const Vector<double>& gravity, double step, EnergyLedger& ledger) {
         atBegin = ledger;
@@ -51,28 +51,29 @@ public:
     /// the next step on, when the sums of what is stored no longer do.
     void endedBetweenSteps(double stored) { ended += stored; }
 
-    /// The step has failed.
+    /// Takes the ledger back to where the step began, which has failed.
     void takeBack(EnergyLedger& ledger) {
         ledger = atBegin;
         ended = endedAtBegin;
     }
     void visitState(StateArchive& archive) { archive.finite("endedBetweenSteps", ended); }
 
-    /// What the walls have taken note of in finish() counts, at the end (s) of a step that has not failed.
+    /// Lets what the walls have taken note of in finish() count, at the end (s) of a step that has not
+    /// failed.
     static void finishWear(const WallHandler& walls, double time) {
         for (WornWall* const worn : wornWalls(walls))
             if (worn) worn->finishStep(time);
     }
 
-    /// When the grains have moved.
+    /// Called when the grains have moved.
     void moved(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
         const double now = potentialEnergy(grains, gravity);
         ledger.stepError -= now - potential;
         potential = now;
     }
 
-    /// When grains may have gone round a periodic scene, to places where their potential energy is lower:
-    /// what the field gave them on their way stays in the account.
+    /// Called when grains may have gone round a periodic scene, to places where their potential energy is
+    /// lower: what the field gave them on their way stays in the account.
     void wentRound(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
         ledger.carried += potential - potentialEnergy(grains, gravity);
     }
@@ -86,7 +87,8 @@ public:
         if (grain.inverseMass > 0) ledger.images += dot(velocity, then + 0.5 * velocity) / grain.inverseMass;
         then += velocity;
     }
-    /// The same of a rigid body; its grains are told one by one.
+    /// In shear and strain: a rigid body goes over to an image that moves otherwise (m/s); its grains are
+    /// told one by one.
     void changedImageOfBody(const Grains& grains, std::size_t body, const Vector<double>& velocity,
                             EnergyLedger& ledger) {
         ledger.images += bodies.changeVelocity(grains.bodies[body], body, velocity);
@@ -95,7 +97,7 @@ public:
         before[number].velocity += velocity;
     }
 
-    /// At the end of the step.
+    /// Ends the account of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
                 const Vector<double>& gravity, double step, const Integrator& scheme, EnergyLedger& ledger) {
         // Grains may have been sorted since the start of the step; the order of identities is the same.
@@ -156,7 +158,7 @@ public:
     }
 
 private:
-    /// Of a grain at the start of the step.
+    /// The motion of a grain at the start of the step.
     struct Motion {
         Vector<double> velocity, acceleration;     // m/s, m/s^2
         Vector<double> spin, angularAcceleration;  // rad/s, rad/s^2
@@ -171,7 +173,8 @@ private:
         return motion;
     }
 
-    /// m, from the centre of a grain to the surface of the wall that it touches, or has just left.
+    /// The vector (m) from the centre of a grain to the surface of the wall that it touches, or has just
+    /// left.
     static Vector<double> depthOf(const EnergyRecord& record, double radius) {
         const ContactSample& sample = record.now.acts() ? record.now : record.last;
         return (radius - 2 * sample.halfOverlap) * sample.normal;
@@ -211,7 +214,7 @@ private:
         }
         ledger.membranes = energyOfMembranes(walls);
     }
-    /// m/s, the mean in the step; zero of other walls.
+    /// The mean velocity (m/s) of a piston in the step; zero for other walls.
     static Vector<double> pistonVelocity(const WallHandler& walls, int number) {
         if (number < 0) return {0, 0, 0};
         const Wall& wall = walls.getObject(static_cast<std::size_t>(number));
@@ -248,8 +251,8 @@ private:
                 grains.translation[k].radius, grains.translation[k].inverseMass == 0};
     }
 
-    /// J, of the field of gravity, and of what an integrator other than velocity Verlet adds to the mean of
-    /// the two accelerations.
+    /// The work (J) of the field of gravity, and of what an integrator other than velocity Verlet adds to the
+    /// mean of the two accelerations.
     double workBesidesContacts(const Grains& grains, const ContactStore& contacts,
                                const Vector<double>& gravity, double step, const Integrator& scheme) const {
         ExactSum sum;

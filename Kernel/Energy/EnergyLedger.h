@@ -9,7 +9,7 @@ namespace pendular {
 
 /// The energy of a scene by mechanism, in J. EnergyAccount says how it is kept.
 struct EnergyLedger {
-    // What there is now.
+    // Energies that the scene has now:
     double kinetic = 0;            // spin included
     double potential = 0;          // in the field of gravity
     double elastic = 0;            // in the normal overlaps
@@ -22,7 +22,7 @@ struct EnergyLedger {
     double membranes = 0;        // kinetic, of their vertices
     double membraneElastic = 0;  // in their springs and hinges
 
-    // What has been lost since the start.
+    // Energies that have been lost since the start:
     double normalDashpots = 0;
     double plastic = 0;  // with its error of the time steps
     double tangentialDashpots = 0;
@@ -32,18 +32,18 @@ struct EnergyLedger {
     double brokenAdhesion = 0;  // net work done against adhesions and bridges that have broken
     double viscousBridges = 0;  // by bridges that resist motion
     double membraneDamping = 0;
-    /// Of tangential springs whose stiffness follows the overlap while they are stretched, for which the laws
-    /// have no force: lost as contacts open, negative as they close.
+    /// The energy of tangential springs whose stiffness follows the overlap while they are stretched, for
+    /// which the laws have no force: lost as contacts open, negative as they close.
     double stiffening = 0;
 
-    // What the scene has been given since the start.
+    // Energies that the scene has been given since the start:
     double walls = 0;      // by walls that move, and by grains that are held and move
     double loads = 0;      // by the loads and the weights of pistons
     double pressures = 0;  // by pressures on membranes, and their weight
     double driver = 0;     // where a driver changes velocities, places or the gravity
     double images = 0;     // by images that move against each other: shear and strain of a periodic scene
-    // By liquid: bridges whose volume changes while they last (ContactLiquid). A bridge forms without energy,
-    // so that all that its force has done is in lost_in_broken_adhesion when it ends.
+    // Energies given by liquid: bridges whose volume changes while they last (ContactLiquid). A bridge forms
+    // without energy, so that all that its force has done is in lost_in_broken_adhesion when it ends.
     double migration = 0;    // liquid comes to a bridge
     double evaporation = 0;  // negative while drying bridges get weaker at the same gap
 
@@ -55,7 +55,7 @@ struct EnergyLedger {
 
     double carried = 0;  // of the potential energy, by grains that have gone round a periodic scene
 
-    /// In all springs.
+    /// The energy in all springs.
     [[nodiscard]] double springs() const {
         return elastic + tangentialElastic + rollingElastic + torsionElastic;
     }

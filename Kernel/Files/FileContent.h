@@ -4,7 +4,7 @@
 
 namespace pendular {
 
-/// What a file is by its bytes, whatever its name says.
+/// The kind of a file by its bytes, whatever its name says.
 enum class FileContent {
     Unknown,
     BinaryStl,

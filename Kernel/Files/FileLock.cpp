@@ -42,7 +42,7 @@ FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, 
     do {
         if (descriptor >= 0) close(descriptor);
         requireOwnIfThere(path);
-        // Not by a symbolic link, which may lead to any file.
+        // A symbolic link is not followed: it may lead to any file.
         descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (descriptor < 0 && errno == ELOOP)
             throw InputError(fmt::format("The file {} is a symbolic link; remove it.", path.string()));
@@ -58,7 +58,7 @@ FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, 
         }
     } while (!isStillAtPath() && ++tries < 100);  // its owner has just removed it
     const std::string number = std::to_string(owner);
-    // For the sentence only: a full disk is told where results are written.
+    // The number is for the sentence only: a full disk is told where results are written.
     if (ftruncate(descriptor, 0) == 0)
         static_cast<void>(pwrite(descriptor, number.data(), number.size(), 0) > 0);
 }

@@ -20,7 +20,7 @@ void makeRoomFor(const std::filesystem::path& file);
 /// Throws InputError as requireOwnIfThere().
 [[nodiscard]] std::FILE* createFile(const std::filesystem::path& file);
 
-/// The same of a file that is gone on with: what is written comes behind what it has.
+/// Opens a file to go on with it, as createFile() makes a new one: what is written comes behind what it has.
 [[nodiscard]] std::FILE* goOnWithFile(const std::filesystem::path& file);
 
 }  // namespace pendular

@@ -35,8 +35,9 @@ struct InputFile {
 /// Throws InputError unless the path is a regular file of 4 GiB at most that can be read.
 InputFile loadInputFile(std::string_view kind, const std::filesystem::path& path);
 
-/// The same for a text, in one form: without the mark of UTF-8, and each line ended by a line feed, whether
-/// the file has LF, CR LF or CR. Throws InputError for what is no text, and says what it is.
+/// Loads a text as loadInputFile() does, in one form: without the mark of UTF-8, and each line ended by a
+/// line feed, whether the file has LF, CR LF or CR. Throws InputError for what is no text, and says what it
+/// is.
 InputFile loadTextFile(std::string_view kind, const std::filesystem::path& path);
 /// Gives a file that is in memory the form that loadTextFile() gives, or throws.
 void takeAsText(InputFile& file);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view owner = "insert()";
 constexpr std::uint32_t purposeOfPlaces = 0x1257110, purposeOfTurns = 0x1257120;
 
-/// Where the spheres of clumps are, and whether there is room for another clump.
+/// The spheres of clumps, and whether there is room for another clump beside them.
 class Room {
 public:
     Room(const InsertionScene& of, const Region& in, bool wholeGrains, double largest)

@@ -146,7 +146,7 @@ private:
         return maskFromBits(static_cast<std::uint8_t>((1U << left) - 1));
     }
 
-    /// In an order that depends on the spheres only.
+    /// Finds the pairs in an order that depends on the spheres only.
     std::vector<Pair> findPairs() {
         const NeighbourSearch search(asRecords(), skin, periodic, threads);
         border.resize(spheres.size());
@@ -195,7 +195,7 @@ private:
         return growth * std::ranges::min(least);
     }
 
-    /// What its neighbours do to a sphere.
+    /// The push of its neighbours on a sphere.
     struct Push {
         Point way{0, 0, 0};       // m, the sum of overlaps
         double least = infinity;  // radii would have to be multiplied by this

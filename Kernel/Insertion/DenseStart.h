@@ -10,12 +10,12 @@ namespace pendular {
 
 class WallHandler;
 
-/// Where grains of a dense start are, and how it was found.
+/// The places of the grains of a dense start, and how they were found.
 struct DenseStart {
     std::vector<Vector<double>> centres;  // m, of the radii that were given
     int iterations = 0;
-    /// By which all radii had to be multiplied for no two grains to overlap, and none to go through a border:
-    /// 1 where nothing overlaps.
+    /// The factor by which all radii had to be multiplied for no two grains to overlap, and none to go
+    /// through a border: 1 where nothing overlaps.
     double shrink = 1;
 };
 

@@ -18,7 +18,7 @@ namespace pendular {
 namespace {
 
 constexpr std::string_view owner = "Inlet";
-/// Of the random numbers of places; three for each inlet.
+/// The purpose of the random numbers of places; three for each inlet.
 constexpr std::uint32_t purposeOfPlaces = 0x1258000;
 
 /// kg/m^3
@@ -214,7 +214,7 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
         const double come = (byMass ? count.mass : static_cast<double>(count.number)) + count.lost;
         const double whole = come + (byMass ? mass : 1);
         if (whole > due) return;
-        // Before its next step the run ends with a sentence: requireLiquid().
+        // The run ends with a sentence before its next step: requireLiquid().
         const double film = inlet.like.getLiquidVolume();
         if (film > 0 && scene.particles.films().objectionToMore(film)) return;
         if (!grid) {

@@ -93,7 +93,7 @@ public:
     /// Throws InputError if there is no such inlet.
     [[nodiscard]] const InletCount& count(std::size_t inlet) const;
 
-    // For the scene.
+    // Called by the scene, not by drivers.
 
     /// Smallest and largest radius (m) of the grains to come, and their species.
     struct Sizes {
@@ -101,7 +101,7 @@ public:
         int species;
     };
     [[nodiscard]] std::vector<Sizes> sizes() const;
-    /// m^3, of the films of all grains that come until a time (s), by the mean of their sizes.
+    /// The liquid (m^3) of the films of all grains that come until a time (s), by the mean of their sizes.
     [[nodiscard]] double liquidBy(const ParticleHandler& particles, double time) const;
     /// Throws InputError if wet grains are to come by a time (s), and no liquid can be counted any more:
     /// before a step, so that none is half done.
@@ -125,7 +125,7 @@ private:
         Vector<double> onWall{0, 0, 0};  // m, the middle of the region in the frame of the wall
     };
 
-    /// m, by which the region of an inlet has moved.
+    /// The shift (m) by which the region of an inlet has moved.
     [[nodiscard]] static Vector<double> shiftOf(const InsertionScene& scene, const Kept& kept,
                                                 std::size_t number);
 

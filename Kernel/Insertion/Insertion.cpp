@@ -131,7 +131,7 @@ void refuseWithoutRoom(std::string_view who, const Region& region, const WallHan
 
 namespace {
 
-/// One after the other; not a number where there is no room.
+/// Places grains one after the other; not a number where there is no room.
 std::vector<Vector<double>> placeOneByOne(const InsertionScene& scene, std::span<const double> radii,
                                           const Region& region, const InsertOptions& options,
                                           double& firstLeftOut) {

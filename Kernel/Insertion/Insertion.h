@@ -42,7 +42,7 @@ struct InsertOptions {
     std::uint32_t tries = 10000;  ///< random places for each grain, up to looseFraction
 };
 
-/// What was inserted.
+/// The result of an insertion.
 struct Inserted {
     std::size_t number = 0, wanted = 0;
     double mass = 0, wantedMass = 0;  // kg; wanted: the amount asked for
@@ -55,7 +55,7 @@ struct Inserted {
 /// after some 20 points.)
 inline constexpr double looseFraction = 0.2;
 
-/// Where grains may come.
+/// The scene into which grains come.
 struct InsertionScene {
     ParticleHandler& particles;
     const WallHandler& walls;
@@ -77,8 +77,8 @@ void refuseWithoutRoom(std::string_view owner, const Region& region, const WallH
                        const Vector<double>& way = {0, 0, 0});
 
 /// Inserts grains that overlap nothing: no grain, no wall, none of their images. A grain that finds no room
-/// is left out, and all smaller ones are tried. Of an amount that is less than the first random grain none
-/// comes.
+/// is left out, and all smaller ones are tried. No grain comes of an amount that is less than the first
+/// random grain.
 ///
 /// Throws InputError if the sizes do not fit the region, if it lies behind a wall, and if the solid fraction
 /// cannot be reached: with that which can.

@@ -10,7 +10,7 @@
 
 namespace pendular {
 
-/// What a closed surface of triangles holds. A point is inside if the surface winds around it once: a ray
+/// The inside of a closed surface of triangles. A point is inside if the surface winds around it once: a ray
 /// from it upwards leaves the surface once more than it enters it.
 class MeshRegion final : public Region {
 public:
@@ -18,7 +18,7 @@ public:
     /// belongs to two triangles, which go along it in opposite directions (corners are the same as for a
     /// TriangleWall: WeldedMesh.h), and the surface winds around no point of a sample more than once.
     explicit MeshRegion(std::span<const Triangle> triangles);
-    /// From a file, as readTriangles() has it.
+    /// A region from a file that readTriangles() reads.
     /// @param scale m for one unit of the file (1e-3 for a file in mm)
     static MeshRegion fromFile(const std::filesystem::path& path, double scale = 1) {
         return MeshRegion(readTriangles(path, scale));

@@ -31,8 +31,8 @@ public:
     [[nodiscard]] virtual double areaAcross(const Vector<double>& direction) const = 0;
     /// m: no sphere in the region has a larger radius.
     [[nodiscard]] virtual double largestSphere() const = 0;
-    /// What moves a sphere into the region: for each piece of the surface that it goes through, the part (m)
-    /// of the radius that is outside, inwards.
+    /// The shift that moves a sphere into the region: for each piece of the surface that it goes through, the
+    /// part (m) of the radius that is outside, inwards.
     [[nodiscard]] virtual Vector<double> inwards(const Vector<double>& centre, double radius) const = 0;
     /// A point for three numbers even in [0, 1): even among the centres of spheres that are in the region,
     /// or, where this has no closed form, in a box around it; contains() tells.
@@ -45,12 +45,12 @@ public:
     /// The region of a scene that repeats itself: where it reaches from a face of the period to the other
     /// one, that is no border. Throws InputError if it is longer than the period.
     [[nodiscard]] virtual std::shared_ptr<const Region> in(const PeriodicBox& periodic) const = 0;
-    /// Its numbers, by StateArchive::same().
+    /// Visits the numbers of the region by StateArchive::same().
     virtual void visitState(StateArchive& archive) const = 0;
 
 protected:
     static double withRoundOff(double margin) { return margin * (1 - 1e-12); }
-    /// For each axis: whether bounds go all the way round a scene that repeats itself. Throws InputError if
+    /// Whether bounds go all the way round a scene that repeats itself, for each axis. Throws InputError if
     /// they are longer than the period.
     static std::array<bool, 3> goesRound(std::string_view owner, const Box& bounds,
                                          const PeriodicBox& periodic);

@@ -10,7 +10,7 @@ namespace {
 struct Images {
     double first, last;  // numbers of periods
 };
-/// Of a coordinate; what is too far for a number of a cell shares the last one.
+/// The cell of a coordinate; what is too far for a number of a cell shares the last one.
 std::int64_t cellOf(double x, double inverseSize) {
     return static_cast<std::int64_t>(std::clamp(std::floor(x * inverseSize), -9e18, 9e18));
 }

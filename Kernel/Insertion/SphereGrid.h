@@ -15,7 +15,7 @@ namespace pendular {
 class SphereGrid {
 public:
     explicit SphereGrid(const PeriodicBox& box) : periodic(box), heads(64, none) {}
-    /// With the grains of a scene that a sphere of at most this radius (m) can meet in a box.
+    /// A grid with the grains of a scene that a sphere of at most this radius (m) can meet in a box.
     SphereGrid(const ParticleStore& grains, const PeriodicBox& periodic, const Box& within, double radius);
 
     /// @param centre m; @param radius m

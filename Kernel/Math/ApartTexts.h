@@ -7,8 +7,8 @@
 
 namespace pendular {
 
-/// What round-off adds to a quantity that a user has computed to be just at a limit, relative: of the sum of
-/// up to ten million numbers.
+/// The relative error that round-off adds to a quantity that a user has computed to be just at a limit: that
+/// of the sum of up to ten million numbers.
 inline constexpr double roundOffOfLimits = 1e-9;
 
 /// Two numbers for a message that says in what they differ: with a few digits, or, where that makes them look

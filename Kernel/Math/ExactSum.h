@@ -60,7 +60,7 @@ private:
     bool finite = true;
 };
 
-/// Of three components.
+/// The exact sum of vectors, by component.
 struct ExactVectorSum {
     ExactSum x, y, z;
 

@@ -6,8 +6,8 @@
 
 namespace pendular {
 
-/// By the vector extensions of g++ and clang: one register with AVX, else two. It may stand for the members
-/// of a record.
+/// Four doubles by the vector extensions of g++ and clang: one register with AVX, else two. It may stand for
+/// the members of a record.
 typedef double Four __attribute__((vector_size(32), may_alias));
 
 /// The vector at an address of 32-byte alignment, and the number behind it.

@@ -21,7 +21,7 @@ struct Mask {
     __mmask8 value;
 
     Mask() = default;
-    // Also from int, which is what & | ^ of two bool give.
+    // It takes int too, which is what & | ^ of two bool give.
     [[gnu::always_inline]] Mask(std::integral auto all) : value(all ? 0xff : 0x00) {}
     [[gnu::always_inline]] static Mask fromBits(std::uint8_t bits) {
         Mask mask;
@@ -61,9 +61,9 @@ struct Pack {
     [[gnu::always_inline]] Pack(double all) : value(_mm512_set1_pd(all)) {}
     [[gnu::always_inline]] explicit Pack(__m512d native) : value(native) {}
 
-    /// From 64-byte aligned memory.
+    /// Loads from 64-byte aligned memory.
     [[gnu::always_inline]] static Pack load(const double* address) { return Pack(_mm512_load_pd(address)); }
-    /// To 64-byte aligned memory.
+    /// Stores to 64-byte aligned memory.
     [[gnu::always_inline]] void store(double* address) const { _mm512_store_pd(address, value); }
     [[gnu::always_inline]] static Pack fromLanes(const std::array<double, lanes>& values) {
         return Pack(_mm512_loadu_pd(values.data()));

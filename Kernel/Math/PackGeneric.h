@@ -28,7 +28,7 @@ struct Mask {
     part::Integers value[part::count];
 
     Mask() = default;
-    // Also from int, which is what & | ^ of two bool give.
+    // It takes int too, which is what & | ^ of two bool give.
     [[gnu::always_inline]] Mask(std::integral auto all) : Mask(fromBits(all ? 0xff : 0x00)) {}
     [[gnu::always_inline]] static Mask fromBits(std::uint8_t bits) {
         return map([&](int k) __attribute__((always_inline)) {
@@ -103,13 +103,13 @@ struct alignas(64) Pack {
         return map(function, std::make_integer_sequence<int, part::count>());
     }
 
-    /// From 64-byte aligned memory.
+    /// Loads from 64-byte aligned memory.
     [[gnu::always_inline]] static Pack load(const double* address) {
         return map([&](int k) __attribute__((always_inline)) {
             return reinterpret_cast<const part::Doubles*>(address)[k];
         });
     }
-    /// To 64-byte aligned memory.
+    /// Stores to 64-byte aligned memory.
     [[gnu::always_inline]] void store(double* address) const {
         for (int k = 0; k < part::count; ++k) reinterpret_cast<part::Doubles*>(address)[k] = value[k];
     }

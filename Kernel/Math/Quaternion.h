@@ -40,7 +40,7 @@ struct Axes {
         y = {2.0 * (i * j - w * k), 1.0 - 2.0 * (i * i + k * k), 2.0 * (j * k + w * i)};
         z = {2.0 * (i * k + w * j), 2.0 * (j * k - w * i), 1.0 - 2.0 * (i * i + j * j)};
     }
-    /// From the frame into space, and back.
+    /// Turn a vector from the frame into space, and back.
     [[nodiscard]] Vector<T> turn(const Vector<T>& v) const { return v.x * x + v.y * y + v.z * z; }
     [[nodiscard]] Vector<T> turnBack(const Vector<T>& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 };

@@ -35,7 +35,7 @@ struct Vector {
     [[gnu::always_inline]] friend Vector fma(const T& factor, const Vector& a, const Vector& b) {
         return {fma(factor, a.x, b.x), fma(factor, a.y, b.y), fma(factor, a.z, b.z)};
     }
-    /// Of finite vectors well inside the range of a double: no protection from overflow.
+    /// Vectors must be finite and well inside the range of a double: there is no protection from overflow.
     [[gnu::always_inline]] friend T squaredNorm(const Vector& a) { return dot(a, a); }
     [[gnu::always_inline]] friend T norm(const Vector& a) { return sqrt(squaredNorm(a)); }
 

@@ -16,8 +16,8 @@ namespace {
 /// at none at all.
 constexpr double smallestOverlap = 1e-6;
 
-/// To the nearest multiple of the unit, a power of two, for values below 2^51 units: exact in sums of a few
-/// thousand.
+/// Rounds to the nearest multiple of the unit, a power of two, for values below 2^51 units: exact in sums of
+/// a few thousand.
 double inUnits(double value, double unit) {
     constexpr double rounds = 0x1.8p52;
     return (value + rounds * unit) - rounds * unit;
@@ -109,7 +109,7 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
     return found;
 }
 
-/// Of each grain its load, and the units of the sums.
+/// Finds the load of each grain, and the units of the sums.
 void ContactBounds::chooseWeights(const ParticleStore& grains) {
     const auto forBoth = [](const Term& term, auto&& function) {
         function(term.first);
@@ -250,9 +250,10 @@ void ContactBounds::summarise(ContactBound& found) const {
     if (found.touching > 0) found.meanOverlap = sum.value() / static_cast<double>(found.touching);
 }
 
-/// By the way that it goes in the time, and by its energy, whichever is less. A spring whose stiffness k
-/// grows with the overlap d at most as its square root (Hertz) has at d an energy of at least k d^2 / 3.75,
-/// and one of d^(5/2) or d^2 at smaller overlaps: so an energy that is a share e of that is met at
+/// The overlap is bounded by the way that the pair goes in the time, and by its energy, whichever gives less.
+/// A spring whose stiffness k grows with the overlap d at most as its square root (Hertz) has at d an energy
+/// of at least k d^2 / 3.75, and one of d^(5/2) or d^2 at smaller overlaps: so an energy that is a share e of
+/// that is met at
 /// e^(2/5) d at the latest. An overlap that is there already only makes it stiffer. Dashpots help;
 /// attraction, springs that yield, and what others do are left to the margin and to the watch of overlaps.
 double ContactBounds::reachedOverlap(const ContactLaws& laws, const Bucket& bucket, const Term& term,

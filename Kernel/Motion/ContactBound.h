@@ -58,7 +58,7 @@ public:
                                     const ContactOutlook& outlook = {});
 
 private:
-    /// Of springs (1/s^2) or of dashpots (1/s), over mass and moment of inertia.
+    /// The springs (1/s^2) or dashpots (1/s) of a grain, over its mass and moment of inertia.
     struct Block {
         std::array<double, 6> shift{}, spin{};  // xx yy zz xy xz yz
         Vector<double> coupling{0, 0, 0};
@@ -100,7 +100,7 @@ private:
                       const ContactOutlook& outlook, double mean);
     void summarise(ContactBound& found) const;
     void chooseWeights(const ParticleStore& grains);
-    /// t, of the grain at a place in a contact with another one.
+    /// The weight t of the grain at a place in a contact with another one.
     [[nodiscard]] double weight(std::uint32_t place, std::uint32_t other) const {
         const double own = blocks[place].load, others = blocks[other].load;
         return own > 0 && others > 0 ? others / own : 1;
@@ -111,7 +111,7 @@ private:
 
     std::vector<Term> terms;
     std::vector<OfGrain> blocks;  // of the grains by place
-    // Of one grain at a wall.
+    // The parts of a wall that are near one grain, and their points.
     std::vector<std::uint32_t> parts;
     std::vector<WallPoint> points;
     double springUnit = 0, dashpotUnit = 0;

@@ -26,7 +26,7 @@ struct Integrator {
     [[nodiscard]] constexpr bool takesMeanAcceleration() const {
         return !remembersEarlier() && corrector == 0.5 && velocity0 - corrector * now == 0.5;
     }
-    /// One that has another coefficient is another one; the name says nothing.
+    /// Integrators are equal if their coefficients are; the name does not count.
     friend constexpr bool operator==(const Integrator& a, const Integrator& b) {
         return a.position0 == b.position0 && a.position1 == b.position1 && a.velocity0 == b.velocity0 &&
                a.velocity1 == b.velocity1 && a.corrector == b.corrector && a.now == b.now &&
@@ -48,10 +48,11 @@ inline constexpr Integrator predictedVelocityVerlet{.name = "PredictedVelocityVe
                                                     .earlier = 0,
                                                     .contacts = {true, true}};
 
-/// The same with tangential springs that move to the force with the velocity in the middle of the step. The
-/// default keeps them half a step ahead by the velocities v + h a, which feeds springs without dashpots; it
-/// takes this one by itself where they lack them (lacksDashpots() in StabilityLimit.h). Also for longer
-/// steps: it stands what its springs allow. Costs the loads of accelerations in each contact.
+/// The default with tangential springs that move to the force with the velocity in the middle of the step.
+/// Without this, it keeps them half a step ahead by the velocities v + h a, which feeds springs without
+/// dashpots; a scene takes this one by itself where they lack them (lacksDashpots() in StabilityLimit.h).
+/// It stands longer steps, too, as long as its springs allow. It costs the loads of accelerations in each
+/// contact.
 inline constexpr Integrator springsInStep{.name = "SpringsInStep",
                                           .position0 = 0.5,
                                           .position1 = 0,
@@ -62,7 +63,8 @@ inline constexpr Integrator springsInStep{.name = "SpringsInStep",
                                           .earlier = 0,
                                           .contacts = {.springsInStep = true}};
 
-/// As in other codes: contacts see the velocity in the middle of the step, which is first order in a dashpot.
+/// Velocity Verlet as in other codes: contacts see the velocity in the middle of the step, which is first
+/// order in a dashpot.
 inline constexpr Integrator velocityVerlet{.name = "VelocityVerlet",
                                            .position0 = 0.5,
                                            .position1 = 0,
@@ -91,10 +93,11 @@ inline constexpr std::array all{predictedVelocityVerlet, velocityVerlet, adamsMo
 
 }  // namespace integrators
 
-/// For messages: the name that integrators::all has for it, "NAME of your own" where it is none of them.
+/// The name for messages: the one that integrators::all has for it, "NAME of your own" where it is none of
+/// them.
 [[nodiscard]] std::string shownName(const Integrator& integrator);
 
-/// For restart files: the same, with all coefficients of one of your own.
+/// The name for restart files, with all coefficients of an integrator of your own.
 [[nodiscard]] std::string description(const Integrator& integrator);
 
 /// Throws InputError unless all coefficients are finite, a constant acceleration a gives h^2/2 a in the

@@ -21,7 +21,7 @@ void forEachMembrane(const WallHandler& walls, Function&& function) {
         if (Membrane* const membrane = walls.getObject(w).membrane()) function(w, *membrane);
 }
 
-/// What a contact does to a triangle.
+/// The force of a contact on a triangle.
 struct TriangleForce {
     std::uint32_t grain, triangle;  // identity
     Vector<double> point;           // m, of the triangle

@@ -17,14 +17,14 @@ public:
 
     /// A step is about to begin: there is nothing to be taken back.
     void forget() { before.clear(); }
-    /// Where contacts have ended since the last step, or a membrane is new: its forces, at the places where
-    /// grains and vertices are, before they move and before a restart file is written.
+    /// Finds the forces on a membrane that is new, or whose contacts have ended since the last step, at the
+    /// places where grains and vertices are, before they move and before a restart file is written.
     static void renewForces(const WallHandler& walls, const ContactSystem& contacts,
                             const ParticleStore& grains, const Vector<double>& gravity);
-    /// Before walls move. Throws RunError where a vertex moves too far, a triangle collapses, or a membrane
-    /// goes through itself.
+    /// Begins a step, before walls move. Throws RunError where a vertex moves too far, a triangle collapses,
+    /// or a membrane goes through itself.
     void begin(const WallHandler& walls, const Step& step);
-    /// When the forces of contacts are known. A step of no length: at the start of a run.
+    /// Called when the forces of contacts are known. A step of no length: at the start of a run.
     /// @param keepsWork for the energy ledger
     void finish(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
                 const Step& step, bool keepsWork) const;
@@ -35,9 +35,9 @@ private:
     std::vector<std::pair<std::size_t, MembraneState>> before;  // of the wall of this number
 };
 
-/// N, of the grains on each vertex, by the contacts as they were last computed. Of each contact the force
-/// acts at the triangle's nearest point, with the couple that it has about it: force and torque are kept to
-/// round-off.
+/// The force (N) of the grains on each vertex, by the contacts as they were last computed. The force of each
+/// contact acts at the triangle's nearest point, with the couple that it has about it: force and torque are
+/// kept to round-off.
 [[nodiscard]] MembraneState::Column forcesOfGrains(const Membrane& membrane, int wall,
                                                    const ContactSystem& contacts,
                                                    const ParticleStore& grains);

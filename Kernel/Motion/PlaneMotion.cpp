@@ -40,7 +40,7 @@ double beginPiston(const Wall& wall, PlaneDrive& drive, const Step& step) {
     return h * (v + h * (s.position0 * a + s.position1 * e));
 }
 
-/// The same of a servo.
+/// Gives a plane the velocity that its servo asks for; returns the plane's shift (m).
 double beginServo(const ContactSystem& contacts, const ParticleStore& grains, std::size_t number,
                   const Wall& wall, PlaneDrive& drive, const Step& step) {
     constexpr double looksInTime = 100;

@@ -13,7 +13,7 @@ namespace pendular {
 /// contact forces that the wall keeps, which is exact: no bit depends on the order of contacts.
 class PlaneMotion {
 public:
-    /// What moves them besides contacts.
+    /// The step, and what moves planes in it besides contacts.
     struct Step {
         double time;             // s, at its start
         double length;           // s
@@ -28,10 +28,10 @@ public:
 
     /// A step is about to begin: there is nothing to be taken back.
     void forget() { before.clear(); }
-    /// Before walls move. Throws RunError where a plane cannot go on.
+    /// Called before walls move. Throws RunError where a plane cannot go on.
     void begin(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
                const Step& step);
-    /// When the forces are known.
+    /// Called when the forces are known.
     static void finish(const WallHandler& walls, const Step& step);
     /// Undoes begin.
     void takeBack(const WallHandler& walls) const;
@@ -46,7 +46,7 @@ private:
     std::vector<Before> before;
 };
 
-/// N/m, of the normal springs of all contacts with a wall, exactly summed.
+/// The stiffness (N/m) of the normal springs of all contacts with a wall, exactly summed.
 [[nodiscard]] double wallStiffness(const ContactSystem& contacts, const ParticleStore& grains, int wall);
 
 }  // namespace pendular

@@ -50,8 +50,9 @@ struct EightBodies {
                 c[7]};
     }
     void store(RigidBodies& bodies, const std::uint32_t* index, int count) const {
-        // What a step changes: all but the mass and the moments, which are the first four numbers. In pieces
-        // as they come from registers: a longer load would wait for both of its halves.
+        // Only what a step changes is stored: all but the mass and the moments, which are the first four
+        // numbers. It goes in pieces as they come from registers: a longer load would wait for both of its
+        // halves.
         constexpr std::size_t firstPart = 1;
         const std::array<EightFours, record / 4 - firstPart> parts{
             foursOf(position, velocity.x), foursOf({velocity.y, velocity.z, acceleration.x}, acceleration.y),
@@ -121,7 +122,7 @@ public:
           scheme(integrator),
           box(periodic) {}
 
-    /// What is not wanted is null.
+    /// The end of a step; step() takes null for an end, or a beginning, that is not wanted.
     struct Finish {
         const ContactStore& contacts;
         Vector<double> gravity;
@@ -173,12 +174,12 @@ private:
         return farthest;
     }
 
-    /// Of the body at a place of inSpace().
+    /// The grains of the body at a place of inSpace().
     [[nodiscard]] std::span<const MemberInSpace> membersOf(std::size_t at) const {
         return {members.data() + bodies.firstInSpace(at), members.data() + bodies.firstInSpace(at + 1)};
     }
 
-    /// Of all contacts of all grains of a body: force, and torque about its centre of mass.
+    /// The force of all contacts of all grains of a body, and their torque about its centre of mass.
     [[nodiscard]] ForceAndTorque<true> sumForces(std::size_t body, const EightAxes& axes, std::size_t lane,
                                                  const ContactStore& contacts) const {
         Four force{}, torque{};

@@ -41,7 +41,8 @@ static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes&
     return stiffest;
 }
 
-/// Of a piston: n (k, c) / M for the n contacts that it can have, or has; zero of other walls.
+/// The springs and dashpots of a piston over its mass: n (k, c) / M for the n contacts that it can have, or
+/// has; zero for other walls.
 static SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
     const PlaneDrive* const drive = wall.drive();
     if (!drive || !drive->isPiston()) return {};
@@ -53,10 +54,10 @@ static double mostTouchesOnArea(const GrainSizes& grains) {
     return 2 / (2 * std::sqrt(3.0) * grains.smallest() * grains.smallest());
 }
 
-/// The same of the vertices of a membrane: a contact's work, k (u - sum w v)^2 with weights w that sum to 1,
-/// is at most k (1/m + 1/M) (m u^2 + M sum w v^2). So a vertex of mass M has the weights of its contacts, n:
-/// those of a hexagonal layer of the smallest grains on each side of its share of the sheet, at least one on
-/// each. (Grains that are held in place touch no walls.)
+/// The springs and dashpots of a membrane's vertices, over their mass: a contact's work, k (u - sum w v)^2
+/// with weights w that sum to 1, is at most k (1/m + 1/M) (m u^2 + M sum w v^2). So a vertex of mass M has
+/// the weights of its contacts, n: those of a hexagonal layer of the smallest grains on each side of its
+/// share of the sheet, at least one on each. (Grains that are held in place touch no walls.)
 static SpringAndDashpot membraneRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
     const Membrane* const membrane = wall.membrane();
     if (!membrane || !(membrane->lightestVertex() < infinity) || grains.count == 0) return {};

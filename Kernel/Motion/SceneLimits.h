@@ -50,8 +50,9 @@ void forEachExtremePair(const ContactLaws& species, const GrainSizes& grains, co
 /// a mesh).
 std::size_t mostContacts(std::size_t grains, const WallHandler& walls);
 
-/// What a scene makes of the default integrator: springsInStep where the friction of one of its pairs lacks
-/// dashpots. (Not with rigid bodies, whose grains keep no accelerations.) Others stay what they are.
+/// The integrator as a scene uses it: springsInStep instead of the default where the friction of one of its
+/// pairs lacks dashpots. (Not with rigid bodies, whose grains keep no accelerations.) Others stay what they
+/// are.
 Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                          const Integrator& integrator);
 

@@ -28,10 +28,10 @@ inline constexpr std::size_t contactsInDensestBed = 12;
 /// with five more at 60 degrees from it, are 4.5 along it: 6 %), and stiffness grows with the overlap.
 inline constexpr double stabilityMargin = 0.9;
 
-/// What an integrator makes of the fastest motion that it can follow, one that changes its sign from step to
-/// step (the root -1): it stands while spring (h w)^2 + dashpot h g <= 1, with the squared frequency w^2 and
-/// the dashpot over the mass g. For velocity Verlet 1/4 and 1/2, for the default 1/4 and 1 (less what is
-/// implicit).
+/// The limit of an integrator for the fastest motion that it can follow, one that changes its sign from step
+/// to step (the root -1): it stands while spring (h w)^2 + dashpot h g <= 1, with the squared frequency w^2
+/// and the dashpot over the mass g. The two are 1/4 and 1/2 for velocity Verlet, for the default 1/4 and 1
+/// (less what is implicit).
 struct SignChange {
     double spring, dashpot;
 
@@ -69,8 +69,9 @@ inline bool lacksDashpots(double squaredFrequency, double relaxation) {
     return std::sqrt(squaredFrequency) * relaxation < 0.25 * 0.42 * 0.42 * 0.42;
 }
 
-/// What makes grains turn against each other: 5/2 k_t / m* (of a solid sphere, 5/2 / m at its rim) if
-/// neighbours turn in one sense, or that of rolling if they turn in the opposite one, and that of torsion.
+/// The spring and dashpot that make grains turn against each other: 5/2 k_t / m* (of a solid sphere, 5/2 / m
+/// at its rim) if neighbours turn in one sense, or that of rolling if they turn in the opposite one, and that
+/// of torsion.
 /// @param effectiveMass kg; the result is over a mass: squared frequency and rate
 inline SpringAndDashpot turningAmong(const Neighbours& met, const ContactStiffness& contact,
                                      const Bodies& bodies, double effectiveMass) {

@@ -98,7 +98,7 @@ private:
         return most;
     }
 
-    /// The same over all grains.
+    /// The largest value of the function over all grains.
     template <class Function>
     static double largestOfAll(const Grains& grains, int threads, const Integrator& scheme,
                                const Function& function) {

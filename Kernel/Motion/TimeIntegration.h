@@ -31,9 +31,9 @@ struct TimeIntegration {
     /// Undoes begin, up to round-off.
     static void takeBack(ParticleStore& grains, double step,
                          const Integrator& scheme = integrators::predictedVelocityVerlet);
-    /// Between two steps, when grains have been changed: the accelerations of these places follow again from
-    /// the forces and torques that contacts have, with the mass and at the arm that a grain has now. Not of
-    /// grains that are held or part of a rigid body.
+    /// Called between two steps, when grains have been changed: the accelerations of these places follow
+    /// again from the forces and torques that contacts have, with the mass and at the arm that a grain has
+    /// now. Grains that are held or part of a rigid body are left out.
     static void renewAccelerations(ParticleStore& grains, const ContactStore& store,
                                    const Vector<double>& gravity, std::span<const std::uint32_t> places);
     /// At the start of a run there is no step before the first.

@@ -12,7 +12,7 @@ namespace pendular {
 /// not.
 std::vector<PolyDataField> boxFields(const PeriodicBox& box);
 
-/// The same from a frame; none where it has no box. Throws InputError where the box is not whole.
+/// The box of a frame; none where it has none. Throws InputError where the box is not whole.
 std::optional<PeriodicBox> boxOf(const PolyData& frame);
 
 }  // namespace pendular

@@ -52,7 +52,7 @@ private:
     static const Bytef* dataOf(std::span<const std::byte> bytes) {
         return reinterpret_cast<const Bytef*>(bytes.data());
     }
-    /// As a sample from four places tells.
+    /// Whether packing saves a quarter, as a sample from four places tells.
     bool gainsAQuarter(std::span<const std::byte> bytes) {
         constexpr std::size_t pieces = 4, pieceSize = 256;
         sample.clear();
@@ -63,7 +63,7 @@ private:
         }
         return static_cast<double>(packed(sample).size()) < 0.75 * static_cast<double>(sample.size());
     }
-    /// As blocks of deflate that end with a whole byte, and do not refer to earlier parts.
+    /// The bytes as blocks of deflate that end with a whole byte, and do not refer to earlier parts.
     std::string_view packed(std::span<const std::byte> bytes) {
         constexpr std::size_t endOfFlush = 16;
         const std::size_t most = deflateBound(&stream, bytes.size()) + endOfFlush;

@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::size_t wholeChunk = std::size_t{1} << 17;  // bytes
 
-/// Of rows, in a column of so many.
+/// The number of rows in a chunk of a column that has so many.
 std::size_t rowsOfChunk(std::size_t rows, std::size_t bytesOfRow) {
     return std::min(rows, std::max<std::size_t>(wholeChunk / bytesOfRow, 1));
 }

@@ -24,7 +24,7 @@ public:
     /// from the name of the field.
     /// @param threads that compress; the file does not depend on it
     void column(const std::string& group, const PolyDataField& field, int threads = 1);
-    /// Of the group of this name, which may be "/".
+    /// Gives an attribute to the group of this name, which may be "/".
     void attribute(const std::string& group, const std::string& name, double number);
     void attribute(const std::string& group, const std::string& name, std::string_view text);
     /// Makes another file in the same folder appear as a group of this one.

@@ -42,7 +42,8 @@ public:
 
     void prepare(const Scene& scene) const;
     void write(const Scene& scene);
-    /// Of a run that goes on from a file that knows no frames, and that has no output any more: its end.
+    /// Writes the end of a run that goes on from a file that knows no frames, and that has had no output
+    /// since.
     void complete(const Scene& scene);
     /// The time of the last frame, so that a run that goes on repeats none and leaves none out.
     void visitState(StateArchive& archive, const Scene& scene);

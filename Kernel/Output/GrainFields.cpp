@@ -13,9 +13,9 @@ namespace pendular {
 
 namespace {
 
-/// With rigid bodies, of each grain: the number of its body, or -1; where it is in it (body_arm, from the
-/// centre of mass); the velocity and the volume of the body. Zeros for grains in none. Grains that are no
-/// spheres are bodies by themselves, about their centres: they have the number only.
+/// Adds, where there are rigid bodies, for each grain: the number of its body, or -1; where it is in it
+/// (body_arm, from the centre of mass); the velocity and the volume of the body. Zeros for grains in none.
+/// Grains that are no spheres are bodies by themselves, about their centres: they have the number only.
 template <std::floating_point Real>
 void addBodyFields(const ParticleStore& grains, bool areSpheres, PolyData& data) {
     if (grains.bodies.empty()) return;

@@ -4,8 +4,9 @@
 
 namespace pendular {
 
-/// What the tables below share: a table over time, given to Simulation::addOutput(). Rows is a class with the
-/// ending of the file's name, the header, and what writes the rows of one time; GrainFlowFiles.cpp has them.
+/// The base of the tables below: a table over time, given to Simulation::addOutput(). Rows is a class with
+/// the ending of the file's name, the header, and what writes the rows of one time; GrainFlowFiles.cpp has
+/// them.
 template <class Rows>
 class GrainFlowFile {
 public:

@@ -13,7 +13,7 @@ PolyDataField positions(const std::string& name, const std::vector<Vector<double
     return {name, 3, std::move(numbers)};
 }
 
-/// From the centre of particle1 to that of particle2 (its nearest image) or to the wall's surface.
+/// The vector from the centre of particle1 to that of particle2 (its nearest image) or to the wall's surface.
 PolyDataField branches(const PolyData& lines) {
     std::vector<float> numbers;
     numbers.reserve(3 * lines.ends.size());

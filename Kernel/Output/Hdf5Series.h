@@ -20,7 +20,7 @@ public:
     /// Throws InputError if the list is there and cannot be gone on with.
     static void check(const std::string& beginning);
 
-    /// Of the frame of a step, to be written before it is added.
+    /// The file of the frame of a step, which is to be written before the frame is added.
     [[nodiscard]] std::filesystem::path fileOf(std::uint64_t step) const;
     /// @param time s
     void add(std::uint64_t step, double time);
@@ -29,7 +29,7 @@ private:
     using Times = std::map<std::uint64_t, double>;  // s, of each frame, by its step
 
     static Times readIndex(const std::filesystem::path& path);
-    /// Of a series that is there; none of one that cannot be read, if none of them are needed.
+    /// The times of a series that is there; none for one that cannot be read, if none of them are needed.
     [[nodiscard]] Times formerTimes(bool needed) const;
     void writeIndex() const;
 

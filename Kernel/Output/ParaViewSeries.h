@@ -35,7 +35,7 @@ public:
     void write() const;
 
 private:
-    /// Of a series that is there; none of one that cannot be read, if none of them are needed.
+    /// The entries of a series that is there; none for one that cannot be read, if none of them are needed.
     [[nodiscard]] std::vector<ParaViewEntry> formerEntries(bool needed) const;
     [[nodiscard]] bool isOwn(const ParaViewEntry& entry) const;
 

@@ -90,7 +90,7 @@ private:
         else if (tag.name == "DataArray") takeArray(tag);
         else if (tag.name != "/DataArray") section = tag.name;
     }
-    /// As many points, cells and values as the file says, in whatever order it says it.
+    /// Refuses a file that has not as many points, cells and values as it says, in whatever order it says it.
     void requireWhole() const {
         const auto fit = [](const std::vector<PolyDataField>& fields, std::size_t count) {
             return std::all_of(fields.begin(), fields.end(), [&](const PolyDataField& field) {

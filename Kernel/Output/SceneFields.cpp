@@ -26,7 +26,7 @@ namespace pendular {
 
 namespace {
 
-/// Of each polygon, where a wall keeps its wear; zeros of walls that do not.
+/// Adds the wear of each polygon, where a wall keeps it; zeros for walls that do not.
 void addWear(PolyData& data, const WallHandler& walls, const std::vector<WallSurface>& surfaces) {
     const std::vector<WornWall*> worn = wornWalls(walls);
     if (std::ranges::count(worn, nullptr) == std::ssize(worn)) return;

@@ -16,8 +16,8 @@ Axes<double> axesAt(const ParticleStore& grains, std::uint32_t place) {
     return Axes<double>(grains.bodies[grains.bodies.find(body)].orientation);
 }
 
-/// Unit, from one pole to the other: that one, the circles, the other one. Not on the axes between, where
-/// edges of sharp shapes are nearest to them.
+/// Unit, from one pole to the other: that one, the circles, the other one. The circles avoid the axes
+/// between, where edges of sharp shapes are nearest to them.
 std::vector<Vector<double>> normals() {
     std::vector<Vector<double>> all{{0, 0, 1}};
     for (int k = 0; k < circles; ++k)

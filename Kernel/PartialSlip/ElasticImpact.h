@@ -39,7 +39,7 @@ struct ElasticImpact {
     }
     [[nodiscard]] double contactTime() const { return 2.9432 * largestOverlap() / approach; }  // s
 
-    /// By the leapfrog, with `steps` for the time of an elastic contact: second order.
+    /// Solves the impact by the leapfrog, with `steps` for the time of an elastic contact: second order.
     /// @param before tangential motion; its normal speed is that of the approach
     /// @param each called after each move with the overlap (m), the slip (m) of the move and the force (N)
     template <TangentialContact Contact, class Watch>

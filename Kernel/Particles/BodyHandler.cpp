@@ -41,7 +41,7 @@ std::vector<Sphere> spheresOf(ParticleHandler& particles, const PeriodicBox& per
     return spheres;
 }
 
-/// Of solid spheres that do not overlap, about their common centre of mass.
+/// The mass, centre and inertia of solid spheres that do not overlap, about their common centre of mass.
 struct SphereSums {
     double mass = 0;                                    // kg
     Vec3D centre = Vec3D::Zero();                       // m

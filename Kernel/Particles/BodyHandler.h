@@ -25,7 +25,7 @@ public:
     [[nodiscard]] Vec3D getAngularMomentum() const {                                   // kg m^2/s
         return toEigen(body().angularMomentum);
     }
-    /// Of all contacts and of its weight, N, in the last step.
+    /// The force (N) of all contacts and of its weight, in the last step.
     [[nodiscard]] Vec3D getForce() const { return body().mass * toEigen(body().acceleration); }
     /// N m, of all contacts about the centre of mass, in the last step.
     [[nodiscard]] Vec3D getTorque() const { return toEigen(body().torque); }
@@ -82,7 +82,7 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> bodyOf(std::uint32_t grain) const;
 
 private:
-    /// What spheres that overlap have in common.
+    /// The solid that spheres which overlap make together.
     struct Solid {
         double volume;                // m^3, each point counted once
         std::vector<double> exposed;  // of each sphere, as BodyMember has it

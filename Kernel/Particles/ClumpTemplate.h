@@ -35,13 +35,14 @@ std::vector<Ball> readSpheres(const std::filesystem::path& path, double scale = 
 /// radius, and for a mass that no body has.
 class ClumpTemplate {
 public:
-    /// With volume, centre and inertia of the union of the spheres, exact to 1e-10 (UnionOfSpheres.h).
+    /// A template with volume, centre and inertia of the union of the spheres, exact to 1e-10
+    /// (UnionOfSpheres.h).
     explicit ClumpTemplate(std::vector<Ball> spheres);
-    /// With those of another solid, which the spheres stand for: a mesh (Tools/clump).
+    /// A template with those of another solid, which the spheres stand for: a mesh (Tools/clump).
     ClumpTemplate(std::vector<Ball> spheres, const MassProperties& solid);
-    /// With a mass that is given.
+    /// A template with a mass that is given.
     ClumpTemplate(std::vector<Ball> spheres, const BodyMass& mass);
-    /// From a file, as readSpheres() has it.
+    /// A template from a file that readSpheres() reads.
     static ClumpTemplate fromFile(const std::filesystem::path& path, double scale = 1) {
         return ClumpTemplate(readSpheres(path, scale));
     }
@@ -56,7 +57,7 @@ public:
     [[nodiscard]] double getDiameter() const;
     /// m, from the centre of mass to the farthest point of a sphere.
     [[nodiscard]] double getReach() const { return reach; }
-    /// Of a copy. @param density kg/m^3, of its species; @param scale of all lengths
+    /// The mass and inertia of a copy. @param density kg/m^3, of its species; @param scale of all lengths
     [[nodiscard]] BodyMass massOf(double density, double scale) const;
     /// Whether it is one sphere with its own mass: then a copy moves as a grain does, bit for bit.
     [[nodiscard]] bool isSphere() const { return spheres.size() == 1 && isOwnUnion; }
@@ -77,7 +78,7 @@ class Clump {
 public:
     explicit Clump(ClumpTemplate shape) : shapeValue(std::move(shape)) {}
 
-    /// Of all lengths; 1 at first.
+    /// The factor of all lengths; 1 at first.
     void setScale(double scale);
     /// m, of the centre of mass.
     void setPosition(const Vec3D& position) { like.setPosition(position); }
@@ -97,7 +98,7 @@ public:
     [[nodiscard]] const Vec3D& getVelocity() const { return like.getVelocity(); }
     [[nodiscard]] const Vec3D& getAngularVelocity() const { return like.getAngularVelocity(); }
     [[nodiscard]] int getSpeciesIndex() const { return like.getSpeciesIndex(); }
-    /// Its spheres in space.
+    /// The spheres of the clump in space.
     [[nodiscard]] std::vector<SphericalParticle> getSpheres() const;
 
 private:

@@ -24,14 +24,14 @@ struct ControlledRate {
         largestRate = most;
     }
 
-    /// As it was set up: a scene that goes on is set up alike.
+    /// The settings of set-up, which must be the same in a scene that goes on.
     void visitFirst(StateArchive& archive) const {
         archive.same("firstRate", rate, "1/s");
         archive.same("firstStress", stress, "Pa");
         archive.same("firstTime", time, "s");
         archive.same("firstLargestRate", largestRate, "1/s");
     }
-    /// As the run has made it.
+    /// The rate as the run has made it.
     void visitNow(StateArchive& archive) {
         archive.value("isControlled", isControlled);
         archive.finite("rate", rate);

@@ -27,7 +27,7 @@ public:
         const double volume = of(grains, at), area = volume > 0 ? areaOf(grains, at) : 0;
         return area > 0 ? volume / area : 0;
     }
-    /// Of the grain at a place, m^3.
+    /// The film (m^3) of the grain at a place.
     [[nodiscard]] double of(const ParticleStore& grains, std::uint32_t at) const;
     /// Sets the film of a grain; in a run, the difference counts as absorbed. Throws InputError if that is
     /// more liquid than the quantum was made for, or if no law of the scene moves liquid.

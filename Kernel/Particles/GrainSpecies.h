@@ -13,7 +13,7 @@ public:
     [[nodiscard]] virtual std::size_t speciesCount() const = 0;
     /// kg/m^3
     [[nodiscard]] virtual double density(std::size_t species) const = 0;
-    /// Of the type of a species, for sentences.
+    /// The name of the type of a species, for sentences.
     [[nodiscard]] virtual std::string_view typeName(std::size_t species) const = 0;
     /// Whether contacts turn grains, which then have a spin.
     [[nodiscard]] virtual bool turnGrains() const = 0;

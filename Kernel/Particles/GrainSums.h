@@ -19,11 +19,11 @@ struct GrainSums {
 };
 GrainSums sumGrains(const ParticleStore& grains);
 
-/// Of the motion of the centres, J.
+/// The kinetic energy (J) of the motion of the centres.
 double translationalEnergy(const ParticleStore& grains);
-/// Of the motion, spin included, J.
+/// The kinetic energy (J), spin included.
 double kineticEnergy(const ParticleStore& grains);
-/// In a field of gravity (m/s^2), J.
+/// The potential energy (J) in a field of gravity (m/s^2).
 double potentialEnergy(const ParticleStore& grains, const Vector<double>& gravity);
 
 }  // namespace pendular

@@ -28,12 +28,12 @@ struct HomogeneousStrain {
     /// has changed (1/s).
     Vector<double> begin(PeriodicBox& box, double step) const {
         const Vector<double> before = box.strainRate;
-        // So that the length grows by exp(rate x step).
+        // The speed is such that the length grows by exp(rate x step).
         const auto speed = [step](const AxisStrain& axis) { return std::expm1(axis.rate * step) / step; };
         box.strainRate = {speed(axes[0]), speed(axes[1]), speed(axes[2])};
         return box.strainRate - before;
     }
-    /// Where the images are after a step (s), about the same middle.
+    /// Moves the images to where they are after a step (s), about the same middle.
     static void move(PeriodicBox& box, double step) {
         const Vector<double> middle = box.middle();
         const auto grow = [step](double& length, double& rate) {

@@ -41,7 +41,7 @@ Snapshot chosen(const InputFile& file, std::optional<std::int64_t> timestep) {
     return *found;
 }
 
-/// Where the columns of a row are.
+/// The places of the columns in a row.
 class Columns {
 public:
     Columns(const WordLines& header, const InputFile& file)

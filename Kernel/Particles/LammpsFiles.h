@@ -18,7 +18,7 @@ public:
     /// Goes to the next line that has words; false at the end of the file.
     bool next();
     [[nodiscard]] const std::vector<std::string_view>& words() const { return all; }
-    /// What is behind a #, without it.
+    /// The comment of the line: what is behind a #, without it.
     [[nodiscard]] std::string_view comment() const { return behindHash; }
     [[nodiscard]] std::size_t line() const { return number; }
     /// Whether the first word begins with a letter.
@@ -44,9 +44,9 @@ public:
     /// Checks radius and density. @param where the line of the file
     void add(const WordLines& where, std::int64_t number, const GrainRow& grain);
     [[nodiscard]] std::size_t size() const { return grains.size(); }
-    /// By their numbers, once all are added. Throws InputError where two have the same.
+    /// Sorts the grains by their numbers, once all are added. Throws InputError where two have the same.
     void sort(const InputFile& file);
-    /// The one with a number; nullptr if there is none. Only after sort(), as rows().
+    /// The grain with a number; nullptr if there is none. Only after sort(), as rows().
     [[nodiscard]] GrainRow* find(std::int64_t number);
     [[nodiscard]] std::vector<GrainRow> rows() const;
 

@@ -22,7 +22,7 @@ struct LeesEdwards : ControlledRate {
     double began = 0;   // s, since when they have it
     double offset = 0;  // m, how far they had slid then
 
-    /// At the start of a run.
+    /// Fixes the speed of the images at the start of a run.
     LeesEdwards& settle(const PeriodicBox& box) {
         speed = rate * box.length.*axes[gradient];
         return *this;
@@ -40,8 +40,8 @@ struct LeesEdwards : ControlledRate {
         return speed - before;
     }
 
-    /// Where the images are at a time (s). While the speed lasts, it depends on the time alone, not on the
-    /// steps to it.
+    /// Moves the images to where they are at a time (s). While the speed lasts, their place depends on the
+    /// time alone, not on the steps to it.
     void move(PeriodicBox& box, double now) const {
         if (!isSet) return;
         const double width = box.length.*axes[gradient], period = box.length.*axes[flow];

@@ -28,8 +28,8 @@ void forEachMovingBody(const ParticleStore& grains, Use&& use) {
     forEachRigidBody(grains, use);
 }
 
-/// The same with the grains in the order of identities, for sums that must not depend on where grains are
-/// kept.
+/// Calls use(mass, position, velocity) for each body that can move, with the grains in the order of
+/// identities, for sums that must not depend on where grains are kept.
 template <class Use>
 void forEachMovingBodyInOrder(const ParticleStore& grains, Use&& use) {
     for (const std::uint32_t place : grains.place) {

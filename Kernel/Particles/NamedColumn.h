@@ -14,7 +14,7 @@ struct NamedColumn {
     std::string name, unit;
     double initial = 0;  // of what is new
 
-    /// Its name in files.
+    /// The column's name in files.
     [[nodiscard]] std::string fieldName() const { return unit.empty() ? name : name + "_" + unit; }
 };
 

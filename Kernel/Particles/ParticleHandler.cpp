@@ -20,13 +20,13 @@ Vector<double> finite(std::uint32_t grain, std::string_view field, const Vec3D& 
     return toVector(value);
 }
 
-/// Of a grain that begins to move.
+/// Sets the acceleration of a grain that begins to move.
 void setAcceleration(ParticleStore& grains, std::uint32_t at, const Vector<double>& acceleration) {
     grains.acceleration[at] = acceleration;
     if (!grains.earlier.empty()) grains.earlier[at].acceleration = acceleration;
 }
 
-/// Of a solid sphere, as the store has it: 5/2 of 1 / (m r^2).
+/// The inertia of a solid sphere, as the store has it: 5/2 of 1 / (m r^2).
 GrainInertia ofSolidSphere(double mass, double radius) {
     return {1 / mass, 2.5 * (1 / mass) / (radius * radius)};
 }
@@ -36,7 +36,7 @@ void setInertia(ParticleStore& grains, std::uint32_t at, const GrainInertia& ine
     if (grains.hasSpin) grains.rotation[at].inverseInertia = inertia.inverseMoment;
 }
 
-/// Of a free grain of which forces and torques stay, while its mass, and with it their accelerations, change.
+/// Changes the mass of a free grain, and with it the accelerations, while forces and torques stay.
 void changeInertia(ParticleStore& grains, std::uint32_t at, const GrainInertia& inertia,
                    const Vector<double>& gravity) {
     const double before = grains.translation[at].inverseMass, ratio = inertia.inverseMass / before;

@@ -26,20 +26,21 @@ public:
     [[nodiscard]] Vec3D getPosition() const { return toEigen(record().position); }
     [[nodiscard]] Vec3D getVelocity() const { return toEigen(record().velocity); }
     [[nodiscard]] double getRadius() const { return record().radius; }
-    /// kg; infinite for a grain that is held. Of a grain of a rigid body, its share of the body's mass.
+    /// kg; infinite for a grain that is held. For a grain of a rigid body it is its share of the body's mass.
     [[nodiscard]] double getMass() const;
     [[nodiscard]] bool isFixed() const { return record().inverseMass == 0; }
     [[nodiscard]] int getSpeciesIndex() const;
     /// Zero in scenes without friction.
     [[nodiscard]] Vec3D getAngularVelocity() const;
     /// The sum of all forces (N) of the last step, weight included; not kept for a grain held in place: zero.
-    /// Of a grain of a rigid body: its mass times its acceleration, so with what holds it in the body.
+    /// For a grain of a rigid body it is its mass times its acceleration, so it includes what holds it in the
+    /// body.
     [[nodiscard]] Vec3D getForce() const;
 
-    /// Of the film on the grain, m^3; 0 where no liquid moves. The liquid of its bridges comes on top.
+    /// The film on the grain (m^3); 0 where no liquid moves. The liquid of its bridges comes on top.
     [[nodiscard]] double getLiquidVolume() const;
 
-    /// Of the film, m^3. In a run the difference counts as absorbed, and is rounded to a multiple of the
+    /// The film (m^3). In a run the difference counts as absorbed, and is rounded to a multiple of the
     /// quantum in which the scene's liquid is counted; touching contacts draw from it at the end of the next
     /// step.
     void setLiquidVolume(double volume);
@@ -74,7 +75,7 @@ public:
     GrainColumnReference(ParticleHandler& particles, std::size_t column)
         : handler(&particles), number(column) {}
 
-    /// Of the grain with this identity. Throws InputError if there is none.
+    /// The driver's number of the grain with this identity. Throws InputError if there is none.
     [[nodiscard]] double& operator[](std::uint32_t identity) const;
 
 private:
@@ -82,12 +83,12 @@ private:
     std::size_t number;
 };
 
-/// What a grain sets against forces and torques.
+/// The inertia of a grain against forces and torques.
 struct GrainInertia {
     double inverseMass, inverseMoment;  // 1/kg, 1/(kg m^2)
 };
 
-/// What a handler's grains have gone through since the scene last looked.
+/// The changes of a handler's grains since the scene last looked.
 struct GrainChanges {
     // Identities.
     std::vector<std::uint32_t> added;
@@ -111,7 +112,7 @@ public:
     /// kg/m^3, of films: their mass is part of that of their grains, as renewMasses() and all changes of a
     /// grain count it. 0: they have none.
     void setLiquidDensity(double density) { liquidDensity = density; }
-    /// When the laws are known: grains of a scene without friction have no spin.
+    /// Called when the laws are known: grains of a scene without friction have no spin.
     void settleSpin();
 
     /// Takes the memory for so many grains at once, instead of bit by bit.
@@ -132,8 +133,8 @@ public:
     /// The same, under MercuryDPM's name.
     [[nodiscard]] GrainReference getParticleById(std::size_t identity) { return getObject(identity); }
     [[nodiscard]] bool contains(std::size_t identity) const;
-    /// Where the store keeps it, until the next list of contacts. Throws InputError if there is no such
-    /// grain.
+    /// The place at which the store keeps a grain, until the next list of contacts. Throws InputError if
+    /// there is no such grain.
     [[nodiscard]] std::uint32_t placeOf(std::size_t identity) const;
 
     /// Over all grains, in the order of their identities: for (GrainReference grain : particleHandler).
@@ -172,7 +173,7 @@ public:
     /// Gives all grains that move by themselves the mass of their species' density, and of their films where
     /// these are weighed. Forces and velocities stay.
     void renewMasses();
-    /// The same where only films have changed.
+    /// Renews the masses where only films have changed.
     void weighFilms();
     /// The scene begins: no column is added from now on.
     void closeColumns() { columnsAreClosed = true; }
@@ -189,16 +190,17 @@ public:
         return grains;
     }
 
-    // For the scene that moves the grains.
+    // Called by the scene that moves the grains, not by drivers.
 
     /// The grains as they are, in the middle of a step.
     [[nodiscard]] Grains& storeInStep() { return grains; }
-    /// What finishes a step that was left unfinished.
+    /// Takes the function that finishes a step which was left unfinished.
     void callToFinishStep(std::function<void()> function) { finishing = std::move(function); }
     void leaveStepUnfinished() { unfinished = true; }
-    /// Whether the last step was, and nobody has asked for the grains since; who calls this finishes it.
+    /// Whether the last step was left unfinished, and nobody has asked for the grains since; who calls this
+    /// finishes it.
     [[nodiscard]] bool takeUnfinishedStep() { return unfinished.exchange(false); }
-    /// From any thread: all others wait until it is done.
+    /// May be called from any thread: all others wait until it is done.
     void finishStep() const {
         if (!unfinished.load(std::memory_order_acquire)) [[likely]]
             return;
@@ -213,7 +215,7 @@ public:
     void callBeforeRemoval(std::function<void(std::uint32_t)> function) {
         beforeRemoval = std::move(function);
     }
-    /// What has changed since this was called last.
+    /// The changes since this was called last.
     [[nodiscard]] GrainChanges takeChanges() { return std::exchange(changes, {}); }
     [[nodiscard]] bool hasChanges() const { return changes.any(); }
 
@@ -221,10 +223,10 @@ private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
-    /// At the density that its species has now, with the film that it has; its forces stay. Not of a grain
-    /// that is held.
+    /// Gives a grain the mass of the density that its species has now, with the film that it has; its forces
+    /// stay. Nothing changes for a grain that is held.
     void renewMass(std::uint32_t place);
-    /// Of a grain that moves by itself.
+    /// The inertia of a grain that moves by itself.
     [[nodiscard]] GrainInertia inertiaAt(std::uint32_t place) const;
     void noteDensityOfJoined(std::uint32_t identity);
 

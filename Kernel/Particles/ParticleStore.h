@@ -80,7 +80,7 @@ public:
     /// The identity of the grain that is added next: no identity is given twice.
     [[nodiscard]] std::uint32_t nextIdentity() const { return next; }
 
-    /// Of memory that the grains take.
+    /// The memory (bytes) that the grains take.
     [[nodiscard]] std::size_t bytes() const {
         std::size_t sum =
             bytesOf(translation, rotation, acceleration, earlier, species, identity) + place.bytes();
@@ -105,7 +105,7 @@ public:
 
     /// Puts the grain at order[k] to place k, for all k. The order holds all grains, and need hold no gaps.
     void reorder(const std::vector<std::uint32_t>& order, int threads = 1);
-    /// In the order of identities.
+    /// Visits the grains in the order of identities.
     void visitState(StateArchive& archive);
 
 private:

@@ -17,7 +17,7 @@ struct PeriodicBox {
     Vector<double> lowest{0, 0, 0};  // m
     Vector<double> length{0, 0, 0};  // m
 
-    // Of the next image along the gradient; zero without shear.
+    // The next image along the gradient; zero without shear:
     Vector<double> across{0, 0, 0};         // 1/m, the unit vector of the gradient over the length along it
     Vector<double> imageShift{0, 0, 0};     // m: that length, and how far the image has slid along the flow
     Vector<double> imageVelocity{0, 0, 0};  // m/s, along the flow
@@ -35,7 +35,8 @@ struct PeriodicBox {
     }
     [[nodiscard]] bool isSheared() const { return across.x + across.y + across.z > 0; }
 
-    /// By how many images along the gradient a difference of two positions (m) is off the nearest one.
+    /// The number of images along the gradient by which a difference of two positions (m) is off the nearest
+    /// one.
     template <class T>
     [[nodiscard]] T imagesIn(const Vector<T>& d) const {
         return nearestInteger(T(across.x) * d.x + T(across.y) * d.y + T(across.z) * d.z);
@@ -52,7 +53,7 @@ struct PeriodicBox {
     [[nodiscard]] Vector<T> nearestAlongAxes(const Vector<T>& d) const {
         return {nearest(d.x, length.x), nearest(d.y, length.y), nearest(d.z, length.z)};
     }
-    /// What belongs to one image, for so many.
+    /// A shift or a velocity that belongs to one image, for a number of images.
     template <class T>
     [[nodiscard]] static Vector<T> slid(const T& images, const Vector<double>& ofOne) {
         return {images * T(ofOne.x), images * T(ofOne.y), images * T(ofOne.z)};
@@ -67,7 +68,7 @@ struct PeriodicBox {
                Vector<T>{T(strainRate.x) * apart.x, T(strainRate.y) * apart.y, T(strainRate.z) * apart.z};
     }
 
-    /// In which image along the gradient a position lies: 0 inside the box.
+    /// The image along the gradient in which a position lies: 0 inside the box.
     [[nodiscard]] double imageOf(const Vector<double>& p) const {
         return std::floor(dot(across, p - lowest));
     }

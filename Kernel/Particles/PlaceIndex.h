@@ -7,8 +7,8 @@
 
 namespace pendular {
 
-/// Where the store keeps the grain with an identity. Identities are given once and for all, so those of
-/// removed grains leave gaps; they are kept in pages, and a page without grains takes no memory: a run in
+/// The places at which the store keeps grains, by identity. Identities are given once and for all, so those
+/// of removed grains leave gaps; they are kept in pages, and a page without grains takes no memory: a run in
 /// which millions of grains come and go does not grow.
 class PlaceIndex {
 public:

@@ -15,7 +15,7 @@ namespace pendular {
 /// moves a grain by a hundred roundings, and to 3 % if by five; far above it grains make energy or stand
 /// still.
 inline constexpr double coarsestRounding = 1e-6;
-/// Of the radius; from here on it is told of.
+/// The share of the radius from which on the rounding is told of.
 inline constexpr double notedRounding = 1e-8;
 
 /// m, the farthest from the origin along an axis that a grain of this radius (m) may be.

@@ -186,7 +186,7 @@ BodyResponse RigidBodies::response(const ParticleStore& grains) const {
     return most;
 }
 
-/// By the spheres.
+/// Finds the volumes of all bodies, and the exposed shares of their grains, from the spheres.
 void RigidBodies::measureAll(const ParticleStore& grains) {
     for (std::size_t k = 0; k < size(); ++k) {
         std::vector<Ball> spheres;

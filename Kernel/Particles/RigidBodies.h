@@ -55,7 +55,7 @@ struct alignas(32) MemberInSpace {
     std::uint32_t place;  // of the grain
 };
 
-/// What bodies do to the stability limit of a scene of free spheres.
+/// The effect of bodies on the stability limit of a scene of free spheres.
 struct BodyResponse {
     double inertia = 1;  // a contact moves its grains as if they had this share of a free sphere's mass
     double damping = 1;  // dashpots that follow from the mass are made for so many times it
@@ -73,11 +73,11 @@ public:
     [[nodiscard]] std::size_t size() const { return bodies.size(); }
     [[nodiscard]] RigidBody& operator[](std::size_t at) { return bodies[at]; }
     [[nodiscard]] const RigidBody& operator[](std::size_t at) const { return bodies[at]; }
-    /// In the order in which they were joined.
+    /// The grains of a body, in the order in which they were joined.
     [[nodiscard]] std::span<const BodyMember> membersOf(std::size_t at) const {
         return {members.data() + begins[at], members.data() + begins[at + 1]};
     }
-    /// Where the body with this number is; `none` if there is no such body.
+    /// The place of the body with this number; `none` if there is no such body.
     [[nodiscard]] std::uint32_t find(std::size_t number) const;
     [[nodiscard]] std::uint32_t numberOf(std::size_t at) const { return numbers[at]; }
     /// The number of the body that a grain is part of, or `none`.
@@ -86,11 +86,11 @@ public:
         const auto found = bodyOfGrain.find(grain);
         return found == bodyOfGrain.end() ? none : found->second;
     }
-    /// Of the grain at a place: where its body is, or `none`.
+    /// The place of the body of the grain at a place, or `none`.
     [[nodiscard]] std::uint32_t at(std::uint32_t place) const {
         return place < bodyAt.size() ? bodyAt[place] : none;
     }
-    /// The same as areJoined(), by places.
+    /// Whether the grains at two places are of one body.
     [[nodiscard]] bool areJoinedAt(std::uint32_t a, std::uint32_t b) const {
         return !empty() && at(a) != none && at(a) == at(b);
     }
@@ -116,7 +116,7 @@ public:
 
     /// Gives the grains of a body the mass, the places and the velocities that they have in it.
     void place(ParticleStore& grains, std::size_t at);
-    /// The same of all bodies but spheres: their grains move by themselves, and keep their bits.
+    /// Places the grains of all bodies but spheres, whose grains move by themselves and keep their bits.
     void placeAll(ParticleStore& grains);
     /// The body of a sphere takes over the motion of its grain.
     void follow(const ParticleStore& grains, std::size_t at);
@@ -134,12 +134,12 @@ public:
         return shares;
     }
 
-    /// Of the body that moves most easily. All contacts of a body may act at once: with n grains, n contact
-    /// stiffnesses act on its approach (1/M each) and on its turning (the response of each grain's arm), as
-    /// on a mass 1 / (n/M + sum of these) a grain, which is compared with the free sphere that its largest
-    /// grain would be. Friction at the rims turns a body by the sum of r^2 / I, of the smallest moment; the
-    /// limit takes 5/2 over that mass for it (of a solid sphere), so the mass is at most 2/5 I / sum of r^2.
-    /// Dashpots are made for the mass of the body.
+    /// The response of the body that moves most easily. All contacts of a body may act at once: with n
+    /// grains, n contact stiffnesses act on its approach (1/M each) and on its turning (the response of each
+    /// grain's arm), as on a mass 1 / (n/M + sum of these) a grain, which is compared with the free sphere
+    /// that its largest grain would be. Friction at the rims turns a body by the sum of r^2 / I, of the
+    /// smallest moment; the limit takes 5/2 over that mass for it (of a solid sphere), so the mass is at most
+    /// 2/5 I / sum of r^2. Dashpots are made for the mass of the body.
     [[nodiscard]] BodyResponse response(const ParticleStore& grains) const;
 
     /// Puts the grains of a body behind each other, at the first of them.
@@ -148,14 +148,15 @@ public:
     /// Finds the grains where they are now: after each change of places, before the calls below.
     void refresh(const ParticleStore& grains);
     void forgetPlaces() { placesAreKnown = false; }
-    /// Where bodies are, those behind each other whose first grains are in the store; without those that
-    /// move as their only grain.
+    /// The places of bodies, in the order of their first grains in the store; without bodies that move as
+    /// their only grain.
     [[nodiscard]] const std::vector<std::uint32_t>& inSpace() const { return order; }
-    /// The grains of these, body by body.
+    /// The grains of the bodies of inSpace(), body by body.
     [[nodiscard]] const std::vector<MemberInSpace>& membersInSpace() const { return inOrder; }
-    /// Where the grains of the body at a place of inSpace() begin among them; those of the next one follow.
+    /// The place in membersInSpace() at which the grains of the body at a place of inSpace() begin; those of
+    /// the next one follow.
     [[nodiscard]] std::uint32_t firstInSpace(std::size_t k) const { return firsts[k]; }
-    /// Those that isSphere() is true of: they move as their grain does, bit for bit.
+    /// The bodies that isSphere() is true of: they move as their grain does, bit for bit.
     [[nodiscard]] const std::vector<std::uint32_t>& spheres() const { return spheresOnly; }
     /// The places of all grains that move by themselves, or are held, or are the sphere of a body.
     [[nodiscard]] const std::vector<std::uint32_t>& ownPlaces() const { return own; }
@@ -165,7 +166,7 @@ public:
 private:
     void requireWhole(const StateArchive& archive, const ParticleStore& grains) const;
     void measureAll(const ParticleStore& grains);
-    /// Of the grain at each place; `none` for one in no body.
+    /// The body of the grain at each place; `none` for one in no body.
     [[nodiscard]] std::vector<std::uint32_t> bodiesAt(const ParticleStore& grains) const;
     /// kg, a grain; see response()
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;

@@ -31,7 +31,7 @@ public:
     void setPosition(const Vec3D& position) { positionValue = finite("position", position, "m"); }
     void setVelocity(const Vec3D& velocity) { velocityValue = finite("velocity", velocity, "m/s"); }
     void setAngularVelocity(const Vec3D& spin) { spinValue = finite("angular velocity", spin, "rad/s"); }
-    /// Of the film on the grain, where liquid moves (m^3).
+    /// The film (m^3) on the grain, where liquid moves.
     void setLiquidVolume(double volume) {
         checkValue("SphericalParticle", "liquid volume", volume, "m^3", notNegative);
         liquidVolume = volume;

@@ -21,7 +21,7 @@ public:
     void keep(bool keepIt) { kept = keepIt; }
     [[nodiscard]] bool isKept() const { return kept; }
     [[nodiscard]] const EnergyLedger& energies() const { return ledger; }
-    /// What the context shows to other parts: null where none is kept.
+    /// Lets the context show the ledger and the account to other parts: null where none is kept.
     void show(StepContext& scene) {
         scene.ledger = kept ? &ledger : nullptr;
         scene.account = kept ? &account : nullptr;

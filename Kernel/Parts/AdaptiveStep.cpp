@@ -6,7 +6,7 @@
 namespace pendular {
 namespace {
 
-/// Of the grains that move, in the order of identities.
+/// The mean velocity of the grains that move, summed in the order of identities.
 Vector<double> meanVelocity(const ParticleStore& grains) {
     Vector<double> sum{0, 0, 0};
     double count = 0;

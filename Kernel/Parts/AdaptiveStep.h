@@ -52,7 +52,7 @@ public:
         return isSet() && stepsSince > 0 && (surprised || stepsSince >= interval);
     }
 
-    /// For the steps until the next choice.
+    /// What is expected of the steps until the next choice.
     struct Outlook {
         ContactOutlook contacts;
         double longest;  // s, in which bodies move as far as they may in a step
@@ -70,7 +70,8 @@ public:
     /// @param limit s, that of the densest bed at the largest sound overlap, for what is not known
     [[nodiscard]] double choose(double step, double most, const Outlook& outlook, const ContactBound& bound,
                                 double limit);
-    /// Of the effective radius: larger ones are a surprise. Infinite before the first choice.
+    /// The overlap, over the effective radius, above which one is a surprise. Infinite before the first
+    /// choice.
     [[nodiscard]] double supposedOverlap() const { return overlap; }
 
     [[nodiscard]] std::size_t choiceCount() const { return choices; }

@@ -18,9 +18,9 @@ public:
     void afterForces(StepContext& step) override;
     void takeBack(StepContext& step) override;
 
-    /// Of walls whose forces were not kept before.
+    /// Sums the forces on walls whose forces were not kept before.
     static void sumForcesOnNewDrives(const StepContext& scene);
-    /// For the motion of walls in a step.
+    /// The step as the motion of walls needs it.
     [[nodiscard]] static PlaneMotion::Step stepOf(const StepContext& step);
 
 private:

@@ -36,7 +36,7 @@ public:
     [[nodiscard]] bool needsFinishedStep() const override { return strain.isSet; }
     void check(const StepContext& scene) override;
     void begin(StepContext& scene, bool isRestarted) override;
-    /// Where a target of a stress is set, takes the rates for the step to come.
+    /// Takes the rates for the step to come, where a target of a stress is set.
     void prepare(StepContext& step) override;
     /// The grains go along with the flow of the step to come.
     void beforeMotion(StepContext& step) override;
@@ -44,7 +44,7 @@ public:
     void takeBack(StepContext& step) override;
     void visitSetting(StateArchive& archive, StepContext& scene) override;
 
-    // As the functions of Scene that have these names.
+    // The functions of Scene with these names call these:
     void setPeriodic(PeriodicBox& box, int axis, double lowest, double highest, double now);
     void setLeesEdwards(PeriodicBox& box, int flow, int gradient, double rate, double now);
     void setShearRate(StepContext& scene, double rate, bool inRun);

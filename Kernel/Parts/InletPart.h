@@ -19,7 +19,7 @@ public:
     void atEnd(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
 
-    /// Where grains may come.
+    /// The scene into which grains come.
     [[nodiscard]] static InsertionScene placesOf(const StepContext& scene);
 
 private:

@@ -15,7 +15,8 @@ struct DiagonalStress {
     std::size_t touches = 0;            // contacts that act
 };
 
-/// As of the last step. The stiffness is that of the normal springs for an affine strain,
+/// The mean stress in the last step, and its stiffness. The stiffness is that of the normal springs for an
+/// affine strain,
 /// K_a = (1/V) sum k b^2 n_a^2 (sum of n_b^2 over the controlled axes b), and of the kinetic part s_a,
 /// (2 + number of controlled axes) s_a: of free grains C x L is constant. For one axis K_a is
 /// (1/V) sum k b^2 n_a^4; for all three it is the sum of a row of the stiffnesses C_ab, so that no

@@ -19,7 +19,7 @@ public:
     /// They must stay where they are.
     explicit SphereSlices(std::span<const Ball> spheres) : all(spheres) {}
 
-    /// Of the plane at a height z (m).
+    /// The integrals over the slice at a height z (m).
     Sums at(double z);
     /// rad, of the rim of the first sphere's disc, that no other disc covers; 0 where it has no disc.
     double freeAngleOfFirst(double z);

@@ -23,7 +23,7 @@ struct Superquadric {
     void check(std::string_view owner) const;
     /// m^3. Source: Jaklic, Leonardis and Solina (2000), Segmentation and Recovery of Superquadrics, ch. 2.
     [[nodiscard]] double volume() const;
-    /// Of density 1: volume, centre 0, and the diagonal inertia; the same source.
+    /// The properties at density 1: volume, centre 0, and the diagonal inertia; the same source.
     [[nodiscard]] MassProperties mass() const;
     /// m, of the smallest sphere about the centre that holds it: the largest of x^2 + y^2 + z^2, by Hoelder's
     /// inequality with the exponent n/2.

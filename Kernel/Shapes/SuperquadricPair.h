@@ -13,7 +13,7 @@ struct SuperquadricPair {
     Vector<T> shift;  // m, centre 2 - centre 1
 };
 
-/// Where two superquadrics touch.
+/// The touch of two superquadrics.
 template <Number T>
 struct SuperquadricTouch {
     Vector<T> normal;  // unit, from body 1 to body 2
@@ -43,7 +43,7 @@ struct SlabOverlap {
         second = curvature(other, pair.axes2.turnBack(plane.u), pair.axes2.turnBack(plane.v));
     }
 
-    /// Where Newton's method goes from a normal, and twice what F is to lose by that (m).
+    /// The normal to which Newton's method goes from another one, and twice what F is to lose by that (m).
     struct Step {
         Vector<T> normal;
         T decrease;
@@ -124,9 +124,9 @@ Vector<T> unit(const Vector<T>& v) {
 
 }  // namespace superquadric
 
-/// Where Newton's method begins without a normal of an earlier step: S^-1 d, with the sum S of the squared
-/// half lengths along the axes of both in space. Exact for spheres and for ellipsoids of the same shape and
-/// orientation.
+/// The normal with which Newton's method begins if none is known from an earlier step: S^-1 d, with the sum S
+/// of the squared half lengths along the axes of both in space. It is exact for spheres and for ellipsoids of
+/// the same shape and orientation.
 template <Number T>
 Vector<T> firstNormal(const SuperquadricPair<T>& pair) {
     T xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;

@@ -47,8 +47,9 @@ T root(const T& x, const T& k) {
     return select(k == 1.0, x, select(k == 2.0, sqrt(x), exponential2(logarithm2(x) / k)));
 }
 
-/// Where u X + v Y is largest on X^n + Y^n = 1, u and v not negative and not both 0 (Hoelder's inequality):
-/// X^(n-1) = u / value. By the ratio of the two, so that nothing leaves the range of a double.
+/// The point at which u X + v Y is largest on X^n + Y^n = 1, u and v not negative and not both 0 (Hoelder's
+/// inequality): X^(n-1) = u / value. The ratio of the two is used, so that nothing leaves the range of a
+/// double.
 template <Number T>
 struct Farthest {
     T value, x, y;
@@ -70,7 +71,8 @@ T withSign(const T& size, const T& sign) {
     return select(sign < 0.0, -size, size);
 }
 
-/// Of an ellipsoid h^2 = (a nx)^2 + (b ny)^2 + (c nz)^2, and the gradient of x^2/a^2 + ... is 2 n / h.
+/// The support of an ellipsoid: h^2 = (a nx)^2 + (b ny)^2 + (c nz)^2, and the gradient of x^2/a^2 + ... is 2
+/// n / h.
 template <Number T>
 SupportPoint<T> supportOfEllipsoid(const SuperquadricLanes<T>& s, const Vector<T>& n) {
     const Vector<T> stretched{s.a * s.a * n.x, s.b * s.b * n.y, s.c * s.c * n.z};

@@ -106,7 +106,7 @@ HeightIntegral integrate(const Frame& frame, double tolerance) {
     return integral;
 }
 
-/// Of spheres that hang together. The error is that of the volume (m^3).
+/// The solid of spheres that hang together. The error is that of the volume (m^3).
 struct Part {
     MassProperties solid;
     Eigen::Vector3d inertiaError = Eigen::Vector3d::Zero();  // m^5, of each moment
@@ -133,7 +133,7 @@ Part partOf(std::span<const Ball> spheres, double tolerance) {
     return {found, Eigen::Vector3d::Constant(4 * moved * fifth)};
 }
 
-/// Of bodies that have no point in common.
+/// The sum of bodies that have no point in common.
 Part sumOf(std::span<const Part> parts) {
     Part sum{};
     for (const Part& part : parts) {
@@ -169,7 +169,7 @@ std::vector<Ball> withNeighbours(std::span<const Ball> spheres, std::size_t own)
         if (k == own) continue;
         const double d = (spheres[k].centre - spheres[own].centre).norm(), r = spheres[own].radius,
                      s = spheres[k].radius;
-        // To round-off each lies within the other: the first one counts.
+        // The two lie within each other to round-off: the first one counts.
         const bool isSame = d + r <= s && d + s <= r;
         if (isSame ? k < own : d + r <= s) return {};
         if (!isSame && d < r + s && d + s > r) found.push_back(spheres[k]);
@@ -221,7 +221,8 @@ bool freeOfSeparateCaps(std::vector<Cap> caps, double& share) {
     return true;
 }
 
-/// By heights along an axis of the sphere (Archimedes): the free share of the rim of each disc.
+/// The free share of the first sphere's surface, by heights along an axis of the sphere (Archimedes): that of
+/// the rim of each disc.
 double freeShareByHeights(const std::vector<Ball>& spheres, double tolerance) {
     const Ball own = spheres[0];
     std::vector<Ball> inFrame;

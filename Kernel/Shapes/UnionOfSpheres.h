@@ -24,7 +24,7 @@ MassProperties unionOfSpheres(std::span<const Ball> spheres, double tolerance = 
 /// Enough for the volume of a body whose mass is known otherwise, and found sooner.
 inline constexpr double toleranceOfVolume = 1e-6;
 
-/// m^2, of the surface of the union: what exposedShares() has of each sphere.
+/// The area (m^2) of the surface of the union: what exposedShares() has of each sphere.
 double surfaceOfUnion(std::span<const Ball> spheres, double tolerance = 1e-8);
 
 /// The share of each sphere's own surface that is in no other one: 0 of a sphere within another one; of two

@@ -64,7 +64,8 @@ bool joinAlong(std::span<const Point> points, const Point& origin, double distan
     return true;
 }
 
-/// The same by cells that are so small that all in one are near each other: of two cells, one pair decides.
+/// Joins points that are near each other, by cells that are so small that all in one are near each other: of
+/// two cells, one pair decides.
 void joinByCells(std::span<const Point> points, const Point& origin, double distance, Sets& sets) {
     using Cell = std::array<std::int64_t, 3>;
     const double side = distance / 1.7321;  // over sqrt(3): no diagonal is longer than the distance
@@ -90,7 +91,7 @@ void joinByCells(std::span<const Point> points, const Point& origin, double dist
     }
 }
 
-/// For each point the lowest number of its set.
+/// The lowest number of the set of each point.
 std::vector<Index> joinClose(std::span<const Point> points, const Point& origin, double distance) {
     Sets sets(points.size());
     if (!joinAlong(points, origin, distance, sets)) joinByCells(points, origin, distance, sets);

@@ -7,8 +7,8 @@
 #include "Kernel/Species/BridgeChoice.h"
 #include "Kernel/State/Random.h"
 
-// For a driver that wants to know at set-up whether its bridge law is the right one. Not part of a
-// Simulation: it is compiled and run only where it is asked for.
+// These functions are for a driver that wants to know at set-up whether its bridge law is the right one. They
+// are no part of a Simulation: they are compiled and run only where they are asked for.
 
 namespace pendular {
 

@@ -71,7 +71,7 @@ template <class Output>
 concept HasOwnInterval = requires(const Output& output) {
     { output.interval() } -> std::convertible_to<OutputInterval>;
 };
-/// One that has nothing to remember, or says so.
+/// An output that has nothing to remember, or says so.
 template <class Output>
 concept IsForgetful = std::is_empty_v<Output> || std::derived_from<Output, RemembersNothing>;
 

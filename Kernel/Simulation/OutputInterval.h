@@ -16,7 +16,7 @@ public:
     OutputInterval(std::string_view owner, double time);
 
     [[nodiscard]] bool isGiven() const { return seconds > 0; }
-    /// What goes into a restart file.
+    /// The numbers that go into a restart file.
     struct Told {
         double interval;  // s
         double multiple;  // of it, the last one; NaN: none yet

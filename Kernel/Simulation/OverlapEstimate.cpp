@@ -25,7 +25,7 @@ double heaviestBody(const ParticleStore& grains) {
     return heaviest;
 }
 
-/// What a normal law does at an overlap, by the integrals of its slope.
+/// The force and energy of a normal law at an overlap, by the integrals of its slope.
 class NormalCurve {
 public:
     NormalCurve(const PairLaws& laws, const Bodies& of) : pair(laws), bodies(of) {}
@@ -51,7 +51,8 @@ public:
     }
 
 private:
-    /// By the middles of intervals that grow from the touch on, as s^2: Hertz's slope is smooth in s.
+    /// The integral is taken by the middles of intervals that grow from the touch on, as s^2: Hertz's slope
+    /// is smooth in s.
     template <class Weight>
     [[nodiscard]] double integral(double overlap, Weight&& weight) const {
         constexpr int intervals = 64;
@@ -105,7 +106,7 @@ OverlapEstimate estimateOverlaps(Scene& scene, double pressure) {
                          diameter = (bodies.radius2 < infinity ? 4 : 2) * bodies.effectiveRadius();
             const double load = std::numbers::pi * diameter * diameter * loads.pressure / (6 * 0.6);
             const double byWeight = curve.overlapAt(load, [&](double x) { return curve.force(x); }),
-                         // With all of a rigid body behind each of its grains, or of two.
+                         // The mass is that of all of a rigid body behind each of its grains, or of two.
                 behind = std::max(mass, bodies.radius2 < infinity ? 0.5 * heaviest : heaviest),
                          bySpeed = curve.overlapAt(0.5 * behind * loads.speed * loads.speed,
                                                    [&](double x) { return curve.energy(x); });

@@ -10,7 +10,7 @@ namespace pendular {
 
 namespace {
 
-/// Where a bridge is on a grain.
+/// The place of a bridge on a grain.
 struct BridgeOnGrain {
     std::uint32_t grain;
     Vector<double> direction;  // unit, from the grain's centre

@@ -10,8 +10,8 @@
 
 namespace pendular {
 
-/// What tells whether the liquid of a scene is in the pendular state, in which bridges are separate: the
-/// model of liquid that moves is made for no other one.
+/// The numbers that tell whether the liquid of a scene is in the pendular state, in which bridges are
+/// separate: the model of liquid that moves is made for no other one.
 struct PendularState {
     double liquidOverSolid = 0;   // volume of films and bridges over that of grains and rigid bodies
     double shareInFilms = 0;      // of films and bridges together

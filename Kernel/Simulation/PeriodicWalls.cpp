@@ -20,11 +20,11 @@ constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<doubl
 constexpr std::array<Vector<double>, 3> units{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 constexpr std::array names{'x', 'y', 'z'};
 
-/// Of the smallest radius: how far outside a grain may be at most. A list of contacts lasts about as long as
-/// grains need for it, so that bringing them back makes at most about twice as many lists.
+/// How far outside a grain may be at most, as a share of the smallest radius. A list of contacts lasts about
+/// as long as grains need for it, so that bringing them back makes at most about twice as many lists.
 constexpr double widestBand = 0.2;
-/// Of the smallest radius: steps in a surface that are smaller count as none. A file with numbers of single
-/// precision is rounded to 6e-8 of its lengths.
+/// Steps in a surface that are smaller than this share of the smallest radius count as none. A file with
+/// numbers of single precision is rounded to 6e-8 of its lengths.
 constexpr double tolerance = 1e-4;
 
 constexpr double rounded = 1 - 1e-6;  // what a sentence asks for is

@@ -27,12 +27,12 @@ public:
     /// smallestRadius m, infinite without grains
     void check(const WallHandler& walls, bool haveChanged, const PeriodicBox& box, const ContactLaws& laws,
                const GrainSizes& sizes, double widestBody, double smallestRadius);
-    /// The same where walls have moved by at most a shift (m) since the last time. Throws RunError.
+    /// Looks again where walls have moved by at most a shift (m) since the last time. Throws RunError.
     void follow(const WallHandler& walls, double shift, double time);
 
     /// Whether there is a wall that is not the same after any shift along the periods.
     [[nodiscard]] bool haveEnds() const { return anyHasEnds; }
-    /// Of each wall: whether it is such a one.
+    /// Whether each wall is one that is not the same after any shift.
     [[nodiscard]] const std::vector<bool>& endsOfWalls() const { return hasEnds; }
 
     /// Whether a grain is too far outside, when grains have moved by at most a shift (m) since the last time.
@@ -42,11 +42,11 @@ public:
     /// The places of all grains that are outside.
     [[nodiscard]] std::vector<std::uint32_t> outside(const ParticleStore& grains) const;
 
-    /// After check().
+    /// Called after check().
     void visitState(StateArchive& archive);
 
 private:
-    /// What was found of a wall along an axis.
+    /// The findings at a wall along an axis.
     struct Look {
         bool isEndless = true, passes = false;
         double needed = 0;         // m, when it was looked at

@@ -45,7 +45,7 @@ bool isInProgram() {
            here.dli_fbase == program.dli_fbase;
 }
 
-/// Before main(), and so before the command line is read.
+/// Called before main(), and so before the command line is read.
 const bool isPrepared = [] {
     if (isHosted() || !isInProgram()) return false;
     openClosedStreams();

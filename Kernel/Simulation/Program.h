@@ -12,14 +12,14 @@ namespace pendular {
 /// and SIGUSR1 does not end it (hearRestartSignal()). A library that a program loads leaves both alone.
 int runProgram(const std::function<int()>& body);
 
-/// For a program that is not Pendular's own, as an interpreter that has loaded it: signals and uncaught
-/// exceptions are left to that program, and so is what the HDF5 library prints and does at the end. Runs are
-/// stopped by Run::requestStop() then, and lines of the log go where setLogSink() says. Called before the
-/// first scene; throws InputError after it.
+/// Says that the program is not Pendular's own, but for instance an interpreter that has loaded it: signals
+/// and uncaught exceptions are left to that program, and so is what the HDF5 library prints and does at the
+/// end. Runs are stopped by Run::requestStop() then, and lines of the log go where setLogSink() says. Called
+/// before the first scene; throws InputError after it.
 void setHosted();
 
-/// What the first scene of a program does to it, unless that is a host: uncaught exceptions are reported, and
-/// SIGUSR1 is heard.
+/// Called by the first scene of a program, which is prepared unless it is a host: uncaught exceptions are
+/// reported, and SIGUSR1 is heard.
 void prepareProgram();
 
 /// From now on an exception that nobody catches ends the program with its sentence and the exit code 1,

@@ -54,8 +54,8 @@ void Progress::print(double time, std::size_t step, const RunNumbers& numbers) {
     const double part = end > firstTime ? (time - firstTime) / (end - firstTime) : 1;
     const double left = part > 0 ? std::max(elapsed * (1 - part) / part, 0.0) : 0;
     const double rate = static_cast<double>(step - firstStep) / elapsed;
-    // What matters most comes first: on the terminal the rest is left out, as a line that wraps cannot be
-    // renewed.
+    // The most important part comes first: on the terminal the rest is left out, as a line that wraps cannot
+    // be renewed.
     const std::size_t width = terminal ? terminalWidth() - 1 : std::numeric_limits<std::size_t>::max();
     std::string line = fmt::format("{:5.1f} %", end > 0 ? 100 * time / end : 100);
     if (!name.empty() && name.size() + 2 + line.size() <= width) line = name + "  " + line;

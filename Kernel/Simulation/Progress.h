@@ -32,7 +32,7 @@ public:
     /// To be called after each step: whether show() is to be called. It looks at the clock some twenty times
     /// a second.
     [[nodiscard]] bool isDue(std::size_t step);
-    /// Where something was shown: how far the run is at its end, and the end of the line.
+    /// Shows how far the run is at its end, and ends the line, if something was shown before.
     template <class Measure>
     void finish(double time, std::size_t step, Measure&& measure) {
         if (!shown) return;

@@ -133,7 +133,7 @@ void Run::visitIntervals(StateArchive& archive) {
         for (const OutputInterval::Told& last : told) output.interval.goOnFrom(last);
 }
 
-/// By any of its paths.
+/// Whether a file is the restart file of this run, by any of its paths.
 bool Run::isOwnRestartFile(const std::filesystem::path& file) const {
     std::error_code ignored;
     return std::filesystem::equivalent(file, restartFile(), ignored);
@@ -175,8 +175,8 @@ void Run::writeAll() {
     writeOutput();
 }
 
-/// What is due after this step; at the end of the run, what was not. An output with an interval knows by
-/// itself whether it has this state.
+/// Writes what is due after this step; at the end of the run, what was not. An output with an interval knows
+/// by itself whether it has this state.
 void Run::writeOutputs(bool atEnd) {
     const Within writing(*this, Within::Writing, 0, {});
     const bool own = (saveCount > 0 && steps % saveCount == 0) != atEnd;

@@ -31,7 +31,7 @@ public:
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    /// What a driver tells its user, on standard error: logger(INFO, "{} grains", number).
+    /// The logger for what a driver tells its user, on standard error: logger(INFO, "{} grains", number).
     Logger logger;
 
     virtual void actionsBeforeTimeStep() {}
@@ -40,12 +40,12 @@ public:
     virtual void writeOutput() {}
     /// Called when the run has ended, or was asked to stop: files are to be completed here.
     virtual void completeOutput() {}
-    /// What the driver itself remembers from step to step, for restart files (StateArchive says how).
+    /// Visits what the driver itself remembers from step to step, for restart files (StateArchive says how).
     virtual void visitState(StateArchive& /*archive*/) {}
     /// The run ends when this returns false.
     [[nodiscard]] virtual bool continueSolve() const { return true; }
 
-    /// What the names of files begin with that a run writes by itself; a folder may be in it.
+    /// Sets the beginning of the names of all files that a run writes by itself; a folder may be in it.
     void setName(std::string beginning);
     /// During a run, it holds from the next step on: the time goes on from where it is.
     /// @param step s
@@ -71,8 +71,9 @@ public:
     /// ignored; the end time, outputs and threads may be others. At set-up only.
     void restartFrom(std::filesystem::path file);
     [[nodiscard]] bool isRestarted() const { return !restartSource.empty(); }
-    /// s, of the state in the restart file from which the run goes on; 0 where it starts from the start. For
-    /// set-up: a scene that goes on is set up with the walls that the run had added by then.
+    /// The time (s) of the state in the restart file from which the run goes on; 0 where it starts from the
+    /// start. This is asked at set-up: a scene that goes on is set up with the walls that the run had added
+    /// by then.
     [[nodiscard]] double restartTime() const;
     [[nodiscard]] std::filesystem::path restartFile() const { return restartFileOf(name); }
     /// Writes the state after the last step. Throws InputError if that fails, and in visitState().
@@ -112,29 +113,31 @@ public:
     /// was set, where continueSolve() says so, or where it is stopped. A run whose maximum time was not set
     /// goes on until finishRun(). Throws as solve() does; then the run has ended.
     void runTo(double time);
-    /// The same for so many steps.
+    /// Begins the run, or goes on with it, for so many steps; the rest is as in runTo().
     void runSteps(std::size_t count);
     /// Ends a run in parts here, as solve() does at the maximum time: with the restart file, the last
     /// outputs, and complete files. Nothing where it has ended. A scene that goes without it completes the
     /// files of its outputs, but writes nothing more, and no hook of the driver is called.
     void finishRun();
     /// Asks the run to stop after its step, as SIGTERM does: it ends with RunStopped. One that has not begun
-    /// or is between two parts stops at once when it goes on. Also for other threads and handlers of signals.
+    /// or is between two parts stops at once when it goes on. Other threads and handlers of signals may call
+    /// it, too.
     void requestStop() noexcept { stopAsked.store(true, std::memory_order_relaxed); }
-    /// Checks the scene and computes the forces at its start, or takes them from the restart file. For a
-    /// driver that steps by itself. Like solve() and step(), it throws InputError in hooks of this scene.
+    /// Checks the scene and computes the forces at its start, or takes them from the restart file. This is
+    /// for a driver that steps by itself. Like solve() and step(), it throws InputError in hooks of this
+    /// scene.
     void initialise();
     void step() { step(1); }
-    /// So many steps: faster than one by one, as long as no hook looks at the grains.
+    /// Does this many steps: faster than one by one, as long as no hook looks at the grains.
     void step(std::size_t count);
-    /// What the outputs, whatever their intervals, and writeOutput() write; for a driver that steps by
+    /// Writes the outputs, whatever their intervals, and calls writeOutput(); for a driver that steps by
     /// itself, and for hooks, except writeOutput().
     void writeAll();
-    /// What completes the outputs; a driver that steps by itself calls it at its end.
+    /// Completes the outputs; a driver that steps by itself calls it at its end.
     void completeAll();
 
 protected:
-    /// What addOutput() was given; all but write may be empty.
+    /// The functions of an output that addOutput() was given; all but write may be empty.
     struct KeptOutput {
         std::function<void()> write, prepare = {}, complete = {};
         std::function<void(StateArchive&)> visitState = {};
@@ -153,7 +156,7 @@ protected:
     /// The scene has been set up or read: what is changed from now on, is changed in the run.
     void setHasBegun() { begun = true; }
     [[nodiscard]] bool hasBegun() const { return begun; }
-    /// What a restart file holds of the run itself; its numbers, and what its outputs and the driver
+    /// Visits what a restart file holds of the run itself: its numbers, and what its outputs and the driver
     /// remember.
     void visitSteps(StateArchive& archive);
     void visitOutputs(StateArchive& archive);
@@ -162,7 +165,7 @@ protected:
         return timeAfter(steps + 1, stepsBefore, timeBefore, timeStep);
     }
     [[nodiscard]] StepTimes& stepTimer() { return times; }
-    /// For the destructor of the class that has all of the scene.
+    /// Called by the destructor of the class that has all of the scene.
     void completeLeftRun() noexcept;
 
 private:
@@ -170,9 +173,9 @@ private:
     /// Marks, for as long as it lives, that one of the calls below is under way; throws InputError where any
     /// of the given ones is.
     class Within;
-    /// What there is of a run while it lasts: the signals it hears, the lock of its name, its progress.
+    /// The things that a run has while it lasts: the signals it hears, the lock of its name, its progress.
     struct Course;
-    /// Where a part of the run ends; a whole run has no end of its own.
+    /// The end of a part of the run; a whole run has no end of its own.
     struct PartEnd {
         double time = std::numeric_limits<double>::infinity();  // s
         std::size_t steps = std::numeric_limits<std::size_t>::max();

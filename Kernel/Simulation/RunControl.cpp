@@ -22,7 +22,7 @@ namespace {
 const auto programBegin = std::chrono::steady_clock::now();
 double wallTimeLimit = 0;  // s; 0: none
 
-// What signals have asked for; a handler may touch nothing but lock-free atomics.
+// The requests of signals; a handler may touch nothing but lock-free atomics.
 std::atomic<int> stopSignal{0};
 std::atomic<std::int64_t> stopTime{0};  // ns of the monotonic clock, of the first one
 std::atomic<bool> restartAsked{false};
@@ -40,7 +40,7 @@ constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGUSR1};
 /// child and, at once, to the group of processes in which the child is.
 constexpr std::int64_t oneRequest = 1'000'000'000;  // ns
 
-/// Of the monotonic clock, which a handler may read.
+/// The time of the monotonic clock, which a handler may read.
 std::int64_t nanoseconds() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -118,7 +118,7 @@ RunControl::RunControl(const RestartSchedule& given) : listens(!isHosted()) {
     const struct sigaction action = noteTaking();
     for (std::size_t k = 0; k < signals.size(); ++k) {
         sigaction(signals[k], nullptr, &listening.before[k]);
-        // What the parent has told us to ignore (nohup, a job in the background) stays so.
+        // Signals that the parent has told us to ignore (nohup, a job in the background) stay ignored.
         if (listening.before[k].sa_handler != SIG_IGN) sigaction(signals[k], &action, nullptr);
     }
 }

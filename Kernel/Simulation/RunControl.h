@@ -14,7 +14,7 @@ struct RunStopped : std::runtime_error {
     int exitCode;  // of the program, as shells give it: 128 + the number of the signal
 };
 
-/// When a run writes restart files.
+/// The times at which a run writes restart files.
 struct RestartSchedule {
     bool kept = false;
     std::size_t count = 0;  // steps from one restart file to the next; 0: none for the steps
@@ -53,16 +53,16 @@ public:
     RunControl(const RunControl&) = delete;
     RunControl& operator=(const RunControl&) = delete;
 
-    /// From now on by this schedule, and by the limit of wall time as it is now.
+    /// Follows this schedule from now on, and by the limit of wall time as it is now.
     void follow(const RestartSchedule& given);
     [[nodiscard]] const RestartSchedule& schedule() const { return restarts; }
 
-    /// What is asked for when so many steps have been done; asked again at the same step, it writes no file
-    /// for the count of steps. Costs two loads; looks at the clock, where there is a limit, some twenty times
-    /// a second.
+    /// The request that holds when so many steps have been done; asked again at the same step, it writes no
+    /// file for the count of steps. Costs two loads; looks at the clock, where there is a limit, some twenty
+    /// times a second.
     [[nodiscard]] Request request(std::size_t steps);
 
-    /// What ends a run that was asked to stop.
+    /// The exception that ends a run which was asked to stop.
     /// @param time s; @param restartFile empty: none is kept; @param byCall requestStop() has asked
     [[nodiscard]] static RunStopped stopped(double time, std::size_t steps, const std::string& restartFile,
                                             bool byCall = false);

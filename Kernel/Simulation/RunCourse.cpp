@@ -53,7 +53,7 @@ void Run::runTo(double time) {
     checkValue("Simulation", "time of runTo()", time, "s", notNegative);
     const Within solving(*this, Within::Solving, Within::Any, "runTo()");
     requireInParts("runTo()");
-    // Also before it begins, as what will come until then is counted at set-up.
+    // The time counts before the run begins, too, as what will come until then is counted at set-up.
     if (!timeMaxIsSet) timeMax = std::max(timeMax, time);
     if (!course) beginRun();
     if (stepAt(time) < steps || time < timeBefore * (1 - 1e-12))
@@ -123,7 +123,7 @@ void Run::runPart(const PartEnd& end) {
     endingWithErrors([&] { stepUntil(end); });
 }
 
-/// What is thrown ends the run, with files as complete as can be.
+/// An exception ends the run, with files as complete as can be.
 template <class Body>
 void Run::endingWithErrors(Body&& body) {
     try {
@@ -188,7 +188,7 @@ std::size_t Run::stepAt(double time) const {
     return stepsBefore + static_cast<std::size_t>(std::clamp(remaining, 0.0, most));
 }
 
-/// Of a part of the run, whose maximum time and time step may change on the way.
+/// The last step of a part of the run, whose maximum time and time step may change on the way.
 std::size_t Run::lastStep(const PartEnd& end) const {
     return std::min(end.steps, stepAt(timeMaxIsSet ? std::min(end.time, timeMax) : end.time));
 }

@@ -7,7 +7,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Run.h"
 
-// For the sources of Run, and for no others.
+// Included by the sources of Run, and by no others.
 
 namespace pendular {
 

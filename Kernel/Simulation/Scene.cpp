@@ -32,7 +32,7 @@ void Scene::setLaws(ContactLaws& of) {
     particleHandler.setSpecies(of);
 }
 
-// What Run asks for.
+// Functions that Run asks for:
 
 void Scene::setUp() { inside->setUp(); }
 void Scene::advanceByStep(bool another) { inside->advanceByStep(another); }
@@ -181,7 +181,7 @@ void Scene::requireImagesAtRest(std::string_view what) const {
             "insert(): in a run in shear or strain {} cannot be inserted; insert them at set-up.", what));
 }
 
-// What there is.
+// Functions that say what the scene has:
 
 double Scene::getShearRate() const { return inside->flow.shearRate(); }
 double Scene::getStrainRate(int axis) const { return inside->flow.strainRate(axis); }

@@ -60,8 +60,8 @@ public:
     Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                     const SphericalParticle& like, const InsertOptions& options = {});
 
-    /// The same with clumps, each turned at random: a size is the diameter of a sphere of a clump's volume,
-    /// so that the template is scaled to it. For loose starts, up to a solid fraction of 0.2 or as far as
+    /// Inserts clumps, each turned at random: a size is the diameter of a sphere of a clump's volume, so that
+    /// the template is scaled to it. This is for loose starts, up to a solid fraction of 0.2 or as far as
     /// clumps find room. A clump of one sphere is one too.
     Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                     const Clump& like, const InsertOptions& options = {});
@@ -104,26 +104,27 @@ public:
     /// are. In a run it holds from the next step on; the scene must have been set up with a rate (0 will do)
     /// or a stress along one of its axes.
     void setStrainRate(int axis, double rate);
-    /// The same by a servo, so that the mean stress along the axis (Pa, compression positive; 0 is a target
-    /// too) becomes the target: the rate is the difference over the stiffness of the contacts and the time
-    /// (s), and what it takes to follow grains that flow or creep (Kernel/Particles/Servo.h), at most the
-    /// largest rate (1/s), 0.1 / time if it is not given. The time must be more than half a step; take at
+    /// Strains the scene by a servo, so that the mean stress along the axis (Pa, compression positive; 0 is a
+    /// target too) becomes the target: the rate is the difference over the stiffness of the contacts and the
+    /// time (s), and what it takes to follow grains that flow or creep (Kernel/Particles/Servo.h), at most
+    /// the largest rate (1/s), 0.1 / time if it is not given. The time must be more than half a step; take at
     /// least twice the time in which sound passes the scene. The stress is looked at 100 times in it, or at
     /// each step. A run in which the servo has strained the scene by a factor of e^3 in one direction ends.
     void setTargetStress(int axis, double stress, double time, std::optional<double> largestRate = {});
-    /// In a run, of a scene that was set up with setLeesEdwards(): it holds from the next step on, and all
-    /// grains get the change of the flow.
+    /// Changes the rate (1/s) of the shear in a run, in a scene that was set up with setLeesEdwards(): it
+    /// holds from the next step on, and all grains get the change of the flow.
     void setShearRate(double rate);
-    /// The same by a servo, as setTargetStress(), so that the shear stress (Pa, against the flow: positive
-    /// for a positive rate) becomes the target. A run that stays at the largest rate over a strain of 20
-    /// ends.
+    /// Shears the scene by a servo, as setTargetStress() strains it, so that the shear stress (Pa, against
+    /// the flow: positive for a positive rate) becomes the target. A run that stays at the largest rate over
+    /// a strain of 20 ends.
     /// @param largestRate 1/s, 1 / time if it is not given
     void setTargetShearStress(double stress, double time, std::optional<double> largestRate = {});
-    /// 1/s, in the last step.
+    /// The shear rate (1/s) in the last step.
     [[nodiscard]] double getShearRate() const;
-    /// 1/s, of the logarithm of the length along an axis, in the last step.
+    /// The rate (1/s) of the logarithm of the length along an axis, in the last step.
     [[nodiscard]] double getStrainRate(int axis) const;
-    /// m/s, of the flow of setLeesEdwards() at a place (m); it is at rest in the middle of the box.
+    /// The velocity (m/s) of the flow of setLeesEdwards() at a place (m); the flow is at rest in the middle
+    /// of the box.
     [[nodiscard]] Vec3D shearFlowAt(const Vec3D& place) const;
     [[nodiscard]] const PeriodicBox& getPeriodicBox() const;
     /// Threads, at least 1; the results do not depend on their number.
@@ -135,8 +136,8 @@ public:
     /// nothing.
     void acceptUnstableTimeStep(bool accept = true);
     /// Grains may overlap each other and walls by up to this share of the smaller radius, at most 0.5, at
-    /// set-up and where they are added or put in a run; 0.05 without it. For soft grains that have settled in
-    /// another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
+    /// set-up and where they are added or put in a run; 0.05 without it. This is for soft grains that have
+    /// settled in another run. The stability limit stays that of 0.05: beyond it contacts are stiffer
     /// (stabilityAdvice()).
     void acceptOverlaps(double share);
     /// Keeps account of the energy; costs time, and is off by default.
@@ -164,19 +165,20 @@ public:
     /// grain stays when its film changes, and the energy ledger counts that as given by the driver.
     /// @param density of the liquid, kg/m^3; 0: films have no mass
     void setLiquidDensity(double density);
-    /// Where the liquid is that moves, and where it came from.
+    /// The account of the liquid that moves: where it is, and where it came from.
     [[nodiscard]] LiquidLedger liquidLedger() const;
     [[nodiscard]] bool movesLiquid() const;
     /// m^3, what a wet wall has got back from bridges minus what it gave.
     [[nodiscard]] double liquidOfWall(std::size_t wall) const;
 
     /// At the start of the run bridges join all bodies whose surfaces are not farther apart than the gap (m),
-    /// as if they had touched before; without it only those that touch. For bridges of constant volume.
+    /// as if they had touched before; without it only those that touch. This is for bridges of constant
+    /// volume.
     void joinAtStart(double gap);
 
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
     void listenToContacts(bool listen = true);
-    /// Those of the last step, and how many there have been.
+    /// The events of the last step, and how many there have been.
     [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const;
     [[nodiscard]] const ContactEventCounts& contactEventCounts() const;
 
@@ -189,12 +191,12 @@ public:
 
     /// All contacts that have a force, in the order of identities, as of the last step.
     [[nodiscard]] std::vector<ObservedContact> interactions() const;
-    /// Those of one grain. Throws InputError if there is no such grain.
+    /// The contacts of one grain. Throws InputError if there is no such grain.
     [[nodiscard]] std::vector<ObservedContact> interactionsOf(std::size_t identity) const;
-    /// N, of all contacts on a grain, also on one that is held in place; without its weight.
+    /// The force (N) of all contacts on a grain, also on one that is held in place; without its weight.
     [[nodiscard]] Vec3D contactForceOn(std::size_t identity) const;
 
-    // Of the grains that can move.
+    // The grains that can move:
     [[nodiscard]] double getTotalMass() const;         // kg
     [[nodiscard]] Vec3D getCentreOfMass() const;       // m
     [[nodiscard]] Vec3D getTotalMomentum() const;      // kg m/s
@@ -217,7 +219,7 @@ public:
     /// 0.24 of Rayleigh's time, by the damping, which the usual share of 0.2 does not know
     /// (Kernel/Motion/README).
     [[nodiscard]] double stabilityLimit();
-    /// The same for a scene to which grains of these sizes and species will come.
+    /// The limit (s) of a scene to which grains of these sizes and species will come.
     [[nodiscard]] double stabilityLimit(std::span<const SphericalParticle> toCome);
     /// The step (s) up to which the contacts that there are now are stable, with their overlaps, neighbours
     /// and directions, friction that sticks, and the spins (ContactBounds); infinite where none acts. It says
@@ -233,10 +235,10 @@ public:
     void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const;
     [[nodiscard]] const Integrator& getIntegrator() const;
-    /// What the scene makes of it: springsInStep where the friction lacks dashpots, or with the adaptive
-    /// step.
+    /// The integrator as the scene uses it: springsInStep where the friction lacks dashpots, or with the
+    /// adaptive step.
     [[nodiscard]] Integrator scheme() const;
-    /// Of all these grains, and of those that inlets will bring.
+    /// The sizes of all these grains, and of those that inlets will bring.
     [[nodiscard]] GrainSizes grainSizes(const ParticleStore& grains) const;
     /// Half a period (s) of the fastest oscillation of two grains: about the shortest time of a contact, for
     /// steps that are as accurate as is wanted (the README of Kernel/Motion says which).
@@ -259,7 +261,7 @@ private:
     void addOwnPart(std::unique_ptr<StepPart> part);
     void requireNoBodies(std::string_view call) const;
     void requireImagesAtRest(std::string_view what) const;
-    /// Of a change that does not go together with moving images; empty at set-up.
+    /// A function that refuses a change which does not go together with moving images; empty at set-up.
     std::function<void()> refusalInRun();
 
     ContactLaws* contactLaws = nullptr;
@@ -272,7 +274,7 @@ public:
     WallHandler wallHandler;
     /// Droplets that come to the grains, in a scene in which liquid moves.
     SprayHandler sprayHandler;
-    /// Where grains come at a rate, where they go, and planes that count them.
+    /// Inlets, at which grains come at a rate, outlets, at which they go, and planes that count them.
     InletHandler inletHandler;
     OutletHandler outletHandler;
     FluxPlaneHandler fluxPlaneHandler;

@@ -11,7 +11,7 @@
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 
-// What hooks change in a run.
+// Changes that hooks make in a run.
 
 namespace pendular {
 
@@ -124,7 +124,7 @@ bool Scene::Inside::isNewToChecks(std::span<const std::uint32_t> added) const {
     });
 }
 
-/// Of bodies that were put where they are.
+/// Refuses overlaps of bodies that were put where they are.
 void Scene::Inside::refuseOverlapsOf(const GrainChanges& changes, int firstNewWall) const {
     const ParticleStore& grains = scene.particleHandler.store();
     std::vector<bool> isNew(grains.size());

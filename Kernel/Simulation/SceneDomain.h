@@ -12,7 +12,8 @@
 
 namespace pendular {
 
-/// What makes a scene leave the domain of a law before anything moves: the farthest number of any two bodies.
+/// A reason for which a scene is out of the domain of a law before anything moves: the farthest number of any
+/// two bodies.
 struct BrokenLimit {
     std::string_view law;
     DomainLimit limit;
@@ -21,7 +22,8 @@ struct BrokenLimit {
     [[nodiscard]] std::string text() const { return fmt::format("{}: {}", law, limit.text()); }
 };
 
-/// Of the extreme pairs of bodies of a scene: one for each law, quantity, and side of its range.
+/// The limits that the extreme pairs of bodies of a scene break: one for each law, quantity, and side of its
+/// range.
 inline std::vector<BrokenLimit> brokenLimits(const ContactLaws& species, const GrainSizes& grains,
                                              const WallHandler& walls) {
     std::vector<BrokenLimit> broken;

@@ -28,8 +28,8 @@
 
 namespace pendular {
 
-/// What a scene is made of inside: the contacts, the parts of its step, and what it does with them.
-/// SceneSetUp.cpp, SceneStep.cpp, SceneChanges.cpp and SceneRestart.cpp have one thing each.
+/// The inside of a scene: the contacts, the parts of its step, and what it does with them. SceneSetUp.cpp,
+/// SceneStep.cpp, SceneChanges.cpp and SceneRestart.cpp have one thing each.
 class Scene::Inside {
 public:
     explicit Inside(Scene& of);
@@ -37,13 +37,13 @@ public:
     // SceneSetUp.cpp
 
     void setUp();
-    /// When species, walls and grains are known.
+    /// Called when species, walls and grains are known.
     void prepare();
     /// Throws InputError where set-up would.
     void check();
     /// Whether contacts work with springs at the end of the step.
     [[nodiscard]] bool takesSpringsInStep(const GrainSizes& sizes) const;
-    /// What the scene has; parts that it does not have sleep from now on.
+    /// The features that the scene has; parts without any sleep from now on.
     [[nodiscard]] Features wakeParts();
     /// Throws InputError where a change of gravity, shear or strain does not go together with the scene.
     void refuseForMovingImages();
@@ -59,11 +59,11 @@ public:
 
     // SceneChanges.cpp
 
-    /// What hooks have changed since the last step is checked as at set-up, and holds from now on. Throws
-    /// RunError with the sentence of set-up.
+    /// Checks as at set-up what hooks have changed since the last step; it holds from now on. Throws RunError
+    /// with the sentence of set-up.
     void takeOverChanges();
     void mixChangedLaws();
-    /// What was stored (J) in contacts that the driver has ended.
+    /// Books the energy (J) that was stored in contacts which the driver has ended.
     void bookEnergyOfEnded(double stored);
     [[nodiscard]] Inserted reportShortfall(const Inserted& made);
 
@@ -135,7 +135,7 @@ private:
     /// Brings grains that have left a periodic scene back into it; at fixed steps, so that no bit depends on
     /// when contacts are listed.
     void bringBack(StepContext& step);
-    /// The same where walls have ends (see PeriodicWalls), after contacts have been listed.
+    /// Brings grains back where walls have ends (see PeriodicWalls), after contacts have been listed.
     void bringBackAtWalls(StepContext& step);
     void wrapAll(ParticleStore& grains) const;
     void bookWentRound(const StepContext& step);

@@ -2,7 +2,7 @@
 
 #include "Kernel/Simulation/SceneInside.h"
 
-// What a restart file holds of a scene.
+// The state of a scene in a restart file.
 
 namespace pendular {
 

@@ -8,7 +8,7 @@
 #include "Kernel/Simulation/SceneInside.h"
 #include "Kernel/Species/Field.h"
 
-// What a scene says of its time step.
+// The functions of a scene that concern its time step.
 
 namespace pendular {
 

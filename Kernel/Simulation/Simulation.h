@@ -6,10 +6,10 @@
 
 namespace pendular {
 
-/// What a driver derives from: a scene of grains, and its run. `Simulation<S>` has grains of species S;
-/// `Simulation<S1, S2>` has species of these types, and `Simulation<>` of any, also such as are chosen by
-/// name. A driver adds species, grains and walls in setupInitialConditions() or before solve(), and overrides
-/// hooks.
+/// The class that a driver derives from: a scene of grains, and its run. `Simulation<S>` has grains of
+/// species S; `Simulation<S1, S2>` has species of these types, and `Simulation<>` of any, also such as are
+/// chosen by name. A driver adds species, grains and walls in setupInitialConditions() or before solve(), and
+/// overrides hooks.
 template <class... Types>
 class Simulation : public Scene {
 public:

@@ -9,9 +9,9 @@ namespace pendular {
 class ContactSystem;
 class ParticleStore;
 
-/// What stabilityLimit() supposes, and what the contacts of a scene are. The factors are by how much each
-/// assumption shortens the step of the grain that bounds it; their product is step / limit. Where nothing
-/// acts, the step is infinite and the factors are 1.
+/// The assumptions of stabilityLimit() compared with the contacts of a scene. The factors are by how much
+/// each assumption shortens the step of the grain that bounds it; their product is step / limit. Where
+/// nothing acts, the step is infinite and the factors are 1.
 struct StabilityAdvice {
     double limit;           // s, stabilityLimit()
     double step;            // s, stableStepOfContacts()

@@ -12,7 +12,7 @@ class SummaryFile {
 public:
     static constexpr std::string_view ending = "-summary.csv";
 
-    /// Of a run of this name (its setName()).
+    /// The file of a run of this name (its setName()).
     static std::filesystem::path pathOf(const std::string& name) { return name + std::string(ending); }
 
     struct Row {
@@ -23,9 +23,9 @@ public:
     explicit SummaryFile(const std::filesystem::path& file);
 
     [[nodiscard]] const std::vector<Row>& rows() const { return all; }
-    /// What is wrong, a line each; empty if all is well.
+    /// The things that are wrong, a line each; empty if all is well.
     [[nodiscard]] std::vector<std::string> complaints() const;
-    /// What is not wrong, and worth knowing, behind "healthy, and"; empty if there is nothing.
+    /// A remark on what is not wrong, and worth knowing, behind "healthy, and"; empty if there is nothing.
     [[nodiscard]] std::string remark() const;
     /// "at its end"
     [[nodiscard]] std::string state() const;

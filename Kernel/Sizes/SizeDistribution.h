@@ -10,13 +10,13 @@
 
 namespace pendular {
 
-/// What is counted in a distribution: grains, their lengths, areas or volumes (masses, if all have one
-/// density). The number is the power of the diameter that a grain counts with.
+/// The quantity that is counted in a distribution: grains, their lengths, areas or volumes (masses, if all
+/// have one density). The number is the power of the diameter that a grain counts with.
 enum class SizeBasis { Number = 0, Length = 1, Area = 2, Volume = 3 };
 
 std::string_view nameOf(SizeBasis basis);
 
-/// m, of a diameter.
+/// The range (m) of diameters.
 inline constexpr Range diameterRange{2 * radiusRange.lowest, 2 * radiusRange.highest};
 
 /// A piece of a distribution in which the density of numbers is one smooth function of the diameter d:
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] double largest() const { return panels.back().high; }
     /// M_k, m^k, with M_0 = 1; @param k 0 to 4
     [[nodiscard]] double moment(int k) const { return borders[k].back(); }
-    /// The same of the grains from one diameter to another one (m).
+    /// The moment (m^k) of the grains from one diameter to another one (m).
     [[nodiscard]] double moment(int k, double from, double to) const;
     /// D[k,m] = (M_k / M_m)^(1 / (k - m)), m: D[1,0] the mean diameter, D[3,2] Sauter's, D[4,3].
     [[nodiscard]] double mean(int k, int m) const;
@@ -70,7 +70,7 @@ public:
     [[nodiscard]] std::vector<Class> classes() const;
 
 private:
-    /// Of what random numbers are for; no other part of a scene may use it.
+    /// The purpose of the random numbers of sizes; no other part of a scene may use it.
     static constexpr std::uint32_t purposeOfSizes = 0x512E5;
     static constexpr int moments = 5;
 

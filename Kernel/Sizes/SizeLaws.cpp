@@ -50,7 +50,7 @@ SizeDistribution onRatios(double low, double high, double ratio, SizeBasis basis
         std::move(law));
 }
 
-/// Where a normal law is below the smallest double, in standard deviations.
+/// The distance from its mean at which a normal law is below the smallest double, in standard deviations.
 constexpr double farAway = 40;
 /// Panels that are half a standard deviation long are short enough for 16 nodes: the next term of the series
 /// of exp(-x^2 / 2) is below (1/4)^32.
@@ -99,7 +99,7 @@ CutLaw lognormalSizes(double median, double geometricDeviation, double low, doub
     checkCuts(low, high);
     const double sigma = std::log(geometricDeviation);
     const double middle = std::log(median) - static_cast<int>(basis) * sigma * sigma;  // of the numbers
-    // From where the numbers vanish to where d^4 times the numbers does.
+    // The range goes from where the numbers vanish to where d^4 times the numbers does.
     const double from = std::max(low, std::exp(middle - farAway * sigma)),
                  to = std::min(high, std::exp(middle + 4 * sigma * sigma + farAway * sigma));
     const auto above = [=](double d, int k) {

@@ -4,7 +4,7 @@
 
 namespace pendular {
 
-/// What the two cuts of a law have taken away, as fractions of the whole law.
+/// The parts that the two cuts of a law have taken away, as fractions of the whole law.
 struct CutAway {
     double number;  // NaN where the law has infinitely many grains
     double volume;
@@ -19,7 +19,7 @@ struct CutLaw {
 // All diameters are in m. These functions throw InputError for values out of their ranges, for low >= high,
 // and where no grain is left between the two.
 
-/// As many grains of each diameter.
+/// A law with as many grains of each diameter.
 SizeDistribution evenSizes(double low, double high);
 
 /// A normal distribution of the diameters in number, of which those above 0 are the whole.
@@ -30,7 +30,7 @@ CutLaw normalSizes(double mean, double deviation, double low, double high);
 /// Inst. 207 (1929) 369.
 CutLaw lognormalSizes(double median, double geometricDeviation, double low, double high,
                       SizeBasis basis = SizeBasis::Number);
-/// The same from the arithmetic mean and standard deviation in number.
+/// Lognormal sizes by the arithmetic mean and standard deviation in number.
 CutLaw lognormalSizesFromMean(double mean, double deviation, double low, double high);
 
 /// Rosin, Rammler, Sperling and Bennett: the volume above d is exp(-(d / size)^exponent). Source: Rosin and

@@ -15,7 +15,7 @@ namespace {
 
 using Class = SizeDistribution::Class;
 
-/// Of purposes of random numbers (CountedRandom).
+/// The purpose of the random numbers of the order of grains (CountedRandom).
 constexpr std::uint32_t purposeOfOrder = 0x512E6;
 
 void refuseTooFew(const std::vector<Class>& classes, std::size_t grains) {

@@ -93,7 +93,7 @@ namespace {
 
 enum class Kind { Cumulative, Class, Single, Density };
 
-/// What the first line of a file says.
+/// The columns, as the first line of a file says them.
 struct Columns {
     double scale;  // m, of one unit as a diameter
     Kind kind;

@@ -8,7 +8,8 @@
 
 namespace pendular {
 
-/// What is said of the sizes within a class of a table. A table on the basis of numbers is the same in both.
+/// The assumption on the sizes within a class of a table. A table on the basis of numbers is the same in
+/// both.
 enum class InClass {
     EvenOnBasis,   ///< the cumulative curve of the table's basis is a straight line: it is met at every size
     EvenInNumber,  ///< as many grains of each diameter (MercuryDPM's reading)

@@ -24,7 +24,7 @@ class AnyLaws {
 public:
     virtual ~AnyLaws() = default;
 
-    /// Of the species type with these laws.
+    /// The name of the species type with these laws.
     [[nodiscard]] virtual std::string_view getName() const = 0;
     [[nodiscard]] virtual std::vector<NamedField> fields() = 0;
 
@@ -72,7 +72,7 @@ public:
     [[nodiscard]] virtual const double& densityPlace() const = 0;
     /// @param density kg/m^3
     virtual void setDensity(double density) = 0;
-    /// With the density.
+    /// The setters of the laws, and that of the density.
     [[nodiscard]] std::vector<NamedSetter> setters() override;
 
     /// Derives what is unset and follows from other values, in a copy, and checks that. Throws InputError.

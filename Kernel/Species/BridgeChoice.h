@@ -38,7 +38,7 @@ struct ComparedBridges {
 /// The exact law where some bridges are outside of its table and setSolveOutsideTable(true) is called.
 inline constexpr std::string_view solvingLaw = "LiquidBridgeYoungLaplace+solveOutsideTable";
 
-/// Of a bridge and a step, in any unit, for a law of this name; for solvingLaw if all are solved.
+/// The cost of a bridge and a step, in any unit, for a law of this name; for solvingLaw if all are solved.
 using CostOfLaw = std::function<double(std::string_view)>;
 
 /// A bridge law as it serves certain bridges.
@@ -50,8 +50,8 @@ struct BridgeChoice {
 
     /// It takes all of the bridges, with forces that are numbers.
     [[nodiscard]] bool serves() const { return errors.refused == 0 && errors.notFinite == 0; }
-    /// What 95 % of the bridges keep to, as a share: the larger one of the errors of the force, relative to
-    /// the exact force, and of the work up to the rupture, in which the rupture distance counts.
+    /// The error that 95 % of the bridges keep below, as a share: the larger one of the errors of the force,
+    /// relative to the exact force, and of the work up to the rupture, in which the rupture distance counts.
     [[nodiscard]] double error() const;
 };
 
@@ -113,7 +113,7 @@ std::string percentText(double share);
 /// One line for the user of a law: how far it is from the exact solution, and which one to take.
 std::string bridgeAdviceText(const BridgeChoice& own, const BridgeAdvice& advice, double tolerance);
 
-/// What a bridge law costs, of one bridge.
+/// The cost of a bridge law for one bridge.
 struct BridgeLawCost {
     double force;    // in each step
     double prepare;  // when its contact is listed again

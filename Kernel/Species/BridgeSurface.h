@@ -28,8 +28,9 @@ struct BridgeSurface {
 /// @param separation m; negative where the bodies overlap, which counts as 0
 double bridgeArea(const BridgeLiquid& bridge, double separation);
 
-/// The same with pressure and filling angles, for which the equation is solved: some 5 us, up to 60 us near
-/// the rupture. Beyond the rupture distance all are those of the bridge at it (0.2 ms). 0 if there is none.
+/// The surface of the bridge with its pressure and filling angles, for which the equation is solved: some 5
+/// us, up to 60 us near the rupture. Beyond the rupture distance all are those of the bridge at it (0.2 ms).
+/// 0 if there is none.
 BridgeSurface solveBridgeSurface(const BridgeLiquid& bridge, double separation);
 
 /// V / R^3 (2/R = 1/r1 + 1/r2) of the bridge between two equal spheres that touch at which its half-filling

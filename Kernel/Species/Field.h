@@ -27,7 +27,7 @@ struct Range {
         const bool belowHighest = highestIncluded ? value <= highest : value < highest;
         return aboveLowest && belowHighest;
     }
-    /// For a message: "greater than 0 Pa and finite".
+    /// The range as a message tells it: "greater than 0 Pa and finite".
     [[nodiscard]] std::string text(std::string_view unit) const;
 };
 
@@ -63,7 +63,7 @@ struct Field {
     std::string_view ifUnset =
         {};  ///< where not empty: what a value that the user has not given is derived from
 
-    /// The same field of a law that is derived from this one.
+    /// This field, as one of a law that is derived from this one.
     template <class Derived>
     constexpr operator Field<Derived>() const {
         return {name, member, unit, range, mixing, meaning, source, ifUnset};

@@ -58,8 +58,7 @@ struct Slip {
     T response = T(0);   // m/s per N on body 1
 };
 
-/// What a spring with dashpot and slider gives, and how: of the force, -stiffness x spring is the spring's
-/// part.
+/// The force of a spring with dashpot and slider, and its origin: the spring's part is -stiffness x spring.
 template <class T>
 struct SliderForce {
     Vector<T> force;   // N
@@ -181,8 +180,8 @@ concept HasFrictionForce = requires(const typename Law::Prepared p, const Contac
 /// Stands for any normal law where a concept asks for a function of one.
 struct AnyNormalLaw {};
 
-/// The same force with how it comes about, from laws that say so in a function slide() with the arguments of
-/// force(); of others all work is taken for that of sliding.
+/// The friction force with how it comes about, from laws that say so in a function slide() with the arguments
+/// of force(); for others all work is taken for that of sliding.
 template <class Law, class T, class History>
 [[gnu::always_inline]] inline SliderForce<T> sliderForce(const typename Law::Prepared& p,
                                                          const Contact<T>& contact, T normalForce,
@@ -230,8 +229,8 @@ concept HasAdhesionForce = requires(const typename Law::template Interaction<T> 
     { interaction.range() } -> std::same_as<T>;  // m
 };
 
-/// What of the motion of its ends a bridge resists, besides its force; each has those before it. A law says
-/// so by a member `resists`; one without it feels the separation only, and its scenes pay for nothing else.
+/// The motion of its ends that a bridge resists, besides its force; each has those before it. A law says so
+/// by a member `resists`; one without it feels the separation only, and its scenes pay for nothing else.
 enum class BridgeResists { Nothing, Approach, Sliding, Rolling };
 template <class Law>
 inline constexpr BridgeResists bridgeResists = [] {
@@ -254,7 +253,7 @@ struct BridgeMotion {
     MaskOf<T> forms;    // the bridge was not there in the last step: what it remembers starts
 };
 
-/// What a bridge gives against the motion of its ends, as coefficients (kg/s), so that the kernel can make
+/// The resistance of a bridge to the motion of its ends, as coefficients (kg/s), so that the kernel can make
 /// the forces implicit. With the slip u (m/s) of surface 1 against surface 2, and W = R* n x (spin 1 - spin
 /// 2), the speed (m/s) with which body 1 rolls along the surface of body 2, the bridge gives body 1
 ///     the normal force  -(normal x approach + force),

@@ -20,7 +20,7 @@ struct LiquidRules {
     bool atFilms = false;  // bridges form where films meet, and not only where bodies touch
 };
 
-/// The same in quanta.
+/// The rules with volumes in quanta.
 struct QuantisedRules {
     Quanta largest = 0, least = 0, wallDose = 0;
     double share = 1;

@@ -27,7 +27,7 @@ struct Setter {
     double (*get)(const Law&) = nullptr;         // where the law can say it from its fields
 };
 
-/// Those of a law; none where it has none.
+/// The setters of a law; none where it has none.
 template <class Law>
 auto settersOf() {
     if constexpr (requires { Law::setters(); }) return Law::setters();
@@ -43,7 +43,7 @@ struct NamedSetter {
     std::function<double()> get;  // empty: it cannot be read
 };
 
-/// Those of the three laws of a species or of a pair that have no field of their own.
+/// The setters of the three laws of a species or of a pair that have no field of their own.
 template <class Mixed>
 std::vector<NamedSetter> namedSetters(Mixed& laws) {
     std::vector<NamedSetter> found;

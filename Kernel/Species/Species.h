@@ -111,7 +111,7 @@ struct Species : MixedSpecies<N, F, A> {
         Mixed::check();
     }
 
-    /// In its scene; -1 for a species that no scene has, as a copy of one that it has.
+    /// The index in its scene; -1 for a species that no scene has, as a copy of one that it has.
     [[nodiscard]] int getIndex() const { return index.value; }
 
 private:

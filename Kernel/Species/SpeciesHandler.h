@@ -141,8 +141,8 @@ private:
         return static_cast<std::size_t>(a) * count + static_cast<std::size_t>(b);
     }
     static std::size_t indexOf(const S& species) { return static_cast<std::size_t>(species.getIndex()); }
-    /// What no user has set, neither for the pair nor for its species, and a law takes from the normal law,
-    /// it takes from that of the pair.
+    /// Derives what no user has set, neither for the pair nor for its species, and a law takes from the
+    /// normal law: from the normal law of the pair.
     template <class Law>
     static void deriveFromPair(Law& pair, const Law& a, const Law& b, const typename S::Normal& normal) {
         Law derived = pair;
@@ -162,7 +162,7 @@ private:
         static_cast<N&>(result) = mixLaws<N>(result, a, b);
         if (found != own.end()) deriveFromPair<F>(result, all[indexOf(a)], all[indexOf(b)], result);
         static_cast<F&>(result) = mixLaws<F>(result, a, b);
-        // What no user has set and an adhesion law takes from the normal law, it takes from that of the pair.
+        // An adhesion law takes what no user has set from the normal law of the pair.
         static_cast<A&>(result) = mixLaws<A>(result, all[indexOf(a)], all[indexOf(b)]);
         if constexpr (requires { result.A::deriveUnset(static_cast<const N&>(result)); })
             result.A::deriveUnset(static_cast<const N&>(result));

@@ -30,7 +30,7 @@ struct SpringAndDashpot {
 struct ContactStiffness {
     SpringAndDashpot normal, sliding, rolling, torsion;
 
-    /// s, of the least damped spring of friction
+    /// The relaxation time (s) of the least damped spring of friction.
     [[nodiscard]] double shortestRelaxation() const {
         return std::min({sliding.relaxation(), rolling.relaxation(), torsion.relaxation()});
     }

@@ -98,7 +98,7 @@ private:
     typename Friction::Prepared friction;
 };
 
-/// The same at the largest sound overlap.
+/// The stiffness of a contact at the largest sound overlap.
 /// @param effectiveMass kg, m1 m2 / (m1 + m2)
 template <class Mixed>
 ContactStiffness contactStiffness(const Mixed& laws, const Bodies& bodies, double effectiveMass) {

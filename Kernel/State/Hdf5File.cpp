@@ -131,7 +131,7 @@ std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
     std::array<hsize_t, 2> extent{0, 1};
     if (const int axes = H5Sget_simple_extent_ndims(space); axes != 1 && axes != 2) return {};
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-    // Of a table that promises more than there is nothing is believed. Deflate packs 1032 bytes into one.
+    // Nothing is believed of a table that promises more than there is. Deflate packs 1032 bytes into one.
     const double promised = static_cast<double>(extent[0]) * static_cast<double>(extent[1]) *
                             static_cast<double>(H5Tget_size(type)),
                  there = static_cast<double>(std::filesystem::file_size(place));

@@ -1,6 +1,6 @@
 #pragma once
 
-// For the sources that call the HDF5 library, and for no others.
+// Included by the sources that call the HDF5 library, and by no others.
 
 #include <hdf5.h>
 

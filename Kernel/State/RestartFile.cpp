@@ -60,7 +60,7 @@ private:
     int number;
 };
 
-/// What stands in the user block, before the HDF5 file.
+/// The content of the user block, before the HDF5 file.
 struct Seal {
     int format = restartFormat;
     unsigned long long bytes = 0;     // of the whole file

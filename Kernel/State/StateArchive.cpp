@@ -69,7 +69,8 @@ void StateArchive::requireSame(bool isSame, std::string_view name, const std::st
                     file.path().string(), fullName(name), kept, space, unit, now, space, unit, advice));
 }
 
-/// With all its digits: two numbers that are shown alike are equal, and so are two that are not set.
+/// A number is shown with all its digits: two numbers that are shown alike are equal, and so are two that are
+/// not set.
 std::string StateArchive::shown(double number) {
     return number == number ? fmt::format("{}", number) : std::string("not set");
 }

@@ -38,9 +38,9 @@ constexpr NumberKind kindOf() {
 template <class Record, class Number>
 concept RecordOf = std::is_trivially_copyable_v<Record> && sizeof(Record) % sizeof(Number) == 0;
 
-/// What the state of a scene goes through, into a restart file or out of one. A class lists what it remembers
-/// in one function, visitState(StateArchive&), which serves both ways: what is read is what was written. All
-/// bits of a number are kept. Names are unique within their group.
+/// The way of a scene's state into a restart file or out of one. A class lists what it remembers in one
+/// function, visitState(StateArchive&), which serves both ways: what is read is what was written. All bits of
+/// a number are kept. Names are unique within their group.
 class StateArchive {
 public:
     enum class Direction { Write, Read };
@@ -98,9 +98,9 @@ public:
     }
     void text(std::string_view name, std::string& content);
 
-    /// What must hold of a state that is whole. Throws InputError, with the name and what is wrong with it,
-    /// where it does not: the content of a file is checked before anything uses it, and that of a scene
-    /// before a good file is replaced.
+    /// Checks what must hold of a state that is whole. Throws InputError, with the name and what is wrong
+    /// with it, where it does not: the content of a file is checked before anything uses it, and that of a
+    /// scene before a good file is replaced.
     void require(bool holds, std::string_view name, std::string_view whatIsWrong) const {
         if (!holds) refuse(name, whatIsWrong);
     }
@@ -113,8 +113,8 @@ public:
         require(isFinite<Record>(record), name, notFinite);
     }
 
-    /// What a scene must set as it was when the file was written: a species' parameter, a wall's shape.
-    /// Reading throws InputError where it is not so.
+    /// Checks what a scene must set as it was when the file was written: a species' parameter, a wall's
+    /// shape. Reading throws InputError where it is not so.
     /// @param advice ends the sentence: what to do
     template <class Number>
     requires std::is_arithmetic_v<Number>
@@ -127,7 +127,7 @@ public:
         requireSame(before == after, name, before, after, unit, advice);
     }
     void same(std::string_view name, std::string_view text);
-    /// For what is compared in another way, of a file that is read.
+    /// Refuses a file that is read unless something is the same that is compared in another way.
     /// @param kept, now: what the sentence shows
     void requireSame(bool isSame, std::string_view name, const std::string& kept, const std::string& now,
                      std::string_view unit, std::string_view advice) const;

@@ -19,13 +19,14 @@ struct Conflict {
 
 /// Throws InputError with one sentence if a scene has both features of a conflict.
 void refuseConflicts(const Features& scene, std::span<const Conflict> table = conflicts());
-/// The same of conflicts in which one of these features takes part.
+/// Throws InputError with one sentence for a conflict in which one of these features takes part.
 void refuseConflictsOf(const Features& some, const Features& scene);
 
 /// The sentence for a scene: what cannot be combined, why, and what to do instead.
 [[nodiscard]] std::string sentence(const Conflict& conflict, const Features& scene);
 
-/// For the documentation, in Markdown: which features go together, and the sentence of each that do not.
+/// The matrix for the documentation, in Markdown: which features go together, and the sentence of each that
+/// do not.
 [[nodiscard]] std::string conflictMatrix();
 
 }  // namespace pendular

@@ -8,7 +8,7 @@
 
 namespace pendular {
 
-/// What a scene can have that something else may not go together with (Conflicts.h).
+/// A thing that a scene can have, and that something else may not go together with (Conflicts.h).
 enum class Feature : std::uint8_t {
     Walls,
     Membranes,
@@ -40,7 +40,7 @@ enum class Feature : std::uint8_t {
     Count
 };
 
-/// As a sentence names it: "shear (setLeesEdwards())".
+/// The feature's name in a sentence: "shear (setLeesEdwards())".
 [[nodiscard]] std::string_view nameOf(Feature feature);
 
 /// The features of a scene or of a part of its step.
@@ -59,7 +59,7 @@ public:
 
     [[nodiscard]] bool isEmpty() const { return found.empty(); }
     [[nodiscard]] bool has(Feature feature) const { return found.contains(feature); }
-    /// As a sentence names it, with which of them it is, where that was said.
+    /// The feature's name in a sentence, with which of them it is ("wall 2"), where that was said.
     [[nodiscard]] std::string shown(Feature feature) const;
 
 private:

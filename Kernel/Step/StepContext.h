@@ -27,7 +27,7 @@ struct Shifts {
     double approach = 0;           // of two grains that touch, at most
 };
 
-/// What a part of a step sees of its scene.
+/// The scene as a part of its step sees it.
 struct StepContext {
     ParticleHandler& particles;
     BodyHandler& bodies;

@@ -30,7 +30,7 @@ public:
     void call(Phase phase, StepContext& context) const {
         for (StepPart* const part : awake) (part->*phase)(context);
     }
-    /// In the opposite order.
+    /// Takes back the parts in the opposite order.
     void takeBack(StepContext& context) const;
     [[nodiscard]] bool needFinishedStep() const { return finishEachStep; }
 

@@ -11,7 +11,7 @@ namespace pendular {
 class StateArchive;
 class SummaryRows;
 
-/// What hooks have changed since the last step.
+/// The changes that hooks have made since the last step.
 struct SceneChanges {
     bool laws = false;    // species or pairs
     bool walls = false;   // added, removed, or moved by other forces
@@ -34,11 +34,12 @@ public:
     StepPart& operator=(const StepPart&) = delete;
     virtual ~StepPart() = default;
 
-    /// In restart files, the summary and messages; one part has it.
+    /// The name in restart files, the summary and messages; one part has it.
     [[nodiscard]] virtual std::string_view name() const = 0;
-    /// What the scene has by this part; none: the part sleeps. Asked at set-up and after changes.
+    /// The features that the scene has by this part; none: the part sleeps. Asked at set-up and after
+    /// changes.
     [[nodiscard]] virtual Features features(const StepContext&) const { return {Feature::OwnPart}; }
-    /// What a part of a driver's own does not go together with: a is Feature::OwnPart.
+    /// The features that a part of a driver's own does not go together with: a is Feature::OwnPart.
     [[nodiscard]] virtual std::span<const Conflict> ownConflicts() const { return {}; }
     /// Whether finish() needs the velocities at the end of each step. Where no part does, the end of a step
     /// is done together with the start of the next one, which is faster.
@@ -51,8 +52,8 @@ public:
     /// Hooks have changed something; before check().
     virtual void takeOver(StepContext&, const SceneChanges&) {}
 
-    /// Before a step, of a whole state: it may still choose the length of the step, or change velocities (the
-    /// energy ledger books that as given by the driver). It is not taken back.
+    /// Called before a step, with a whole state: it may still choose the length of the step, or change
+    /// velocities (the energy ledger books that as given by the driver). It is not taken back.
     virtual void prepare(StepContext&) {}
     virtual void beforeMotion(StepContext&) {}
     virtual void moveGrains(StepContext&) {}
@@ -69,9 +70,9 @@ public:
     /// before it.
     virtual void takeBack(StepContext&) {}
 
-    /// What check() and begin() need of a restart file.
+    /// Visits what check() and begin() need of a restart file.
     virtual void visitSetting(StateArchive&, StepContext&) {}
-    /// All else that it remembers.
+    /// Visits all else that the part remembers.
     virtual void visitState(StateArchive&, StepContext&) {}
     virtual void addTo(SummaryRows&) const {}
 };

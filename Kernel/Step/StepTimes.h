@@ -48,7 +48,7 @@ public:
         stepsSince = 0;
         active = false;
     }
-    /// From now on time counts for this part; returns the one before.
+    /// Lets time count for this part from now on; returns the one before.
     Part enter(Part part) {
         if (on && (active || part == Part::Output || current == Part::Output)) {
             const Clock::time_point now = Clock::now();
@@ -74,12 +74,12 @@ public:
 
     /// s, since measuring began: the sum of all parts.
     [[nodiscard]] double total() const { return on ? secondsBetween(started, Clock::now()) : 0; }
-    /// s, of each part. What they leave of the total is other: the set-up, the driver's own actions.
+    /// The seconds of each part. What they leave of the total is other: the set-up, the driver's own actions.
     [[nodiscard]] std::array<double, names.size()> seconds() const {
         std::array<double, names.size()> parts = spent;
         const double output = spent[static_cast<std::size_t>(Part::Output)], inSteps = total() - output;
         const double known = std::accumulate(spent.begin(), spent.end() - 1, -output);
-        // Of a short run, a measured step that was interrupted may stand for more time than there was.
+        // In a short run, a measured step that was interrupted may stand for more time than there was.
         if (known > inSteps)
             for (double& part : parts) part *= inSteps / known;
         parts[static_cast<std::size_t>(Part::Output)] = output;

@@ -18,7 +18,7 @@ public:
         std::string text = fmt::format("{}", value), shown = withUnit(text, unit);
         rows.push_back({std::move(quantity), std::move(text), std::string(unit), std::move(shown)});
     }
-    /// With fewer digits for eyes.
+    /// Adds a number, which is shown with fewer digits than the file has.
     /// @param behind is shown behind the unit
     void addNumber(std::string quantity, double value, std::string_view unit, std::string_view behind = {}) {
         add(std::move(quantity), value, unit);

@@ -4,13 +4,14 @@
 
 namespace pendular {
 
-/// What contacts of a shape can be at most, whatever its size: for the stability limit.
+/// The extremes of the contacts of a shape, whatever its size: for the stability limit.
 struct ExtremeContact {
     double turning;  // (arm x n) I^-1 (arm x n) m: by how much the turning adds to 1/m
     double radii;    // Gauss' radius over that of the sphere around, at most SuperquadricGeometry::mostRadii
 };
 
-/// By many normals in an octant, its axes included; 1 % is added for what lies between.
+/// The extremes are found by many normals in an octant, its axes included; 1 % is added for what lies
+/// between.
 ExtremeContact extremeContact(const Superquadric& shape);
 
 }  // namespace pendular

@@ -48,7 +48,7 @@ SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t 
     normal = {Pack(1), Pack(0), Pack(0)};
     depth = Pack(-1);
     if (all(apart)) return;
-    // Those that are apart are done at once.
+    // Bodies that are apart are done at once.
     pair.shift = select(apart, {Pack(3) * sum, Pack(0), Pack(0)}, shift);
     const Vector<Pack> start = select(apart, normal, select(touched, normalBefore, firstNormal(pair)));
     const SuperquadricTouch<Pack> touch = findTouch(pair, start, true);

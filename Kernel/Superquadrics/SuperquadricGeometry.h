@@ -51,18 +51,18 @@ public:
     [[nodiscard]] Mask isWithin(double gap) const { return depth > Pack(-gap); }
     [[nodiscard]] ContactGeometry<Pack> complete() const;
     void completeSpins(ContactGeometry<Pack>& /*g*/) const {}
-    /// Only for integrators that do not move rigid bodies.
+    /// Asked only by integrators that do not move rigid bodies.
     [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* /*acceleration*/,
                                                           Pack /*lever*/) const {
         const Vector<Pack> zero{Pack(0), Pack(0), Pack(0)};
         return {zero, zero, zero};
     }
 
-    /// 1/kg, of the tangential velocity to a tangential force: the mean over all directions.
+    /// The response (1/kg) of the tangential velocity to a tangential force: the mean over all directions.
     [[nodiscard]] const Pack& slidingResponse() const { return response; }
-    /// Of the last step, if they touched in it; else zero.
+    /// The normal of the last step, if they touched in it; else zero.
     [[nodiscard]] const Vector<Pack>& lastNormal() const { return normalBefore; }
-    /// What it has changed by since then, in the tangent plane of today.
+    /// The change of the normal since the last step, in the tangent plane of today.
     [[nodiscard]] Vector<Pack> normalShift() const {
         const Vector<Pack> shift = normal - normalBefore;
         return select(touched, shift - dot(normal, shift) * normal, zero());
@@ -73,7 +73,7 @@ public:
     void writeRecords(ContactMemory& memory, std::size_t block, const Pack& normalForce,
                       const Vector<Pack>& tangential) const;
 
-    /// What the ledger of the energy reads besides.
+    /// Writes the arms, which the ledger of the energy reads, too.
     void writeArms(ContactMemory& memory, std::size_t block) const;
 
 private:

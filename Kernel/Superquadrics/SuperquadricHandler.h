@@ -24,11 +24,11 @@ public:
 
     /// Adds a grain; returns its body. Throws InputError as copyAndAddObject() of grains does.
     BodyReference copyAndAddObject(const SuperquadricGrain& grain);
-    /// Of a grain, by its identity. Throws InputError if it is none of these.
+    /// The shape of a grain, by its identity. Throws InputError if it is none of these.
     [[nodiscard]] const Superquadric& shapeOf(std::uint32_t grain) const;
     [[nodiscard]] bool isEmpty() const { return particles.storeInStep().bodies.empty(); }
-    /// In how many evaluations of a contact that acted Newton's method has not ended, and the search without
-    /// derivatives went on.
+    /// The number of evaluations of a contact that acted in which Newton's method has not ended, and the
+    /// search without derivatives went on.
     [[nodiscard]] std::uint64_t fallbacks() const { return fallbackCount; }
 
     [[nodiscard]] const Superquadric& shapeAt(const ParticleStore& grains,
@@ -43,10 +43,10 @@ public:
                                            const Vector<double>& normal, double distance) const override;
     void check(const WallHandler& walls) const override;
 
-    /// By which Gauss' radius at a contact may be larger than that of the spheres around, at most: for the
-    /// stability limit.
+    /// The factor by which Gauss' radius at a contact may be larger than that of the spheres around, at most:
+    /// for the stability limit.
     [[nodiscard]] double largestRadiusRatio() const { return largestRadii; }
-    /// Of the eight contacts of a block.
+    /// The geometry of the eight contacts of a block.
     [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block) const;
     /// Throws InputError if a grain of the scene has no shape.
     void requireAll() const;

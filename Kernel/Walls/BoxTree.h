@@ -22,7 +22,7 @@ struct Box {
     }
     void include(const Box& box) { include(box.lowest), include(box.highest); }
     [[nodiscard]] Vector<double> middle() const { return 0.5 * (lowest + highest); }
-    /// m, of a point outside; 0 inside
+    /// The square (m^2) of the distance of a point outside; 0 inside.
     [[nodiscard]] double squaredDistance(const Vector<double>& p) const {
         const auto out = [](double x, double low, double high) { return std::max({low - x, 0.0, x - high}); };
         return squaredNorm(Vector<double>{out(p.x, lowest.x, highest.x), out(p.y, lowest.y, highest.y),

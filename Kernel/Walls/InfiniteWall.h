@@ -12,9 +12,9 @@ public:
     /// @param outward normal into the wall, of any length; @param point on its surface, m
     void set(const Vec3D& outward, const Vec3D& point);
 
-    // By these the plane moves along its normal by the forces on it, in the run and with the velocity along
-    // its normal that it has; setVelocity() and its like end that. Both may be called again in a run. The
-    // forces on the wall are kept.
+    // These functions let the plane move along its normal by the forces on it, in the run and with the
+    // velocity along its normal that it has; setVelocity() and its like end that. Both may be called again in
+    // a run. The forces on the wall are kept.
 
     /// A piston: a body of this mass (kg) that the grains push away, and a load (N; a pressure times its
     /// area) and its weight push on.

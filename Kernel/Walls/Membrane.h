@@ -9,7 +9,7 @@
 
 namespace pendular {
 
-/// Where the vertices of a membrane are, and what moves them. One entry for each vertex.
+/// The places of the vertices of a membrane, and what moves them. One entry for each vertex.
 struct MembraneState {
     using Column = std::vector<Vector<double>>;
 
@@ -22,7 +22,7 @@ struct MembraneState {
     Vector<double> gravity{0, 0, 0};  // m/s^2, that accelerations have
 };
 
-/// What forces did in the last step, J; for the energy ledger.
+/// The work (J) of forces in the last step, for the energy ledger.
 struct MembraneWork {
     double byGrains = 0;   // contacts, on all vertices
     double byLoads = 0;    // pressure on all vertices, weight of those that move
@@ -40,20 +40,21 @@ class Membrane final : public Wall {
 public:
     /// Throws InputError as MembraneNet, and for triangles that go through each other.
     void set(std::span<const Triangle> triangles, const MembraneMaterial& material);
-    /// From a file: STL, OBJ, PLY or rows (readTriangles). @param scale m for one unit of the file
+    /// Sets the membrane from a file: STL, OBJ, PLY or rows (readTriangles). @param scale m for one unit of
+    /// the file
     void read(const std::filesystem::path& path, const MembraneMaterial& material, double scale = 1) {
         set(readTriangles(path, scale), material);
     }
     [[nodiscard]] bool isSet() const { return net != nullptr; }
 
     /// From now on, the vertices at places (m; where they are now) for which the function is true move with
-    /// this velocity (m/s) and not by forces. Also in a run, again for the same ones too. Throws InputError
-    /// if there is none.
+    /// this velocity (m/s) and not by forces. It may be called in a run, too, and again for the same ones.
+    /// Throws InputError if there is none.
     void hold(const std::function<bool(const Vec3D&)>& where, const Vec3D& velocity = Vec3D::Zero());
-    /// The same for all vertices at free edges.
+    /// Holds all vertices at free edges, as hold() does.
     void holdRim(const Vec3D& velocity = Vec3D::Zero());
     /// @param value Pa, pushes along the normals (of corners that run counter-clockwise towards the eye);
-    /// negative against them. Also in a run: it acts from the end of the next step on.
+    /// negative against them. It may be called in a run: it acts from the end of the next step on.
     void setPressure(double value);
     /// Each vertex of mass m and velocity v has the force -rate m v, as in a fluid at rest; at set-up.
     /// @param rate 1/s
@@ -69,7 +70,7 @@ public:
     [[nodiscard]] const std::vector<bool>& getHeld() const { return held; }
     [[nodiscard]] Vec3D getPosition(std::size_t vertex) const { return toEigen(now.position.at(vertex)); }
     [[nodiscard]] Vec3D getVelocity(std::size_t vertex) const { return toEigen(now.velocity.at(vertex)); }
-    /// N, by the grains, at the end of the last step.
+    /// The force (N) of the grains at the end of the last step.
     [[nodiscard]] Vec3D getForceOfGrains(std::size_t vertex) const {
         return toEigen(now.ofGrains.at(vertex));
     }
@@ -78,7 +79,7 @@ public:
     [[nodiscard]] double getVolume() const { return getNet().volume(now.position); }
     [[nodiscard]] double getKineticEnergy() const;  // J, of what is not held
     [[nodiscard]] double getElasticEnergy() const;  // J
-    /// kg, of the lightest vertex that moves; infinite where all are held
+    /// The mass (kg) of the lightest vertex that moves; infinite where all are held
     [[nodiscard]] double lightestVertex() const;
     [[nodiscard]] double squaredFrequency() const { return getNet().squaredFrequency(held); }  // 1/s^2
     [[nodiscard]] double massOfArea() const { return areaDensity; }                            // kg/m^2
@@ -104,7 +105,7 @@ public:
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const override;
     void visitState(StateArchive& archive) override;
 
-    // For MembraneMotion.
+    // Called by MembraneMotion.
     [[nodiscard]] const MembraneState& state() const { return now; }
     /// The vertices go on; the farthest (m) is told by the next moveTo().
     void goOn(MembraneState next, double farthest);
@@ -113,8 +114,8 @@ public:
     /// Contacts have ended, or none of its forces are known, since the last step.
     [[nodiscard]] bool hasOldForces() const { return forcesAreOld; }
     [[nodiscard]] TriangleWeights weightsAt(std::size_t triangle, const Vector<double>& point) const;
-    /// Where it goes through itself, if it does. It is looked for only when vertices may have come a quarter
-    /// of the shortest edge nearer to each other since the last look.
+    /// The place at which the membrane goes through itself, if it does. It is looked for only when vertices
+    /// may have come a quarter of the shortest edge nearer to each other since the last look.
     [[nodiscard]] std::optional<MembraneSurface::Crossing> findCrossing();
     MembraneWork work;
 

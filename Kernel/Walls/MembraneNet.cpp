@@ -40,9 +40,10 @@ std::array<Point, 4> cornersOf(const MembraneNet::Hinge& hinge, MembraneNet::Poi
 
 }  // namespace
 
-/// With the unit normals nA, nB, and the heights hA, hB of the corners 2, 3 over the edge: a shift of corner
-/// 2 along nA turns its triangle by shift / hA. Corners 0 and 1 bear the opposite, by the lever rule
-/// (Bridson, Marino and Fedkiw (2003), their u1 to u4 over the edge's length).
+/// The angle of a hinge and its gradient, with the unit normals nA, nB, and the heights hA, hB of the corners
+/// 2, 3 over the edge: a shift of corner 2 along nA turns its triangle by shift / hA. Corners 0 and 1 bear
+/// the opposite, by the lever rule (Bridson, Marino and Fedkiw (2003), their u1 to u4 over the edge's
+/// length).
 HingeAngle hingeAngle(const std::array<Point, 4>& x) {
     const Point edge = x[1] - x[0];
     const Point ofA = cross(edge, x[2] - x[0]), ofB = cross(x[3] - x[0], edge);  // twice the areas

@@ -64,7 +64,7 @@ public:
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return faces; }
     [[nodiscard]] const std::vector<Spring>& springs() const { return edges; }
     [[nodiscard]] const std::vector<Hinge>& hinges() const { return folds; }
-    /// Of the vertices, whether they lie at a free edge.
+    /// Whether each vertex lies at a free edge.
     [[nodiscard]] const std::vector<bool>& rim() const { return atRim; }
     [[nodiscard]] bool isClosed() const;
     [[nodiscard]] double size() const { return extent; }            // m, the diagonal of the box around it

@@ -20,9 +20,9 @@ struct TriangleWeights {
 
     TriangleWeights(const Vector<double>& a, const Vector<double>& b, const Vector<double>& c,
                     const Vector<double>& point);
-    /// N, on the corners: together they have this force (N) at the point, and this couple (N m). Couples
-    /// about a line in the plane are forces along the normal by the gradients, those about the normal are
-    /// forces around it.
+    /// The forces (N) on the corners: together they have this force (N) at the point, and this couple (N m).
+    /// Couples about a line in the plane are forces along the normal by the gradients, those about the normal
+    /// are forces around it.
     [[nodiscard]] std::array<Vector<double>, 3> forces(const Vector<double>& force,
                                                        const Vector<double>& couple) const;
 };
@@ -41,9 +41,9 @@ public:
 
     /// The vertices have moved.
     void update(std::span<const Point> at);
-    // As those of Wall; points get no velocity.
+    // These functions do what those of Wall do; points get no velocity.
     void listParts(const Point& centre, double reach, std::vector<std::uint32_t>& parts) const;
-    /// Unit, of a triangle.
+    /// The unit normal of a triangle.
     [[nodiscard]] const Point& normalOf(std::uint32_t part) const { return faces[part].normal; }
     void findPoints(const Point& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const;
@@ -74,7 +74,7 @@ private:
     [[nodiscard]] static Face faceOf(const Point& a, const Point& b, const Point& c);
     [[nodiscard]] static WallPoint nearest(const Face& face, const Point& centre);
     [[nodiscard]] static bool holds(const Face& face, const Point& point, double tolerance);
-    /// Where the way between two points goes through a face.
+    /// The point at which the way between two points goes through a face.
     [[nodiscard]] static std::optional<Point> crossing(const Face& face, const Point& from, const Point& to,
                                                        double tolerance);
     [[nodiscard]] bool meetSmoothly(std::uint32_t a, std::uint32_t b) const;

@@ -27,7 +27,7 @@ struct PlaneDrive {
     double earlier = 0;   // m/s^2, of a piston, at the start of the last step
     Servo servo{};
 
-    // Of the last step, for the energy ledger; nothing of it goes into the next one.
+    // The last step, for the energy ledger; nothing of it goes into the next one.
     double startVelocity = 0, seenVelocity = 0, meanVelocity = 0;  // m/s: at the start, of contacts, mean
     double acceleration = 0;                                       // m/s^2, at the end
     bool waits = false;                                            // for the first grains

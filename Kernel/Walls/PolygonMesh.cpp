@@ -126,7 +126,7 @@ private:
     int looks = 0;              // at all corners
 };
 
-/// To round-off: such a face covers nothing, as a triangle of this kind.
+/// Whether corners lie on a line, to round-off: such a face covers nothing, as a triangle of this kind.
 bool isOnALine(std::span<const Vector<double>> ring) {
     const auto distance = [&](const Vector<double>& p) { return norm(p - ring[0]); };
     const Vector<double> along = *std::ranges::max_element(ring, {}, distance) - ring[0];

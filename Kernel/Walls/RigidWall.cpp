@@ -16,8 +16,8 @@ constexpr Range finiteRange{-infinity, infinity, false, false};
 /// s, between the poses of which velocities are differences. A power of two, so that times are not rounded.
 constexpr double differenceInterval = 0x1p-24;
 
-/// What of a velocity is along a surface with this normal: the rest would do work on grains that the surface,
-/// which stays where it is, cannot do.
+/// The part of a velocity that is along a surface with this normal: the rest would do work on grains that the
+/// surface, which stays where it is, cannot do.
 Vector<double> alongSurface(const Vector<double>& velocity, const Vector<double>& normal) {
     return velocity - dot(velocity, normal) * normal;
 }

@@ -33,7 +33,7 @@ public:
     /// without end and give them energy, as the surface does not go anywhere, so it is left out.
     void setSurfaceVelocity(const Vec3D& velocity);
 
-    /// m/s, of the wall's material at a point (m) of the scene.
+    /// The velocity (m/s) of the wall's material at a point (m) of the scene.
     /// On a belt with the whole surface velocity, also the part that grains do not feel.
     [[nodiscard]] Vec3D getVelocityAt(const Vec3D& point) const;
     [[nodiscard]] const Pose& getPose() const { return pose; }
@@ -41,9 +41,9 @@ public:
     double moveTo(double time) final;
     /// A wall that is moved by forces goes on by a shift (m); the next moveTo() tells of it.
     void goOn(const Vector<double>& shift);
-    /// What contacts see of such a wall, m/s.
+    /// Sets the velocity (m/s) that contacts see of such a wall.
     void showVelocity(const Vector<double>& linear);
-    /// Back to where such a wall was.
+    /// Takes such a wall back to where it was.
     void takeBack(const Pose& before, const Vector<double>& linear);
     /// The wall is added to a run at this time (s): its motion begins now.
     void join(double time);
@@ -55,11 +55,11 @@ public:
     [[nodiscard]] Vector<double> angularVelocity() const final { return velocity.spin; }
     [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const final;
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const final;
-    /// By its extent: one that goes through a face is not looked at closer.
+    /// The answer is by the wall's extent: one that goes through a face is not looked at closer.
     [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override;
 
 protected:
-    // As those of Wall, in the body's own frame and at rest.
+    // These functions do what those of Wall do, in the body's own frame and at rest.
     virtual void listInBody(const Vector<double>& centre, double reach,
                             std::vector<std::uint32_t>& parts) const = 0;
     virtual void findInBody(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
@@ -69,7 +69,7 @@ protected:
                                                const Vector<double>& to) const = 0;
     [[nodiscard]] virtual SurfaceExtent extent() const = 0;
     [[nodiscard]] virtual WallSurface surfaceInBody(const SceneSphere& /*around*/) const { return {}; }
-    /// Its motion is given now, instead of following from forces.
+    /// Called when the wall's motion is given from now on, instead of following from forces.
     virtual void endDrive() {}
     /// It is moved by forces from now on, from where it is. Returns its velocity (m/s). Throws InputError if
     /// it turns.
@@ -86,7 +86,7 @@ protected:
 private:
     bool given = false;
 
-    /// By which the motion has displaced the wall from its origin at a time (s).
+    /// The displacement by which the motion has moved the wall from its origin at a time (s).
     [[nodiscard]] Pose displacementAt(double time) const;
     [[nodiscard]] RigidVelocity velocityAt(double time) const;
     [[nodiscard]] Eigen::Isometry3d askedPose(double time) const;

@@ -35,7 +35,7 @@ bool isThin(const Polygon& polygon, double tolerance) {
     return polygon.size() < 3 || norm(doubleArea(polygon)) <= tolerance * std::sqrt(longest);
 }
 
-/// Its sides lie farther out by the tolerance (m).
+/// The facet of a polygon; its sides lie farther out by the tolerance (m).
 Facet facetOf(const Polygon& polygon, double tolerance) {
     const Vector<double> area = doubleArea(polygon);
     Facet facet{(1 / norm(area)) * area, 0, {}};
@@ -112,7 +112,7 @@ private:
     void compareAt(double face, const Polygon& polygon) {
         const double distance = distanceTo(face, polygon);
         if (distance > faces.width) {
-            // What has been looked at ends here.
+            // The part that has been looked at ends here.
             result.margin = std::min(result.margin, distance);
             return;
         }
@@ -135,7 +135,7 @@ private:
             }
     }
 
-    /// What of a polygon no other one covers.
+    /// The parts of a polygon that no other one covers.
     [[nodiscard]] std::vector<Polygon> withoutPartner(Polygon polygon) const {
         Box box;
         for (const Vector<double>& corner : polygon) box.include(corner);

@@ -21,8 +21,8 @@ struct PeriodicFaces {
     [[nodiscard]] double highest() const { return lowest + length; }
 };
 
-/// What grains that go through a face see of a wall. A wall is at its own place only. Where grains meet it,
-/// it must be alike at both faces: what is near one of them has a partner one period farther.
+/// A wall as grains that go through a face see it. A wall is at its own place only. Where grains meet it, it
+/// must be alike at both faces: what is near one of them has a partner one period farther.
 struct SurfaceAtFaces {
     static constexpr double none = std::numeric_limits<double>::infinity();
 
@@ -33,17 +33,17 @@ struct SurfaceAtFaces {
     double lowest = -none, highest = none;     // m, between which the wall lies along the axis
 };
 
-/// Of a wall that lies between two places (m) along the axis, and is not alike at both faces where it goes
-/// through one.
+/// What grains see of a wall that lies between two places (m) along the axis, and is not alike at both faces
+/// where it goes through one.
 SurfaceAtFaces intervalAtFaces(double lowest, double highest, const PeriodicFaces& faces);
-/// Of a plane through a point (m), and of a cylinder without ends. Those that are inclined to the axis have
-/// no margin: whether grains meet them at a face only the run can tell.
+/// What grains see of a plane through a point (m), and of a cylinder without ends. Walls that are inclined to
+/// the axis have no margin: whether grains meet them at a face only the run can tell.
 SurfaceAtFaces planeAtFaces(const Vector<double>& normal, const Vector<double>& point,
                             const PeriodicFaces& faces);
 SurfaceAtFaces cylinderAtFaces(const Vector<double>& axis, const Vector<double>& point, double radius,
                                const PeriodicFaces& faces);
-/// Of plane convex polygons. Exact but for the tolerance: what is near a face is moved by the period, and
-/// what polygons cover there is cut off; what is left has no partner.
+/// What grains see of plane convex polygons. It is exact but for the tolerance: what is near a face is moved
+/// by the period, and what polygons cover there is cut off; what is left has no partner.
 SurfaceAtFaces polygonsAtFaces(std::span<const Polygon> polygons, const PeriodicFaces& faces);
 
 }  // namespace pendular

@@ -53,7 +53,7 @@ std::vector<Triangle> readAscii(const InputFile& file, double scale) {
                         fmt::format("'{}' where '{}' is expected", shown(word),
                                     inSolid ? "facet' or 'endsolid" : "solid"));
         expect("normal");
-        // Not used: it follows from the vertices, and programs write zeros, nan or -1.#IND.
+        // The normal is not used: it follows from the vertices, and programs write zeros, nan or -1.#IND.
         const std::size_t line = words.line();
         for (int k = 0; k < 3; ++k)
             if (const std::string_view normal = words.next(); normal.empty() || isWord(normal, "outer"))
@@ -122,7 +122,7 @@ std::vector<Triangle> readRows(const InputFile& file, double scale) {
     return triangles;
 }
 
-/// What has no mark of its kind is rows of numbers, or a binary STL file of a wrong length.
+/// A file without a mark of its kind has rows of numbers, or a binary STL file of a wrong length.
 std::vector<Triangle> readUnmarked(InputFile& file, bool isNamedStl, double scale) {
     double number;
     const std::string_view first = Words(std::string_view(file.text).substr(0, 64)).next();

@@ -56,7 +56,7 @@ public:
     void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) override;
     void forgetStep() override { noted.clear(); }
     void finishStep(double time) override;
-    /// As that of RigidWall; what was worn off the wall that it was copied from does not count.
+    /// Joins a scene as a RigidWall does; what was worn off the wall that it was copied from does not count.
     void join(double time);
     void visitState(StateArchive& archive) override;
 
@@ -84,7 +84,7 @@ private:
     std::optional<WornVertices> moving;
     std::vector<Vector<double>> vertices;  // m, of a wall whose vertices move
     double shapeShift = 0;                 // m, how far they went in the last step
-    /// In the step that is computed.
+    /// What a contact did to the wall in the step that is computed.
     struct Note {
         std::uint32_t part;
         Vector<double> point;  // m, in the body's frame

@@ -16,7 +16,7 @@ namespace pendular {
 
 class Membrane;
 
-/// Where a sphere is nearest to a part of a wall.
+/// The point of a part of a wall that is nearest to a sphere.
 struct WallPoint {
     Vector<double> normal;    // unit, from the sphere's centre to the wall
     double distance;          // m, from the centre to the surface; infinite: this part is not to be touched
@@ -79,11 +79,12 @@ public:
     /// the same bits as findPoints().
     [[nodiscard]] virtual std::optional<PlaneAtRest> planeAtRest() const { return {}; }
 
-    /// Unit, of a part that is a facet of a mesh, which may stand for a curved surface; none of others.
+    /// The unit normal of a part that is a facet of a mesh, which may stand for a curved surface; none for
+    /// others.
     [[nodiscard]] virtual std::optional<Vector<double>> facetNormal(std::uint32_t /*part*/) const {
         return {};
     }
-    /// Where its facets, if it has any, do not share their sides.
+    /// The edges at which its facets, if it has any, do not share their sides.
     [[nodiscard]] virtual std::vector<OpenEdge> openEdges() const { return {}; }
 
     /// Whether a centre that moves straight from one point to the other goes through the surface.
@@ -91,8 +92,8 @@ public:
         return false;
     }
 
-    /// What grains see of it that go through the faces of a scene which repeats itself. A shape that cannot
-    /// tell says that it goes through them: then only the run finds out.
+    /// The wall as it is seen by grains that go through the faces of a scene which repeats itself. A shape
+    /// that cannot tell says that it goes through them: then only the run finds out.
     [[nodiscard]] virtual SurfaceAtFaces atFaces(const PeriodicFaces& /*faces*/) const {
         return {.passes = true};
     }
@@ -100,7 +101,7 @@ public:
     /// Moves the wall to where it is at a time (s); returns how far (m) any point of its surface can have
     /// moved.
     virtual double moveTo(double /*time*/) { return 0; }
-    /// rad/s, with which the surface turns against the grains.
+    /// The angular velocity (rad/s) with which the surface turns against the grains.
     [[nodiscard]] virtual Vector<double> angularVelocity() const { return {0, 0, 0}; }
 
     /// How it is moved by the forces on it; null unless it is.
@@ -125,8 +126,8 @@ public:
     void keepForcesFromNowOn() {
         if (!forcesKept) keepForces(true, getTorquePoint());
     }
-    /// N, of all grains on the wall at the end of the last step; zero unless keepForces() was called or it is
-    /// moved by forces.
+    /// The force (N) of all grains on the wall at the end of the last step; zero unless keepForces() was
+    /// called or it is moved by forces.
     [[nodiscard]] Vec3D getForce() const { return toEigen(kept.force); }
     /// N m, about the point given to keepForces().
     [[nodiscard]] Vec3D getTorque() const { return toEigen(kept.torque); }
@@ -134,11 +135,11 @@ public:
     /// @param touches contacts that act
     void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches);
     /// A contact has ended between two steps: its force (N) on a wall that is moved by forces acts no longer.
-    /// What is left is rounded: the next step, and a restart file, need the sum of the contacts that there
-    /// are.
+    /// The sum that is left is rounded: the next step, and a restart file, need the sum of the contacts that
+    /// there are.
     virtual void loseForce(const Vector<double>& force);
 
-    /// What a run has changed, and what must be as it was when the run began.
+    /// Visits what a run has changed, and what must be as it was when the run began.
     virtual void visitState(StateArchive& archive);
 
     /// It stands in the place of a wall that was removed.

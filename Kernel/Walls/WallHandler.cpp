@@ -18,7 +18,7 @@ constexpr std::string_view asTheRunHadThem =
     "a scene that goes on is set up with the walls that the run had added by then; restartTime() tells "
     "the time of the file";
 
-/// In the place of a wall that was removed: nothing touches it.
+/// A wall in the place of one that was removed: nothing touches it.
 class RemovedWall final : public Wall {
 public:
     void listParts(const Vector<double>&, double, std::vector<std::uint32_t>&) const override {}

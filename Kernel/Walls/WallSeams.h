@@ -7,9 +7,9 @@
 
 namespace pendular {
 
-/// Where it cannot be told from the walls alone how many contacts a grain will have, a sentence without its
-/// full stop: for each wall the first place, with the parts there. Looked at are open edges of meshes, so
-/// that a closed mesh costs next to nothing.
+/// The seams at which it cannot be told from the walls alone how many contacts a grain will have, each as a
+/// sentence without its full stop: for each wall the first place, with the parts there. Looked at are open
+/// edges of meshes, so that a closed mesh costs next to nothing.
 /// It stops looking where that would take more than seconds.
 /// - Two parts that face the same way with a gap that some contacts do not notice and others do
 ///   (Kernel/Contacts/ContactPatch.h): for overlaps from 1e-4 to 0.06 of the radius R, contacts have circles

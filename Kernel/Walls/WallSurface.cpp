@@ -67,7 +67,7 @@ Polygon clipped(Polygon polygon, const std::vector<HalfSpace>& halfSpaces) {
 }
 
 std::vector<WallSurface> surfacesOf(const WallHandler& walls, Vector<double> lowest, Vector<double> highest) {
-    // What has an end does not depend on the sphere.
+    // The surface of a wall with ends does not depend on the sphere.
     const auto surfaceOf = [&](std::size_t w) {
         const Vector<double> middle = 0.5 * (lowest + highest);
         return walls.getObject(w).surface({middle, norm(highest - middle)});

@@ -26,11 +26,12 @@ struct SceneSphere {
 /// A wall as a picture shows it: as polygons.
 struct WallSurface {
     std::vector<Polygon> polygons;
-    /// What holds all grains, where the wall has grains on one side only: a plane, a cylinder from inside.
+    /// The half spaces that hold all grains, where the wall has grains on one side only: a plane, a cylinder
+    /// from inside.
     std::vector<HalfSpace> inside;
     bool endless = false;  // cut off at the sphere only
 
-    /// The same at another place.
+    /// This surface at another place.
     [[nodiscard]] WallSurface placed(const Pose& pose) const;
 };
 

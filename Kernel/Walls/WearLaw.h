@@ -17,7 +17,8 @@ struct ContactWear {
     double tangentialSpeed = 0;       // m/s
     Vector<double> towards{0, 0, 0};  // unit, from the grain to the wall
 
-    /// J, that the normal force takes up until the grain stands still along the normal: m v_n^2 / 2.
+    /// The work (J) that the normal force takes up until the grain stands still along the normal: m v_n^2 /
+    /// 2.
     [[nodiscard]] double impactWork() const { return 0.5 * mass * normalSpeed * normalSpeed; }
 };
 

@@ -15,7 +15,7 @@ class WornTriangles {
 public:
     WornTriangles(const MeshTriangles& mesh, const WearLaw& wearLaw);
 
-    /// Where a volume has been worn off.
+    /// The place at which a volume has been worn off.
     struct Place {
         std::uint32_t triangle;
         std::array<double, 3> weights;  // of its corners at the point; they sum to 1
@@ -29,13 +29,13 @@ public:
 
     [[nodiscard]] std::size_t size() const { return wear.size(); }
     [[nodiscard]] const SurfaceWear& of(std::size_t triangle) const { return wear[triangle]; }
-    /// Of all triangles; the area is theirs together.
+    /// The wear of all triangles; the area is theirs together.
     [[nodiscard]] SurfaceWear sum() const;
     [[nodiscard]] Triangle triangle(std::size_t number) const;
     [[nodiscard]] const WearLaw& law() const { return wearLaw; }
     [[nodiscard]] const MeshTriangles& mesh() const { return triangles; }
 
-    /// Its vertices (m) have moved.
+    /// Takes the places (m) of the mesh's vertices, which have moved.
     void moveTo(const std::vector<Vector<double>>& vertices);
 
     void visitState(StateArchive& archive);

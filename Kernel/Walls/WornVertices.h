@@ -49,9 +49,10 @@ private:
     using Corners = std::array<std::uint32_t, 3>;
 
     void listEdges();
-    /// m^2, of each vertex: a third of the sum of the areas of its triangles, times their normals.
+    /// The vector area (m^2) around each vertex: a third of the sum of the areas of its triangles, times
+    /// their normals.
     [[nodiscard]] std::vector<Vector<double>> areasAround(std::span<const Vector<double>> vertices) const;
-    /// m, of each vertex
+    /// The shortest edge (m) at each vertex.
     [[nodiscard]] std::vector<double> shortestEdges(std::span<const Vector<double>> vertices) const;
     void smooth(std::span<const Vector<double>> areas);
     void refuseTurned(std::span<const Vector<double>> before, std::span<const Vector<double>> after) const;

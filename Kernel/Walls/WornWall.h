@@ -28,16 +28,16 @@ public:
     /// Takes note of what a contact of a part of the wall does to it in a step, at a point (m) of the scene.
     /// In the order of identities, from one thread. Throws RunError where the wall cannot wear there.
     virtual void takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) = 0;
-    /// What was noted in a step that failed is forgotten.
+    /// Forgets what was noted in a step that failed.
     virtual void forgetStep() = 0;
     /// The step has not failed: at its end (s), what was noted counts. Throws RunError, and changes nothing,
     /// where the shape cannot follow.
     virtual void finishStep(double time) = 0;
-    /// Of a polygon of its surface().
+    /// The wear of a polygon of its surface().
     [[nodiscard]] virtual const SurfaceWear& wearOf(std::size_t polygon) const = 0;
 };
 
-/// Of each wall, by its number: the wall, if it keeps its wear, else null.
+/// The walls that keep their wear, by the numbers of the walls; null for those that do not.
 std::vector<WornWall*> wornWalls(const WallHandler& walls);
 
 /// Throws InputError where a wall keeps its wear and the scene cannot.

@@ -67,7 +67,7 @@ TEST(BridgeRupture, EqualSpheresLoseTheirSymmetryAboveAboutThirtyDegrees) {
         EXPECT_EQ(findRupture(spheres(1, 25, volume))->mode, RuptureMode::Fold) << volume;
         EXPECT_EQ(findRupture(spheres(1, 35, volume))->mode, RuptureMode::SymmetryLoss) << volume;
     }
-    // Where the two meet, for V* -> 0: about 31 degrees.
+    // The angle at which the two meet, for V* -> 0, is about 31 degrees.
     double low = 20, high = 40;
     while (high - low > 0.01) {
         const double middle = 0.5 * (low + high);

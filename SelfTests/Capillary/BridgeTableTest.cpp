@@ -39,8 +39,8 @@ struct Accuracy {
     Errors force, rupture, area;
 };
 
-/// Of bridges between contact and `share` of the rupture distance. Errors of the force are relative to it,
-/// but not to less than leastForce (of 2 pi R gamma).
+/// The accuracy for bridges between contact and `share` of the rupture distance. Errors of the force are
+/// relative to it, but not to less than leastForce (of 2 pi R gamma).
 Accuracy accuracyOf(const std::vector<RandomBridge>& bridges, double leastForce) {
     Accuracy errors;
     for (const auto& [conditions, gap, ruptureGap] : bridges) {
@@ -62,7 +62,7 @@ Accuracy accuracyOf(const std::vector<RandomBridge>& bridges, double leastForce)
     return errors;
 }
 
-/// The same bridge between equal spheres, between nearly equal ones and at a wall.
+/// Each bridge between equal spheres, between nearly equal ones and at a wall.
 std::vector<RandomBridge> atRatios(std::vector<RandomBridge> bridges,
                                    const std::vector<double>& asymmetries) {
     std::vector<RandomBridge> others;

@@ -102,7 +102,8 @@ Necked withNeck(const BridgeConditions& conditions, double neck) {
         const Side second = sideOf(conditions.second, neck, curvature);
         return Side{first.gap + second.gap, first.volume + second.volume};
     };
-    // By the curvature of the meridian at the neck, 1/a - 2 H, times a: the volume falls with it.
+    // The variable is the curvature of the meridian at the neck, 1/a - 2 H, times a: the volume falls with
+    // it.
     const auto curvature = [&](double logarithm) { return 0.5 * (1 - std::exp(logarithm)) / neck; };
     const double found = curvature(zeroBetween(-4, 10, 1e-13, [&](double logarithm) {
         return std::log(std::max(sides(curvature(logarithm)).volume, 1e-300) / conditions.volume);
@@ -208,6 +209,6 @@ TEST(NearRupture, AgreesWithOtherPrograms) {
     const double theta = degrees(15);
     const auto bridge = solveBridge({{0.8125, theta}, {1.3, theta}, 0.1}, 0.49704);
     ASSERT_TRUE(bridge);
-    // By the digits of the gap. 0.12028 is the unstable one.
+    // The gap is known to its digits. 0.12028 is the force of the unstable bridge.
     EXPECT_NEAR(bridge->arc().forceLength(), 0.128975, 5e-6);
 }

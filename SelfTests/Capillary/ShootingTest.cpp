@@ -40,7 +40,7 @@ struct Cap {
     double height, volume;
 };
 
-/// Of a sphere of the given curvature cut at radius y and filling angle beta; nothing for a plane.
+/// The cap of a sphere of the given curvature, cut at radius y and filling angle beta; nothing for a plane.
 Cap capOf(double curvature, double y, double beta) {
     const double height = y * std::tan(0.5 * beta);
     return curvature == 0 ? Cap{0, 0} : Cap{height, pi * height * (3 * y * y + height * height) / 6};

@@ -30,7 +30,7 @@ Points randomPoints(std::size_t count, const Vector<double>& box, std::uint64_t 
     return points;
 }
 
-/// Of each point the first one of its cluster, by pairs until nothing changes.
+/// The first point of each point's cluster, by pairs until nothing changes.
 std::vector<std::size_t> firstOfClusters(const Points& points, const PeriodicBox& box, double distance) {
     std::vector<std::size_t> first(points.size());
     std::iota(first.begin(), first.end(), std::size_t{0});
@@ -180,7 +180,7 @@ struct Means {
     }
 };
 
-/// Of 2000 points the mean number that are alone is known: no other one lies in a sphere of the distance. The
+/// The mean number of 2000 points that are alone is known: no other one lies in a sphere of the distance. The
 /// rest are means of 40 configurations by an independent program. One configuration scatters by 26 in the
 /// points alone, 18 in the clusters and 4 in the largest cluster: the limits are 4 standard errors.
 TEST(Clusters, ofPointsWithoutSizeAreThoseOfAnIndependentProgram) {
@@ -195,7 +195,7 @@ TEST(Clusters, ofPointsWithoutSizeAreThoseOfAnIndependentProgram) {
     EXPECT_NEAR(mean.largest, 17.4, 4 * 4 * std::sqrt(2.0 / 40));
 }
 
-/// The same of hard spheres, 76 configurations: 1 % is three standard errors of the first two; one
+/// Hard spheres are compared with 76 configurations: 1 % is three standard errors of the first two; one
 /// configuration scatters by 12 in the pairs and 0.8 in the largest cluster.
 TEST(HeavyClusters, ofHardSpheresInEquilibriumAreThoseOfAnIndependentProgram) {
     HardSpheres spheres;

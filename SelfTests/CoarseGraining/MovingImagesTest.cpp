@@ -203,8 +203,8 @@ TEST(FieldsOfMovingImages, ofAUniformFlowAreItsClosedForm) {
                         const double j = sums.ofAll(Sum::Momentum + along, k);
                         const double flux = sums.ofAll(Sum::Flux + diagonal[along], k);
                         EXPECT_NEAR(j / rho, slope * off, 1e-12 * slope * length[g]);
-                        // Of squares that are up to (length / w)^2 = 50 times as large; the cut-off takes
-                        // away 64 e^-32 of the second moment.
+                        // The flux is a difference of squares that are up to (length / w)^2 = 50 times as
+                        // large; the cut-off takes away 64 e^-32 of the second moment.
                         EXPECT_NEAR((flux - j * j / rho) / (rho * slope * slope * w * w), 1, 1e-10);
                     }
                 }

@@ -95,7 +95,7 @@ TEST(StressOfBodies, isWhatARodCarries) {
     }
 }
 
-// The same of an ellipsoid that stands between plates. Contact points lie in the middle of the overlap.
+// An ellipsoid stands between plates as the rod does. Contact points lie in the middle of the overlap.
 TEST(StressOfBodies, isWhatAnEllipsoidCarries) {
     constexpr double half = 2e-3, overlap = 1e-6, length = 2 * (half - overlap);  // m
     scenes::FewSuperquadrics<Smooth> scene(material(), {{.shape = {r, r, half, 2, 2}}}, 1e-6);
@@ -184,7 +184,7 @@ private:
         if (b >= 0) ++y[b];
         return at(y[0], y[1], y[2]);
     }
-    /// With the mass that the spheres have in a template.
+    /// Joins grains to a body with the mass that the spheres have in a template.
     void joinAsSolid(const std::vector<std::uint32_t>& identities) {
         std::vector<Ball> balls;
         const Vec3D origin = particleHandler.getObject(identities[0]).getPosition();
@@ -254,7 +254,7 @@ TEST(StressOfBodies, isWhatAServoMakes) {
     EXPECT_NEAR(first(0, 0) * a * c / (3 * k * d), 1, 1e-9);
     scene.step(20000);  // 100 times that of the servo, whose drift takes 16
     EXPECT_NEAR(meanStress(scene).total()(2, 2) / target, 1, 1e-5);
-    // Of the length each rod gives 0.4 um.
+    // The scene becomes 0.4 um shorter for each rod.
     EXPECT_NEAR(scene.getPeriodicBox().length.z, along * (4 * r - target * a * a / k), along * 1e-5 * d);
 }
 
@@ -280,7 +280,7 @@ TEST(ClustersOfBodies, holdTheirGrains) {
         EXPECT_EQ(found.of, (std::vector<std::size_t>{0, 2, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1}));
         EXPECT_DOUBLE_EQ(found.aloneOfMembers(), 2.0 / 4);
         EXPECT_DOUBLE_EQ(found.aloneOfClusters(), 2.0 / 3);
-        // Of points a spacing r apart in a row: r sqrt((n^2 - 1) / 12).
+        // Points a spacing r apart in a row have the radius of gyration r sqrt((n^2 - 1) / 12).
         EXPECT_NEAR(found.list[1].gyrationRadius, r * std::sqrt(2.0), 1e-15);
     }
     EXPECT_EQ(clustersWithin(scene, 0.5e-3).list.size(), 4u);  // a body is whole at any distance

@@ -97,8 +97,8 @@ Packing randomPacking(std::size_t count, double solidFraction) {
     return packing;
 }
 
-/// Of the kernel, at rest: the stress of all contact forces and of the bridges, a third of the trace, Pa,
-/// positive in compression; and the bridges of a grain.
+/// The stress in the kernel, at rest: that of all contact forces and of the bridges, a third of the trace,
+/// Pa, positive in compression; and the bridges of a grain.
 struct Stress {
     double contact, adhesive, bridges;
 };
@@ -153,7 +153,7 @@ TEST(Rumpf, isTheSumOverAllPairsOfARandomPacking) {
     EXPECT_GT(found.bridges, 4);
     const double expected = packing.bruteForce(gap);
     EXPECT_NEAR(found.adhesive / -expected, 1, 1e-12);
-    // Of the force between grains the spring, 1e-12 N/m x overlap, is 1e-13.
+    // The spring, 1e-12 N/m x overlap, is 1e-13 of the force between grains.
     EXPECT_NEAR(found.contact / -expected, 1, 1e-11);
     // With bridges of touching grains only, F is the same for all; Rumpf's formula has the diameter for the
     // mean distance, of which overlaps of at most 5 % of a radius leave 97.5 %.

@@ -49,7 +49,7 @@ struct Settling {
     ContactSystem system;
 };
 
-/// With what every kind of law remembers.
+/// This species remembers what every kind of law remembers.
 using PlasticRolling = Species<LinearPlasticViscoelastic, SlidingRollingTorsion, IrreversibleAdhesive>;
 
 template <class S>

@@ -155,7 +155,7 @@ TEST(MovingBridge, couplesSlipAndRollAtAWallToSecondOrder) {
     }
 }
 
-/// Of a pair about the origin, kg m^2/s.
+/// The angular momentum (kg m^2/s) of a pair about the origin.
 template <class S>
 Vec3D angularMomentum(FewGrains<S>& scene) {
     Vec3D sum = Vec3D::Zero();
@@ -209,7 +209,7 @@ TYPED_TEST(MovingBridgeCloud, closesTheAccountOfTheEnergy) {
     const EnergyLedger& ledger = cloud.energyLedger();
     const double start = ledger.closed(), kinetic = ledger.kinetic;
     cloud.steps(3000);
-    // As in BedTest.cpp: five times the round-off of all that has been turned over.
+    // The error is as in BedTest.cpp: five times the round-off of all that has been turned over.
     EXPECT_LT(std::abs(ledger.closed() - start), 5 * std::sqrt(3000.0) * 0x1p-53 * kinetic);
     EXPECT_GT(ledger.viscousBridges, 0.1 * kinetic);
     EXPECT_GT(ledger.elastic + ledger.normalDashpots + kinetic - ledger.kinetic, 0);

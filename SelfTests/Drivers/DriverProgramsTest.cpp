@@ -92,7 +92,8 @@ TEST(Drivers, printNothingWhereTheyAreQuietAndGoOnAtTheirEnd) {
     for (const std::string& name : everyDriver()) {
         const TestFolder folder;
         const auto options = shorter.find(name);
-        // Where its program lies, and without --output: the folder has another name than the program.
+        // A driver runs beside its program, and without --output: the folder has another name than the
+        // program.
         std::filesystem::create_symlink(std::filesystem::path(drivers) / name / name, folder.path() / name);
         const std::string command = "cd " + folder.path().string() + " && ./" + name + " --quiet " +
                                     (options == shorter.end() ? "" : options->second);

@@ -10,7 +10,7 @@ namespace {
 
 using driverRuns::rowsOf;
 
-// Of an ellipsoid whose support function up and down is h, the share below a plane at x h from its centre is
+// The share of an ellipsoid below a plane at x h from its centre, with the support function h up and down, is
 // that of a sphere, (2 + 3 x - x^3) / 4. The plane cuts up to 24^2 of the 24^3 cells in which the points are,
 // each wrong by up to a half with random signs: some 24 / 2 of 24^3 pi / 6 points, and five times that.
 TEST(EllipsoidPacking, measuresTheShareOfAGrainInALayer) {

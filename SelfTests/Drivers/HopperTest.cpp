@@ -15,7 +15,7 @@ using support::refusal;
 using support::TestFolder;
 
 TEST(Beverloo, lineOfLeastSquaresIsThatOfTheNormalEquations) {
-    // By hand: (0, 1), (1, 2), (2, 6): mean (1, 3), slope (2 + 3) / 2 = 5/2, intercept 1/2.
+    // Found by hand: (0, 1), (1, 2), (2, 6): mean (1, 3), slope (2 + 3) / 2 = 5/2, intercept 1/2.
     const std::vector<CurvePoint> points{{0, 1}, {1, 2}, {2, 6}};
     EXPECT_DOUBLE_EQ(fitLine(points).slope, 2.5);
     EXPECT_DOUBLE_EQ(fitLine(points).intercept, 0.5);

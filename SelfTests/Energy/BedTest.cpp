@@ -82,8 +82,8 @@ TYPED_TEST_SUITE(LongBedLedger, Beds);
 TYPED_TEST(HeavyBedLedger, closesOverAHundredThousandSteps) { expectCloses<TypeParam>(100000); }
 TYPED_TEST(LongBedLedger, closesOverAMillionSteps) { expectCloses<TypeParam>(1000000); }
 
-// The same bits for any number of threads; a ledger changes no bit of the motion. Three threads come when
-// grains slide, for a few steps: where they are more than the processors, they wait for each other long.
+// The bits are the same for any number of threads; a ledger changes no bit of the motion. Three threads come
+// when grains slide, for a few steps: where they are more than the processors, they wait for each other long.
 TEST(BedLedger, doesNotDependOnThreadsAndChangesNothing) {
     ShakenBed<Dry> one, three, without(false);
     const auto step = [&](int steps) {

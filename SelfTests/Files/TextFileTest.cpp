@@ -159,7 +159,7 @@ TEST(TextReaders, takeRowsPartedByCommas) {
     EXPECT_TRUE(contains(refusal([&] { rows("1e-3,,2,3\n"); }), "line 1, column 6: ',' is not a number"));
     EXPECT_TRUE(contains(refusal([&] { rows("0,001 1,5 2,0 3,0\n"); }), "'0,001' is not a number (decimals"));
     EXPECT_TRUE(contains(refusal([&] { rows("0,001;1,5;2,0;3,0\n"); }), "decimals have a point"));
-    // As two numbers with decimal commas these would be four without.
+    // These two numbers with decimal commas would be four numbers without.
     EXPECT_TRUE(contains(refusal([] { readSpheres(TemporaryFile(".txt", "0,5 1,25\n").path); }), "'0,5'"));
     EXPECT_TRUE(contains(refusal([&] { rows("1.5D-3 0 0 0\n"); }), "powers of ten"));
     EXPECT_TRUE(contains(refusal([&] { rows("+-1 0 0 0\n"); }), "'+-1' is not a number"));

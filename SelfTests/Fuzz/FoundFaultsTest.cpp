@@ -15,7 +15,7 @@ using support::contains;
 using support::isOneSentence;
 using support::refusal;
 
-/// Its size is 0, and the numbers of the cells in which equal corners are sought were not finite.
+/// The size of the mesh is 0, and the numbers of the cells in which equal corners are sought were not finite.
 TEST(FoundFaults, aMeshThatIsAPointIsRefused) {
     TriangleWall wall;
     const Vector<double> p{1, 2, 3};
@@ -24,7 +24,7 @@ TEST(FoundFaults, aMeshThatIsAPointIsRefused) {
     EXPECT_TRUE(contains(text, "there is no triangle with an area"));
 }
 
-/// The same numbers, for a mesh of 2^-20 m at 2^29 m, went beyond 2^63.
+/// The numbers of these cells, for a mesh of 2^-20 m at 2^29 m, went beyond 2^63.
 TEST(FoundFaults, aSmallMeshFarAwayKeepsItsShape) {
     const double far = 0x1p29, edge = 0x1p-20;  // m; the spacing of doubles there is 2^-23 m
     const Vector<double> a{far, far, 0}, b{far + edge, far, 0}, c{far + edge, far + edge, 0},

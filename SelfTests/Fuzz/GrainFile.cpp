@@ -29,7 +29,7 @@ const std::string lammpsDump =
     "ITEM: ATOMS id type x y z vx vy vz omegax omegay omegaz radius mass\n"
     "2 2 -1 0 0.125 -1 0 0 0 0 7 0.001 1e-5\n1 1 0.25 -0.5 1 1 2 3 4 5 6 0.0005 1e-6\n";
 
-/// Of the last snapshot, and of one.
+/// Reads the last snapshot, and one that is asked for.
 void readLammps(const std::filesystem::path& path) {
     for (const GrainRow& grain : readGrainFile(path))
         if (!radiusRange.contains(grain.radius) || grain.type < 0 || !grain.position.allFinite() ||

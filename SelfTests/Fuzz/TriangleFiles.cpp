@@ -97,7 +97,7 @@ std::string binaryPly(bool isBig) {
     return bytes;
 }
 
-/// As a driver does with the file of its option --walls, and once around the wall.
+/// Reads and moves a wall as a driver does with the file of its option --walls, and once around the wall.
 void read(const std::filesystem::path& path) {
     TriangleWall wall;
     wall.read(path);

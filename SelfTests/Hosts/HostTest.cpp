@@ -41,7 +41,7 @@ Handler handlerOf(int signal) {
 void ofTheHost(int) {}
 [[noreturn]] void endOfTheHost() { std::abort(); }
 
-/// As a host does, before any scene of this program.
+/// Calls what a host calls, before any scene of this program.
 struct Host {
     Host() {
         setHosted();

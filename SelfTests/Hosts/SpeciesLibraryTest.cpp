@@ -101,7 +101,7 @@ TEST(SpeciesLibrary, thatDoesNotFitIsRefused) {
            "the nearest names are QuadraticSpringMindlinSpecies");
 }
 
-/// Of the program itself, without a library.
+/// A type of the program itself is registered without a library.
 TEST(SpeciesType, isRegisteredByACall) {
     load();
     using Type = Species<HertzianBSHPViscoelastic>;

@@ -51,8 +51,8 @@ private:
 
 namespace {
 
-/// With a plate at x = 0.0115 m: the grain of the first driver, of radius 1 mm, comes to it from 0.01 m with
-/// 0.1 m/s, and touches it after 5 ms.
+/// A driver with a plate at x = 0.0115 m: the grain of the first driver, of radius 1 mm, comes to it from
+/// 0.01 m with 0.1 m/s, and touches it after 5 ms.
 template <class Driver>
 struct WithPlate : Driver {
     void setupInitialConditions() override {

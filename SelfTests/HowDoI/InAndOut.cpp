@@ -33,7 +33,7 @@ TEST_F(HowDoI, InAndOut) {
     InAndOut scene;
     run(scene);
     EXPECT_GT(scene.outletHandler.removedNumber(), 50u);
-    // With the grain of the first driver, which was below the outlet's plane.
+    // One more is the grain of the first driver, which was below the outlet's plane.
     EXPECT_EQ(scene.inletHandler.count(0).number + 1,
               scene.outletHandler.removedNumber() + scene.particleHandler.getSize());
     EXPECT_GT(scene.fluxPlaneHandler.count(0).net(), 50);

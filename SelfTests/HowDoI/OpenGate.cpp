@@ -28,7 +28,7 @@ TEST_F(HowDoI, OpenGate) {
     EXPECT_LT(closed.particleHandler.getObject(0).getVelocity().x(), 0);
 }
 
-// By itself: the file tells which walls were removed.
+// The scene goes on without being told: the file tells which walls were removed.
 TEST_F(HowDoI, OpenGateGoesOn) {
     if (!Hdf5File::isAvailable()) GTEST_SKIP() << "This build has no HDF5 library: restart is not tested.";
     OpenGate scene;

@@ -28,7 +28,7 @@ TEST_F(HowDoI, SettledBed) {
     }
 }
 
-// Also where the first scene has removed grains.
+// The first scene may have removed grains.
 TEST_F(HowDoI, SettledBedOfTheGrainsThatAreLeft) {
     FirstDriver scene;
     run(scene);

@@ -98,7 +98,7 @@ TEST(Outlet, letsGoWhatIsOldEnough) {
 
 TEST(Outlet, knowsAgesThroughARestart) { expectTheSameThroughARestart<Ageing>(450); }
 
-/// The same with a step that follows the contacts, onto a floor, and a plane that counts.
+/// Grains of Ageing with a step that follows the contacts, onto a floor, and a plane that counts.
 class Adapting : public Ageing {
 public:
     explicit Adapting(int threads) : Ageing(threads) {
@@ -111,7 +111,7 @@ public:
 
 TEST(AdaptiveStep, knowsWhatComesAndGoesThroughARestart) { expectTheSameThroughARestart<Adapting>(450); }
 
-/// Of two outlets that cover the same, the first takes what a condition lets through.
+/// The first of two outlets that cover the same takes what a condition lets through.
 class Choosing : public FilledScene {
 public:
     explicit Choosing(bool hasCondition) {

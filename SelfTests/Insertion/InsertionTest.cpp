@@ -41,7 +41,7 @@ TEST(Insertion, fillsEveryRegionLooselyOrDenselyWithoutAnyOverlap) {
                 scene.insert(wideSizes(), *region, Amount::solidFraction(fraction), scene.grain());
             EXPECT_EQ(made.number, made.wanted);
             EXPECT_EQ(made.number, scene.particleHandler.getSize());
-            // As many whole grains of the mean volume as do not exceed it.
+            // There are as many whole grains of the mean volume as do not exceed it.
             const double one = std::numbers::pi / 6 * wideSizes().moment(3) / region->volume();
             EXPECT_LE(made.solidFraction, fraction * (1 + 1e-9));
             EXPECT_GT(made.solidFraction, fraction - 1.01 * one);
@@ -169,7 +169,7 @@ TEST(Insertion, ofLessThanTheFirstRandomGrainSaysSo) {
     const BoxRegion box({0, 0, 0}, {20 * d, 20 * d, 20 * d});
     InsertOptions options;
     options.sample = Sample::Random;
-    // Of seed 1 the first grain is heavier than the mean one.
+    // With seed 1 the first grain is heavier than the mean one.
     ASSERT_GT(sphereMass(sizes.drawRadius(CountedRandom(1), 0), FilledScene::density), mass);
     FilledScene scene;
     const auto insert = [&] { return scene.insert(sizes, box, Amount::mass(mass), scene.grain(), options); };

@@ -179,7 +179,7 @@ TEST(Region, aMeshIsClosedWhereItsCornersDifferByRoundOff) {
                 0.02);
 }
 
-// The same solid as OBJ, with quadrilaterals.
+// A cube may come as OBJ, with quadrilaterals.
 TEST(Region, readsClosedMeshesOfPolygons) {
     const support::TemporaryFile file(
         ".obj",

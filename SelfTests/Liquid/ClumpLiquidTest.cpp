@@ -172,7 +172,7 @@ TEST(ClumpLiquid, driesByItsFreeSurface) {
                     1e-6 * flux * area * time);
     EXPECT_NEAR(scene.particleHandler.getObject(2).getLiquidVolume(), film, 1e-9 * film);
     EXPECT_NEAR(scene.liquidLedger().evaporated, 2 * flux * area * time, 1e-6 * flux * area * time);
-    // As much as the surface of the union, and not of all spheres.
+    // The surface is that of the union, and not that of all spheres.
     EXPECT_LT(scene.liquidLedger().evaporated, 0.5 * flux * 3 * 4 * pi * r * r * time);
 }
 

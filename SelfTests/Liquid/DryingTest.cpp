@@ -38,7 +38,7 @@ struct Given {
 const Given given[] = {{"equal, touching", equal, 0, 0.01, 0.2402092631, 0.026636705},
                        {"plane, touching", plane, 0, 0.01, 0.2381932366, 0.0268381491},
                        {"equal, apart", equal, 0.1, 0.01, 0.2420149549, 0.0247913689}};
-/// Of the digits that are given.
+/// The relative error of numbers with the digits that are given.
 constexpr double digits = 1e-8;
 
 BridgeLiquid bridgeOf(const Bodies& bodies, double volume, double angle = 0) {
@@ -107,7 +107,7 @@ TEST(Drying, smallBridgesHaveTheAreaOfTheLimit) {
             const double area = bridgeArea(bridgeOf(equal, volume, angle), 0) / (r * r);
             EXPECT_NEAR(area / (c * std::pow(volume, 0.75)), 1, 0.011) << angle << ' ' << volume;
         }
-    // Where table and limit meet there is no step.
+    // There is no step where table and limit meet.
     for (const double gap : {0.0, 1e-4, 1e-3}) {
         const double above = bridgeArea(bridgeOf(equal, 1.0000001e-7), gap * r),
                      below = bridgeArea(bridgeOf(equal, 0.9999999e-7), gap * r);
@@ -345,8 +345,8 @@ TEST(Drying, energyOfAStretchedBridge) {
     EXPECT_EQ(adhesionEnergyOf(law.prepare(bodies, 1e-11), 1e-3), 0);
 }
 
-/// The same in a scene, where a third grain brings the liquid. Its bridge to the second one breaks, and all
-/// of its liquid goes to the bridge that is stretched.
+/// A scene has these energies, too, where a third grain brings the liquid. Its bridge to the second one
+/// breaks, and all of its liquid goes to the bridge that is stretched.
 TEST(Drying, migrationAndEvaporationAreInTheEnergyLedger) {
     constexpr double start = 3.5e-4 * unitTime;
     using Row = HeavyRow<LiquidMigrationWillett>;
@@ -424,7 +424,7 @@ TEST(Drying, doesNotDependOnThreadsOrRestarts) {
     wet::expectSameBits<DryingBox>(folder.path(), {0, 250, 251, 700}, 1200, 700, 720);
 }
 
-// Where the pendular state ends.
+// Limits at which the pendular state ends.
 
 TEST(PendularLimits, volumeWhereBridgesOfThreeGrainsMeet) {
     struct Row {
@@ -553,7 +553,7 @@ TEST(Drying, refusesBadFields) {
         Simulation<Species<LinearViscoelastic, NoFriction, LiquidMigrationWillett>> scene;
         EXPECT_TRUE(support::isOneSentence(support::refusal([&] { scene.setLiquidDensity(value); })));
     }
-    // Where nothing is wet.
+    // Nothing is wet here.
     for (const int what : {0, 1}) {
         Species<LinearViscoelastic> dry;
         dry.setDensity(2500), dry.setStiffness(100), dry.setDissipation(0);

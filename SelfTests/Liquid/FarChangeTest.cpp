@@ -47,7 +47,7 @@ public:
     void runTo(int last) {
         while (this->getNumberOfTimeSteps() < static_cast<std::size_t>(last)) this->step();
     }
-    /// Of the three.
+    /// The numbers of all three grains.
     [[nodiscard]] std::vector<double> allNumbers() {
         std::vector<double> all;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -371,7 +371,7 @@ TEST(FilmContact, sharesItsLiquidAsATouchDoes) {
     EXPECT_EQ(chain.liquidLedger().films, 0);
 }
 
-// The same of a species by its name, across the edge of a scene that repeats itself.
+// A species by its name does this, too, across the edge of a scene that repeats itself.
 TEST(FilmContact, knowsSpeciesByNameAndTheNearestImage) {
     Simulation<> scene;
     AnySpecies* const species =
@@ -457,7 +457,7 @@ TEST(FilmContact, givesTheSameBitsForAnyThreadsAndRestarts) {
     wet::expectSameBits<FilmBox>(folder.path(), {0, 250, 251, 400}, 600, 400, 420);
 }
 
-// With what a bridge that has just formed still has to charge.
+// The restart keeps what a bridge that has just formed still has to charge.
 TEST(FilmContact, goesOnThroughARestartAndAChangeInTheStepInWhichFilmsMeet) {
     const support::TestFolder folder;
     const Meeting given{.withVolume = true};

@@ -101,7 +101,7 @@ TEST(GivenTables, aGrainThatIsWithdrawnFromAWallSlowsDownAsGiven) {
         int step;
         double popular, popularSpin, pair, pairSpin;
     };
-    // Of 1/100 of the way, 4.3352853e-5 s.
+    // The time of 1/100 of the way, 4.3352853e-5 s.
     constexpr double time = 4.33528526834e-5;
     for (const At& row : {At{1, 0.09684954454, 7.876138648, 0.09861748595, 0.85007444},
                           At{3, 0.09212353204, 19.6911699, 0.09668032428, 1.994119061},

@@ -61,7 +61,7 @@ public:
         this->setTimeMax(1.5e-3);
         if constexpr (Law::formsAtContact) this->joinAtStart(10 * um);
     }
-    /// With the step of no length at the start.
+    /// Runs steps, and looks also after the step of no length at the start.
     void run(int count) {
         this->initialise();
         look();

@@ -167,7 +167,7 @@ TEST(LiquidStep, followsAllGivenSequences) {
     EXPECT_EQ(exactRows, 66);  // the others have thirds, or smaller parts than 2^-16
 }
 
-/// The same liquid with contacts in another order of the list.
+/// A liquid with its contacts in another order of the list.
 PlainLiquid shuffled(PlainLiquid liquid, std::mt19937& random) {
     std::shuffle(liquid.contacts.begin(), liquid.contacts.end(), random);
     return liquid;

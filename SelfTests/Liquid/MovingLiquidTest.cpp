@@ -128,7 +128,7 @@ TEST(MovingLiquid, observersSeeTheForcesThatWere) {
     row.arrange({apart, touch});
     const auto seen = [&] { return row.interactions()[0]; };
     const auto alongNormal = [&] { return -dot(seen().force, seen().normal()); };
-    // Of a grain at rest: F(0) = 2 pi R gamma, R = r; the spring of the overlap is 100 N/m.
+    // The force of a grain at rest is F(0) = 2 pi R gamma, R = r; the spring of the overlap is 100 N/m.
     EXPECT_NEAR(seen().adhesiveForce, 2 * std::numbers::pi * r * 0.07, 1e-12);
     row.particleHandler.getObject(0).setLiquidVolume(1 * ml);
     row.speeds[1] = {1 * 0.5e-3 / (100 * length), 0, 0};  // 0.5 mm in 100 steps: it ruptures on the way
@@ -575,8 +575,8 @@ TEST(MovingLiquid, theEnergyLedgerCloses) {
     const double start = ledger.closed();
     constexpr int steps = 2000;
     for (int k = 0; k < steps; ++k) box.step();
-    // As with bridges of constant volume (SelfTests/Energy/BedTest.cpp): what rounding makes of all that was
-    // turned over.
+    // The error is as with bridges of constant volume (SelfTests/Energy/BedTest.cpp): what rounding makes of
+    // all that was turned over.
     double turnedOver = 0;
     for (const auto& entry : EnergyLedger::entries()) turnedOver += std::abs(ledger.*entry.member);
     EXPECT_LT(std::abs(ledger.closed() - start), 5 * std::sqrt(steps) * 0x1p-53 * turnedOver);

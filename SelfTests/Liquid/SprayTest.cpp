@@ -94,7 +94,7 @@ TEST(Spray, emitsByTheClock) {
     EXPECT_NEAR(spray.volumeBy(100), 1500 * volume, 1e-9 * volume);
 }
 
-/// The same droplets for any step: number, place, velocity, and where they are at a time.
+/// The droplets are the same for any step: number, place, velocity, and where they are at a time.
 TEST(Spray, isTheSameForAnyStep) {
     Spray spray;
     spray.setCone({0.01, 0.02, 0.03}, {1, 1, 0}, 0.8);

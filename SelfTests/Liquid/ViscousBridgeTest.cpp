@@ -272,8 +272,9 @@ TEST(ViscousBridge, hasTheRestitutionOfBothConventions) {
         }
 }
 
-// The same of scenes, from the dry restitution 0.9 at Stokes numbers from where no grain returns to where the
-// liquid is hardly felt: within the error of the contact at the steps that its 300 or more samples are, 1e-4.
+// Scenes give these restitutions, too, from the dry restitution 0.9 at Stokes numbers from where no grain
+// returns to where the liquid is hardly felt: within the error of the contact at the steps that its 300 or
+// more samples are, 1e-4.
 TEST(ViscousBridge, collidesWithTheRestitutionOfItsStokesNumber) {
     for (const double stokes : {8.0, 14.0, 30.0, 100.0, 1000.0}) {
         GivenSet set = setA();

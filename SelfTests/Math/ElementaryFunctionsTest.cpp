@@ -153,8 +153,9 @@ std::uint64_t mix(std::uint64_t hash, double value) {
     return (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3u;  // FNV-1a over words
 }
 
-/// The same bits on every machine and with every instruction set: the two numbers below are what all of those
-/// tried gave. Whoever improves the functions changes the numbers; a new compiler or machine must not.
+/// The bits are the same on every machine and with every instruction set: the two numbers below are what all
+/// of those tried gave. Whoever improves the functions changes the numbers; a new compiler or machine must
+/// not.
 TEST(ElementaryFunctions, giveTheSameBitsOnEveryMachine) {
     std::uint64_t exponential = 0xcbf29ce484222325u;
     std::uint64_t logarithm = 0xcbf29ce484222325u;

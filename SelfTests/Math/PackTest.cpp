@@ -13,7 +13,8 @@ constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 using Lanes = std::array<double, Pack::lanes>;
 
-/// The same bits, where all NaN are one: which operand's payload survives is the compiler's choice.
+/// Whether two numbers have the same bits, where all NaN are one: which operand's payload survives is the
+/// compiler's choice.
 bool identical(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (a != a && b != b);
 }
@@ -386,7 +387,7 @@ void expectStored(std::size_t offset) {
     }
 }
 
-/// As the sum of the contacts of a grain makes force and torque.
+/// Two vectors that are made as the sum of the contacts of a grain makes force and torque.
 struct TwoVectors {
     Vector<double> first, second;
 };

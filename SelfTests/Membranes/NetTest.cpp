@@ -223,7 +223,7 @@ TEST(MembraneNet, pressureInAClosedNetHasNoForceAndNoTorqueAndWorksAsPTimesDV) {
 
 /// Forces are the gradient of the energy; they move and turn nothing as a whole.
 TEST(MembraneNet, elasticForcesAreTheGradientOfTheEnergy) {
-    // As thick as an edge, so that hinges count as springs do.
+    // The sheet is as thick as an edge, so that hinges count as springs do.
     MembraneMaterial thick = rubber;
     thick.thickness = 0.5;
     const MembraneNet net(
@@ -352,7 +352,7 @@ std::vector<Triangle> disc(int rings) {
 /// net of six rings (table membrane_disc), within 0.7 % of the continuum, 0.64477642 (q a / E t)^(1/3) for
 /// Poisson's ratio 1/3.
 TEST(MembraneNet, discUnderPressureIsThatOfTheTable) {
-    // So thin that hinges do not count: D / (E t a^2) = 1e-13.
+    // The sheet is so thin that hinges do not count: D / (E t a^2) = 1e-13.
     const MembraneNet net(disc(6), {.youngsModulus = 1e6, .thickness = 1e-6, .density = 1e6});
     for (const auto& [pressure, height] : {std::pair{1e-4, 0.029740}, {1e-2, 0.138693}}) {
         const Points at = atRest(net, pressure, net.rim(), false);

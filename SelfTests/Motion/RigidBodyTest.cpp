@@ -174,7 +174,7 @@ TEST(RigidBody, aBodyOfOneGrainIsThatGrain) {
     EXPECT_LT((a.spin - b.spin).norm(), 1e-11 * a.spin.norm());
 }
 
-/// Of all bodies of a scene about the origin, kg m^2/s.
+/// The angular momentum (kg m^2/s) of all bodies of a scene about the origin.
 Vec3D angularMomentum(Scene& scene) {
     Vec3D sum = Vec3D::Zero();
     for (std::size_t k = 0; k < scene.bodyHandler.getSize(); ++k) {
@@ -305,7 +305,8 @@ TYPED_TEST(RigidBodyBox, givesTheSameBitsForAnyThreadsListsAndRestarts) {
     support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
 }
 
-/// Also those that are far apart in space, so that forces of a body are summed from memory in a row.
+/// Grains that are far apart in space stand so, too, so that forces of a body are summed from memory in a
+/// row.
 TEST(RigidBody, hasItsGrainsBehindEachOtherInMemory) {
     BoxOfBodies<Rough> scene;
     scene.initialise();

@@ -55,7 +55,7 @@ TEST(EnergyFile, hasAColumnForEachEntryOfTheLedger) {
     EXPECT_GT(scene.energyLedger().sliding, 0);
 }
 
-/// Also where other outputs are due at other steps; and one of the last state.
+/// There are rows where other outputs are due at other steps, too; and one of the last state.
 TEST(EnergyFile, hasARowInEachInterval) {
     const TestFolder folder;
     Watched scene(folder.name(), 1000, 180 * length);

@@ -160,7 +160,7 @@ TEST_F(Links, areNotWrittenThroughByTheProbeOfAFolder) {
 TEST_F(Links, areNotGoneOnWith) {
     expectSafe("open", [&] { std::fclose(createFile(folder.path() / "open")); });
     expectSafe("open", [&] { std::fclose(goOnWithFile(folder.path() / "open")); });
-    // Of a folder that is no file.
+    // The sentence for a folder in the place of a file.
     fs::create_directory(folder.path() / "folder.csv.part");
     const std::string text = refusal([&] { CsvFile(folder.path() / "folder.csv", "time_s").close(); });
     EXPECT_TRUE(isOneSentence(text));

@@ -32,7 +32,7 @@ TEST(OutputInterval, isDueAtTheStepNearestToEachMultiple) {
     EXPECT_EQ(dueSteps(1e300, 1e-6, 1000), (Steps{0}));
 }
 
-// With another time step from 2.3 s on: at 3.05, 4.05, 5.05 s.
+// The output is due at 3.05, 4.05, 5.05 s with another time step from 2.3 s on.
 TEST(OutputInterval, goesOnWithAnotherTimeStep) {
     OutputInterval output("Test", 1);
     std::vector<std::size_t> steps;

@@ -138,7 +138,7 @@ protected:
     std::filesystem::path picture = folder.path() / "picture.png", scene = folder.path() / "picture.pov";
 };
 
-/// As a run that could not go on may leave them.
+/// A run that could not go on may leave such grains.
 TEST(SnapshotOfALastState, leavesOutGrainsThatAreNowhere) {
     Frame frame;
     frame.grains.points = {{0, 0, 0}, {NAN, 0, 0}, {1, 0, 0}};

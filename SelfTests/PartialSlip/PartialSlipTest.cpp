@@ -17,7 +17,7 @@ namespace pendular {
 namespace {
 
 constexpr int springs = 500;
-/// Of the force of full sliding, from the sum over the springs at most: see PartialSlipContact.
+/// The error of the sum over the springs, at most, over the force of full sliding: see PartialSlipContact.
 constexpr double error = 0.9 / (springs * springs);
 
 const PartialSlipConditions glass{1e-3, 3e10, 0.7e10, 0.3};
@@ -171,8 +171,9 @@ TEST(PartialSlip, refusesWhatIsNoContact) {
 
 constexpr int steps = 2000;
 
-/// Of an elastic impact, in the numbers of Maw, Barber and Fawcett (1976), Wear 38, 101: psi = kappa s / (mu
-/// v) with the slip s and the speed v along the normal, kappa = 4 G* / E*. Their 4 chi is 7 kappa.
+/// The rebound of an elastic impact, in the numbers of Maw, Barber and Fawcett (1976), Wear 38, 101: psi =
+/// kappa s / (mu v) with the slip s and the speed v along the normal, kappa = 4 G* / E*. Their 4 chi is 7
+/// kappa.
 double psiAfter(const PartialSlipConditions& conditions, double psiBefore, int stepsOfContact = steps,
                 int springsOfContact = springs) {
     const ElasticImpact impact{.conditions = conditions, .mass = 1e-5, .approach = 0.1};

@@ -195,7 +195,8 @@ TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
     const FluxCount& count = scene.fluxPlaneHandler.count(0);
     EXPECT_EQ(count.forwards, 3u);
     EXPECT_NEAR(count.netMass() / body.getMass(), 1, 1e-14);
-    // Of the way in a step, each end of which is rounded: half a unit of the last digit of its place.
+    // The error is that of the way in a step, each end of which is rounded: half a unit of the last digit of
+    // its place.
     EXPECT_NEAR(count.netMomentum().z() / (body.getMass() * speed), 1, 0.012 * 0x1p-52 / (speed * 1e-5));
 }
 
@@ -289,8 +290,8 @@ TEST(Clump, isInsertedWithoutOverlapInTheSizesOfADistribution) {
                          "clumps at a solid fraction of 0.3"));
 }
 
-// Of even turns each component of a turned axis has the mean 0 and the mean square 1/3, and no two are
-// correlated: of N draws within five standard errors, sqrt((1/5 - 1/9) / N) of the squares.
+// Each component of an axis that is turned evenly has the mean 0 and the mean square 1/3, and no two are
+// correlated: for N draws within five standard errors, sqrt((1/5 - 1/9) / N) of the squares.
 TEST(Clump, isTurnedEvenly) {
     const CountedRandom random(7);
     constexpr int draws = 20000;

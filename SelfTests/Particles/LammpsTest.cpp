@@ -47,7 +47,7 @@ TEST(LammpsData, readsSpheresInAnyOrder) {
     for (const std::string style : {"", " # sphere", " # granular"})
         expectBoth(read(header + masses + "Atoms" + style +
                         "\n\n2 2 0.002 7850 -1 0 0.125\n1 1 0.001 2500 0.25 -0.5 1\n" + rest + velocities));
-    // With image flags, and as hybrids.
+    // A file with image flags, and one with hybrids.
     expectBoth(read(header +
                     "Atoms # sphere\n\n1 1 0.001 2500 0.25 -0.5 1 0 0 -1\n2 2 2e-3 7.85e3 -1 0 .125 1 0 0\n" +
                     velocities));
@@ -57,7 +57,7 @@ TEST(LammpsData, readsSpheresInAnyOrder) {
                     "Atoms # hybrid sphere charge\n\n1 1 0.25 -0.5 1 0.001 2500 0.1\n"
                     "2 2 -1 0 0.125 0.002 7850 0.2\n" +
                     velocities));
-    // As the scripts that compare with these codes write it: no velocities, no units.
+    // A file as the scripts that compare with these codes write it: no velocities, no units.
     const auto still = read(
         "bed\n\n1 atoms\n1 atom types\n\n-0.05 0.05 xlo xhi\n-0.03 0.03 ylo yhi\n"
         "-0.1 0.05 zlo zhi\n\nAtoms\n\n1 1 0.002 2500 0.01 0.02 0.03\n");

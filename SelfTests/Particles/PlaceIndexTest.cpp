@@ -33,7 +33,7 @@ TEST(PlaceIndex, isAMapFromIdentitiesToPlaces) {
     EXPECT_EQ(std::vector<std::uint32_t>(index.begin(), index.end()), places);
 }
 
-// Of a million grains that come and go, a hundred at a time, it keeps some pages of a thousand numbers and a
+// It keeps, of a million grains that come and go, a hundred at a time, some pages of a thousand numbers and a
 // few bytes for each page that is gone.
 TEST(PlaceIndex, doesNotGrowAsGrainsComeAndGo) {
     PlaceIndex index;

@@ -71,7 +71,7 @@ TEST(SceneWithoutGrains, flows) {
     }
 }
 
-// Of a target that needs grains, and a tension, the sentence says so.
+// A tension is a target that needs grains: the sentence says so.
 TEST(SceneWithoutGrains, bearsNoTension) {
     Cube scene({});
     scene.setTargetStress(2, -10, 1e-3);

@@ -195,9 +195,9 @@ class LeesEdwardsPair : public testing::Test {};
 using SpeciesOfAllKinds = testing::Types<Smooth, Dry, Wet>;
 TYPED_TEST_SUITE(LeesEdwardsPair, SpeciesOfAllKinds);
 
-/// Also of friction and bridges, for all axes: carried with the flow of its place, a pair meets as in the
-/// middle of the box. Tolerances as those of FaceTest, and for the speed of the flow that is added to each
-/// velocity: round-off of 1 m/s in 1500 steps, 1500 x 2.2e-16, below them.
+/// A pair with friction or bridges, too, for all axes: carried with the flow of its place, it meets as in the
+/// middle of the box. The tolerances are those of FaceTest, and for the speed of the flow that is added to
+/// each velocity: round-off of 1 m/s in 1500 steps, 1500 x 2.2e-16, below them.
 TYPED_TEST(LeesEdwardsPair, meetsEverywhereAsInTheMiddle) {
     constexpr int steps = 1500;
     constexpr double speedTolerance = 1e-9, spinTolerance = 2.5 / 0.8e-3 * speedTolerance;

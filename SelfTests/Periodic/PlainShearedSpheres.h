@@ -42,8 +42,8 @@ public:
         for (const double end = time + strain; time < end;) advanceByStep();
     }
     [[nodiscard]] double getTimeStep() const { return step; }
-    /// Of contacts and motion, over density x diameter^2 x rate^2: pressure, and shear stress against the
-    /// flow.
+    /// The pressure of contacts and motion over density x diameter^2 x rate^2, and the shear stress against
+    /// the flow.
     [[nodiscard]] double pressure() const { return pressureSum / (3 * length * length * length); }
     [[nodiscard]] double shearStress() const { return -shearSum / (length * length * length); }
 

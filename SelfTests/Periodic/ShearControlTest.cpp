@@ -184,7 +184,7 @@ TEST(ShearControl, noContactIsMissed) {
     EXPECT_GT(overlaps, 1000u);
 }
 
-/// As of a strain alone (StrainTest).
+/// The ledger closes as with a strain alone (StrainTest).
 TEST(ShearControl, energyLedgerCloses) {
     PressedShear<Wet> scene(50);
     scene.keepEnergyLedger();

@@ -125,7 +125,7 @@ TEST(ShearedGrains, kineticStressKnowsNoDriftAndNoFlow) {
     material.setStiffnessAndRestitutionCoefficient(1e5, 0.7, std::numbers::pi / 6);
     const auto kineticOf = [&](const Vec3D& drift, double rate) {
         Sheared<Smooth> scene(material, 4, 0.3, rate);
-        // The same fluctuations for any rate, which grains were given in its units.
+        // The fluctuations are the same for any rate, which grains were given in its units.
         for (auto&& grain : scene.particleHandler) {
             const Vec3D flow = scene.shearFlowAt(grain.getPosition());
             grain.setVelocity((grain.getVelocity() - flow) / rate + flow + drift);

@@ -88,7 +88,7 @@ class StrainedPair : public testing::Test {};
 using SpeciesOfAllKinds = testing::Types<Smooth, Dry, Wet>;
 TYPED_TEST_SUITE(StrainedPair, SpeciesOfAllKinds);
 
-/// Also of friction and bridges: a pair meets across a face as in the middle. The tolerances are those of a
+/// A pair with friction or bridges, too, meets across a face as in the middle. The tolerances are those of a
 /// pair in shear (LeesEdwardsTest).
 TYPED_TEST(StrainedPair, meetsEverywhereAsInTheMiddle) {
     constexpr int steps = 1500;

@@ -36,7 +36,7 @@ std::string refusalOf(const Shape& wall, std::initializer_list<int> axes = {0}) 
     return support::refusal([&] { scene->initialise(); });
 }
 
-/// Of a floor in 12 strips.
+/// The refusal of a floor in 12 strips.
 std::string refusalOfFloor(
     double lowest, double highest, const std::function<double(double)>& z = [](double) { return 0.0; }) {
     return refusalOf(meshOf(strips(lowest, highest, 12, z)));
@@ -116,7 +116,7 @@ TEST(WallEnds, alongEachPeriodOfTwo) {
     EXPECT_EQ(refusalOfPaving(-2 * r, length + 2 * r, {0, 1}), "");
     EXPECT_EQ(refusalOfPaving(3 * r, length - 3 * r, {0, 1}), "");
     EXPECT_TRUE(support::contains(refusalOfPaving(-2 * r, length + 0.9 * r, {0, 1}), "wall 0 ends at x"));
-    // As wide as the scene along y, which is enough unless it repeats itself along y.
+    // The floor is as wide as the scene along y, which is enough unless it repeats itself along y.
     std::vector<Triangle> narrow = strips(
         -2 * r, length + 2 * r, 12, [](double) { return 0.0; }, 1.5 * length);
     EXPECT_EQ(refusalOf(meshOf(narrow), {0, 1}), "");

@@ -25,7 +25,7 @@ using Migrating = Species<HertzianViscoelastic, Mindlin, LiquidMigrationWillett>
 
 constexpr double reach = 2 * r;  // m, of walls beyond the faces
 
-/// Of a species that has them.
+/// The material of the box, with bridges where the species has them.
 template <class S>
 S material() {
     S species = scenes::boxMaterial<S>(0);

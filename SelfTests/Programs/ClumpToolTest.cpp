@@ -51,7 +51,7 @@ std::vector<double> numbersAfter(const std::string& output, const std::string& w
     return numbers;
 }
 
-// The same dimer as in SelfTests/Shapes, in mm and with a density.
+// The dimer of SelfTests/Shapes, in mm and with a density.
 TEST(ClumpTool, weighsSpheres) {
     const auto result = run(ofDimer + "--unit-m 1e-3 --density-kg-per-m3 2000");
     ASSERT_EQ(result.exitCode, 0) << result.output;
@@ -62,7 +62,7 @@ TEST(ClumpTool, weighsSpheres) {
     EXPECT_NEAR(numbersAfter(result.output, "surface_m2")[0] / (6 * std::numbers::pi * 1e-6), 1, 1e-5);
 }
 
-// Of spheres apart it ends (once it did not), with their sum, and says which one is apart.
+// The tool ends with spheres that are apart (once it did not), gives their sum, and says which one is apart.
 TEST(ClumpTool, weighsSpheresThatAreApart) {
     const support::TemporaryFile apart(".csv", "0,0,0,1\n100,0,0,1\n");
     const auto result = run(tool + "--spheres " + apart.path.string());

@@ -71,7 +71,7 @@ TEST(StandardOutput, thatCannotBeWrittenIsAnError) {
     const std::string species = folders::tools.string() + "/species --list";
     support::expectOneSentence(run("(" + species + " >/dev/full)"), "No space left on device");
     EXPECT_EQ(run("(" + species + " >&-)").exitCode, 0);
-    // As of a program that SIGPIPE ends, and as quiet.
+    // It ends as a program that SIGPIPE ends, and as quietly.
     const auto result = run("bash -o pipefail -c '{ sleep 0.5; " + species + "; } | true'");
     EXPECT_EQ(result.exitCode, 141);
     EXPECT_EQ(result.output, "");

@@ -126,7 +126,7 @@ TEST_F(AskedToStop, aSecondTimeEndsAtOnce) {
     }
 }
 
-/// As of a job in the background, whose parent has SIGINT ignored: it stays so also after SIGTERM.
+/// SIGINT is ignored in a job in the background, by its parent: it stays so also after SIGTERM.
 TEST_F(AskedToStop, aSecondTimeByAnIgnoredSignalGoesOn) {
     const Child child(part, [&] {
         std::signal(SIGINT, SIG_IGN);

@@ -246,7 +246,8 @@ private:
     RigidWall* plate = nullptr;
 };
 
-/// Also at the end of the step that adds it: it has not been moved to any time yet.
+/// The file may be written at the end of the step that adds the wall, too: it has not been moved to any time
+/// yet.
 TEST(Restart, withAWallThatWasAddedIsBitForBit) {
     const auto make = [](int) { return std::make_unique<LatePlate>(); };
     for (const std::size_t middle : {LatePlate::added, LatePlate::added + 1, std::size_t{100}})

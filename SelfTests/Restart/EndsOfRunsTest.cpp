@@ -64,7 +64,7 @@ TEST(EndOfARun, thatCannotGoOnNamesTheRestartFileOfBefore) {
     again.restartFrom(scene.restartFile());
     EXPECT_EQ(again.end(), text);
     EXPECT_EQ(again.getNumberOfTimeSteps(), scene.getNumberOfTimeSteps());
-    // Also by another of its paths.
+    // The file is known by another of its paths, too.
     TooFast byAnotherPath(folder);
     byAnotherPath.restartFrom(folder.path() / "." / scene.restartFile().filename());
     EXPECT_EQ(byAnotherPath.end(), text);
@@ -106,7 +106,7 @@ TEST(BeginOfARun, keepsARestartFile) {
     EXPECT_TRUE(scene.there);
 }
 
-/// Also where the driver says so only when it sets up its scene.
+/// The driver may say so only when it sets up its scene.
 TEST(BeginOfARun, followsAScheduleThatTheSetUpGives) {
     const TestFolder folder;
     struct Scheduled : TooFast {

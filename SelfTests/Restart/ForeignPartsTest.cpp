@@ -30,7 +30,7 @@ protected:
         writeList(other);
         writeList(file);
     }
-    /// With a list of numbers in a group, kept where the properties say.
+    /// Writes a file with a list of numbers in a group, kept where the properties say.
     static void writeList(const std::filesystem::path& path, hid_t properties = H5P_DEFAULT) {
         const Object made(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
         const Object group(H5Gcreate2(made, "group", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
@@ -43,7 +43,7 @@ protected:
     [[nodiscard]] Object opened() const {
         return {H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
     }
-    /// Of all ways to read what has this name.
+    /// Expects that all ways to read what has this name are refused.
     void expectRefused(const std::string& name, const std::string& part) const {
         const Hdf5File read(file, Hdf5File::Access::Read);
         std::vector<double> numbers(length);

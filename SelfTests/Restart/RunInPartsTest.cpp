@@ -235,7 +235,8 @@ TEST_F(RunInParts, endsWhereTheDriverSaysSo) {
     expectSame({folder.path() / "whole", one.hash()}, parts);
 }
 
-/// As another thread may, or a hook: its files are complete, and a restart goes on as if nothing had been.
+/// Another thread may ask for it, or a hook: the run's files are complete, and a restart goes on as if
+/// nothing had been.
 TEST_F(RunInParts, stopsWhereItIsAskedTo) {
     const Left whole = solved();
     const auto stopOf = [](Parts& scene, auto&& run) {

@@ -26,7 +26,7 @@ public:
         heard.push_back(event);
         if (onEvent) onEvent(*this);
     }
-    /// Of the first species.
+    /// A grain of the first species.
     SphericalParticle grain(double radius, const Vec3D& position, const Vec3D& velocity = Vec3D::Zero()) {
         SphericalParticle result;
         result.setSpecies(this->speciesHandler.getObject(0));

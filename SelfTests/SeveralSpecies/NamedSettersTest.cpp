@@ -79,7 +79,7 @@ TEST(NamedSetter, takesSeveralValues) {
         }
 }
 
-/// Of a Hertzian contact it needs no mass, and can be read again.
+/// The restitution of a Hertzian contact needs no mass, and can be read again.
 TEST(NamedSetter, givesARestitution) {
     Simulation<> scene;
     AnySpecies* const species = scene.speciesHandler.addByName("HertzianViscoelasticSpecies");
@@ -88,7 +88,7 @@ TEST(NamedSetter, givesARestitution) {
     const double beta = std::sqrt(5.0) * std::log(2.0) / std::hypot(std::log(2.0), M_PI);
     EXPECT_NEAR(species->get("dissipation"), beta, 1e-14);
     EXPECT_NEAR(species->get("restitutionCoefficient"), 0.5, 1e-14);
-    // Of a pair nothing is set at first.
+    // Nothing is set of a pair at first.
     AnyLaws* const pair = scene.speciesHandler.setPairTypeByName(0, 0, "HertzianViscoelasticSpecies");
     EXPECT_TRUE(std::isnan(pair->get("restitutionCoefficient")));
     pair->set("restitutionCoefficient", 0.8);

@@ -26,9 +26,9 @@ using Hertz = HertzianViscoelasticSpecies;
 using Rough = HertzianViscoelasticMindlinSpecies;
 using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
 using SmoothWet = HertzianViscoelasticLiquidBridgeWillettSpecies;
-/// With a torque of its own, and histories of another width than those of Mindlin.
+/// Laws with a torque of their own, and histories of another width than those of Mindlin.
 using Rolling = Species<LinearPlasticViscoelastic, SlidingRollingTorsion>;
-/// Acts on grains that have not touched.
+/// Laws that act on grains which have not touched.
 using Attracting = Species<LinearViscoelastic, NoFriction, ReversibleAdhesive>;
 
 template <class Scene>

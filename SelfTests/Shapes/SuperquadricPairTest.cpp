@@ -82,7 +82,7 @@ TEST(SuperquadricPair, hasTheDepthOfTheTable) {
     }
 }
 
-/// The same pair seen from the other body, and in a turned frame.
+/// A pair is seen from the other body, too, and in a turned frame.
 TEST(SuperquadricPair, isTheSameFromBothSides) {
     for (const Row& row : rows) {
         const auto touch = touchOf(pairOf(row.first, row.second)),

@@ -129,7 +129,7 @@ TEST(SuperquadricSupport, agreesWithTheTable) {
     }
 }
 
-/// For random normals: the point is on the surface, its normal is the one asked for, by pow(); no random
+/// The point is on the surface for random normals, and its normal is the one asked for, by pow(); no random
 /// point of the surface lies higher.
 TEST(SuperquadricSupport, isTheFarthestPoint) {
     support::Random random(3);

@@ -69,7 +69,7 @@ TEST(UnionOfSpheres, agreesWithTheTablesWithinItsBound) {
     EXPECT_NEAR((trimer.centre - Eigen::Vector3d(0.350338125503, 0.350338125503, 0)).norm(), 0, 1e-11);
 }
 
-// Of two spheres that cut each other: the caps' areas are 2 pi R h.
+// Two spheres cut each other: the caps' areas are 2 pi R h.
 TEST(UnionOfSpheres, surfaceIsThatOfTheCapsThatAreLeft) {
     EXPECT_NEAR(surfaceOfUnion(knownShapes()[0].spheres), 2 * 4 * pi - 2 * 2 * pi * 0.5, 1e-7);
     EXPECT_NEAR(surfaceOfUnion(std::vector<Ball>{Ball{{3, 2, 1}, 2}}), 16 * pi, 1e-7);
@@ -177,7 +177,7 @@ TEST(UnionOfSpheres, exposedSharesAreThoseOfCaps) {
     EXPECT_EQ(
         exposedShares(std::vector<Ball>{{{0, 0, 0}, 1}, {{0.1, 0, 0}, 0.5}, {{0, 0, 0}, 1}, {{5, 0, 0}, 1}}),
         (std::vector<double>{1, 0, 0, 1}));
-    // The same to round-off: the first one.
+    // Equal spheres to round-off count as the first one.
     EXPECT_EQ(exposedShares(std::vector<Ball>{{{0, 0, 0}, 1}, {{1e-17, 0, 0}, 1}, {{0, 1e-16, 0}, 1}}),
               (std::vector<double>{1, 0, 0}));
     EXPECT_NEAR(surfaceOfUnion(std::vector<Ball>{{{0.3, 0, 0}, 1}, {{0.1 + 0.2, 0, 0}, 1}}), 4 * pi, 1e-14);
@@ -200,8 +200,8 @@ double shareByPoints(const std::vector<Ball>& spheres, std::size_t own, int coun
     return static_cast<double>(free) / count;
 }
 
-// Where caps overlap. The spiral's error is that of the points along the rims of the caps: some hundred
-// points of spacing 1/sqrt(N), half of which may be on the wrong side.
+// Caps overlap here. The spiral's error is that of the points along the rims of the caps: some hundred points
+// of spacing 1/sqrt(N), half of which may be on the wrong side.
 TEST(UnionOfSpheres, exposedSharesAreThoseOfPoints) {
     support::Random random(11);
     std::vector<Ball> spheres;

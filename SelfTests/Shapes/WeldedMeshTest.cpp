@@ -63,7 +63,7 @@ TEST(WeldedMesh, isTransitiveInAnyOrder) {
     } while (std::ranges::next_permutation(order).found);
 }
 
-// Of a cloud of corners, against the definition by all pairs.
+// A cloud of corners is compared with the definition by all pairs.
 TEST(WeldedMesh, agreesWithAllPairs) {
     Random draw(3);
     std::vector<Corners> mesh{{Point{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};  // its size is sqrt(2)

@@ -57,7 +57,7 @@ TEST(AdaptiveStep, givesTheSameBitsForAnyThreads) {
     expectSameBitsForThreads<Smooth>();
 }
 
-// Also between two choices, when contacts are listed otherwise.
+// The file may be written between two choices, too, when contacts are listed otherwise.
 TEST(AdaptiveStep, givesTheSameBitsThroughARestart) {
     if (!Hdf5File::isAvailable()) GTEST_SKIP();
     const support::TestFolder folder;
@@ -341,7 +341,7 @@ TEST(AdaptiveStep, isRefusedWhereItIsNotKnown) {
     }
     EXPECT_TRUE(
         support::contains(support::refusal([&] { viscous.initialise(); }), "need steps of one length"));
-    // Of states at each step, short steps would weigh too much.
+    // Short steps would weigh too much in a mean of states at each step.
     const FieldOutput means =
         FieldOutput(FieldGrid("Z", {0, 0, 0}, {1e-2, 1e-2, 1e-2}, 1e-3), KernelShape::Gauss, 1e-3)
             .averagedOver(1e-3);

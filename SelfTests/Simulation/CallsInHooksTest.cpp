@@ -134,7 +134,7 @@ TEST(CallInAHook, ofWriteRestartIsRefusedInVisitState) {
                          "step() cannot be called from this hook"));
 }
 
-/// Where it would be ignored, or its files would have no lock.
+/// Calls are refused that would be ignored, or whose files would have no lock.
 TEST(CallInAHook, ofWhatIsSetUpIsRefused) {
     const std::vector<std::pair<const char*, Hooked::Action>> calls{
         {"the outputs can only be set", [](Hooked& s) { s.addOutput(ParaViewOutput()); }},

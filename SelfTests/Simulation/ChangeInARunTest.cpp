@@ -147,7 +147,7 @@ TEST(ContactOfAChangedGrain, endsWhereTheChangeTakesItApart) {
     }
 }
 
-// So do those of bridges, and those at walls.
+// Contacts with bridges end so, too, and contacts at walls.
 TEST(ContactOfAChangedGrain, endsWithItsBridgeAndAtWalls) {
     Hooked<Wet> wet(scenes::boxMaterial<Wet>(0), {{}, {.position = {1.99 * r, 0, 0}}}, step);
     wet.listenToContacts();
@@ -380,7 +380,7 @@ TEST(TimeStepOfOneLength, staysWhatItWas) {
     };
     expectRefused(endOfOtherStep(wet, integrators::adamsMoulton, 0.5 * step, refusesAdaptive));
     expectRefused(endOfOtherStep(viscous, integrators::predictedVelocityVerlet, 0.5 * step, refusesAdaptive));
-    // The same length is none other.
+    // A step of the same length is no change.
     EXPECT_EQ(endOfOtherStep(viscous, integrators::predictedVelocityVerlet, step, refusesAdaptive), "");
     for (const Integrator& scheme :
          {integrators::predictedVelocityVerlet, integrators::springsInStep, integrators::velocityVerlet}) {

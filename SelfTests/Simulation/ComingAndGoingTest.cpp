@@ -220,7 +220,7 @@ TEST(ComingAndGoing, aSceneMayBeginWithoutGrains) {
     EXPECT_GT(scene.particleHandler.getObject(0).getForce().z(), 0);
 }
 
-// Also one that a hook adds and takes away again at once, with another one behind it, and with an integrator
+// A hook may add a grain and take it away again at once, with another one behind it, and with an integrator
 // that remembers the step before the last.
 TEST(ComingAndGoing, mayHappenInOneHook) {
     for (const Integrator& scheme : {integrators::predictedVelocityVerlet, integrators::adamsMoulton}) {
@@ -341,7 +341,7 @@ TEST(ChangeInARun, aTimeStepThatIsSetGoesOnFromTheTimeThatItIs) {
     for (int k = 0; k < 1000; ++k) scene.step();
     EXPECT_NEAR(scene.getTime(), 1500 * step, 1e-18);
     EXPECT_NEAR(scene.motion(0).position.x(), 1500 * step, 1e-15);
-    // Also in solve(), with a new end.
+    // This goes in solve(), too, with a new end.
     Hooked<Smooth> solved(smooth(), {{.velocity = {1, 0, 0}}}, step);
     EXPECT_EQ(endOf<Smooth>(solved, [](auto& s) { s.setTimeStep(0.25 * step), s.setTimeMax(10 * step); }),
               "");

@@ -187,7 +187,8 @@ void compare(const independent::Collision& expected, double steps) {
 }
 
 TEST(DryCollision, firstSampleMayLieArbitrarilyNearTheTouch) {
-    // As far after it as the round-off of the positions (1e-19 m against a way of 1e-7 m in a step) or more.
+    // The sample is as far after the touch as the round-off of the positions (1e-19 m against a way of 1e-7 m
+    // in a step) or more.
     for (double e : {0.1, 0.5, 0.9})
         for (double steps : {50.0, 158.0})
             for (double after : {0.0, 1e-11, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {

@@ -98,7 +98,7 @@ TEST(FarPlaces, upToTheLimitGiveTheSameRebound) {
         EXPECT_NEAR(restitutionAt(share * farthest), near, 4 * error / 0.1) << share;
 }
 
-/// Where steps may be rounded, set-up says so.
+/// Set-up says where steps may be rounded.
 TEST(FarPlaces, thatAreNearTheLimitAreToldOf) {
     for (const double x : {9e-3 * farthest, 1.1e-2 * farthest}) {
         One scene({0, x, 0});

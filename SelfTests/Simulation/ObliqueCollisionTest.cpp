@@ -40,7 +40,7 @@ S material(double restitution, double friction) {
 
 double mass(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density; }
 
-/// Of the elastic contact, s.
+/// The time (s) of the elastic contact.
 double contactTime(double radius, double reducedMass, double speed) {
     return hertzContactTime(computeEffectiveElasticModulus(youngModulus, poissonRatio), radius, reducedMass,
                             speed);

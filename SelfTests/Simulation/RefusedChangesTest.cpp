@@ -48,7 +48,7 @@ struct Falling : Scene {
     }
 };
 
-/// The same without a floor, in a box that is strained and sheared.
+/// The same grains without a floor, in a box that is strained and sheared.
 struct Strained : Scene {
     Strained() : HookedGrains(material(), layers(), 2e-6) {
         setQuiet();

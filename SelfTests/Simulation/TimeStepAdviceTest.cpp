@@ -23,7 +23,7 @@ double mass(double r) { return 4.0 / 3.0 * std::numbers::pi * r * r * r * densit
 TEST(TimeStepAdvice, rayleighTimeIsTheClosedForm) {
     // pi 0.001 sqrt(2500/1e8) / (0.1631 0.25 + 0.8766), by hand.
     EXPECT_NEAR(rayleighTime(1e-3, 1e8, 0.25, 2500), 1.712273e-5, 1e-11);
-    // As a length over a speed: proportional to r and sqrt(rho / G).
+    // It is a length over a speed: proportional to r and sqrt(rho / G).
     EXPECT_NEAR(rayleighTime(3e-3, 4e8, 0.25, 2500) / rayleighTime(1e-3, 1e8, 0.25, 2500), 1.5, 1e-14);
     EXPECT_NEAR(rayleighTime(1e-3, 1e8, 0.25, 10000) / rayleighTime(1e-3, 1e8, 0.25, 2500), 2, 1e-14);
 }

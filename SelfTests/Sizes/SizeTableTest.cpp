@@ -24,7 +24,7 @@ TEST(SizeTable, readsWhatItsFirstLineSays) {
     const auto number = [](const SizeDistribution& sizes) {
         return sizes.cumulative(SizeBasis::Number, 3e-3);
     };
-    // The same distribution, even in number from 2 to 6 mm, in all forms.
+    // One distribution, even in number from 2 to 6 mm, in all forms.
     for (const std::string text : {"diameter_mm,cumulative_number\n2,0\n6,1\n",
                                    "# sieved\r\nradius_um, class_number_percent\r\n1000,0\r\n\r\n3000,100",
                                    "diameter_m,density_number\n2e-3,7\n6e-3,7",

@@ -8,7 +8,7 @@
 namespace pendular {
 namespace {
 
-/// As the texts of domains have it: "0.001", and "1e-4" where fmt gives "0.0001" or "1e-04".
+/// A number as the texts of domains have it: "0.001", and "1e-4" where fmt gives "0.0001" or "1e-04".
 std::string shortest(double number) {
     std::string text = number < 1e-3 ? fmt::format("{:.0e}", number) : fmt::format("{:g}", number);
     if (const auto zero = text.find("e-0"); zero != text.npos) text.erase(zero + 2, 1);

@@ -38,7 +38,7 @@ TEST(ExtremeContact, isThatOfEllipsoidsInClosedForm) {
     EXPECT_NEAR(extremeContact({1, 1, 1, 2, 2}).turning, 0, 1e-30);
 }
 
-/// Of what a closed surface of polygons holds, positive if these are seen in a ring from outside.
+/// The volume that a closed surface of polygons holds, positive if these are seen in a ring from outside.
 double volumeOf(const PolyData& surface) {
     double sum = 0;
     std::size_t begin = 0;

@@ -330,7 +330,8 @@ double turnedOver(const EnergyLedger& ledger) {
     return sum;
 }
 
-// As for clumps (SelfTests/Motion/ClumpMotionTest.cpp): five times sqrt(N) 2^-53 of all that was turned over.
+// The error is as for clumps (SelfTests/Motion/ClumpMotionTest.cpp): five times sqrt(N) 2^-53 of all that was
+// turned over.
 TEST(SuperquadricScene, closesTheEnergyLedgerToRoundOff) {
     Box scene(3);
     scene.keepEnergyLedger();

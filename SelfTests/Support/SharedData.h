@@ -9,11 +9,11 @@
 
 namespace pendular::support {
 
-/// Where a file of the reference data is that is not in the repository.
+/// The path of a file of the reference data that is not in the repository.
 inline std::filesystem::path sharedData(const std::string& file) { return folders::shared / "data" / file; }
 
-/// Whether it is there. Where it is not, the test is to be skipped; but it fails where the others are there,
-/// or where PENDULAR_REQUIRE_SHARED is set (.ci/run): then nobody means to leave it out.
+/// Whether the file is there. Where it is not, the test is to be skipped; but it fails where the others are
+/// there, or where PENDULAR_REQUIRE_SHARED is set (.ci/run): then nobody means to leave it out.
 inline bool hasSharedData(const std::string& file) {
     if (std::filesystem::exists(sharedData(file))) return true;
     if (std::getenv("PENDULAR_REQUIRE_SHARED") || std::filesystem::exists(folders::shared / "data"))

@@ -12,9 +12,9 @@ namespace pendular::support {
 /// A new folder of a test's own, also where others run beside it; it is gone at the end, with what is in it.
 class TestFolder {
 public:
-    /// Where the system has files for a while.
+    /// A folder where the system has files for a while.
     TestFolder() : TestFolder({std::filesystem::temp_directory_path()}) {}
-    /// In memory where the system has such a place: for files that are written often.
+    /// A folder in memory where the system has such a place: for files that are written often.
     static TestFolder inMemory() { return TestFolder({"/dev/shm", std::filesystem::temp_directory_path()}); }
     TestFolder(const TestFolder&) = delete;
     TestFolder& operator=(const TestFolder&) = delete;
@@ -24,9 +24,9 @@ public:
     }
 
     [[nodiscard]] const std::filesystem::path& path() const { return place; }
-    /// What the names of files in it begin with.
+    /// The beginning of the names of files in it.
     [[nodiscard]] std::string name() const { return (place / "run").string(); }
-    /// For drivers.
+    /// The option of a driver that writes into it.
     [[nodiscard]] std::string option() const { return "--output " + place.string(); }
 
 private:

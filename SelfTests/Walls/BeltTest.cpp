@@ -92,7 +92,7 @@ TEST(Belt, runsAlongItsSurfaceAtEachPoint) {
     }
 }
 
-/// Of a wall that moves: its own velocity, normal part and all, and what of the belt is along it.
+/// A wall that moves has its own velocity, normal part and all, and the part of the belt's that is along it.
 TEST(Belt, onAWallThatMovesAndTurns) {
     for (const Belt& belt : belts()) {
         SCOPED_TRACE(belt.name);

@@ -29,7 +29,8 @@ TEST(LargeSphere, ofAThousandRadiiIsAlmostAWallForAllLaws) {
             WallScene<S> scene(grains, species);
             scene.acceptUnstableTimeStep();  // two such spheres need not be thought of
             addWall(scene);
-            // For both: by itself only the scene with a wall would take it, where springs lack dashpots.
+            // Both get this integrator: by itself only the scene with a wall would take it, where springs
+            // lack dashpots.
             scene.setIntegrator(integrators::springsInStep);
             scene.initialise();
             scene.steps(200);

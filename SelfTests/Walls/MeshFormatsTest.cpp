@@ -124,7 +124,7 @@ void expectTetrahedron(const std::vector<Triangle>& triangles) {
 
 const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
-/// As triangles without area are: corners that come twice, a line, a spike.
+/// Faces without area are left out as triangles without area are: corners that come twice, a line, a spike.
 TEST(ObjReader, leavesOutFacesWithoutArea) {
     for (const char* const face : {"f 1 2 1 2\n", "f 1 2 5 6\n", "f 1 5 2 5\n"})
         EXPECT_EQ(read(".obj", vertices + "v 2 0 0\nv 3 0 0\nf 1 3 2\n" + face).size(), 1u) << face;

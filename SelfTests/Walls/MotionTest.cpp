@@ -71,10 +71,10 @@ void expectMoves(Shape moving, const Shape& resting, const std::function<Eigen::
                 EXPECT_NEAR(before[p].distance, after[p].distance, 1e-14);
                 EXPECT_LT((pose(time).linear() * toEigen(before[p].normal) - toEigen(after[p].normal)).norm(),
                           1e-12);
-                // By differences of the material point's way: h^2 x third derivative / 6 with rates up to
-                // 20/s, and round-off of 1e-16 m / h. The wall's own differences, over 6e-8 s, have more of
-                // it: 3/2 x 1.1e-16 / 6e-8 s for each of some ten roundings of lengths up to 1 m; at time 0
-                // seven times as much.
+                // The velocity is found by differences of the material point's way: h^2 x third derivative /
+                // 6 with rates up to 20/s, and round-off of 1e-16 m / h. The wall's own differences, over
+                // 6e-8 s, have more of it: 3/2 x 1.1e-16 / 6e-8 s for each of some ten roundings of lengths
+                // up to 1 m; at time 0 seven times as much.
                 const double h = 1e-6;
                 const Vec3D material = centre + before[p].distance * toEigen(before[p].normal);
                 const Vec3D velocity = (pose(time + h) * material - pose(time - h) * material) / (2 * h);
@@ -181,8 +181,8 @@ TEST(Motion, surfacesThatAreCarriedIntoThemselvesDoNotMove) {
     EXPECT_TRUE(std::isinf(farthest(tilting)));
 }
 
-/// Of a wall that is moved by each kind of motion in turn, as rigid motions that follow each other; points
-/// and velocities are of a metre and a few m/s, so that round-off is some 1e-15.
+/// A wall is moved by each kind of motion in turn, as rigid motions that follow each other; points and
+/// velocities are of a metre and a few m/s, so that round-off is some 1e-15.
 TEST(Motion, goesOnFromWhereItIsWhenItIsSetAnew) {
     TriangleWall wall = mesh(box(at(-0.4, -0.3, -0.2), at(0.3, 0.4, 0.5)));
     wall.moveTo(0);

@@ -205,7 +205,7 @@ public:
     }
 };
 
-// As of the beds of SelfTests/Energy: sqrt(N) 2^-53 of all that was turned over, five times.
+// The error is as in the beds of SelfTests/Energy: sqrt(N) 2^-53 of all that was turned over, five times.
 TEST(Piston, theLedgerCloses) {
     for (const Integrator& scheme : integrators::all) {
         PressedBox<Rough> box(scheme);
@@ -346,7 +346,7 @@ TEST(Piston, isStableUpToTheExactLimit) {
     // At 0.98 of the limit the amplitude of the velocity is that of the motion times 1 / sqrt(1 - 0.98^2) at
     // most.
     EXPECT_LT(speedRatio(0.98, 2000), 5.1);
-    // By x + 1 / x = 4 1.01^2 - 2, x = 1.33 in each step, of the share that it has of the motion.
+    // The unstable share of the motion grows by x in each step, x + 1 / x = 4 1.01^2 - 2, x = 1.33.
     EXPECT_GT(speedRatio(1.01, 40), 100);
 }
 

@@ -60,7 +60,7 @@ inline double hertz(double depth = overlap) {
 }
 inline Vec3D over(double x, double y = 0, double depth = overlap) { return {x, y, radius - depth}; }
 
-/// As a file has a coordinate that was written with %.6g.
+/// A coordinate as a file has it that was written with %.6g.
 inline double printed(double x) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", x);

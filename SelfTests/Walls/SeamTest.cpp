@@ -17,8 +17,8 @@ using support::Random;
 
 const double a = contactWidth;  // m
 
-/// Of Hertz' force, in the middle of a crack of this width (m): its edges are w^2 / (8 d) farther than a
-/// plane would be, and push at an angle of w / (2 d).
+/// The share of Hertz' force that is missing in the middle of a crack of this width (m): the edges of the
+/// crack are w^2 / (8 d) farther than a plane would be, and push at an angle of w / (2 d).
 double lessOver(double width) {
     const double d = radius - overlap;
     return width * width / 8 * (1.5 / (d * overlap) + 1 / (d * d)) + 1e-9;
@@ -94,7 +94,7 @@ TEST(Seam, aJunctionWithRoundedCornersIsNone) {
         const auto triangles = crossing(normal, along, round, origin);
         for (int k = 0; k < 39; ++k) {
             const double u = random.uniform(-0.02, 0.03), v = random.uniform(-1e-4, 1e-4);
-            // Also around the corner.
+            // Points around the corner count, too.
             const Vector<double> foot = origin + (k % 2 ? u : 0.00317 + 0.005 * u) * along + v * across;
             const Push push = pushAt(meshed(triangles), toEigen(foot + (radius - overlap) * normal));
             ASSERT_EQ(push.contacts, 1) << k;

@@ -36,7 +36,7 @@ private:
     std::size_t lidNumber;
 };
 
-/// Of grains in balance, sum f_a b_b over all contacts is that of the forces of the walls, and of the
+/// The sum of f_a b_b over all contacts of grains in balance is that of the forces of the walls, and of the
 /// weights, at their places: with normal forces only, sigma_xx V = F_x L_x, sigma_yy V = F_y L_y, and
 /// sigma_zz V = F_lid height + sum m g z. What is left is the sum of the forces on grains that are not in
 /// balance, times their places.

@@ -30,8 +30,8 @@ public:
         grain.setVelocity({speed, 0, grain.getVelocity().z()});
         grain.setAngularVelocity(Vec3D::Zero());
     }
-    /// Of the path that is slid in a time, what the grain lags behind: in each step friction brakes it by mu
-    /// g h, and turns it by 5/2 of that at the contact; half of both on the mean.
+    /// The share of the path by which the grain lags behind: in each step friction brakes it by mu g h, and
+    /// turns it by 5/2 of that at the contact; half of both on the mean.
     [[nodiscard]] double lag() const { return 3.5 / 2 * friction * fieldOfGravity * getTimeStep() / speed; }
 };
 

@@ -317,7 +317,7 @@ TEST(LiquidFilms, closesTheAccountOfTheEnergy) {
     const EnergyLedger& ledger = cloud.energyLedger();
     const double start = ledger.closed(), kinetic = ledger.kinetic;
     for (int k = 0; k < 10000; ++k) cloud.step();
-    // As in BedTest.cpp: five times the round-off of all that has been turned over.
+    // The error is as in BedTest.cpp: five times the round-off of all that has been turned over.
     EXPECT_LT(std::abs(ledger.closed() - start), 5 * std::sqrt(10000.0) * 0x1p-53 * kinetic);
     EXPECT_GT(ledger.viscousBridges, 0.01 * kinetic);
     EXPECT_GT(ledger.brokenAdhesion, 0) << "a bridge takes more than it gave";

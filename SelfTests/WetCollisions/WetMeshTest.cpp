@@ -97,7 +97,8 @@ void expectAlike(const WetWallCase& given, const std::vector<Triangle>& mesh, co
     EXPECT_EQ(onMesh.contactsNow(), 0) << "the bridge has ruptured";
     EXPECT_EQ(most, 1);
     EXPECT_GT(wet, 1000);
-    // As for impacts in any direction on a plane, 1e-12 (WetWall), at coordinates ten times as large.
+    // The error is as for impacts in any direction on a plane, 1e-12 (WetWall), but at coordinates ten times
+    // as large.
     const auto expected = onPlane.particleHandler.getObject(0), found = onMesh.particleHandler.getObject(0);
     EXPECT_LT((found.getVelocity() - expected.getVelocity()).norm(), 1e-11 * given.speed);
     EXPECT_LT((found.getAngularVelocity() - expected.getAngularVelocity()).norm(),

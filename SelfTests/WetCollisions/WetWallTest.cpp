@@ -138,7 +138,7 @@ TEST(WetWall, convergesToTheForceBalance) {
     given.growingBridge = true;
     for (const double steps : {50.0, 100.0, 200.0, 400.0}) {
         given.stepsPerContact = steps;
-        // Of the reference, 0.5567490366 with located phases. The bridge ruptures within a step, in which the
+        // The reference is 0.5567490366 with located phases. The bridge ruptures within a step, in which the
         // capillary force of some 0.2 mN acts or not: F dt / (m v) = 2e-6 of e at 50 steps; the rest is the
         // dry contact's, 3e-4 of e (DryCollisionTest), and the resolution of epsilon, of second order.
         EXPECT_NEAR(collide(given).normalRestitution, 0.5567490366, 1e-4 * std::pow(50 / steps, 0.5))

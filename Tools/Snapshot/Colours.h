@@ -45,7 +45,8 @@ inline constexpr std::array<ColourMap, 3> colourMaps{
      {"coolwarm", {0x3b4cc0, 0x6282ea, 0x8db0fe, 0xb8d0f9, 0xdddddd, 0xf5c4ad, 0xf49a7b, 0xde604d, 0xb40426}},
      {"grey", {0x202020, 0x383838, 0x505050, 0x686868, 0x808080, 0x989898, 0xb0b0b0, 0xc8c8c8, 0xe0e0e0}}}};
 
-/// For whole numbers that are names: Okabe and Ito, "Color universal design" (2008), without black.
+/// The colours of whole numbers that are names: Okabe and Ito, "Color universal design" (2008), without
+/// black.
 inline constexpr std::array<unsigned, 7> namedColours{0xe69f00, 0x56b4e9, 0x009e73, 0xf0e442,
                                                       0x0072b2, 0xd55e00, 0xcc79a7};
 

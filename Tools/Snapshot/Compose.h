@@ -150,7 +150,7 @@ inline std::vector<Polygon> wallsOf(const PolyData& walls, const View& view, dou
     return found;
 }
 
-/// What the grains of a frame are, if they are no balls.
+/// The shapes of the grains of a frame, if they are no balls.
 class Solids {
 public:
     explicit Solids(const PolyData& grains)

@@ -13,7 +13,7 @@
 
 namespace pendular::snapshot {
 
-/// What a picture is made of, at one time.
+/// The content of a picture, at one time.
 struct Frame {
     PolyData grains, contacts, walls;
 };

@@ -13,7 +13,7 @@
 
 namespace pendular::snapshot {
 
-/// What a grain is instead of a ball: a superquadric (Kernel/Shapes/Superquadric.h).
+/// The shape of a grain that is no ball: a superquadric (Kernel/Shapes/Superquadric.h).
 struct Solid {
     std::array<Vector<double>, 3> axes;  // m, the half axes in space
     double n1, n2;                       // exponents

@@ -20,7 +20,7 @@
 namespace pendular::snapshot {
 
 /// Runs a program in a folder, without a shell; returns its exit code, or 127 if there is no such program.
-/// What it says goes to a file of the folder.
+/// The output of the program goes to a file of the folder.
 inline int runQuietly(std::vector<std::string> words, const std::filesystem::path& folder, const char* log) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());

@@ -51,7 +51,7 @@ struct LiquidBridgeLianSeville : LiquidBridge<LiquidBridgeLianSeville> {
         if (liquidBridgeVolume == 0) return {0, 0, 0, 0};
         const BridgeScales bridge = scales(bodies);
         const double t = contactAngle;
-        // What is outside of these bounds is refused; the extremes of sizes alone are looked at there.
+        // Bridges outside of these bounds are refused; the extremes of sizes alone are looked at there.
         const double beta = std::clamp(fillingAngle(bridge.volume, t), 1e-9, 0.5 * std::numbers::pi);
         const double stretch = (1 + 0.5 * t * std::cos(t) * std::cos(beta + t)) / bridge.ruptureDistance;
         return {.contactForce = bridge.forceScale *

@@ -14,7 +14,7 @@ struct LiquidBridgeMegiasAlguacil : FittedBridge<LiquidBridgeMegiasAlguacil> {
     static constexpr std::string_view domain = "as LiquidBridgePietschRumpf, to which it is equivalent";
     static constexpr Range madeForVolume{1e-9, 1};  // V*
 
-    /// At the dimensionless volume V* = V / R^3.
+    /// The bridge as published, at the dimensionless volume V* = V / R^3.
     [[nodiscard]] PublishedBridge published(double volume) const {
         LiquidBridgePietschRumpf equivalent;
         equivalent.contactAngle = contactAngle;

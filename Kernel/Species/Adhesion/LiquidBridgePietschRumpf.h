@@ -18,7 +18,7 @@ struct LiquidBridgePietschRumpf : FittedBridge<LiquidBridgePietschRumpf> {
         "towards rupture";
     static constexpr Range madeForVolume{1e-9, 1};  // V*
 
-    /// At the dimensionless volume V* = V / R^3.
+    /// The bridge as published, at the dimensionless volume V* = V / R^3.
     [[nodiscard]] PublishedBridge published(double volume) const;
 };
 

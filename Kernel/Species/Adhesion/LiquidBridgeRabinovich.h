@@ -17,7 +17,7 @@ struct LiquidBridgeRabinovich : FittedBridge<LiquidBridgeRabinovich> {
         "small bridges, V* from 1e-9 to about 0.01, theta below 90 degrees";
     static constexpr Range madeForVolume{1e-9, 0.01};  // V*
 
-    /// At the dimensionless volume V* = V / R^3.
+    /// The bridge as published, at the dimensionless volume V* = V / R^3.
     [[nodiscard]] PublishedBridge published(double volume) const;
 };
 

@@ -12,7 +12,7 @@ namespace pendular {
 /// 213-228, equations 13 and 14, for spheres of radii r1 <= r2: F = pi gamma sqrt(r1 r2) (c + exp(a S/r2 +
 /// b)), with V/r2^3 in a, b and c. The paper was not at hand: coefficients as in LIGGGHTS and YADE, which
 /// agree; three of them are Mikami's over ln 10. The rupture distance is that of Lian et al., as in LIGGGHTS.
-/// Not for walls: it has no limit for r2 -> infinity.
+/// The fit is not for walls: it has no limit for r2 -> infinity.
 struct LiquidBridgeSoulie : LiquidBridge<LiquidBridgeSoulie> {
     static constexpr std::string_view name = "LiquidBridgeSoulie";
     static constexpr std::string_view summary = "liquid bridge, fit of Soulie et al. (2006)";

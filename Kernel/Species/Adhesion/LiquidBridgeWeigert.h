@@ -21,7 +21,7 @@ struct LiquidBridgeWeigert : FittedBridge<LiquidBridgeWeigert> {
         "spheres and walls by Derjaguin's R";
     static constexpr Range madeForVolume{0.01, 0.3};  // V*
 
-    /// At the dimensionless volume V* = V / R^3.
+    /// The bridge as published, at the dimensionless volume V* = V / R^3.
     [[nodiscard]] PublishedBridge published(double volume) const;
 };
 

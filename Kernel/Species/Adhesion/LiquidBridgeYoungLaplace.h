@@ -75,7 +75,7 @@ struct LiquidBridgeYoungLaplace : LiquidBridge<LiquidBridgeYoungLaplace> {
     [[nodiscard]] BridgeShape shape(const Bodies& bodies) const;
 
 private:
-    /// What is wrong with a bridge, and its numbers.
+    /// A sentence that says what is wrong with a bridge, and its numbers.
     [[nodiscard]] std::string sentence(const Bodies& bodies, std::string_view what) const;
 };
 

@@ -112,7 +112,7 @@ struct WetWallInteraction {
     }
     void checkGap(T /*separation*/, T /*roundOff*/) {}  // it remembers no gap
 
-    /// m^3, of a bridge of the length x (m); none in the layer
+    /// The volume (m^3) of a bridge of the length x (m); none in the layer.
     [[nodiscard]] T volumeAt(T x) const {
         return select(x > T(0), select(grows > T(0), bridge.volume(x), volume), T(0));
     }
@@ -127,7 +127,7 @@ private:
         const MaskOf<T> isClosed = bridge.radii(x).neck < T(1e-3) * bridge.contactRadius;
         return isTooLong | isClosed | (x > T(0.98) * reach);
     }
-    /// Of equation 25, over Stokes' drag.
+    /// The drag of equation 25 over that of Stokes.
     T dragFactor(const BridgeMotion<T>& motion) const {
         const T speed = max(motion.approach, -motion.approach);
         const T reynolds = T(2) * bridge.contactRadius * density * speed / viscosity;
@@ -245,7 +245,7 @@ struct WetWall {
 
 private:
     [[nodiscard]] ToroidOnLayer<double> toroid(double radius) const;
-    /// m, at most, in the range of speeds that the law is given
+    /// The largest length (m) in the range of speeds that the law is given.
     [[nodiscard]] double largestLength(const ToroidOnLayer<double>& bridge, double radius) const;
 };
 

@@ -78,7 +78,7 @@ struct HertzianPlasticViscoelastic : HertzianContact<HertzianPlasticViscoelastic
         history.largest = select(branches.isCohesive(), p.reloading * measure, largest);
         return {branches.force(), p.dashpotFactor * contact.massRoot};
     }
-    /// Of the branch of unloading, from where it has no force, d_p = w_p^(2/3), on.
+    /// The elastic energy of the branch of unloading, from where it has no force, d_p = w_p^(2/3), on.
     static double elasticEnergy(const Prepared& p, const Contact<double>& contact,
                                 const LargestOverlap<double>& history) {
         const double unloaded = p.plasticity * history.largest, end = std::cbrt(unloaded * unloaded);

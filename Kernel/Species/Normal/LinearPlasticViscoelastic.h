@@ -120,7 +120,7 @@ struct LinearPlasticViscoelastic {
         history.largest = select(branches.isCohesive(), reloaded(p, growth, overlap), largest);
         return {branches.force(), T(p.dissipation)};
     }
-    /// Of the branch of unloading; beyond d* it is that of loading, too.
+    /// The elastic energy of the branch of unloading; beyond d* it is that of loading, too.
     static double elasticEnergy(const Prepared& p, const Contact<double>& contact,
                                 const LargestOverlap<double>& history) {
         const double k2 = slope(p, p.growth / contact.effectiveRadius, history.largest);

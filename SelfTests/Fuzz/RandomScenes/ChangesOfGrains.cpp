@@ -55,7 +55,7 @@ void addVelocity(Making& making) {
     });
 }
 
-/// By a part of its radius that a grain may overlap its neighbours by.
+/// Moves a grain by a part of its radius that it may overlap its neighbours by.
 void addPosition(Making& making) {
     changeSome(making, [&] {
         const Vec3D shift = making.draw.give("shift", Vec3D(making.draw.inCube(0.01 * making.scales.radius)));

@@ -23,12 +23,12 @@ enum Loses : unsigned {
 /// nowhere else.
 struct Feature {
     std::string name;
-    /// Of all scenes, those that have it (before what excludes it is left out).
+    /// The share of scenes that have it (before what excludes it is left out).
     double share;
     /// Adds it, with random numbers of its own: making.draw.
     std::function<void(Making& making)> add;
     unsigned loses = nothing;
-    /// By these words others name it, besides by its own name.
+    /// Words by which others name it, besides by its own name.
     std::vector<std::string_view> kinds = {};
     /// Names or kinds of features with which Pendular refuses it, rightly or not yet.
     std::vector<std::string_view> excludes = {};

@@ -160,7 +160,7 @@ std::string_view withoutFiles(std::string_view sentence) {
     return sentence.substr(0, sentence.find("; the last whole step is in"));
 }
 
-/// Of two runs that must be the same; what is not goes into the faults.
+/// Compares two runs that must be the same; what is not goes into the faults.
 void compare(const RunEnd& whole, const RunEnd& other, const fs::path& wholeFolder,
              const fs::path& otherFolder, const std::string& kind, std::vector<std::string>& faults) {
     if (whole.end != other.end || withoutFiles(whole.sentence) != withoutFiles(other.sentence) ||
@@ -220,7 +220,7 @@ Verdict judgeHere(const Recipe& recipe, const JudgeOptions& options, const fs::p
     std::vector<std::string> differences;
     compare(whole, parts, wholeFolder, partsFolder, "threads and restart", differences);
     if (differences.empty()) return verdict;
-    // By which of the two?
+    // The difference may come from threads or from the restart: each is looked at alone.
     const RunEnd threads = runOnce(recipe, options, {.folder = threadsFolder, .threads = 3});
     compare(whole, threads, wholeFolder, threadsFolder, "three threads", verdict.faults);
     if (!verdict.faults.empty()) return verdict;

@@ -20,7 +20,7 @@ struct Verdict {
     std::string record;
     double seconds = 0;  // of processor time
 
-    /// Of the first fault; empty without one.
+    /// The kind of the first fault; empty without one.
     [[nodiscard]] std::string kind() const;
 };
 

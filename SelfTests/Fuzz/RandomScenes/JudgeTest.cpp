@@ -16,7 +16,7 @@ namespace {
 using support::contains;
 using support::refusal;
 
-/// Of grains that collide in empty space, with and without a box.
+/// Grains that collide in empty space, without and with a box.
 const Recipe loose = recipeFrom("seed=3 features=HertzianViscoelasticMindlin,Ledger,Grains steps=60");
 const Recipe boxed = recipeFrom("seed=3 features=HertzianViscoelasticMindlin,Ledger,Grains,Planes steps=60");
 
@@ -99,7 +99,7 @@ TEST(Judge, findsBitsThatDependOnThreadsAndRestarts) {
         GrainReference grain = first(making);
         grain.setVelocity(grain.getVelocity() * (1 + 1e-15));
     };
-    // Of an even seed the part before the restart has three threads. (Velocity allows a change by a hook.)
+    // With an even seed the part before the restart has three threads. (Velocity allows a change by a hook.)
     const Recipe recipe = recipeFrom("seed=4 features=HertzianViscoelasticMindlin,Grains,Velocity steps=60");
     const Verdict threads = spoilt(
         recipe,

@@ -14,7 +14,8 @@ Scales::Scales(const Recipe& recipe) {
     speed = draw.decades(0.003, 0.03) * std::sqrt(modulus / density);
     steps = std::min(draw.whole(60, 220), recipe.steps);
     restartStep = draw.whole(1, std::max(1, steps - 1));
-    // Of the order of what dense beds of these grains stand; in all steps a grain flies about its radius.
+    // The step is of the order of what dense beds of these grains stand; in all steps a grain flies about its
+    // radius.
     step = 0.3 * radius * std::sqrt(density / modulus);
     duration = steps * step;
     touching = draw.chance(0.4);

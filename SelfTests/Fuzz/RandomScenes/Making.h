@@ -63,7 +63,7 @@ public:
     Actions& actions;
     const Recipe& recipe;
     const Scales scales;
-    /// Of the feature that is added now.
+    /// The random numbers of the feature that is added now.
     Draws draw;
     /// Those of a scene of superquadrics; null: its grains are spheres.
     SuperquadricHandler* shapes = nullptr;

@@ -161,7 +161,7 @@ Shape randomShape(Draw& draw) {
             .contactAngle = draw.oneIn(4) ? 0.0 : draw.uniform(0, 0.9)};
 }
 
-// The same dimensionless bridge at three sizes. 1e-12: what rounding the scaled radii, volumes and
+// A dimensionless bridge has one force at three sizes. 1e-12: what rounding the scaled radii, volumes and
 // separations does; and what a fit makes of it.
 TEST(BridgeForce, isTheSameAtEveryScale) {
     Draw draw(3);

@@ -34,7 +34,7 @@ struct Neck {
     [[nodiscard]] double force(double a) const {
         return 4 * modulus * a * a * a / (3 * radius) - std::sqrt(8 * pi * work * modulus * a * a * a);
     }
-    /// Where the stable branch ends at a given displacement: d(overlap)/da = 0.
+    /// The radius at which the stable branch ends at a given displacement: d(overlap)/da = 0.
     [[nodiscard]] double smallestRadius() const {
         return std::cbrt(pi * work * radius * radius / (8 * modulus));
     }

@@ -66,7 +66,7 @@ TEST(YoungLaplace, pushesOnlyWithPinnedContactLines) {
     const double exact = 0.07 * solveBridge({{1e-3, 2.3}, {1e-3, 2.3}, 1e-10}, 0)->pinnedForce();
     EXPECT_LT(exact, 0);
     EXPECT_NEAR(law.prepare(bodies).force(0.0) / exact, 1, 1e-3);
-    // Where it pulls, there is no difference.
+    // There is no difference where it pulls.
     law = bridge(1e-10, 0.5);
     const double free = law.prepare(bodies).force(1e-5);
     law.setPinned(true);

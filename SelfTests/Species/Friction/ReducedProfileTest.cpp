@@ -160,7 +160,7 @@ double lossOfCycle(double most) {
     moveTo(first / limit * (1 - 1e-12), 1);
     return loss;
 }
-/// The same of Mindlin and Deresiewicz's contact (Johnson, Contact mechanics, 1985, equation 7.48): with z =
+/// The loss of Mindlin and Deresiewicz's contact (Johnson, Contact mechanics, 1985, equation 7.48): with z =
 /// 1 - y of the slip y that gives the force, 8 (y - 2/5 (1 - z^(5/2))) - 4 y (1 - z^(3/2)).
 double lossOfPartialSlip(double most) {
     const double z = std::pow(1 - most, 2.0 / 3.0), y = 1 - z;

@@ -172,7 +172,7 @@ TEST(Normal, linearReboundsWithTheRestitutionGiven) {
     }
 }
 
-// Of two grains of the mass each, so half of it is the effective one. Steps are t/4000, and the end is
+// Two grains have the mass each, so half of it is the effective one. Steps are t/4000, and the end is
 // interpolated: (pi/4000)^2 of what the dashpot takes.
 TEST(Normal, linearLawTellsItsCollisionTimeAndRestitution) {
     for (const double restitution : {1.0, 0.9, 0.5, 0.1, 0.01}) {
@@ -204,7 +204,7 @@ TEST(Normal, hertzTellsItsCollisionTimeAndRestitution) {
         const double radius = row.radius1 * row.radius2 / (row.radius1 + row.radius2);
         const auto massOf = [&](double r) { return 4.0 / 3 * pi * r * r * r * row.density; };
         const double mass = 1 / (1 / massOf(row.radius1) + 1 / massOf(row.radius2));
-        // Of two grains of twice the effective radius and mass.
+        // The law is asked for two grains of twice the effective radius and mass.
         EXPECT_NEAR(law.getCollisionTime(2 * mass, 2 * radius, row.speed) / row.contactTime, 1, 1e-11)
             << row.restitution;
     }

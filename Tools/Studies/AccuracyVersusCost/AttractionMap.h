@@ -3,7 +3,8 @@
 #include "Kernel/Files/CsvFile.h"
 #include "Tools/Studies/AccuracyVersusCost/DampedCollisions.h"
 
-// When the normal force of a damped contact pulls, how strongly, and what it means for the restitution.
+// A map of when the normal force of a damped contact pulls, how strongly, and what it means for the
+// restitution.
 
 namespace pendular {
 
@@ -23,7 +24,7 @@ void forEachContactWithDashpot(const Loss& loss, Function&& function) {
     function(hertzian);
 }
 
-/// What the map says of one collision.
+/// The numbers of one collision in the map.
 struct Attraction {
     SeenCollision seen;
     double begin = 0;           // s, when the force turns

@@ -14,7 +14,7 @@ namespace pendular {
 namespace bulk {
 namespace {
 
-/// What was measured of one law in one scene.
+/// The measurements of one law in one scene.
 template <std::size_t count>
 struct VariantResult {
     LawVariant variant;

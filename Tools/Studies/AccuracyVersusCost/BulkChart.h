@@ -15,7 +15,8 @@ struct BulkChartOptions {
     int rounds = 15;    // measurements of time
 };
 
-/// What a cheaper law, or a longer step, costs in the figures of a bed and of a drum, and gains in speed.
+/// Charts what a cheaper law, or a longer step, costs in the figures of a bed and of a drum, and gains in
+/// speed.
 void chartBulk(const BulkChartOptions& options);
 
 }  // namespace pendular

@@ -17,7 +17,7 @@
 
 namespace pendular::bulk {
 
-/// Of one state of a scene.
+/// The contacts of grains in one state of a scene.
 struct ContactFigures {
     std::vector<int> contactsOf;  // of each grain, in the order of the particle store; with grains and walls
     Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();  // J, sum of l f, pressure positive

@@ -17,7 +17,7 @@ namespace pendular::bulk {
 inline constexpr double typicalSpeed = 0.1;
 inline constexpr double largestRadius = 1e-3;  // m
 
-/// What a run has besides its laws.
+/// The settings of a run besides its laws.
 struct LawVariant {
     std::string_view law;
     double elasticModulus;  // Pa; of a linear law: of the Hertzian one with its contact time

@@ -71,7 +71,8 @@ inline double plasticHertzianRestitution(double plasticity) {
     return std::sqrt((0.4 * (1 - std::pow(l, 5.0 / 3)) - l * (1 - std::pow(l, 2.0 / 3))) / (0.4 * (1 - l)));
 }
 
-/// Where a falling function has a value, from low on: by bisection, below the first power of two beyond it.
+/// The place, from low on, at which a falling function has a value: by bisection, below the first power of
+/// two beyond it.
 template <class Function>
 double whereFalling(Function&& function, double value, double low) {
     double high = 1;

@@ -9,7 +9,7 @@ struct ContactMapOptions {
     int offsets = 16;  // starts of the touch within a step
 };
 
-/// Where contact laws fail: a table for each question. contact-maps.gp draws them.
+/// Maps where contact laws fail: a table for each question. contact-maps.gp draws them.
 void mapContacts(const ContactMapOptions& options);
 
 }  // namespace pendular

@@ -9,7 +9,7 @@
 
 namespace pendular {
 
-/// What is varied.
+/// The parameters that are varied.
 struct CriticalCase {
     double dampingRatio = 0;       // zeta, of each dashpot over the critical one of its own spring with m*
     double frictionStiffness = 1;  // a factor on the springs of sliding, rolling and torsion

@@ -135,7 +135,7 @@ private:
     }
 };
 
-/// What was measured of a scene.
+/// The critical step of a scene, as it was measured.
 struct CriticalStep {
     double advice;    // s, the stability limit that is given
     double critical;  // s; infinite if it is more than 30 times the advice

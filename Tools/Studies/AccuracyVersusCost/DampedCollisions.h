@@ -16,7 +16,7 @@ struct Loss {
     double dampingOverCritical = 0;  // where nothing is left: 1 and more
 };
 
-/// From next to nothing left to no loss.
+/// The losses of all cases, from next to nothing left to no loss.
 inline constexpr std::array losses{Loss{0, 2}, Loss{0, 1}, Loss{0.02}, Loss{0.05}, Loss{0.1}, Loss{0.15},
                                    Loss{0.2},  Loss{0.25}, Loss{0.3},  Loss{0.4},  Loss{0.5}, Loss{0.6},
                                    Loss{0.7},  Loss{0.8},  Loss{0.9},  Loss{0.95}, Loss{1}};
@@ -32,7 +32,7 @@ inline double dampingOverCritical(const Loss& loss) {
 inline double dashpot(const Loss& loss, double stiffness, double mass) {
     return 2 * dampingOverCritical(loss) * std::sqrt(stiffness * mass);
 }
-/// Of an elastic linear contact, s.
+/// The time (s) of an elastic linear contact.
 inline double springTime(double stiffness, double mass) {
     return std::numbers::pi * std::sqrt(mass / stiffness);
 }
@@ -85,10 +85,10 @@ inline CollisionCase<HertzianBSHPViscoelasticSpecies> viscoelasticSpheresWith(co
     return {"HertzianBSHPViscoelastic", species, encounter, hertzianTime(encounter)};
 }
 
-/// Of plastic contacts, the time of an elastic one with the stiffness of unloading: steps have to resolve it.
-/// What they lose is plastic, e = sqrt(k1/k2); what a dashpot takes comes beside that. k2 of the linear one
-/// is that of the overlap which the encounter reaches; d*, from which on nothing more is lost, is a tenth
-/// larger.
+/// The time of a plastic contact is that of an elastic one with the stiffness of unloading: steps have to
+/// resolve it. What they lose is plastic, e = sqrt(k1/k2); what a dashpot takes comes beside that. k2 of the
+/// linear one is that of the overlap which the encounter reaches; d*, from which on nothing more is lost, is
+/// a tenth larger.
 inline CollisionCase<LinearPlasticViscoelasticSpecies> linearPlasticWith(const Loss& loss) {
     constexpr double inHand = 1.1;  // d* over the overlap
     const Encounter encounter;
@@ -124,7 +124,8 @@ void forEachDampedCollision(const Loss& loss, Function&& function) {
     if (loss.restitution > 0) function(collisions::viscoelasticSpheresWith(loss));
 }
 
-/// The same for the laws whose loss is plastic; where next to nothing is left they take 1/e^2 of the steps.
+/// Calls function(CollisionCase) for each law whose loss is plastic; where next to nothing is left they take
+/// 1/e^2 of the steps.
 template <class Function>
 void forEachPlasticCollision(const Loss& loss, Function&& function) {
     if (loss.restitution < 0.1) return;

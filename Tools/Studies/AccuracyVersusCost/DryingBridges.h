@@ -9,7 +9,7 @@
 
 namespace pendular {
 
-/// Of the force, over the whole time of the bridge.
+/// The error of the force over the whole time of the bridge.
 struct StaleForce {
     double rootMeanSquare = 0, largest = 0;  // error over the force
     double beyondRupture = 0;  // largest share of liquid lost after the bridge should have ended

@@ -7,12 +7,12 @@
 #include "Kernel/Species/Adhesion/Shared/BridgeError.h"
 #include "Kernel/Species/BridgeLaws.h"
 
-// Where each bridge law fails: a region for each volume and contact angle, between equal spheres.
+// A map of where each bridge law fails: a region for each volume and contact angle, between equal spheres.
 
 namespace pendular {
 
-/// By the largest error of the force, relative to the force, from contact to 0.95 of the exact rupture
-/// distance. The numbers are those of the table and of the chart.
+/// The region of a bridge by the largest error of the force, relative to the force, from contact to 0.95 of
+/// the exact rupture distance. The numbers are those of the table and of the chart.
 enum class ErrorRegion { Within5Percent, Within20Percent, Beyond20Percent, WrongSign, NotFinite, Refused };
 
 inline ErrorRegion regionOf(const BridgeDeviation& errors) {

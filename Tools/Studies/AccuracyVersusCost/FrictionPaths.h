@@ -54,7 +54,7 @@ inline Path oscillation(double amplitude, double variation, double turnsOfLoad, 
                      {amplitude * fullSlip() * wave(4 * time), 0, 0}};
     };
 }
-/// The same under an overlap that grows from nothing.
+/// A slip that swings four times, under an overlap that grows from nothing.
 inline Path oscillationWhileLoaded(double amplitude) {
     return [=](double time) {
         return Place{deepest * time, {amplitude * fullSlip() * wave(4 * time), 0, 0}};

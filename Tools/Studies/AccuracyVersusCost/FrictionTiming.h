@@ -40,7 +40,7 @@ double forceTime(const Named& named, int runs) {
     };
     constexpr int rounds = 100;
     const auto run = [&] {
-        // To and fro, so that some contacts slide.
+        // The motion goes to and fro, so that some contacts slide.
         for (int round = 0; round < rounds; ++round) computeForces(round % 20 < 10 ? 1e-8 : -1e-8);
     };
     return fastest(runs, run) / static_cast<double>(rounds * blocks * Pack::lanes);

@@ -143,8 +143,8 @@ struct ImpactOutcome {
     ImpactRegion region = ImpactRegion::Sound;
 };
 
-/// With the step that a scene of these grains is advised to take at any speed, a fifth of 1 / omega of a
-/// pair.
+/// Simulates a collision with the step that a scene of these grains is advised to take at any speed, a fifth
+/// of 1 / omega of a pair.
 template <class S>
 ImpactOutcome collideAt(double speed, const S& species) {
     Encounter encounter{.radius = impact::radius, .speed = speed};

@@ -13,7 +13,7 @@
 
 namespace pendular {
 
-/// Of a step with each of integrators::all, in steps of the default.
+/// The cost of a step with each of integrators::all, in steps of the default.
 using IntegratorCosts = std::array<double, integrators::all.size()>;
 
 /// A periodic cubic lattice of grains that overlap slightly: six contacts each, and nothing to list again.

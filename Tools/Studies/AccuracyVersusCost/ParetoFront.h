@@ -10,8 +10,8 @@ struct CostAndError {
     double cost, error;
 };
 
-/// For each choice, whether it lies on the Pareto front: no other is as good in both numbers and better in
-/// one. What is not a number is never on it.
+/// Whether each choice lies on the Pareto front: no other is as good in both numbers and better in one. What
+/// is not a number is never on it.
 inline std::vector<bool> paretoFront(const std::vector<CostAndError>& choices) {
     const auto beats = [](const CostAndError& one, const CostAndError& other) {
         return one.cost <= other.cost && one.error <= other.error &&

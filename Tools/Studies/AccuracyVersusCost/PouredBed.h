@@ -97,7 +97,7 @@ public:
         }
         const Coordination c = coordination(inside);
         const Eigen::Vector3d normal = contacts.virial.diagonal();
-        // Of a bed as high as twice the centre of mass.
+        // The volume of a bed as high as twice the centre of mass.
         const double volume = width * width * 2 * moment / mass;
         return {c.all,
                 c.loadBearing,

@@ -100,12 +100,12 @@ public:
     [[nodiscard]] TriangleWall& wall() { return *drum; }
 
 private:
-    /// For an angle (rad) that the drum turns by.
+    /// The steps in which the drum turns by an angle (rad).
     [[nodiscard]] std::size_t stepsOf(double angle) const {
         return std::max<std::size_t>(1,
                                      static_cast<std::size_t>(angle / (options.speed * this->getTimeStep())));
     }
-    /// From below, on a lattice.
+    /// Adds grains from below, on a lattice.
     void addGrains(const S* species, std::uint64_t seed) {
         const double radius = options.radius, room = std::numbers::pi * radius * radius * options.length;
         const auto fits = [&](const Vec3D& cell) {

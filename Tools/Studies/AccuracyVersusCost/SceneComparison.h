@@ -38,7 +38,7 @@ void forEachSceneLaw(Function&& function) {
     forEachBridgeLaw(function);
 }
 
-/// What is measured of one law.
+/// The measurements of one law.
 struct LawInScenes {
     std::string_view law;
     std::vector<std::string> refusals{};          // at set-up: of the bed with its walls, of the cell

@@ -7,7 +7,7 @@
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 
-// When a sphere that is pushed along a plane begins to slide, against Coulomb's limit.
+// A map of when a sphere that is pushed along a plane begins to slide, against Coulomb's limit.
 
 namespace pendular {
 
@@ -29,8 +29,8 @@ constexpr double lastPush = 1.5;  // over that at which it slides
 
 inline double mass() { return sphereMass(radius, density); }
 
-/// With the contact at rest under the weight, and the tangential stiffness k_t. The tangential oscillation of
-/// a solid sphere has the mass 2/7 m.
+/// The species with the contact at rest under the weight, and the tangential stiffness k_t. The tangential
+/// oscillation of a solid sphere has the mass 2/7 m.
 template <class Friction>
 Species<LinearViscoelastic, Friction> linearMaterial(const Push& push) {
     Species<LinearViscoelastic, Friction> species;
@@ -134,7 +134,7 @@ public:
     }
 
 private:
-    /// At the static limit, or, broken loose, at the dynamic one after it was more.
+    /// Whether the contact is at the static limit, or, broken loose, at the dynamic one after it was more.
     bool slips(double friction, double dynamicLimit) {
         const bool falls = strongest > (1 + 1e-6) * dynamicLimit && friction <= (1 + 1e-6) * dynamicLimit;
         strongest = std::max(strongest, friction);

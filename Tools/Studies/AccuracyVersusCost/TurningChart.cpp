@@ -47,7 +47,7 @@ struct Midpoint {
         return sum(top.q, h, rate(top, middle)).normalised();
     }
 };
-/// As LAMMPS's fix rigid: one step and two half steps of Euler's method, extrapolated.
+/// The scheme of LAMMPS's fix rigid: one step and two half steps of Euler's method, extrapolated.
 struct Richardson {
     static constexpr std::string_view name = "Richardson";
     template <Number T>

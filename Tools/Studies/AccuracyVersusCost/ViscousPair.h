@@ -40,9 +40,10 @@ struct ViscousPair {
         const double plateau = std::pow(1 - share(roughness), 2);
         return h < roughness ? plateau * h / roughness : plateau + beyond(h) - beyond(roughness);
     }
-    /// With which the grains touch, over that from which they start at a gap; below 0: they stop before.
+    /// The speed with which the grains touch, over that with which they start at a gap; below 0: they stop
+    /// before.
     [[nodiscard]] double touchingSpeed(double from) const { return 1 - resistanceUpTo(from) / stokes; }
-    /// Where grains stop that do not touch.
+    /// The gap at which grains stop that do not touch.
     [[nodiscard]] double stoppingGap(double from) const {
         double low = 0, high = from;
         for (int k = 0; k < 60; ++k) {
@@ -99,12 +100,12 @@ public:
     }
     [[nodiscard]] double rupture() const { return ruptureDistance; }  // radii
 
-    /// Until the grains touch, stop or turn back. What is charged with the touch comes two steps later.
+    /// Runs until the grains touch, stop or turn back. What is charged with the touch comes two steps later.
     void approach() {
         while (gap() > 0 && closing() > stopped) step();
         if (gap() <= 0) step(), step();
     }
-    /// Until the bridge has ruptured, or the grains have stopped or turned back.
+    /// Runs until the bridge has ruptured, or the grains have stopped or turned back.
     void part() {
         while (gap() < 0) step();
         while (gap() < ruptureDistance && closing() < -stopped) step();
@@ -135,7 +136,7 @@ private:
     double ruptureDistance = 0;
 };
 
-/// What a scheme errs at a step, the worst of several starts within a step.
+/// The errors of a scheme at a step, the worst of several starts within a step.
 struct ViscousErrors {
     double touchingSpeed = 0;  // over the first speed, also where a pair turns back
     double restitution = 0;

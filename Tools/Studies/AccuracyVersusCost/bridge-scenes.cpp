@@ -1,4 +1,4 @@
-/// What each liquid bridge law costs in a whole scene, and what it changes in bulk.
+/// Measures what each liquid bridge law costs in a whole scene, and what it changes in bulk.
 
 #include <CLI/CLI.hpp>
 

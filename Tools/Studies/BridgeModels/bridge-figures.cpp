@@ -113,7 +113,7 @@ std::vector<Curve> forcesBetweenUnequalSpheres(const Scene& scene) {
                   toroidCurve("chen", toroids, [](const UnequalToroid& t) { return t.gorgeForce(); }))};
 }
 
-/// At the first and the second sphere.
+/// The filling angles at the first and the second sphere.
 std::vector<Curve> fillingAngles(const Scene& scene) {
     std::vector<Curve> curves{
         exactCurve("exact_first", scene,

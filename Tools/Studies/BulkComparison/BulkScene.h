@@ -13,7 +13,7 @@
 
 namespace pendular::bulk {
 
-/// One for all grains and walls; only the drum's wall has another friction.
+/// The material of all grains and walls; only the drum's wall has another friction.
 struct PeerMaterial {
     static constexpr double density = 2500;     // kg/m^3
     static inline double elasticModulus = 5e6;  // Pa, Young's; bulk-figures --modulus-Pa
@@ -41,7 +41,7 @@ struct PeerGrain {
     Vec3D position, velocity;  // m, m/s
 };
 
-/// What all codes begin with. Periodic where there is no wall; gravity points along -`up`.
+/// The scene that all codes begin with. It is periodic where there is no wall; gravity points along -`up`.
 struct BulkScene {
     std::string name;
     double endTime, interval, measureFrom;  // s, run and frames; figures are of the time from then on

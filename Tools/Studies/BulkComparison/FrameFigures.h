@@ -77,7 +77,7 @@ public:
         return !isLost && !energies.empty() && energies.back().x > scene.endTime - 1.5 * scene.interval;
     }
 
-    /// Only of a run that survived.
+    /// The figures of a run that survived.
     [[nodiscard]] std::vector<Figure> figures() const {
         std::vector<Figure> found;
         const auto mean = [&](const std::string& name) {
@@ -107,7 +107,7 @@ private:
         sums[name].first += value;
         sums[name].second += 1;
     }
-    /// Of the middle 60 % of the grains, as of the study of laws; the stress of all.
+    /// Adds figures of the middle 60 % of the grains, as in the study of laws, and the stress of all.
     void addBed(const std::vector<PeerGrain>& grains) {
         std::vector<double> heights;
         double moment = 0, mass = 0;  // kg m, kg

@@ -29,7 +29,7 @@ public:
         for (const PeerGrain& row : given.grains) add(row, row.kind == GrainKind::Intruder ? heavy : grains);
     }
 
-    /// As of other codes' files.
+    /// The grains as they are now, in rows as other codes' files give them.
     [[nodiscard]] std::vector<PeerGrain> grainsNow(const BulkScene& given) const {
         const ParticleStore& store = particleHandler.store();
         std::vector<PeerGrain> rows;

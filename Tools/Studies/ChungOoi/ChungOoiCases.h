@@ -15,7 +15,7 @@ namespace pendular::papers {
 
 using Materials = std::vector<std::pair<std::string, scenes::ImpactMaterial>>;
 
-/// From first to last, with both.
+/// Numbers a step apart, from first to last, with both.
 inline std::vector<double> evenly(double first, double last, double step) {
     std::vector<double> values;
     for (int k = 0; k <= std::lround((last - first) / step); ++k) values.push_back(first + k * step);
@@ -26,7 +26,7 @@ inline std::vector<double> joined(std::vector<double> values, const std::vector<
     return values;
 }
 
-/// One for each material and value.
+/// One case for each material and value.
 template <class MakeCase>
 std::vector<ImpactCase> casesOf(const Materials& materials, const std::vector<double>& values,
                                 MakeCase makeCase) {
@@ -69,7 +69,7 @@ inline std::vector<ImpactCase> chungOoi3() {
     });
 }
 
-/// Of test 4, at an angle (degrees) from the normal.
+/// An impact of test 4, at an angle (degrees) from the normal.
 inline ImpactCase obliqueImpact(double degrees, const scenes::ImpactMaterial& contact) {
     const double angle = degrees * std::numbers::pi / 180;
     return {.contact = contact,
@@ -100,7 +100,7 @@ inline std::vector<ImpactCase> chungOoi5() {
         });
 }
 
-/// Of tests 6 to 8: rad/s.
+/// The spins (rad/s) of tests 6 to 8.
 inline std::vector<double> spins() {
     return joined(joined({0.175}, evenly(0.25, 6, 0.25)), evenly(7, 24, 1));
 }

@@ -22,7 +22,7 @@ struct HertzImpact {
     [[nodiscard]] double contactTime() const {                                       // s
         return 2 * largestOverlap() / speed * scaledTime(std::pow(std::numbers::pi / 2, 0.8));
     }
-    /// In m, at a time (s) from the start of the touch; 0 after its end.
+    /// The overlap (m) at a time (s) from the start of the touch; 0 after its end.
     [[nodiscard]] double overlapAt(double time) const {
         if (time <= 0 || time >= contactTime()) return 0;
         const double wanted = std::min(time, contactTime() - time) * speed / largestOverlap();
@@ -32,12 +32,12 @@ struct HertzImpact {
     }
 
 private:
-    /// Of the time, in d_max / v, over s = angle^(4/5), by which it is smooth.
+    /// The slope of the time, in d_max / v, over s = angle^(4/5), in which it is smooth.
     static double slope(double s) {
         const double angle = std::pow(s, 1.25);
         return angle > 0 ? std::pow(angle / std::sin(angle), 0.2) : 1;
     }
-    /// Its integral from the start of the touch, by Simpson's rule.
+    /// The time, in d_max / v: the integral of the slope from the start of the touch, by Simpson's rule.
     static double scaledTime(double s) {
         constexpr int intervals = 64;
         double sum = slope(0) + slope(s);

@@ -17,13 +17,14 @@ constexpr int stepsOfContact = 200;
 /// Relative error of an impulse: velocity Verlet's (w dt)^2 / 24 with w dt = 4.03 / steps for Hertz's period,
 /// and the first moments of a touch, some dt^(5/4) (DryCollisionTest): 0.002 at 50 steps.
 inline const double schemeError = 0.002 * std::pow(50.0 / stepsOfContact, 1.25);
-/// Where the contact sticks, its spring swings through up to half a turn, and the slip at the end is its
-/// phase. Its period and the end of the touch err like an impulse, and count with up to pi each.
+/// The error of the slip: where the contact sticks, its spring swings through up to half a turn, and the slip
+/// at the end is its phase. Its period and the end of the touch err like an impulse, and count with up to pi
+/// each.
 inline const double slipError = 2 * std::numbers::pi * schemeError;
-/// Of r x spin, in which an impulse counts 5/2 times as much: I = 2/5 m r^2.
+/// The error of r x spin, in which an impulse counts 5/2 times as much: I = 2/5 m r^2.
 inline const double rimError = 2.5 * slipError;
-/// Of Hertz's force over time, in largest forces: a shift in time, by which a touch of 2.94 d_max / v may err
-/// like an impulse, and the steepest slope of the force, 1.5 F_max v / d_max at most.
+/// The error of Hertz's force over time, in largest forces: a shift in time, by which a touch of 2.94 d_max /
+/// v may err like an impulse, and the steepest slope of the force, 1.5 F_max v / d_max at most.
 inline const double forceError = 2.94 * 1.5 * schemeError;
 
 /// One impact, and what becomes of it: as simulated, by theory, and where the contact slides throughout.
@@ -48,7 +49,7 @@ struct ImpactCase {
     [[nodiscard]] double slip() const {  // of the contact point before, m/s, per share
         return upper.velocity.x() - upper.radius * upper.spin.y();
     }
-    /// What friction takes of the tangential speed where the contact slides throughout, m/s: mu times the
+    /// The tangential speed (m/s) that friction takes where the contact slides throughout: mu times the
     /// change of the normal speed while the bodies press on each other. That is (1 + e) v_n without damping;
     /// a dashpot pulls at the end of a touch, and friction has no part in that. With y = overlap^(5/4) and a
     /// time scaled by overlap^(1/4) the damped touch is a linear oscillator (Antypov and Elliott (2011), EPL
@@ -73,7 +74,7 @@ struct ImpactCase {
         const Sphere after = impact.sphere();
         return {after.velocity.z(), after.velocity.x(), after.radius * after.spin.y()};
     }
-    /// By the independent integration of Hertz's and Mindlin's laws.
+    /// The motion after the impact, by the independent integration of Hertz's and Mindlin's laws.
     [[nodiscard]] Motion integrated() const {
         // Tsuji, Tanaka and Ishida (1992): sqrt(5) (-ln e) / sqrt(ln^2 e + pi^2).
         const double logarithm = std::log(contact.restitution);

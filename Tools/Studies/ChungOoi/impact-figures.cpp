@@ -21,7 +21,7 @@ class LargestError {
 public:
     LargestError(int test, std::string what, double limit)
         : test(test), what(std::move(what)), limit(limit) {}
-    /// In percent.
+    /// The error in percent.
     double of(double simulated, double theory, double scale) {
         const double error = (simulated - theory) / scale;
         largest = std::max(largest, std::abs(error));
@@ -87,7 +87,7 @@ void writeRestitutions(const Tables& tables) {
     error.print();
 }
 
-/// Of the contact point's way after an impact, from the normal, degrees.
+/// The angle (degrees) of the contact point's way after an impact, from the normal.
 double reboundAngle(const ImpactCase::Motion& after) {
     return std::atan2(after.sideways - after.rim, after.parting) * 180 / std::numbers::pi;
 }

@@ -34,7 +34,7 @@ std::vector<Triangle> rectangle(const Vector<double>& corner, const Vector<doubl
     return {{corner, corner + a, corner + a + b}, {corner, corner + a + b, corner + b}};
 }
 
-/// Of plates on a grain at rest.
+/// The push of plates on a grain at rest.
 Push pushOf(const std::vector<std::vector<Triangle>>& plates, const Vec3D& centre) {
     Simulation<Smooth> scene;
     scene.setQuiet();

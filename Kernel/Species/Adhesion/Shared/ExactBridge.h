@@ -33,7 +33,7 @@ struct ExactForce {
     double separation;  // m
     double pinned;      // F / gamma, m: kept on the axis; negative where the bridge pushes
 
-    /// In equilibrium: a bridge that pushes slides off the axis until it does not.
+    /// The force in equilibrium: a bridge that pushes slides off the axis until it does not.
     [[nodiscard]] double equilibrium() const { return pinned > 0 ? pinned : 0; }
 };
 

@@ -71,7 +71,7 @@ struct LiquidBridge {
         if (liquidBridgeVolume == 0) return std::nullopt;
         return objectionAboveRightAngle(Model::name, contactAngle);
     }
-    /// Of the volume V* and the contact angle (degrees) for which Model says that it is made:
+    /// The limits of the volume V* and the contact angle (degrees) for which Model says that it is made:
     /// `madeForVolume`, `madeForAngle`.
     [[nodiscard]] std::vector<DomainLimit> domainLimits(const Bodies& bodies) const {
         std::vector<DomainLimit> limits;

@@ -124,8 +124,8 @@ struct LiquidMigration : Bridge {
                 .toDry = shareWithDryContacts > 0};
     }
 
-    /// Those of the law, and the largest volume for which the bridges of three grains in mutual touch do not
-    /// meet: that of equal spheres of the same R.
+    /// The limits of the law, and the largest volume for which the bridges of three grains in mutual touch do
+    /// not meet: that of equal spheres of the same R.
     [[nodiscard]] std::vector<DomainLimit> domainLimits(const Bodies& bodies) const {
         std::vector<DomainLimit> limits = Bridge::domainLimits(bodies);
         if (this->liquidBridgeVolume > 0 && std::isfinite(bodies.radius1 + bodies.radius2))

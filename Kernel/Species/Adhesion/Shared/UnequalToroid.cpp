@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// What a body adds to the toroid.
+/// The part of a body in the toroid.
 struct Contact {
     double capHeight, capVolume, psi, sine, cosine;
 

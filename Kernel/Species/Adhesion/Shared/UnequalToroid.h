@@ -19,12 +19,12 @@ struct UnequalToroid {
 
     /// 1/rho, the curvature of the arc, (cos psi1 + cos psi2) / height with psi_i = phi_i + theta.
     [[nodiscard]] double arcCurvature() const;
-    /// What is zero where both contact lines lie on one arc: (a1 - a2)/rho + sin psi1 - sin psi2.
+    /// The mismatch, zero where both contact lines lie on one arc: (a1 - a2)/rho + sin psi1 - sin psi2.
     [[nodiscard]] double mismatch() const;
     /// Neck radius l, not where the arc is straight.
     [[nodiscard]] double neck() const;
     [[nodiscard]] double volume() const;
-    /// At the neck, pi l^2 (1/rho - 1/l) + 2 pi l.
+    /// The force at the neck, pi l^2 (1/rho - 1/l) + 2 pi l.
     [[nodiscard]] double gorgeForce() const;
 };
 

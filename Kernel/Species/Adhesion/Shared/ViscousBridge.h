@@ -24,7 +24,7 @@ enum class ViscousScheme {
     Explicit   ///< its coefficient at the gap, times the speed that is predicted without it
 };
 
-/// What resists slip and rolling at a gap.
+/// The theory for what resists slip and rolling at a gap.
 enum class TangentialLubrication {
     None,
     Pair,    ///< leading logarithm of lubrication theory, for any two radii, with rolling
@@ -92,7 +92,8 @@ struct ViscousInteraction {
         }
         return found;
     }
-    /// Of a bridge that is prepared again, perhaps for another volume: what is still to be charged stays.
+    /// Goes on with the state of a bridge that is prepared again, perhaps for another volume: what is still
+    /// to be charged stays.
     template <class Law>
     void takeState(const Law& law, const ViscousInteraction& before) {
         if (squaredReach == 0) {  // there is no liquid, or it has not come yet where films have met
@@ -117,7 +118,7 @@ struct ViscousInteraction {
         lastGap = gap;
         charged = start;
     }
-    /// Between two steps; bodies that have been put somewhere else have not moved there.
+    /// Called between two steps; bodies that have been put somewhere else have not moved there.
     void checkGap(T separation, T roundOff) {
         if (!(abs(separation - lastGap) <= roundOff)) lastGap = never;
     }
@@ -200,8 +201,8 @@ private:
         // The gap closes in the coming drift, whatever resists it; or it does not open.
         const MaskOf<T> closes = (!creeps) & (h > contact) & (fma(fma(k, before, wanted), dt, h) < T(0));
         if (!isKept) paid = select(closes | staysClosed, T(0), paid);
-        // With what others give, as in the last step, the bodies are brought to a stop at most: what they
-        // have gone too far, in the first step of a scene, is not made good.
+        // The bodies are brought to a stop at most, with what others give as in the last step: what they have
+        // gone too far, in the first step of a scene, is not made good.
         const T others = select(
             begins, T(0), fma(T(-2), motion.approach + drift, -(kick * motion.inverseMass * motion.last)));
         const T speed = wanted + others, own = max(drag * motion.inverseMass, T(1e-300));
@@ -242,7 +243,8 @@ struct ViscousNames {
     static constexpr std::string_view summary = JoinedName<Bridge::summary, resists>::value;
 };
 
-/// Where bridges form before a touch: below a gap, or where liquid moves at the films that there are.
+/// The field that says where bridges form before a touch: below a gap, or where liquid moves at the films
+/// that there are.
 template <bool movesLiquid>
 struct FilmContactField {
     double filmContactGap = 0;  // m
@@ -314,7 +316,7 @@ struct ViscousBridge : Bridge, FilmContactField<MovesLiquid<Bridge>> {
         return joinedFields<Law>(Bridge::fields(), added);
     }
 
-    // Those of the bridge, so that a refusal names this law.
+    // The setters are those of the bridge, made again so that a refusal names this law.
     void setLiquidBridgeVolume(double value) requires(!MovesLiquid<Bridge>) {
         setField(*this, &ViscousBridge::liquidBridgeVolume, value);
     }
@@ -389,8 +391,8 @@ struct ViscousBridge : Bridge, FilmContactField<MovesLiquid<Bridge>> {
         const double longest = dynamicRupture > 0 ? 1 + std::sqrt(largestCapillaryNumber) : 1;
         return longest * Bridge::range(bodies);
     }
-    /// At the roughness, where it is largest. The pair alone is stable at any step with the gap scheme; so is
-    /// a bed whose grains have no more than viscousNeighbours bridges.
+    /// The resistance at the roughness, where it is largest. The pair alone is stable at any step with the
+    /// gap scheme; so is a bed whose grains have no more than viscousNeighbours bridges.
     [[nodiscard]] BridgeResistance<double> largestResistance(const Bodies& bodies) const {
         auto bridge = withLiquid({}, bodies, this->liquidBridgeVolume);
         ViscousBridge law = *this;

@@ -7,7 +7,7 @@
 
 namespace pendular {
 
-// What the laws of viscous liquid share.
+// Functions that the laws of viscous liquid share.
 
 template <class T>
 T naturalLogarithm(const T& x) {

@@ -55,8 +55,8 @@ struct MindlinSpring {
     [[nodiscard]] double getSlidingFrictionCoefficient() const { return slidingFrictionCoefficient; }
     [[nodiscard]] double getSpringFactor() const { return springFactor; }
 
-    /// What the user has not set and the normal law can give: beta_t by equation 4.8. A normal law whose
-    /// damping is not such a factor leaves it to the user.
+    /// Derives what the user has not set and the normal law can give: beta_t by equation 4.8. A normal law
+    /// whose damping is not such a factor leaves it to the user.
     template <class Normal>
     void deriveUnset(const Normal& normal) {
         if constexpr (requires {

@@ -135,7 +135,7 @@ struct ReducedProfile : MindlinSpring<Law> {
         SliderForce<T> result =
             slideProfile(Spring::springStiffness(p, contact), Spring::springDamping(p, contact),
                          p.coefficient * max(normalForce, T(0)), slip, memory);
-        // What springs that come and go take with them is lost: the ledger counts it as slip.
+        // The energy of springs that come and go is lost: the ledger counts it as slip.
         result.slips = result.slips | changes;
         return result;
     }

@@ -27,7 +27,7 @@ struct RollingTorsionSpring {
     }
 };
 
-/// Their forces: the torque on body 1 over R*.
+/// The forces of rolling and torsion: the torque on body 1 over R*.
 template <class T>
 struct RotationForces {
     SliderForce<T> rolling, torsion;

@@ -27,12 +27,12 @@ inline double linearContactTime(double stiffness, double dissipation, double eff
     return frequency2 > 0 ? std::numbers::pi / std::sqrt(frequency2) : infinity;
 }
 
-/// The same with the dashpot beta sqrt(m* k) d^(1/4), k = 4/3 E* sqrt(R*); infinite from beta = sqrt(5) on.
-/// With ds = sqrt(k/m*) d^(1/4) dt, z = 4/5 d^(5/4) is a damped oscillator (Antypov and Elliott 2011, EPL 94,
-/// 50004), z = v sqrt(m*/k) e^(-beta s/2) sin(w s) / w, w^2 = (5 - beta^2)/4. So t is sqrt(m*/k) times the
-/// integral of (5 z/4)^(-1/5) over s from 0 to pi/w: over that of beta = 0 it is (2 w / sqrt(5))^(-4/5) e^(pi
-/// a/2) |Gamma(9/10)/Gamma(9/10 + i a/2)|^2, a = beta / (10 w). Source of the integral: Gradshteyn and
-/// Ryzhik, 3.892.1.
+/// The time (s) that two grains touch by Hertz's law with the dashpot beta sqrt(m* k) d^(1/4), k = 4/3 E*
+/// sqrt(R*); infinite from beta = sqrt(5) on. With ds = sqrt(k/m*) d^(1/4) dt, z = 4/5 d^(5/4) is a damped
+/// oscillator (Antypov and Elliott 2011, EPL 94, 50004), z = v sqrt(m*/k) e^(-beta s/2) sin(w s) / w, w^2 =
+/// (5 - beta^2)/4. So t is sqrt(m*/k) times the integral of (5 z/4)^(-1/5) over s from 0 to pi/w: over that
+/// of beta = 0 it is (2 w / sqrt(5))^(-4/5) e^(pi a/2) |Gamma(9/10)/Gamma(9/10 + i a/2)|^2, a = beta / (10
+/// w). Source of the integral: Gradshteyn and Ryzhik, 3.892.1.
 inline double dampedHertzContactTime(double effectiveModulus, double effectiveRadius, double effectiveMass,
                                      double speed, double beta) {
     if (beta * beta >= 5) return infinity;

@@ -14,8 +14,8 @@ inline double computeEffectiveElasticModulus(double elasticModulus, double poiss
     return 0.5 * elasticModulus / (1 - poissonRatio * poissonRatio);
 }
 
-/// What laws with Hertz's elastic force have in common: F = 4/3 E* sqrt(R*) d^(3/2). Law is the law derived
-/// from this; its Prepared has the stiffnessFactor 4/3 E* (Pa).
+/// The base of laws with Hertz's elastic force: F = 4/3 E* sqrt(R*) d^(3/2). Law is the law derived from
+/// this; its Prepared has the stiffnessFactor 4/3 E* (Pa).
 /// Source: Hertz (1882), J. reine angew. Math. 92, 156; Thornton et al. (2023), Mathematics in Computer
 /// Science 17, 13, equation 4.2.
 template <class Law>
@@ -60,9 +60,9 @@ struct HertzianContact {
         return 1.5 * p.stiffnessFactor * contact.contactRadius;
     }
     static constexpr double elasticExponent = 1.5;
-    /// Of the effective radius. Hertz takes the bodies for paraboloids: at the rim of a contact of radius a =
-    /// sqrt(R* d) a sphere is deeper by the share a^2 / (4 r^2), which at a wall is then 2.5 %, between equal
-    /// spheres 0.6 %.
+    /// The largest sound overlap, over the effective radius. Hertz takes the bodies for paraboloids: at the
+    /// rim of a contact of radius a = sqrt(R* d) a sphere is deeper by the share a^2 / (4 r^2), which at a
+    /// wall is then 2.5 %, between equal spheres 0.6 %.
     static constexpr double largestOverlap = 0.1;
 
     [[nodiscard]] double range(const Bodies&) const { return 0; }

@@ -68,7 +68,7 @@ TEST(BulkFigures, cutSpheres) {
     EXPECT_EQ(volumeBelow(-3, 0, radius), 0);
     EXPECT_NEAR(volumeBelow(0, 0, radius), whole / 2, 1e-14 * whole);
     EXPECT_NEAR(volumeBelow(5, 0, radius), whole, 1e-14 * whole);
-    // Of height h: pi h^2 (3 r - h) / 3, here 5 pi / 3 for h = 1.
+    // A cap of height h has pi h^2 (3 r - h) / 3, here 5 pi / 3 for h = 1.
     EXPECT_NEAR(volumeBelow(-1, 0, radius), 5 * std::numbers::pi / 3, 1e-14 * whole);
 }
 

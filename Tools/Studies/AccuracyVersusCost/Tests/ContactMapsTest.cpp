@@ -78,10 +78,10 @@ double ratioOf(const Row& row) {
                : std::stod(row.at("dashpot_over_critical"));
 }
 
-// Where the force of a linear contact turns, and what it would rebound with if it ended there: Schwager and
-// Poeschel (2007). The contact of d^(3/2) and d^(1/4) has the same velocities, at other times (Antypov and
-// Elliott 2011). The steps are 1/1000 of the contact, and the speed there has its maximum: its error is
-// (pi/1000)^2 of the speed, or (1/1000)^(5/4) = 2e-4 of the dashpot's part.
+// Theory knows where the force of a linear contact turns, and what it would rebound with if it ended there:
+// Schwager and Poeschel (2007). The contact of d^(3/2) and d^(1/4) has the same velocities, at other times
+// (Antypov and Elliott 2011). The steps are 1/1000 of the contact, and the speed there has its maximum: its
+// error is (pi/1000)^2 of the speed, or (1/1000)^(5/4) = 2e-4 of the dashpot's part.
 TEST_F(HeavyContactMaps, pullBeginsWhereTheoryHasIt) {
     int compared = 0;
     for (const Row& row : rows("attraction.csv")) {

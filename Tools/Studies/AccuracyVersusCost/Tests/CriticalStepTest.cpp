@@ -82,8 +82,8 @@ TEST(CriticalStep, ofACrystalThatTurnsIsTheClosedForm) {
     EXPECT_NEAR(criticalStep(species, scene, verlet).critical / exact, 1, measuredWithin);
 }
 
-// The same under the default, which moves springs without dashpots in the step. Half a step ahead they were
-// fed (w h)^4 / 8 a step.
+// The default has the same limit as velocity Verlet, as it moves springs without dashpots in the step. Half a
+// step ahead they were fed (w h)^4 / 8 a step.
 TEST(CriticalStep, ofUndampedSlidingSpringsUnderTheDefaultIsThatOfVelocityVerlet) {
     const RestingGrains scene = resting::crystal();
     const Rough species = criticalMaterial::make<Rough>({0, 35}, scene.bodies(), scene.effectiveMass());
