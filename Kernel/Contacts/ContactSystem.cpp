@@ -98,7 +98,7 @@ bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucke
     if (grain.inverseMass == 0 && (isWall || grains.translation[second].inverseMass == 0)) return false;
     if (!isWall && grains.bodies.areJoined(grains.identity[first], grains.identity[second])) return false;
     const int species1 = grains.species[first],
-              species2 = isWall ? wallOf(bucket).species : grains.species[second];
+              species2 = isWall ? wallOf(bucket).getSpeciesIndex() : grains.species[second];
     const auto number = static_cast<std::size_t>(&bucket - contacts.buckets.data());
     if (&species->ofPair(species1, species2) != &species->ofBucket(number)) return false;
     const ObservedContact seen = observe(grains, bucket, contact);

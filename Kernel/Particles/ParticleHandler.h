@@ -174,8 +174,6 @@ public:
     void renewMasses();
     /// The same where only films have changed.
     void weighFilms();
-    /// The scene begins: no column is added from now on.
-    void closeColumns() { columnsAreClosed = true; }
 
     void visitState(StateArchive& archive);
     /// Ask for it again after each step: a step that ends where nobody looks is finished when it is asked
@@ -189,16 +187,7 @@ public:
         return grains;
     }
 
-    // For the scene that moves the grains.
-
-    /// The grains as they are, in the middle of a step.
-    [[nodiscard]] Grains& storeInStep() { return grains; }
-    /// What finishes a step that was left unfinished.
-    void callToFinishStep(std::function<void()> function) { finishing = std::move(function); }
-    void leaveStepUnfinished() { unfinished = true; }
-    /// Whether the last step was, and nobody has asked for the grains since; who calls this finishes it.
-    [[nodiscard]] bool takeUnfinishedStep() { return unfinished.exchange(false); }
-    /// From any thread: all others wait until it is done.
+    /// Ends a step that was left unfinished. From any thread: all others wait until it is done.
     void finishStep() const {
         if (!unfinished.load(std::memory_order_acquire)) [[likely]]
             return;
@@ -207,15 +196,8 @@ public:
         unfinished.store(false, std::memory_order_release);
     }
 
-    /// Grains have been joined to a rigid body.
-    void noteJoined(std::span<const std::uint32_t> identities);
-    /// Called with the place of a grain before it is removed.
-    void callBeforeRemoval(std::function<void(std::uint32_t)> function) {
-        beforeRemoval = std::move(function);
-    }
-    /// What has changed since this was called last.
-    [[nodiscard]] GrainChanges takeChanges() { return std::exchange(changes, {}); }
-    [[nodiscard]] bool hasChanges() const { return changes.any(); }
+    /// What only the kernel asks: ParticleHandlerInside.h.
+    class Inside;
 
 private:
     friend class GrainReference;
@@ -226,6 +208,7 @@ private:
     void renewMass(std::uint32_t place);
     /// Of a grain that moves by itself.
     [[nodiscard]] GrainInertia inertiaAt(std::uint32_t place) const;
+    void noteJoined(std::span<const std::uint32_t> identities);
     void noteDensityOfJoined(std::uint32_t identity);
 
     const GrainSpecies* species = nullptr;

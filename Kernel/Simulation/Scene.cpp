@@ -4,6 +4,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/LastState.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -13,10 +14,10 @@ namespace pendular {
 
 Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
     // A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
-    particleHandler.callBeforeRemoval([this](std::uint32_t place) {
+    ParticleHandler::Inside::callBeforeRemoval(particleHandler, [this](std::uint32_t place) {
         inside->bookEnergyOfEnded(inside->contacts.endContactsOf(particleHandler.store(), place));
     });
-    particleHandler.callToFinishStep([this] {
+    ParticleHandler::Inside::callToFinishStep(particleHandler, [this] {
         const StepTimes::Within sum(stepTimer(), StepTimes::Part::Sum);
         GrainPart::finishLeftStep(inside->context);
     });

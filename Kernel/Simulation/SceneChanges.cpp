@@ -8,6 +8,7 @@
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Motion/TimeIntegration.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -43,8 +44,8 @@ void Scene::Inside::takeOverChanges() {
         const bool newLaws = std::exchange(lawsAreNew, false), newStep = stepLength() != checkedStep,
                    changedWalls = walls.hasChanges();
         const auto firstNewWall = static_cast<int>(walls.firstNewWall());
-        if (!newLaws && !changedWalls && !newStep && !particles.hasChanges()) return;
-        const GrainChanges changes = particles.takeChanges();
+        if (!newLaws && !changedWalls && !newStep && !ParticleHandler::Inside::hasChanges(particles)) return;
+        const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
         const bool changedGrains = !changes.placed.empty() || !changes.altered.empty(),
                    newBodies = changedWalls || changedGrains;
         if (newLaws) {

@@ -7,6 +7,7 @@
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/TimeIntegration.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -142,8 +143,8 @@ void Scene::Inside::check() {
 
 void Scene::Inside::prepare() {
     check();
-    static_cast<void>(scene.particleHandler.takeChanges());
-    scene.particleHandler.closeColumns();
+    static_cast<void>(ParticleHandler::Inside::takeChanges(scene.particleHandler));
+    ParticleHandler::Inside::closeColumns(scene.particleHandler);
     lawsAreNew = false;
     GrainFilms& films = scene.particleHandler.films();
     if (films.areKept())
