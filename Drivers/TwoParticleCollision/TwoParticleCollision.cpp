@@ -79,7 +79,7 @@ public:
         double separation = distance() - options.radius1 - options.radius2;
         double normal = 0, capillary = 0;
         bool bridged = false;
-        this->contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        this->contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
             const ObservedContact seen =
                 this->contacts().observe(this->particleHandler.store(), bucket, contact);
             separation = seen.separation;

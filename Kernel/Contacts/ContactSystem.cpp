@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactList.h"
@@ -505,6 +506,17 @@ void ContactSystem::findWallPoints(const Grains& grains, double step) {
     wallPatches.join(contacts, *species, grains, *walls, threads,
                      [&](std::size_t block) { wake(block, contacts.bucketOf(block), grains); });
 }
+
+ContactCounts ContactSystem::counts() const {
+    ContactCounts all;
+    for (const BlockState& state : contacts.states) {
+        all.touching += static_cast<std::size_t>(std::popcount(state.touching));
+        all.bridged += static_cast<std::size_t>(std::popcount(state.bridged));
+        all.acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
+    }
+    return all;
+}
+
 void ContactSystem::sumWallForces(const Grains& grains) {
     for (std::size_t w = 0; w < walls->getSize(); ++w)
         if (walls->getObject(w).keepsForces()) sumForcesOn(grains, w);

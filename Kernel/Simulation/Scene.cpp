@@ -1,7 +1,5 @@
 #include "Kernel/Simulation/Scene.h"
 
-#include <bit>
-
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
@@ -44,10 +42,7 @@ void Scene::tellEvents() {
 }
 
 RunNumbers Scene::numbers() const {
-    std::size_t acting = 0;
-    for (const BlockState& state : contacts().store().states)
-        acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
-    return {particleHandler.getSize(), acting, kineticEnergy(particleHandler.store())};
+    return {particleHandler.getSize(), contacts().counts().acting, kineticEnergy(particleHandler.store())};
 }
 
 void Scene::writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contactFile,

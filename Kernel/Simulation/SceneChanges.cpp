@@ -29,7 +29,7 @@ void Scene::Inside::mixChangedLaws() {
 void Scene::Inside::refuseOtherMemory() const {
     ContactLayout asked = laws().layout;
     asked.named = contacts.columns().size();
-    if (asked != contacts.store().memory.getLayout())
+    if (asked != contacts.layout())
         throw InputError(
             "Simulation: a species was added in the run whose contacts remember more, or have friction where "
             "no others have; add it before the run begins.");
