@@ -179,20 +179,17 @@ void describe(CLI::App& app, Options& o) {
     addRunOptions(app, o.run, "force_separation.csv and energy.csv");
 }
 
+void run(const Options& options) {
+    checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
+    checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%", notNegative);
+    withLawNamed<Bridges>("adhesion model", options.adhesion,
+                          [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    const DriverProgram driver{
-        .name = "TwoParticleCollision",
-        .description = "Two grains collide head-on and are joined by a liquid bridge until it ruptures.",
-        .options = options.run,
-        .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] {
-        checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
-        checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%",
-                   notNegative);
-        withLawNamed<Bridges>("adhesion model", options.adhesion,
-                              [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
-    });
+    return runDriver("TwoParticleCollision",
+                     "Two grains collide head-on and are joined by a liquid bridge until it ruptures.",
+                     Options(), describe, run, argc, argv);
 }
