@@ -104,15 +104,6 @@ public:
 
     ParticleHandler() = default;
     ParticleHandler(const ParticleHandler&) = delete;
-    void setSpecies(const GrainSpecies& of);
-    /// m/s^2: it is the acceleration of a grain that is added or let go, of which no step has found another
-    /// yet, and part of that of all others: in a run, these change with it.
-    void setGravity(const Vector<double>& acceleration);
-    /// kg/m^3, of films: their mass is part of that of their grains, as renewMasses() and all changes of a
-    /// grain count it. 0: they have none.
-    void setLiquidDensity(double density) { liquidDensity = density; }
-    /// When the laws are known: grains of a scene without friction have no spin.
-    void settleSpin();
 
     /// Takes the memory for so many grains at once, instead of bit by bit.
     void reserve(std::size_t count) { grains.reserve(count); }
@@ -169,11 +160,6 @@ public:
     /// kg, of the grain at a place: of a solid sphere; in a rigid body its share of that one's mass, which is
     /// parted as masses of free spheres are.
     [[nodiscard]] double massAt(std::uint32_t place) const;
-    /// Gives all grains that move by themselves the mass of their species' density, and of their films where
-    /// these are weighed. Forces and velocities stay.
-    void renewMasses();
-    /// The same where only films have changed.
-    void weighFilms();
 
     void visitState(StateArchive& archive);
     /// Ask for it again after each step: a step that ends where nobody looks is finished when it is asked
@@ -203,6 +189,11 @@ private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
+    void setSpecies(const GrainSpecies& of);
+    void setGravity(const Vector<double>& acceleration);
+    void settleSpin();
+    void renewMasses();
+    void weighFilms();
     /// At the density that its species has now, with the film that it has; its forces stay. Not of a grain
     /// that is held.
     void renewMass(std::uint32_t place);

@@ -26,6 +26,23 @@ public:
         return of.unfinished.exchange(false);
     }
 
+    static void setSpecies(ParticleHandler& of, const GrainSpecies& species) { of.setSpecies(species); }
+    /// m/s^2: it is the acceleration of a grain that is added or let go, of which no step has found another
+    /// yet, and part of that of all others: in a run, these change with it.
+    static void setGravity(ParticleHandler& of, const Vector<double>& acceleration) {
+        of.setGravity(acceleration);
+    }
+    /// kg/m^3, of films: their mass is part of that of their grains, as renewMasses() and all changes of a
+    /// grain count it. 0: they have none.
+    static void setLiquidDensity(ParticleHandler& of, double density) { of.liquidDensity = density; }
+    /// When the laws are known: grains of a scene without friction have no spin.
+    static void settleSpin(ParticleHandler& of) { of.settleSpin(); }
+    /// Gives all grains that move by themselves the mass of their species' density, and of their films where
+    /// these are weighed. Forces and velocities stay.
+    static void renewMasses(ParticleHandler& of) { of.renewMasses(); }
+    /// The same where only films have changed.
+    static void weighFilms(ParticleHandler& of) { of.weighFilms(); }
+
     /// The scene begins: no column is added from now on.
     static void closeColumns(ParticleHandler& of) { of.columnsAreClosed = true; }
     /// Grains have been joined to a rigid body.

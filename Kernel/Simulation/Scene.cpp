@@ -28,7 +28,7 @@ Scene::~Scene() = default;
 
 void Scene::setLaws(ContactLaws& of) {
     contactLaws = inside->context.laws = &of;
-    particleHandler.setSpecies(of);
+    ParticleHandler::Inside::setSpecies(particleHandler, of);
 }
 
 // What Run asks for.
@@ -59,7 +59,7 @@ void Scene::setGravity(const Vec3D& acceleration) {
     takeUnlessRefused(inside->context.gravity, toVector(acceleration), [&] {
         if (getPeriodicBox().imagesMove) inside->refuseForMovingImages();
     });
-    particleHandler.setGravity(inside->context.gravity);
+    ParticleHandler::Inside::setGravity(particleHandler, inside->context.gravity);
     inside->adaptive.chooseAnew();
     inside->gravityChanged |= hasBegun();
 }

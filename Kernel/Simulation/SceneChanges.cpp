@@ -50,7 +50,7 @@ void Scene::Inside::takeOverChanges() {
                    newBodies = changedWalls || changedGrains;
         if (newLaws) {
             refuseOtherMemory();
-            particles.renewMasses();
+            ParticleHandler::Inside::renewMasses(particles);
             speciesChanged = true;
         }
         if (changedWalls) DrivePart::sumForcesOnNewDrives(context);

@@ -54,8 +54,8 @@ void Scene::Inside::setUp() {
     scene.requireTimeStep();
     account.show(context);
     laws().mixAll();
-    particles.settleSpin();
-    if (!scene.isRestarted()) particles.renewMasses();
+    ParticleHandler::Inside::settleSpin(particles);
+    if (!scene.isRestarted()) ParticleHandler::Inside::renewMasses(particles);
     particles.films().settle(particles.store(), laws().layout.liquid > 0);
     liquid.refuseWhereNoneMoves(context, filmMass.getDensity());
     if (scene.isRestarted()) {
@@ -64,7 +64,7 @@ void Scene::Inside::setUp() {
     }
     if (const double quantum = liquid.beginToCount(context, scene.getTimeMax()); quantum > 0) {
         scene.sprayHandler.begin(quantum);
-        if (filmMass.getDensity() > 0) particles.weighFilms();  // rounded to quanta
+        if (filmMass.getDensity() > 0) ParticleHandler::Inside::weighFilms(particles);  // rounded to quanta
     }
     prepare();
     ParticleStore& grains = particles.store();
