@@ -133,11 +133,9 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
 
     const auto& grains = scene.particleHandler.store();
     const auto count = static_cast<double>(grains.size());
-    std::size_t listed = 0, touching = 0;
-    scene.contacts().store().forEachListed([&](const Bucket&, std::uint32_t contact) {
-        ++listed;
-        touching += scene.contacts().store().touches(contact) ? 1 : 0;
-    });
+    std::size_t listed = 0;
+    scene.contacts().forEachListed([&](const Bucket&, std::uint32_t) { ++listed; });
+    const std::size_t touching = scene.contacts().counts().touching;
     if (options.header)
         fmt::print(
             "scene,species,particles,listed_pairs,touching,threads,steps,seconds,million_particle_steps_per_"

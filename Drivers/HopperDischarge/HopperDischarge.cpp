@@ -85,29 +85,27 @@ void run(const Options& options) {
         law.coefficient, law.emptyAnnulus, law.bulkDensity, options.run.output, options.run.output);
 }
 
+void checkAndRun(const Options& given) {
+    Options options = given;
+    if (!options.sizes.empty()) {
+        options.hopper.sizes = readSizeTable(options.sizes);
+        options.hopper.grainDiameter = options.hopper.sizes->quantile(SizeBasis::Volume, 0.5);
+    }
+    options.hopper.coneSlope = options.cone * std::numbers::pi / 180;
+    checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval);
+    checkValue("HopperDischarge", "start of the steady part", options.begin, "s",
+               {0, options.endTime, true, false});
+    for (const double orifice : options.orifices)
+        checkValue("HopperDischarge", "orifice diameter", orifice, "m",
+                   {0, options.hopper.diameter, false, false});
+    run(options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    const DriverProgram driver{
-        .name = "HopperDischarge",
-        .description =
-            "Grains leave a flat-bottomed hopper through circular orifices: mass over time, and "
-            "Beverloo's law.",
-        .options = options.run,
-        .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] {
-        if (!options.sizes.empty()) {
-            options.hopper.sizes = readSizeTable(options.sizes);
-            options.hopper.grainDiameter = options.hopper.sizes->quantile(SizeBasis::Volume, 0.5);
-        }
-        options.hopper.coneSlope = options.cone * std::numbers::pi / 180;
-        checkRun("HopperDischarge", options.hopper.number, options.endTime, options.interval);
-        checkValue("HopperDischarge", "start of the steady part", options.begin, "s",
-                   {0, options.endTime, true, false});
-        for (const double orifice : options.orifices)
-            checkValue("HopperDischarge", "orifice diameter", orifice, "m",
-                       {0, options.hopper.diameter, false, false});
-        run(options);
-    });
+    return runDriver(
+        "HopperDischarge",
+        "Grains leave a flat-bottomed hopper through circular orifices: mass over time, and Beverloo's law.",
+        Options(), describe, checkAndRun, argc, argv);
 }

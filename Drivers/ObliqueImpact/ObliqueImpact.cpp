@@ -224,11 +224,8 @@ void describe(CLI::App& app, Options& options) {
 int main(int argc, char** argv) {
     Options options;
     for (int angle = 2; angle < 89; ++angle) options.angles.push_back(angle);
-    const DriverProgram driver{.name = "ObliqueImpact",
-                               .description =
-                                   "A sphere meets a rigid plane at varied angles: restitution along the "
-                                   "plane, spin, rebound angle.",
-                               .options = options.run,
-                               .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] { run(options); });
+    return runDriver(
+        "ObliqueImpact",
+        "A sphere meets a rigid plane at varied angles: restitution along the plane, spin, rebound angle.",
+        options, describe, run, argc, argv);
 }

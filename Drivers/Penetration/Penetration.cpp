@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/FirstState.h"
 #include "Drivers/Shared/PenetrationScene.h"
 #include "Kernel/Output/RunTable.h"
 
@@ -11,10 +12,9 @@ using namespace pendular;
 
 namespace {
 
-struct Options {
-    std::string grains, walls;  // files; both empty: a generated state
-    std::size_t number = 5000;  // of a generated state
-    double softening = 1;
+struct Options : FirstState {
+    Options() { number = 5000; }
+
     double speed = PenetrationScene::publishedSpeed;  // m/s
     double endTime = 0.1;                             // s
     double interval = 5e-4;                           // s
@@ -70,27 +70,16 @@ private:
 
 void describe(CLI::App& app, Options& o) {
     app.option_defaults()->always_capture_default();
-    auto* grains = app.add_option("--grains", o.grains,
-                                  "file of the initial state: rows radius x y z, in m; the largest grain is "
-                                  "the intruder");
-    auto* walls =
-        app.add_option("--walls", o.walls, "file of the box: rows of nine numbers, STL, OBJ or PLY, in m");
-    grains->needs(walls), walls->needs(grains);
-    app.add_option("--number", o.number,
-                   "grains of the generated bed, taken where no files are given; at least 100")
-        ->excludes(grains);
-    app.add_option("--softening", o.softening,
-                   "divides Young's moduli; the time step grows with its square root");
+    addFirstState(
+        app, o,
+        {.grains = "file of the initial state: rows radius x y z, in m; the largest grain is the intruder",
+         .walls = "file of the box: rows of nine numbers, STL, OBJ or PLY, in m",
+         .number = "grains of the generated bed, taken where no files are given; at least 100"});
     app.add_option("--speed-m/s", o.speed, "of the intruder, downwards, m/s");
     app.add_option("--end-time-s", o.endTime, "end of the run, s, if the intruder has not stopped before");
     app.add_flag("--whole-time", o.wholeTime, "go on to the end time after the intruder has stopped");
     app.add_option("--interval-s", o.interval, "time between two rows of depth.csv, s");
     addRunOptions(app, o.run, "depth.csv");
-}
-
-template <class Walls>
-void run(const Options& options, const PenetrationGrains& grains, const Walls& walls) {
-    Penetration(options, grains, walls).solve();
 }
 
 /// Grains that a run begins with; none for one that goes on, which has its own.
@@ -100,21 +89,16 @@ PenetrationGrains firstGrains(const Options& options, const BedBox& box) {
     return settledBed(options.number, box, options.softening, options.run);
 }
 
+void run(const Options& options) {
+    checkRun("Penetration", options.number, options.endTime, options.interval);
+    checkValue("Penetration", "speed", options.speed, "m/s", positive);
+    const BedBox box = bedBoxFor(options.number);
+    solveWithin<Penetration>(options, firstGrains(options, box), box);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    const DriverProgram driver{
-        .name = "Penetration",
-        .description = "A steel sphere hits a bed of grains; gives its depth over time.",
-        .options = options.run,
-        .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] {
-        checkRun("Penetration", options.number, options.endTime, options.interval);
-        checkValue("Penetration", "speed", options.speed, "m/s", positive);
-        const BedBox box = bedBoxFor(options.number);
-        const PenetrationGrains grains = firstGrains(options, box);
-        if (options.walls.empty()) run(options, grains, box);
-        else run(options, grains, readTriangles(options.walls));
-    });
+    return runDriver("Penetration", "A steel sphere hits a bed of grains; gives its depth over time.",
+                     Options(), describe, run, argc, argv);
 }

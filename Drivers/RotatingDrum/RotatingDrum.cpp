@@ -5,16 +5,16 @@
 
 #include "Drivers/Shared/CommandLine.h"
 #include "Drivers/Shared/DrumScene.h"
+#include "Drivers/Shared/FirstState.h"
 #include "Kernel/Output/RunTable.h"
 
 using namespace pendular;
 
 namespace {
 
-struct Options {
-    std::string grains, walls;  // files; both empty: a generated state
-    std::size_t number = 3000;  // of a generated state
-    double softening = 1;
+struct Options : FirstState {
+    Options() { number = 3000; }
+
     double speed = DrumScene::publishedSpeed;  // rad/s
     double endTime = 5;                        // s
     double interval = 0.01;                    // s
@@ -69,23 +69,14 @@ private:
 
 void describe(CLI::App& app, Options& o) {
     app.option_defaults()->always_capture_default();
-    auto* grains = app.add_option("--grains", o.grains, "file of the initial state: rows radius x y z, in m");
-    auto* walls =
-        app.add_option("--walls", o.walls, "file of the drum: rows of nine numbers, STL, OBJ or PLY, in m");
-    grains->needs(walls), walls->needs(grains);
-    app.add_option("--number", o.number, "grains of the generated state, taken where no files are given")
-        ->excludes(grains);
-    app.add_option("--softening", o.softening,
-                   "divides Young's moduli; the time step grows with its square root");
+    addFirstState(app, o,
+                  {.grains = "file of the initial state: rows radius x y z, in m",
+                   .walls = "file of the drum: rows of nine numbers, STL, OBJ or PLY, in m",
+                   .number = "grains of the generated state, taken where no files are given"});
     app.add_option("--speed-rad/s", o.speed, "of the drum about -y, rad/s");
     app.add_option("--end-time-s", o.endTime, "end of the run, s");
     app.add_option("--interval-s", o.interval, "time between two rows of zones.csv, s");
     addRunOptions(app, o.run, "zones.csv and grains.csv");
-}
-
-template <class Walls>
-void run(const Options& options, const std::vector<GrainRow>& grains, const Walls& walls) {
-    RotatingDrum(options, grains, walls).solve();
 }
 
 /// Grains that a run begins with; none for one that goes on, which has its own.
@@ -95,22 +86,18 @@ std::vector<GrainRow> firstGrains(const Options& options, const DrumShape& shape
     return settledDrumGrains(options.number, shape, options.softening, options.run);
 }
 
+void run(const Options& options) {
+    checkRun("RotatingDrum", options.number, options.endTime, options.interval);
+    checkValue("RotatingDrum", "speed", options.speed, "rad/s", anyFinite);
+    const DrumShape shape = drumFor(options.number);
+    solveWithin<RotatingDrum>(options, firstGrains(options, shape), shape);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    const DriverProgram driver{
-        .name = "RotatingDrum",
-        .description =
-            "Grains of two sizes in a turning drum; counts them in the quarters of the drum over time.",
-        .options = options.run,
-        .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] {
-        checkRun("RotatingDrum", options.number, options.endTime, options.interval);
-        checkValue("RotatingDrum", "speed", options.speed, "rad/s", anyFinite);
-        const DrumShape shape = drumFor(options.number);
-        const std::vector<GrainRow> grains = firstGrains(options, shape);
-        if (options.walls.empty()) run(options, grains, shape);
-        else run(options, grains, readTriangles(options.walls));
-    });
+    return runDriver(
+        "RotatingDrum",
+        "Grains of two sizes in a turning drum; counts them in the quarters of the drum over time.",
+        Options(), describe, run, argc, argv);
 }

@@ -43,6 +43,15 @@ struct DriverProgram {
 /// Parses the command line and runs the driver's body; returns the program's exit code.
 int runDriver(const DriverProgram& driver, int argc, char** argv, const std::function<void()>& body);
 
+/// The main() of a driver with a struct of options of its own, in which `run` are those of its run: a
+/// function adds them to the command line, another one runs the driver with them.
+template <class Options>
+int runDriver(const std::string& name, const std::string& description, Options options,
+              void (*addOptions)(CLI::App&, Options&), void (*body)(const Options&), int argc, char** argv) {
+    return runDriver({name, description, options.run, [&](CLI::App& app) { addOptions(app, options); }}, argc,
+                     argv, [&] { body(options); });
+}
+
 /// The main() of a driver that has no options of its own.
 template <class Driver>
 int runDriver(const std::string& description, const std::string& name, int argc, char** argv) {

@@ -185,14 +185,7 @@ private:
         return given.gravity * given.liquidDensity * bridge.volumeAt(mean) *
                (to - std::max(from, given.layer));
     }
-    [[nodiscard]] bool isJoined() {
-        bool any = false;
-        const ContactStore& store = contacts().store();
-        store.forEachListed([&](const Bucket&, std::uint32_t c) {
-            any |= store.bitOf(store.states[c / Pack::lanes].bridged, c);
-        });
-        return any;
-    }
+    [[nodiscard]] bool isJoined() const { return contacts().counts().bridged > 0; }
     /// How the collision has ended; empty while it goes on.
     [[nodiscard]] std::string_view phase(bool touched, bool wasJoined) {
         const double h = separation(), v = partingSpeed();

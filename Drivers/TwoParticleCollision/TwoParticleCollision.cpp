@@ -79,7 +79,7 @@ public:
         double separation = distance() - options.radius1 - options.radius2;
         double normal = 0, capillary = 0;
         bool bridged = false;
-        this->contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        this->contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
             const ObservedContact seen =
                 this->contacts().observe(this->particleHandler.store(), bucket, contact);
             separation = seen.separation;
@@ -179,20 +179,17 @@ void describe(CLI::App& app, Options& o) {
     addRunOptions(app, o.run, "force_separation.csv and energy.csv");
 }
 
+void run(const Options& options) {
+    checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
+    checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%", notNegative);
+    withLawNamed<Bridges>("adhesion model", options.adhesion,
+                          [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    const DriverProgram driver{
-        .name = "TwoParticleCollision",
-        .description = "Two grains collide head-on and are joined by a liquid bridge until it ruptures.",
-        .options = options.run,
-        .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] {
-        checkValue("TwoParticleCollision", "speed", options.speed, "m/s", positive);
-        checkValue("TwoParticleCollision", "advise-within-percent", options.adviceTolerance, "%",
-                   notNegative);
-        withLawNamed<Bridges>("adhesion model", options.adhesion,
-                              [&]<class Adhesion>() { TwoParticleCollision<Adhesion>(options).solve(); });
-    });
+    return runDriver("TwoParticleCollision",
+                     "Two grains collide head-on and are joined by a liquid bridge until it ruptures.",
+                     Options(), describe, run, argc, argv);
 }

@@ -140,12 +140,8 @@ void describe(CLI::App& app, Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    const DriverProgram driver{.name = "WetWallCollision",
-                               .description =
-                                   "A sphere meets a plate under a layer of liquid: restitution, "
-                                   "spin and energy over speed and angle.",
-                               .options = options.run,
-                               .addOptions = [&](CLI::App& app) { describe(app, options); }};
-    return runDriver(driver, argc, argv, [&] { run(options); });
+    return runDriver(
+        "WetWallCollision",
+        "A sphere meets a plate under a layer of liquid: restitution, spin and energy over speed and angle.",
+        Options(), describe, run, argc, argv);
 }

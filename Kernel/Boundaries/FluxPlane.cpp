@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/RigidWall.h"
 
@@ -54,7 +55,7 @@ void FluxPlaneHandler::beforeMotion(const ParticleStore& grains) {
 
 void FluxPlaneHandler::afterMotion(ParticleHandler& particles, double step,
                                    const std::function<double(std::uint32_t)>& liquidOf) {
-    const ParticleStore& grains = particles.storeInStep();
+    const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     for (Plane& plane : planes) {
         crossings.clear();
         const Vector<double> normal = plane.normal;

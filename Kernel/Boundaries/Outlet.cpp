@@ -7,6 +7,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/RigidWall.h"
 
@@ -105,7 +106,7 @@ std::uint32_t OutletHandler::firstTooYoung(const Outlet& outlet, double time) co
 }
 
 void OutletHandler::letOut(ParticleHandler& particles, double time, int threads) {
-    const ParticleStore& grains = particles.storeInStep();
+    const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     if (longestAge > 0) noteArrivals(grains.nextIdentity(), time);
     std::vector<std::uint32_t> tooYoung;
     for (const Outlet& outlet : outlets) tooYoung.push_back(firstTooYoung(outlet, time));

@@ -128,18 +128,15 @@ namespace {
 /// @param number of the grain at each place, in GrainState
 void appendContacts(const ContactSystem& contacts, const ParticleStore& grains, std::uint32_t place,
                     const std::vector<std::uint32_t>& number, std::vector<GrainState::Contact>& found) {
-    const ContactStore& store = contacts.store();
     contacts.forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
-        const ContactBlock& block = store.blocks[contact / Pack::lanes];
-        const std::size_t lane = contact % Pack::lanes;
-        if (block.first[lane] != place) return;
+        if (contacts.firstOf(contact) != place) return;
         const bool atWall = bucket.wall >= 0;
-        const std::uint32_t second = atWall ? GrainState::Contact::wall : number[block.second[lane]];
-        if (!atWall && (store.states[contact / Pack::lanes].bridged >> lane & 1) == 0) {
+        const std::uint32_t second = atWall ? GrainState::Contact::wall : number[contacts.secondOf(contact)];
+        if (!atWall && !contacts.isBridged(contact)) {
             const Vector<double> way =
-                grains.translation[block.second[lane]].position - grains.translation[place].position;
+                grains.translation[contacts.secondOf(contact)].position - grains.translation[place].position;
             found.push_back({number[place], second, contacts.periodicBox().nearest(way),
-                             store.forceOf(contact), 0, 0, store.touches(contact)});
+                             contacts.forceOf(contact), 0, 0, contacts.touches(contact)});
             return;
         }
         const ObservedContact seen = contacts.observe(grains, bucket, contact);

@@ -300,7 +300,7 @@ double ContactLiquid::leftOfBridge(const ContactStore& store, const ContactLaws&
 }
 
 bool ContactLiquid::giveToWall(const ContactLaws& laws, std::size_t wall, double volume) {
-    const int species = shapes->getObject(wall).species;
+    const int species = shapes->getObject(wall).getSpeciesIndex();
     bool isWet = false;
     for (int k = 0; k < static_cast<int>(laws.speciesCount()); ++k)
         isWet |= laws.liquidRules(k, species).value_or(LiquidRules{}).wallDose > 0;

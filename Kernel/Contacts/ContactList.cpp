@@ -147,13 +147,13 @@ void ContactList::findWallContacts(const Grains& grains, const RememberedContact
         for (const auto& entry : old.of(formerPlace[i])) far |= entry.wall != 0 && isBridged(entry);
     double apart = reachOfAll;
     if (far || reachOfFilms > apart) {
-        const double range = rangeOf(grains.species[i], wall.species, {grain.radius});
+        const double range = rangeOf(grains.species[i], wall.getSpeciesIndex(), {grain.radius});
         apart = std::max(apart, far ? range : std::min(reachOfFilms, range));
     }
     parts.clear();
     wall.listParts(grain.position, grain.radius + apart + skin, parts);
     if (parts.empty()) return;
-    Group& group = groupOf(all, grains.species[i], wall.species, static_cast<int>(w));
+    Group& group = groupOf(all, grains.species[i], wall.getSpeciesIndex(), static_cast<int>(w));
     for (const std::uint32_t part : parts) group.contacts.push_back({i, part});
 }
 

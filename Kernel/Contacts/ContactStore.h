@@ -241,6 +241,20 @@ public:
     [[nodiscard]] bool touches(std::size_t contact) const {
         return bitOf(states[contact / Pack::lanes].touching, contact);
     }
+    [[nodiscard]] bool isListed(std::size_t contact) const {
+        return bitOf(states[contact / Pack::lanes].listed, contact);
+    }
+    [[nodiscard]] bool isBridged(std::size_t contact) const {
+        return bitOf(states[contact / Pack::lanes].bridged, contact);
+    }
+    /// The place of its first grain.
+    [[nodiscard]] std::uint32_t firstOf(std::size_t contact) const {
+        return blocks[contact / Pack::lanes].first[contact % Pack::lanes];
+    }
+    /// The place of its second grain; at a wall, the part of it.
+    [[nodiscard]] std::uint32_t secondOf(std::size_t contact) const {
+        return blocks[contact / Pack::lanes].second[contact % Pack::lanes];
+    }
     /// Whether the contact has a force: it touches or is bridged.
     [[nodiscard]] bool acts(std::size_t contact) const {
         const BlockState& state = states[contact / Pack::lanes];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactList.h"
@@ -98,7 +99,7 @@ bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucke
     if (grain.inverseMass == 0 && (isWall || grains.translation[second].inverseMass == 0)) return false;
     if (!isWall && grains.bodies.areJoined(grains.identity[first], grains.identity[second])) return false;
     const int species1 = grains.species[first],
-              species2 = isWall ? wallOf(bucket).species : grains.species[second];
+              species2 = isWall ? wallOf(bucket).getSpeciesIndex() : grains.species[second];
     const auto number = static_cast<std::size_t>(&bucket - contacts.buckets.data());
     if (&species->ofPair(species1, species2) != &species->ofBucket(number)) return false;
     const ObservedContact seen = observe(grains, bucket, contact);
@@ -505,6 +506,17 @@ void ContactSystem::findWallPoints(const Grains& grains, double step) {
     wallPatches.join(contacts, *species, grains, *walls, threads,
                      [&](std::size_t block) { wake(block, contacts.bucketOf(block), grains); });
 }
+
+ContactCounts ContactSystem::counts() const {
+    ContactCounts all;
+    for (const BlockState& state : contacts.states) {
+        all.touching += static_cast<std::size_t>(std::popcount(state.touching));
+        all.bridged += static_cast<std::size_t>(std::popcount(state.bridged));
+        all.acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
+    }
+    return all;
+}
+
 void ContactSystem::sumWallForces(const Grains& grains) {
     for (std::size_t w = 0; w < walls->getSize(); ++w)
         if (walls->getObject(w).keepsForces()) sumForcesOn(grains, w);

@@ -24,6 +24,12 @@ namespace pendular {
 
 class RememberedContacts;
 
+/// How many contacts of a scene there are.
+struct ContactCounts {
+    std::size_t touching = 0, bridged = 0;
+    std::size_t acting = 0;  // that do one of both
+};
+
 /// The contacts of a scene: their list, and the forces of a step.
 class ContactSystem {
 public:
@@ -124,6 +130,29 @@ public:
     void expectOverlaps(double largest) { overlapWatch.expect(largest); }
     [[nodiscard]] const CapillaryWatch& capillaryNumbers() const { return capillaryWatch; }
 
+    // Of the last step.
+    [[nodiscard]] ContactCounts counts() const;
+    [[nodiscard]] bool touches(std::size_t contact) const { return contacts.touches(contact); }
+    [[nodiscard]] bool isBridged(std::size_t contact) const { return contacts.isBridged(contact); }
+    [[nodiscard]] bool acts(std::size_t contact) const { return contacts.acts(contact); }
+    /// N, on its first grain
+    [[nodiscard]] const Vector<double>& forceOf(std::size_t contact) const {
+        return contacts.forceOf(contact);
+    }
+    /// N, repulsion positive
+    [[nodiscard]] double normalForceOf(std::size_t contact) const { return contacts.normalForceOf(contact); }
+    /// The place of its first grain, and of its second one; at a wall, the part of it.
+    [[nodiscard]] std::uint32_t firstOf(std::size_t contact) const { return contacts.firstOf(contact); }
+    [[nodiscard]] std::uint32_t secondOf(std::size_t contact) const { return contacts.secondOf(contact); }
+    /// What contacts remember.
+    [[nodiscard]] const ContactLayout& layout() const { return contacts.memory.getLayout(); }
+
+    /// Calls function(bucket, contact) for each pair that is near enough to be listed, whether it acts or
+    /// not, in the order of the list.
+    template <class Function>
+    void forEachListed(Function&& function) const {
+        contacts.forEachListed(function);
+    }
     /// Calls function(bucket, contact) for each contact that has a force, in the order of identities: of body
     /// 1, then of body 2, then walls by number and part.
     template <class Function>

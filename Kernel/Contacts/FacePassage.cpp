@@ -20,7 +20,7 @@ constexpr double tolerance = 1e-3;
 
 double FacePassage::rangeAt(const Grains& grains, std::uint32_t place, std::uint32_t wall) const {
     if (laws.layout.interaction == 0) return 0;
-    return laws.range(grains.species[place], walls.getObject(wall).species,
+    return laws.range(grains.species[place], walls.getObject(wall).getSpeciesIndex(),
                       {grains.translation[place].radius});
 }
 

@@ -10,6 +10,7 @@
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/ApartTexts.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -220,7 +221,7 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
         if (!grid) {
             const Vector<double> shift = shiftOf(scene, kept, number);
             const Box bounds = kept.region->bounds();
-            grid.emplace(scene.particles.storeInStep(), scene.periodic,
+            grid.emplace(ParticleHandler::Inside::grainsInStep(scene.particles), scene.periodic,
                          Box{bounds.lowest + shift, bounds.highest + shift}, 0.5 * inlet.sizes->largest());
         }
         const auto centre = findRoom(scene, kept, *grid, radius, static_cast<std::uint32_t>(number));

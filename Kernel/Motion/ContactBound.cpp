@@ -150,19 +150,15 @@ void ContactBounds::chooseWeights(const ParticleStore& grains) {
 void ContactBounds::take(const ContactSystem& contacts, const WallHandler& walls, const ParticleStore& grains,
                          const Bucket& bucket, const ContactOutlook& outlook) {
     const ContactStore& store = contacts.store();
-    const auto isListed = [&](std::size_t c) {
-        return ContactStore::bitOf(store.states[c / Pack::lanes].listed, c);
-    };
-    const auto grainOf = [&](std::size_t c) { return store.blocks[c / Pack::lanes].first[c % Pack::lanes]; };
     const std::size_t end = bucket.end * Pack::lanes;
     for (std::size_t c = bucket.begin * Pack::lanes, next; c < end; c = next) {
         next = c + 1;
-        if (!isListed(c)) continue;
+        if (!store.isListed(c)) continue;
         if (bucket.wall < 0) {
             takePair(contacts, grains, bucket, c, outlook);
             continue;
         }
-        while (next < end && isListed(next) && grainOf(next) == grainOf(c)) ++next;
+        while (next < end && store.isListed(next) && store.firstOf(next) == store.firstOf(c)) ++next;
         takeAtWall(contacts, walls.getObject(static_cast<std::size_t>(bucket.wall)), grains, bucket, c, next,
                    outlook);
     }
@@ -170,9 +166,7 @@ void ContactBounds::take(const ContactSystem& contacts, const WallHandler& walls
 
 void ContactBounds::takePair(const ContactSystem& contacts, const ParticleStore& grains, const Bucket& bucket,
                              std::size_t contact, const ContactOutlook& outlook) {
-    const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
-    const std::uint32_t first = block.first[contact % Pack::lanes],
-                        second = block.second[contact % Pack::lanes];
+    const std::uint32_t first = contacts.firstOf(contact), second = contacts.secondOf(contact);
     const TranslationRecord &one = grains.translation[first], &two = grains.translation[second];
     if (!(one.inverseMass + two.inverseMass > 0)) return;
     const PeriodicBox& box = contacts.periodicBox();
@@ -194,13 +188,11 @@ void ContactBounds::takePair(const ContactSystem& contacts, const ParticleStore&
 void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, const ParticleStore& grains,
                                const Bucket& bucket, std::size_t begin, std::size_t end,
                                const ContactOutlook& outlook) {
-    const ContactStore& store = contacts.store();
-    const std::uint32_t first = store.blocks[begin / Pack::lanes].first[begin % Pack::lanes];
+    const std::uint32_t first = contacts.firstOf(begin);
     const TranslationRecord& grain = grains.translation[first];
     if (!(grain.inverseMass > 0)) return;
     parts.clear();
-    for (std::size_t c = begin; c < end; ++c)
-        parts.push_back(store.blocks[c / Pack::lanes].second[c % Pack::lanes]);
+    for (std::size_t c = begin; c < end; ++c) parts.push_back(contacts.secondOf(c));
     points.assign(parts.size(), {});
     const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
     const Bodies bodies{grain.radius};
@@ -229,7 +221,7 @@ void ContactBounds::keep(const ContactSystem& contacts, const Bucket& bucket, st
                          const ContactOutlook& outlook) {
     const int a = bucket.species1, b = bucket.species2;
     const ContactLaws& laws = contacts.laws().ofPair(a, b);
-    term.drags = ContactStore::bitOf(contacts.store().states[contact / Pack::lanes].bridged, contact);
+    term.drags = contacts.isBridged(contact);
     if (!term.drags && laws.resistsMotion) {
         const double forms =
             laws.formsAtContact ? laws.filmContactGap(a, b) : laws.range(a, b, term.pair.bodies);

@@ -115,7 +115,7 @@ Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& c
         for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
             if (!store.acts(c)) continue;
             const std::size_t block = c / Pack::lanes, lane = c % Pack::lanes, slot = store.slotOf(c);
-            const std::uint32_t place = store.blocks[block].first[lane];
+            const std::uint32_t place = store.firstOf(c);
             const TranslationRecord& grain = grains.translation[place];
             const WallPointColumns& columns = store.wallPoints[block - store.firstWallBlock()];
             const Vector<double> normal{columns.normal[0].lane[lane], columns.normal[1].lane[lane],
@@ -123,7 +123,7 @@ Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& c
             const double distance = columns.distance.lane[lane];
             const Vector<double> force = -store.forceOf(c);
             TriangleForce at{grains.identity[place],
-                             store.blocks[block].second[lane],
+                             store.secondOf(c),
                              grain.position + distance * normal,
                              force,
                              {0, 0, 0}};

@@ -106,8 +106,7 @@ double wallStiffness(const ContactSystem& contacts, const ParticleStore& grains,
         for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
             if (!store.acts(c)) continue;
             const double overlap = -contacts.observe(grains, bucket, c).separation;
-            const double radius =
-                grains.translation[store.blocks[c / Pack::lanes].first[c % Pack::lanes]].radius;
+            const double radius = grains.translation[store.firstOf(c)].radius;
             if (overlap > 0)
                 sum.add(contacts.laws().normalStiffness(bucket.species1, bucket.species2, {radius, infinity},
                                                         overlap));

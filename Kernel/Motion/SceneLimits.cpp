@@ -33,10 +33,11 @@ static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes&
     for (std::size_t s = 0; s < grains.free.size(); ++s) {
         if (grains.free[s].empty()) continue;
         for (const double radius : {grains.free[s].smallest, grains.free[s].largest})
-            stiffest = larger(stiffest, species
-                                            .stiffness(static_cast<int>(s), wall.species, {radius, infinity},
-                                                       sphereMass(radius, species.density(s)))
-                                            .normal);
+            stiffest =
+                larger(stiffest, species
+                                     .stiffness(static_cast<int>(s), wall.getSpeciesIndex(),
+                                                {radius, infinity}, sphereMass(radius, species.density(s)))
+                                     .normal);
     }
     return stiffest;
 }
@@ -202,8 +203,8 @@ void checkScene(const ContactLaws& species, const GrainSizes& grains, const Wall
                 double timeStep, const Integrator& integrator) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
         if (!walls.isRemoved(w))
-            static_cast<void>(
-                species.density(static_cast<std::size_t>(walls.getObject(w).species)));  // throws if unknown
+            static_cast<void>(species.density(
+                static_cast<std::size_t>(walls.getObject(w).getSpeciesIndex())));  // throws if unknown
     forEachExtremePair(
         species, grains, walls,
         [](const PairLaws& laws, const Bodies& bodies, double) {

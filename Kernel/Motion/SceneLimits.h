@@ -41,7 +41,8 @@ void forEachExtremePair(const ContactLaws& species, const GrainSizes& grains, co
             }
             for (std::size_t w = 0; w < walls.getSize(); ++w)
                 if (!walls.isRemoved(w))
-                    forBodies(a, static_cast<std::size_t>(walls.getObject(w).species), r1, infinity);
+                    forBodies(a, static_cast<std::size_t>(walls.getObject(w).getSpeciesIndex()), r1,
+                              infinity);
         }
     }
 }

@@ -143,7 +143,7 @@ PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, co
             }
             data.ends.push_back(static_cast<std::int32_t>(data.corners.size()));
             numbers.push_back(static_cast<std::int32_t>(w));
-            species.push_back(walls.getObject(w).species);
+            species.push_back(walls.getObject(w).getSpeciesIndex());
         }
     data.cellFields = {{"wall", 1, std::move(numbers)}, {"species", 1, std::move(species)}};
     addWear(data, walls, surfaces);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Particles/Resolution.h"
 #include "Kernel/Shapes/UnionOfSpheres.h"
 
@@ -189,7 +190,7 @@ BodyReference BodyHandler::add(RigidBody body, std::span<const std::uint32_t> id
     ParticleStore& grains = particles.store();
     const std::uint32_t number = grains.bodies.add(body, members, solid.volume);
     if (!isSphere) grains.bodies.place(grains, grains.bodies.size() - 1);
-    particles.noteJoined(identities);
+    ParticleHandler::Inside::noteJoined(particles, identities);
     return {particles, number};
 }
 

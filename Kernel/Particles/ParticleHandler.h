@@ -105,15 +105,6 @@ public:
 
     ParticleHandler() = default;
     ParticleHandler(const ParticleHandler&) = delete;
-    void setSpecies(const GrainSpecies& of);
-    /// m/s^2: it is the acceleration of a grain that is added or let go, of which no step has found another
-    /// yet, and part of that of all others: in a run, these change with it.
-    void setGravity(const Vector<double>& acceleration);
-    /// kg/m^3, of films: their mass is part of that of their grains, as renewMasses() and all changes of a
-    /// grain count it. 0: they have none.
-    void setLiquidDensity(double density) { liquidDensity = density; }
-    /// Called when the laws are known: grains of a scene without friction have no spin.
-    void settleSpin();
 
     /// Takes the memory for so many grains at once, instead of bit by bit.
     void reserve(std::size_t count) { grains.reserve(count); }
@@ -170,13 +161,6 @@ public:
     /// kg, of the grain at a place: of a solid sphere; in a rigid body its share of that one's mass, which is
     /// parted as masses of free spheres are.
     [[nodiscard]] double massAt(std::uint32_t place) const;
-    /// Gives all grains that move by themselves the mass of their species' density, and of their films where
-    /// these are weighed. Forces and velocities stay.
-    void renewMasses();
-    /// Renews the masses where only films have changed.
-    void weighFilms();
-    /// The scene begins: no column is added from now on.
-    void closeColumns() { columnsAreClosed = true; }
 
     void visitState(StateArchive& archive);
     /// Ask for it again after each step: a step that ends where nobody looks is finished when it is asked
@@ -190,17 +174,7 @@ public:
         return grains;
     }
 
-    // Called by the scene that moves the grains, not by drivers.
-
-    /// The grains as they are, in the middle of a step.
-    [[nodiscard]] Grains& storeInStep() { return grains; }
-    /// Takes the function that finishes a step which was left unfinished.
-    void callToFinishStep(std::function<void()> function) { finishing = std::move(function); }
-    void leaveStepUnfinished() { unfinished = true; }
-    /// Whether the last step was left unfinished, and nobody has asked for the grains since; who calls this
-    /// finishes it.
-    [[nodiscard]] bool takeUnfinishedStep() { return unfinished.exchange(false); }
-    /// May be called from any thread: all others wait until it is done.
+    /// Ends a step that was left unfinished. May be called from any thread: all others wait until it is done.
     void finishStep() const {
         if (!unfinished.load(std::memory_order_acquire)) [[likely]]
             return;
@@ -209,25 +183,24 @@ public:
         unfinished.store(false, std::memory_order_release);
     }
 
-    /// Grains have been joined to a rigid body.
-    void noteJoined(std::span<const std::uint32_t> identities);
-    /// Called with the place of a grain before it is removed.
-    void callBeforeRemoval(std::function<void(std::uint32_t)> function) {
-        beforeRemoval = std::move(function);
-    }
-    /// The changes since this was called last.
-    [[nodiscard]] GrainChanges takeChanges() { return std::exchange(changes, {}); }
-    [[nodiscard]] bool hasChanges() const { return changes.any(); }
+    /// What only the kernel asks: ParticleHandlerInside.h.
+    class Inside;
 
 private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
+    void setSpecies(const GrainSpecies& of);
+    void setGravity(const Vector<double>& acceleration);
+    void settleSpin();
+    void renewMasses();
+    void weighFilms();
     /// Gives a grain the mass of the density that its species has now, with the film that it has; its forces
     /// stay. Nothing changes for a grain that is held.
     void renewMass(std::uint32_t place);
     /// The inertia of a grain that moves by itself.
     [[nodiscard]] GrainInertia inertiaAt(std::uint32_t place) const;
+    void noteJoined(std::span<const std::uint32_t> identities);
     void noteDensityOfJoined(std::uint32_t identity);
 
     const GrainSpecies* species = nullptr;

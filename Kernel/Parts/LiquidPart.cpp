@@ -11,6 +11,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/StepTimes.h"
@@ -91,12 +92,12 @@ Features FilmMassPart::features(const StepContext& /*scene*/) const {
     return density > 0 ? Features{Feature::FilmMass} : Features{};
 }
 
-void FilmMassPart::finish(StepContext& step) { step.particles.weighFilms(); }
+void FilmMassPart::finish(StepContext& step) { ParticleHandler::Inside::weighFilms(step.particles); }
 
 void FilmMassPart::setDensity(const StepContext& scene, double liquid) {
     checkValue("Simulation", "density of the liquid", liquid, "kg/m^3", notNegative);
     density = liquid;
-    scene.particles.setLiquidDensity(liquid);
+    ParticleHandler::Inside::setLiquidDensity(scene.particles, liquid);
 }
 
 void FilmMassPart::visitState(StateArchive& archive, StepContext& /*scene*/) {

@@ -66,9 +66,7 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
         found.stiffness[a] = static_cast<double>(2 + controlled) * found.stress[a];
     const BodyArms arms(grains);
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
-        const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
-        const std::uint32_t place1 = block.first[contact % Pack::lanes],
-                            place2 = block.second[contact % Pack::lanes];
+        const std::uint32_t place1 = contacts.firstOf(contact), place2 = contacts.secondOf(contact);
         const TranslationRecord &first = grains.translation[place1], &second = grains.translation[place2];
         const Vector<double> apart = box.nearest(second.position - first.position);
         const double distance = norm(apart), overlap = first.radius + second.radius - distance;
@@ -76,7 +74,7 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
                                   ? contacts.laws().normalStiffness(bucket.species1, bucket.species2,
                                                                     {first.radius, second.radius}, overlap)
                                   : 0;
-        const auto shift = partsOf(apart), force = partsOf(contacts.store().forceOf(contact));
+        const auto shift = partsOf(apart), force = partsOf(contacts.forceOf(contact));
         const auto branch = partsOf(apart + (arms.at(place1) - arms.at(place2)));
         double share = 0;  // of the controlled axes in the direction of the contact
         for (std::size_t a = 0; a < 3; ++a)

@@ -36,7 +36,7 @@ std::vector<BridgeCase> bridgesOf(Simulation<S>& scene, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = anyBelow(number);
         if (walls > 0 && (k % 4 == 0 || number == 1)) {
-            const int wall = scene.wallHandler.getObject(anyBelow(walls)).species;
+            const int wall = scene.wallHandler.getObject(anyBelow(walls)).getSpeciesIndex();
             add(scene.speciesHandler.mixture(grains.species[i], wall), {grains.translation[i].radius});
         } else {
             const std::size_t j = (i + 1 + anyBelow(number - 1)) % number;  // another one

@@ -66,9 +66,7 @@ PendularState pendularState(const Scene& scene, bool withOverlaps) {
     const GrainFilms& films = scene.particleHandler.films();
     for (const std::uint32_t place : grains.place)
         found.thickFilms += films.thicknessOf(grains, place) > 0.1 * grains.translation[place].radius ? 1 : 0;
-    std::size_t bridges = 0;
-    for (const BlockState& state : scene.contacts().store().states)
-        bridges += static_cast<std::size_t>(std::popcount(state.bridged));
+    const std::size_t bridges = scene.contacts().counts().bridged;
     const LiquidLedger ledger = scene.liquidLedger();
     const double onGrains = ledger.films + ledger.bridges;
     if (const double solid = volumeOfBodies(grains); solid > 0) found.liquidOverSolid = onGrains / solid;

@@ -42,8 +42,8 @@ double PeriodicWalls::neededOf(const Wall& wall, const ContactLaws& laws, const 
         if (sizes.free[s].empty()) continue;
         const auto species = static_cast<int>(s);
         for (const double radius : {sizes.free[s].smallest, sizes.free[s].largest}) {
-            const double range = std::max(laws.range(species, wall.species, {radius, infinity}),
-                                          laws.filmContactGap(species, wall.species));
+            const double range = std::max(laws.range(species, wall.getSpeciesIndex(), {radius, infinity}),
+                                          laws.filmContactGap(species, wall.getSpeciesIndex()));
             farthest = std::max(farthest, std::max(radius, bodyReach) + range);
         }
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -142,16 +141,12 @@ void addLiquid(SummaryRows& rows, const Scene& scene) {
 
 void addHealth(SummaryRows& rows, const Scene& scene) {
     const auto& grains = scene.particleHandler.store();
-    std::size_t touching = 0, bridged = 0;
-    for (const BlockState& state : scene.contacts().store().states) {
-        touching += static_cast<std::size_t>(std::popcount(state.touching));
-        bridged += static_cast<std::size_t>(std::popcount(state.bridged));
-    }
+    const ContactCounts contacts = scene.contacts().counts();
     double speed2 = 0;
     for (const TranslationRecord& grain : grains.translation)
         speed2 = std::max(speed2, squaredNorm(grain.velocity));
-    rows.add("touching contacts", touching);
-    rows.add("bridges", bridged);
+    rows.add("touching contacts", contacts.touching);
+    rows.add("bridges", contacts.bridged);
     rows.add("lists of contacts made", scene.contacts().rebuildCount());
     if (scene.contacts().events().isListening()) {
         const ContactEventCounts& counts = scene.contactEventCounts();

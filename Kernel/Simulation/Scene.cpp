@@ -1,9 +1,8 @@
 #include "Kernel/Simulation/Scene.h"
 
-#include <bit>
-
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/LastState.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -13,10 +12,10 @@ namespace pendular {
 
 Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
     // A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
-    particleHandler.callBeforeRemoval([this](std::uint32_t place) {
+    ParticleHandler::Inside::callBeforeRemoval(particleHandler, [this](std::uint32_t place) {
         inside->bookEnergyOfEnded(inside->contacts.endContactsOf(particleHandler.store(), place));
     });
-    particleHandler.callToFinishStep([this] {
+    ParticleHandler::Inside::callToFinishStep(particleHandler, [this] {
         const StepTimes::Within sum(stepTimer(), StepTimes::Part::Sum);
         GrainPart::finishLeftStep(inside->context);
     });
@@ -29,7 +28,7 @@ Scene::~Scene() = default;
 
 void Scene::setLaws(ContactLaws& of) {
     contactLaws = inside->context.laws = &of;
-    particleHandler.setSpecies(of);
+    ParticleHandler::Inside::setSpecies(particleHandler, of);
 }
 
 // Functions that Run asks for:
@@ -43,10 +42,7 @@ void Scene::tellEvents() {
 }
 
 RunNumbers Scene::numbers() const {
-    std::size_t acting = 0;
-    for (const BlockState& state : contacts().store().states)
-        acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
-    return {particleHandler.getSize(), acting, kineticEnergy(particleHandler.store())};
+    return {particleHandler.getSize(), contacts().counts().acting, kineticEnergy(particleHandler.store())};
 }
 
 void Scene::writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contactFile,
@@ -63,7 +59,7 @@ void Scene::setGravity(const Vec3D& acceleration) {
     takeUnlessRefused(inside->context.gravity, toVector(acceleration), [&] {
         if (getPeriodicBox().imagesMove) inside->refuseForMovingImages();
     });
-    particleHandler.setGravity(inside->context.gravity);
+    ParticleHandler::Inside::setGravity(particleHandler, inside->context.gravity);
     inside->adaptive.chooseAnew();
     inside->gravityChanged |= hasBegun();
 }

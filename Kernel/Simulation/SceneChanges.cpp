@@ -8,6 +8,7 @@
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Motion/TimeIntegration.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -28,7 +29,7 @@ void Scene::Inside::mixChangedLaws() {
 void Scene::Inside::refuseOtherMemory() const {
     ContactLayout asked = laws().layout;
     asked.named = contacts.columns().size();
-    if (asked != contacts.store().memory.getLayout())
+    if (asked != contacts.layout())
         throw InputError(
             "Simulation: a species was added in the run whose contacts remember more, or have friction where "
             "no others have; add it before the run begins.");
@@ -43,13 +44,13 @@ void Scene::Inside::takeOverChanges() {
         const bool newLaws = std::exchange(lawsAreNew, false), newStep = stepLength() != checkedStep,
                    changedWalls = walls.hasChanges();
         const auto firstNewWall = static_cast<int>(walls.firstNewWall());
-        if (!newLaws && !changedWalls && !newStep && !particles.hasChanges()) return;
-        const GrainChanges changes = particles.takeChanges();
+        if (!newLaws && !changedWalls && !newStep && !ParticleHandler::Inside::hasChanges(particles)) return;
+        const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
         const bool changedGrains = !changes.placed.empty() || !changes.altered.empty(),
                    newBodies = changedWalls || changedGrains;
         if (newLaws) {
             refuseOtherMemory();
-            particles.renewMasses();
+            ParticleHandler::Inside::renewMasses(particles);
             speciesChanged = true;
         }
         if (changedWalls) DrivePart::sumForcesOnNewDrives(context);

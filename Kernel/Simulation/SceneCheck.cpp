@@ -34,10 +34,9 @@ static double radiusOrThickness(const ContactLaws& laws, const ParticleStore& gr
 void refuseInitialOverlaps(
     const ContactSystem& contacts, const ParticleStore& grains, double accepted,
     const std::function<bool(const Bucket&, std::uint32_t, std::uint32_t)>& isLookedAt) {
-    contacts.store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-        const ContactBlock& block = contacts.store().blocks[contact / Pack::lanes];
-        const std::uint32_t first = block.first[contact % Pack::lanes];
-        const std::uint32_t second = bucket.wall >= 0 ? first : block.second[contact % Pack::lanes];
+    contacts.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        const std::uint32_t first = contacts.firstOf(contact);
+        const std::uint32_t second = bucket.wall >= 0 ? first : contacts.secondOf(contact);
         if (!isLookedAt(bucket, first, second)) return;
         const double smaller = std::min(radiusOrThickness(contacts.laws(), grains, first),
                                         radiusOrThickness(contacts.laws(), grains, second));

@@ -63,12 +63,10 @@ inline double fewestStepsToDouble(const ContactLaws& species, const GrainSizes& 
 inline std::size_t countBridgesOutOfDomain(const ContactSystem& contacts, const ContactLaws& species,
                                            const ParticleStore& grains) {
     std::size_t count = 0;
-    const ContactStore& store = contacts.store();
-    store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-        if (!store.bitOf(store.states[c / Pack::lanes].bridged, c)) return;
-        const ContactBlock& block = store.blocks[c / Pack::lanes];
-        Bodies bodies{grains.translation[block.first[c % Pack::lanes]].radius};
-        if (bucket.wall < 0) bodies.radius2 = grains.translation[block.second[c % Pack::lanes]].radius;
+    contacts.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+        if (!contacts.isBridged(c)) return;
+        Bodies bodies{grains.translation[contacts.firstOf(c)].radius};
+        if (bucket.wall < 0) bodies.radius2 = grains.translation[contacts.secondOf(c)].radius;
         count += species.brokenLimits(bucket.species1, bucket.species2, bodies).empty() ? 0 : 1;
     });
     return count;

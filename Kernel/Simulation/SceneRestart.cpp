@@ -1,5 +1,6 @@
 #include <array>
 
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/SceneInside.h"
 
 // The state of a scene in a restart file.
@@ -45,7 +46,7 @@ void Scene::Inside::visitSurroundings(StateArchive& archive) {
     constexpr std::array along{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
     archive.value("gravityChanged", gravityChanged);
     if (gravityChanged) archive.finite("gravity", context.gravity);
-    scene.particleHandler.setGravity(context.gravity);
+    ParticleHandler::Inside::setGravity(scene.particleHandler, context.gravity);
     for (std::size_t k = 0; k < 3; ++k) {
         if (!gravityChanged)
             archive.group("gravity", [&] { archive.same(axes[k], context.gravity.*along[k], "m/s^2"); });

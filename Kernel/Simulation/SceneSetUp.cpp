@@ -7,6 +7,7 @@
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/TimeIntegration.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -53,8 +54,8 @@ void Scene::Inside::setUp() {
     scene.requireTimeStep();
     account.show(context);
     laws().mixAll();
-    particles.settleSpin();
-    if (!scene.isRestarted()) particles.renewMasses();
+    ParticleHandler::Inside::settleSpin(particles);
+    if (!scene.isRestarted()) ParticleHandler::Inside::renewMasses(particles);
     particles.films().settle(particles.store(), laws().layout.liquid > 0);
     liquid.refuseWhereNoneMoves(context, filmMass.getDensity());
     if (scene.isRestarted()) {
@@ -63,7 +64,7 @@ void Scene::Inside::setUp() {
     }
     if (const double quantum = liquid.beginToCount(context, scene.getTimeMax()); quantum > 0) {
         scene.sprayHandler.begin(quantum);
-        if (filmMass.getDensity() > 0) particles.weighFilms();  // rounded to quanta
+        if (filmMass.getDensity() > 0) ParticleHandler::Inside::weighFilms(particles);  // rounded to quanta
     }
     prepare();
     ParticleStore& grains = particles.store();
@@ -149,8 +150,8 @@ void Scene::Inside::check() {
 
 void Scene::Inside::prepare() {
     check();
-    static_cast<void>(scene.particleHandler.takeChanges());
-    scene.particleHandler.closeColumns();
+    static_cast<void>(ParticleHandler::Inside::takeChanges(scene.particleHandler));
+    ParticleHandler::Inside::closeColumns(scene.particleHandler);
     lawsAreNew = false;
     GrainFilms& films = scene.particleHandler.films();
     if (films.areKept())

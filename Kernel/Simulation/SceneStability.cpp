@@ -51,8 +51,8 @@ StabilityAdvice Scene::stabilityAdvice() {
     const double limit = stabilityLimit();
     const bool acts = now.step < infinity;
     std::size_t sides = 0, free = 0;
-    contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-        if (contacts().store().touches(contact)) sides += bucket.wall < 0 ? 2 : 1;
+    contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (contacts().touches(contact)) sides += bucket.wall < 0 ? 2 : 1;
     });
     for (const std::uint32_t at : grains.place) free += grains.isFree(at) ? 1 : 0;
     return {

@@ -1,5 +1,6 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -69,7 +70,7 @@ void Scene::Inside::moveAndFindForces(double length) {
 void Scene::Inside::finishStep(bool another) {
     context.times.enter(StepTimes::Part::Sum);
     context.unfinished = context.length;
-    scene.particleHandler.leaveStepUnfinished();
+    ParticleHandler::Inside::leaveStepUnfinished(scene.particleHandler);
     if (!another || parts.needFinishedStep()) scene.particleHandler.finishStep();
     context.times.enter(StepTimes::Part::Other);
     parts.call(&StepPart::finish, context);
@@ -78,7 +79,7 @@ void Scene::Inside::finishStep(bool another) {
 
 void Scene::Inside::moveAll(StepContext& step) {
     parts.call(&StepPart::beforeMotion, step);
-    step.finishesLast = scene.particleHandler.takeUnfinishedStep();
+    step.finishesLast = ParticleHandler::Inside::takeUnfinishedStep(scene.particleHandler);
     step.grainsHaveMoved = true;
     parts.call(&StepPart::moveGrains, step);
     refuseRunaway(step.shifts.grains);

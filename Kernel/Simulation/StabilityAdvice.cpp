@@ -32,7 +32,7 @@ double slidingShare(const ContactSystem& contacts, const ParticleStore& grains) 
             if (field.name == "slidingFrictionCoefficient") coefficient = field.value;
         if (!isSet(coefficient)) continue;
         for (std::uint32_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
-            if (!contacts.store().touches(c)) continue;
+            if (!contacts.touches(c)) continue;
             const ObservedContact seen = contacts.observe(grains, bucket, c);
             ++touching;
             const double limit = coefficient * std::max(seen.normalForce, 0.0);

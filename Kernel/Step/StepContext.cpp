@@ -2,6 +2,7 @@
 
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 
 namespace pendular {
 
@@ -13,6 +14,6 @@ Integrator contactScheme(const StepContext& scene) {
     return own;
 }
 
-ParticleStore& StepContext::grains() const { return particles.storeInStep(); }
+ParticleStore& StepContext::grains() const { return ParticleHandler::Inside::grainsInStep(particles); }
 
 }  // namespace pendular

@@ -7,6 +7,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/InfiniteWall.h"
 #include "Kernel/Walls/WallHandler.h"
@@ -87,7 +88,7 @@ BodyReference SuperquadricHandler::copyAndAddObject(const SuperquadricGrain& gra
         grains.bodies.add(bodyOf(grain, density, contactOf(grain.getShape()).turning, massOfSphere),
                           {&member, 1}, grain.getShape().volume());
     grains.bodies.place(grains, grains.bodies.size() - 1);
-    particles.noteJoined({&identity, 1});
+    ParticleHandler::Inside::noteJoined(particles, {&identity, 1});
     shapeOfBody.resize(number, RigidBodies::none);
     shapeOfBody.push_back(numberOf(grain.getShape()));
     return {particles, number};
@@ -100,8 +101,12 @@ const Superquadric& SuperquadricHandler::shapeOf(std::uint32_t grain) const {
     return shapes[shapeOfBody[body]];
 }
 
+bool SuperquadricHandler::isEmpty() const {
+    return ParticleHandler::Inside::grainsInStep(particles).bodies.empty();
+}
+
 void SuperquadricHandler::requireAll() const {
-    const ParticleStore& grains = particles.storeInStep();
+    const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     for (const std::uint32_t place : grains.place) {
         const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
         if (body >= shapeOfBody.size() || shapeOfBody[body] >= shapes.size())
@@ -196,7 +201,7 @@ Vector<Pack> packsOf(const std::array<Pack, 8>& p, std::size_t first) {
 }  // namespace
 
 SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, std::size_t block) const {
-    const ParticleStore& grains = particles.storeInStep();
+    const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     const RigidBodies& bodies = grains.bodies;
     const auto eight = [&](const Places& places) {
         Places at{};

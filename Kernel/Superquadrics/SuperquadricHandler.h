@@ -26,7 +26,7 @@ public:
     BodyReference copyAndAddObject(const SuperquadricGrain& grain);
     /// The shape of a grain, by its identity. Throws InputError if it is none of these.
     [[nodiscard]] const Superquadric& shapeOf(std::uint32_t grain) const;
-    [[nodiscard]] bool isEmpty() const { return particles.storeInStep().bodies.empty(); }
+    [[nodiscard]] bool isEmpty() const;
     /// The number of evaluations of a contact that acted in which Newton's method has not ended, and the
     /// search without derivatives went on.
     [[nodiscard]] std::uint64_t fallbacks() const { return fallbackCount; }

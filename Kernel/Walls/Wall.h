@@ -14,6 +14,7 @@
 
 namespace pendular {
 
+class ContactSystem;
 class Membrane;
 
 /// The point of a part of a wall that is nearest to a sphere.
@@ -59,6 +60,8 @@ public:
                 "speciesHandler.copyAndAddObject() returned.");
         species = wallSpecies->getIndex();
     }
+    /// Its number in the scene's speciesHandler; -1 where none was set.
+    [[nodiscard]] int getSpeciesIndex() const { return species; }
 
     [[nodiscard]] virtual std::size_t partCount() const { return 1; }
 
@@ -132,8 +135,6 @@ public:
     /// N m, about the point given to keepForces().
     [[nodiscard]] Vec3D getTorque() const { return toEigen(kept.torque); }
     [[nodiscard]] Vec3D getTorquePoint() const { return toEigen(kept.about); }
-    /// @param touches contacts that act
-    void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches);
     /// A contact has ended between two steps: its force (N) on a wall that is moved by forces acts no longer.
     /// The sum that is left is rounded: the next step, and a restart file, need the sum of the contacts that
     /// there are.
@@ -145,9 +146,13 @@ public:
     /// It stands in the place of a wall that was removed.
     [[nodiscard]] virtual bool isRemoved() const { return false; }
 
-    int species = -1;
-
 private:
+    friend class ContactSystem;  // which alone sums the forces
+
+    /// @param touches contacts that act
+    void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches);
+
+    int species = -1;
     WallForce kept;
     bool forcesKept = false;
 };

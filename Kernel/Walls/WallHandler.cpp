@@ -32,7 +32,7 @@ public:
 }  // namespace
 
 void WallHandler::requireComplete(const Wall& wall, bool isPlaced) const {
-    if (wall.species < 0)
+    if (wall.getSpeciesIndex() < 0)
         throw InputError(fmt::format(
             "wall {}: species is not set; call setSpecies() with a species of this scene.", walls.size()));
     if (!isPlaced)
@@ -75,7 +75,8 @@ bool WallHandler::hasChanges() const {
     return changes != knownChanges ||
            std::ranges::any_of(walls,
                                [](const auto& wall) { return wall->drive() && !wall->drive()->isChecked; }) ||
-           !std::ranges::equal(walls, knownSpecies, {}, [](const auto& wall) { return wall->species; });
+           !std::ranges::equal(walls, knownSpecies, {},
+                               [](const auto& wall) { return wall->getSpeciesIndex(); });
 }
 
 void WallHandler::changesAreKnown() {
@@ -83,7 +84,7 @@ void WallHandler::changesAreKnown() {
     knownWalls = walls.size();
     knownSpecies.clear();
     for (const auto& wall : walls) {
-        knownSpecies.push_back(wall->species);
+        knownSpecies.push_back(wall->getSpeciesIndex());
         if (PlaneDrive* const drive = wall->drive()) drive->isChecked = true;
     }
 }

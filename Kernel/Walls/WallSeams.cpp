@@ -93,7 +93,7 @@ private:
         }
         WallPoint own;
         one.findPoints(middle, apart, {&edge.part, 1}, {&own, 1});
-        if (one.species == two.species && own.velocity == other.point.velocity) return;
+        if (one.getSpeciesIndex() == two.getSpeciesIndex() && own.velocity == other.point.velocity) return;
         tell(
             other.wall,
             fmt::format("Walls {} and {} lie in one surface at ({:.4g}, {:.4g}, {:.4g}) m and have different "

@@ -19,10 +19,11 @@ using namespace membraneTests;
 /// The identities of the grains that touch a wall.
 std::set<std::uint32_t> touching(Trampoline& scene) {
     std::set<std::uint32_t> found;
-    const ContactStore& store = scene.contacts().store();
-    store.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-        const std::uint32_t place = store.blocks[c / Pack::lanes].first[c % Pack::lanes];
-        if (bucket.wall >= 0 && store.touches(c)) found.insert(scene.particleHandler.store().identity[place]);
+    const ContactSystem& contacts = scene.contacts();
+    contacts.forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+        const std::uint32_t place = contacts.firstOf(c);
+        if (bucket.wall >= 0 && contacts.touches(c))
+            found.insert(scene.particleHandler.store().identity[place]);
     });
     return found;
 }

@@ -323,9 +323,8 @@ TEST(Summary, warnsOfBridgesThatTheLawIsNotMadeFor) {
     EXPECT_TRUE(contains(printed, warning));
     EXPECT_NE(first, last) << "at set-up and at the end";
     std::size_t bridges = 0, out = 0;
-    const auto& store = scene.contacts().store();
     const auto& grains = scene.particleHandler.store();
-    store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+    scene.contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = scene.contacts().observe(grains, bucket, contact);
         if (!seen.bridged) return;
         const auto radius = [&](std::uint32_t k) { return grains.translation[grains.place[k]].radius; };

@@ -62,7 +62,7 @@ Approach paperApproach(const WetCollision& collision, double stepsPerContact, do
 template <class S>
 ObservedContact observed(const Collision<S>& scene) {
     ObservedContact seen{};
-    scene.contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+    scene.contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         seen = scene.contacts().observe(scene.particleHandler.store(), bucket, contact);
     });
     return seen;

@@ -3,7 +3,6 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/CoarseGraining/MeanStress.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Periodic/Lattice.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Scenes/FewGrains.h"
@@ -14,13 +13,14 @@
 namespace pendular {
 namespace {
 
+using periodic::againstFlow;
 using periodic::Lattice;
 using periodic::linear;
+using periodic::Smooth;
 using scenes::boxMaterial;
 using scenes::FewGrains;
 using scenes::GrainMotion;
 using scenes::ShearedCloud;
-using Smooth = Species<LinearViscoelastic>;
 
 /// A cloud in shear under two stresses, whose steps add up to rounded times.
 class PressedShear : public ShearedCloud<Smooth> {
@@ -49,14 +49,8 @@ TEST(ChangesInRun, aRestartKeepsThePlaceOfTheImages) {
     whole.step(300);
     for (int k = 0; k < 3; ++k) {
         whole.stepToARoundedTime();
-        whole.writeRestart(file);
         PressedShear resumed;
-        resumed.restartFrom(file);
-        resumed.initialise();
-        EXPECT_EQ(resumed.getPeriodicBox().imageShift, whole.getPeriodicBox().imageShift);
-        whole.step(100), resumed.step(100);
-        EXPECT_EQ(resumed.getPeriodicBox().imageShift, whole.getPeriodicBox().imageShift);
-        EXPECT_EQ(stateHash(resumed.particleHandler.store()), stateHash(whole.particleHandler.store()));
+        periodic::expectGoesOnAlike(whole, resumed, file, 100);
     }
 }
 
@@ -90,7 +84,7 @@ TEST(ChangesInRun, aServoKeepsWhatItHasLearntWhenItsTargetChanges) {
 
 TEST(ChangesInRun, aTargetThatRisesInEachStepAndCannotBeBorneEndsTheRun) {
     FewGrains<Smooth> scene(boxMaterial<Smooth>(0), {{.position = {0.005, 0.005, 0.005}}}, 1e-5);
-    for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, 0.01);
+    periodic::repeatAlongAllAxes(scene, 0.01);
     scene.setQuiet();
     scene.setLeesEdwards(0, 1, 0);
     scene.setTargetShearStress(100, 1e-2);  // at most 100 1/s: a strain of 20 in 0.2 s
@@ -122,22 +116,12 @@ TEST(ChangesInRun, noContactIsMissedInShearWithStrain) {
                              {.radius = large, .position = middle + half * n},
                              {.radius = small, .position = {0.002, 0.002, 0.002}}},
                             length);
-    for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, side);
+    periodic::repeatAlongAllAxes(scene, side);
     scene.setQuiet();
     scene.setLeesEdwards(0, 1, g);
     scene.setStrainRate(1, -g);
     for (auto&& grain : scene.particleHandler) grain.setVelocity(scene.shearFlowAt(grain.getPosition()));
-    scene.initialise();
-    std::size_t overlaps = 0;
-    for (int k = 0; k < 150; ++k) {
-        scene.step();
-        overlaps += periodic::expectAllOverlapsKnown(scene);
-    }
-    EXPECT_GT(overlaps, 30u);
-}
-
-Vec3D againstFlow(const Scene& scene, const GrainMotion& motion) {
-    return motion.velocity - scene.shearFlowAt(motion.position);
+    EXPECT_GT(periodic::overlapsKnownInRounds(scene, 150, 1), 30u);
 }
 
 /// What a run has asked of the flow holds in the step after one that failed.
@@ -146,7 +130,7 @@ TEST(ChangesInRun, aStepThatFailsTakesTheShearBack) {
                             {{.position = {0.002, 0.003, 0.004}},
                              {.position = {0.01, 0.012, 0.009}, .velocity = {0.1, 0.2, 0.3}}},
                             length);
-    for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, side);
+    periodic::repeatAlongAllAxes(scene, side);
     scene.setQuiet();
     scene.setLeesEdwards(0, 1, 5);
     scene.initialise();
@@ -166,7 +150,7 @@ TEST(ChangesInRun, aStepThatFailsTakesTheShearBack) {
 
 TEST(ChangesInRun, whatIsRefusedLeavesTheSceneAsItWas) {
     FewGrains<Smooth> scene(boxMaterial<Smooth>(0), {{.position = {0.005, 0.005, 0.005}}}, 1e-6);
-    for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, 0.01);
+    periodic::repeatAlongAllAxes(scene, 0.01);
     scene.setQuiet();
     scene.setLeesEdwards(0, 1, 5);
     scene.setStrainRate(1, 2);

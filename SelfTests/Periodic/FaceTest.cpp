@@ -53,7 +53,7 @@ public:
             bool wrapped = false;
             for (std::size_t g : {0, 1})
                 wrapped |= (this->motion(g).position - before[g]).cwiseAbs().maxCoeff() > 0.5 * length;
-            this->contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+            this->contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
                 const auto seen = this->contacts().observe(this->particleHandler.store(), bucket, contact);
                 const bool touching = seen.separation < 0, apart = seen.bridged && !touching;
                 touched |= touching;

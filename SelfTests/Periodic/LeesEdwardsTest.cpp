@@ -7,10 +7,6 @@
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Periodic/ObliquePair.h"
 #include "SelfTests/Scenes/FewGrains.h"
@@ -26,15 +22,14 @@
 namespace pendular {
 namespace {
 
+using periodic::Dry;
+using periodic::Smooth;
+using periodic::Wet;
 using scenes::boxMaterial;
 using scenes::FewGrains;
 using scenes::GrainMotion;
 using scenes::ShearedCloud;
 using support::Random;
-
-using Smooth = Species<LinearViscoelastic>;
-using Dry = Species<HertzianViscoelastic, Mindlin>;
-using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
 /// The box of the tables: 4 x 3 x 2 m, 0.5 /s, flow along x, gradient along y.
 PeriodicBox boxOfTables(double time) {
@@ -179,7 +174,7 @@ class PairInFlow : public FewGrains<S> {
 public:
     PairInFlow(const Vec3D& place, int flow, int gradient, double shearRate)
         : FewGrains<S>(boxMaterial<S>(0), motions(place, flow, gradient, shearRate), step) {
-        for (int axis = 0; axis < 3; ++axis) this->setPeriodic(axis, 0, side);
+        periodic::repeatAlongAllAxes(*this, side);
         this->setLeesEdwards(flow, gradient, shearRate);
     }
 
@@ -192,15 +187,13 @@ private:
 
 template <class S>
 class LeesEdwardsPair : public testing::Test {};
-using SpeciesOfAllKinds = testing::Types<Smooth, Dry, Wet>;
-TYPED_TEST_SUITE(LeesEdwardsPair, SpeciesOfAllKinds);
+TYPED_TEST_SUITE(LeesEdwardsPair, periodic::SpeciesOfAllKinds);
 
 /// A pair with friction or bridges, too, for all axes: carried with the flow of its place, it meets as in the
 /// middle of the box. The tolerances are those of FaceTest, and for the speed of the flow that is added to
 /// each velocity: round-off of 1 m/s in 1500 steps, 1500 x 2.2e-16, below them.
 TYPED_TEST(LeesEdwardsPair, meetsEverywhereAsInTheMiddle) {
     constexpr int steps = 1500;
-    constexpr double speedTolerance = 1e-9, spinTolerance = 2.5 / 0.8e-3 * speedTolerance;
     for (int flow = 0; flow < 3; ++flow)
         for (int gradient = 0; gradient < 3; ++gradient) {
             if (flow == gradient) continue;
@@ -215,17 +208,13 @@ TYPED_TEST(LeesEdwardsPair, meetsEverywhereAsInTheMiddle) {
                 PairInFlow<TypeParam> scene(place, flow, gradient, rate);
                 scene.run(steps);
                 const PeriodicBox& box = scene.getPeriodicBox();
+                periodic::expectPairsMoveAlike(scene, expected);
                 for (std::size_t k : {0, 1}) {
-                    const GrainMotion a = scene.motion(k), b = expected.motion(k);
-                    const auto inFlow = [&](const GrainMotion& motion) {
-                        return Vec3D(motion.velocity - scene.shearFlowAt(motion.position));
-                    };
-                    EXPECT_LT((inFlow(a) - inFlow(b)).norm(), speedTolerance);
-                    EXPECT_LT((a.spin - b.spin).norm(), spinTolerance);
                     Vec3D shift = place - middle;
                     shift[flow] += rate * (place[gradient] - side / 2) * steps * step;
-                    const Vector<double> off = toVector(Vec3D(a.position - b.position - shift));
-                    EXPECT_LT(norm(box.nearest(off)), speedTolerance * steps * step);
+                    const Vector<double> off =
+                        toVector(Vec3D(scene.motion(k).position - expected.motion(k).position - shift));
+                    EXPECT_LT(norm(box.nearest(off)), periodic::pairSpeedTolerance * steps * step);
                 }
             }
         }
@@ -237,12 +226,7 @@ TEST(LeesEdwards, ofRateZeroHasTheBitsOfAPeriodicScene) {
 }
 
 TEST(LeesEdwards, hasTheSameBitsForAnyThreads) {
-    const std::uint64_t one = ShearedCloud<Wet>(200).hashAfter(1000);
-    for (const int threads : {2, 3, 8}) {
-        ShearedCloud<Wet> scene(200);
-        scene.setNumberOfThreads(threads);
-        EXPECT_EQ(scene.hashAfter(1000), one) << threads;
-    }
+    periodic::expectSameBitsForAnyThreads([] { return ShearedCloud<Wet>(200); }, {2, 3, 8});
 }
 
 /// No pair is missed by a list that lasts: all that overlap are known to touch. Grains move by several
@@ -250,13 +234,7 @@ TEST(LeesEdwards, hasTheSameBitsForAnyThreads) {
 TEST(LeesEdwards, noContactIsMissed) {
     for (const int gradient : {0, 1, 2}) {
         ShearedCloud<Dry> scene(400, gradient);
-        scene.initialise();
-        std::size_t overlaps = 0;
-        for (int k = 0; k < 60; ++k) {
-            scene.step(200);
-            overlaps += periodic::expectAllOverlapsKnown(scene);
-        }
-        EXPECT_GT(overlaps, 1000u);
+        EXPECT_GT(periodic::overlapsKnownInRounds(scene, 60, 200), 1000u);
         EXPECT_GT(scene.contacts().rebuildCount(), 20u);
         EXPECT_LT(scene.contacts().rebuildCount(), 1000u);  // not at each step, as with the speed of the flow
     }
@@ -300,17 +278,7 @@ TEST(LeesEdwards, theStressDoesTheWorkOfTheShear) {
 }
 
 TEST(LeesEdwards, whatDoesNotFitIsRefused) {
-    const auto refusal = [](auto&& change) {
-        FewGrains<Smooth> scene(boxMaterial<Smooth>(0), {{.position = {0.005, 0.005, 0.005}}}, 1e-6);
-        scene.setPeriodic(0, 0, 0.01);
-        scene.setPeriodic(1, 0, 0.01);
-        const std::string text = support::refusal([&] {
-            change(scene);
-            scene.initialise();
-        });
-        EXPECT_TRUE(text.empty() || support::isOneSentence(text));
-        return text;
-    };
+    const auto refusal = [](auto&& change) { return periodic::refusalOfOneGrain(2, change); };
     EXPECT_EQ(refusal([](auto& s) { s.setLeesEdwards(0, 1, 3); }), "");
     for (const double bad : {std::nan(""), infinity, -infinity})
         EXPECT_TRUE(support::contains(refusal([=](auto& s) { s.setLeesEdwards(0, 1, bad); }), "shear rate"));

@@ -80,9 +80,9 @@ struct ContactSums {
 
 ContactSums contactSums(const Scene& scene) {
     ContactSums sums;
-    scene.contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+    scene.contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const auto seen = scene.contacts().observe(scene.particleHandler.store(), bucket, contact);
-        const double force = norm(scene.contacts().store().forceOf(contact));
+        const double force = norm(scene.contacts().forceOf(contact));
         sums.force += force;
         if (force > 0) sums.slopes += force / std::abs(seen.separation);
         (seen.separation < 0 ? sums.touching : sums.stretched) += seen.separation < 0 || seen.bridged ? 1 : 0;

@@ -1,16 +1,13 @@
 // Shear whose rate changes, shear together with strain, and shear under stresses.
 #include <gtest/gtest.h>
 
-#include "Kernel/Base/RunError.h"
 #include "Kernel/CoarseGraining/MeanStress.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/LeesEdwards.h"
 #include "Kernel/Parts/StressServo.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "SelfTests/Periodic/Lattice.h"
 #include "SelfTests/Periodic/MovingImages.h"
+#include "SelfTests/Periodic/ObliquePair.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/ShearedCloud.h"
 #include "SelfTests/Support/Refusal.h"
@@ -20,23 +17,19 @@
 namespace pendular {
 namespace {
 
+using periodic::againstFlow;
+using periodic::Dry;
 using periodic::Lattice;
 using periodic::linear;
+using periodic::Smooth;
+using periodic::Wet;
 using scenes::boxMaterial;
 using scenes::FewGrains;
 using scenes::GrainMotion;
 using scenes::ShearedCloud;
 
-using Smooth = Species<LinearViscoelastic>;
-using Dry = Species<HertzianViscoelastic, Mindlin>;
-using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
-
 constexpr double side = 0x1p-6;         // m
 constexpr double stepLength = 0x1p-20;  // s
-
-Vec3D againstFlow(const Scene& scene, const GrainMotion& motion) {
-    return motion.velocity - scene.shearFlowAt(motion.position);
-}
 
 /// Without contacts C_y L_y stays, and C_x changes by -rate C_y: with the strain e along y and from the shear
 /// rate g on, by -g C_y0 (1 - exp(-e t)) / e; a change of the rates changes neither, also of a grain that has
@@ -45,7 +38,7 @@ TEST(ShearControl, aFreeGrainMovesAsInTheClosedForm) {
     const Vec3D speed(3, -2, 1);
     FewGrains<Smooth> scene(boxMaterial<Smooth>(0), {{.position = {0.001, 0.002, 0.003}, .velocity = speed}},
                             stepLength);
-    for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, side);
+    periodic::repeatAlongAllAxes(scene, side);
     scene.setLeesEdwards(0, 1, 5);
     scene.setStrainRate(1, 0);
     scene.initialise();
@@ -69,8 +62,8 @@ template <class S>
 class PairInBoth : public FewGrains<S> {
 public:
     PairInBoth(const Vec3D& place, double shearRate, double rate)
-        : FewGrains<S>(boxMaterial<S>(0), at(place), stepLength) {
-        for (int k = 0; k < 3; ++k) this->setPeriodic(k, 0, side);
+        : FewGrains<S>(boxMaterial<S>(0), periodic::obliquePair(place), stepLength) {
+        periodic::repeatAlongAllAxes(*this, side);
         this->setLeesEdwards(0, 1, shearRate);
         this->setStrainRate(1, rate);
         for (auto&& grain : this->particleHandler)
@@ -81,49 +74,27 @@ public:
         this->setShearRate(-25);
         this->step(800);
     }
-
-private:
-    static std::vector<GrainMotion> at(const Vec3D& place) {
-        const Vec3D normal = Vec3D(2, -3, 4).normalized(), sideways(0.3, 0.5, 0.2);
-        const double r = 1e-3;
-        return {{.radius = r,
-                 .position = place - 1.01 * r * normal,
-                 .velocity = 0.25 * normal + sideways,
-                 .spin = {90, 200, -70}},
-                {.radius = 0.8 * r,
-                 .position = place + 0.81 * r * normal,
-                 .velocity = -0.25 * normal,
-                 .spin = {-20, 40, 30}}};
-    }
 };
 
 template <class S>
 class PairInShearAndStrain : public testing::Test {};
-using SpeciesOfAllKinds = testing::Types<Smooth, Dry, Wet>;
-TYPED_TEST_SUITE(PairInShearAndStrain, SpeciesOfAllKinds);
+TYPED_TEST_SUITE(PairInShearAndStrain, periodic::SpeciesOfAllKinds);
 
 /// A pair meets across a face that slides and comes nearer as in the middle; the tolerances are those of
 /// LeesEdwardsTest.
 TYPED_TEST(PairInShearAndStrain, meetsEverywhereAsInTheMiddle) {
-    constexpr double speedTolerance = 1e-9, spinTolerance = 2.5 / 0.8e-3 * speedTolerance;
     const Vec3D middle = Vec3D::Constant(side / 2);
     for (const double rate : {50.0, -50.0}) {
         PairInBoth<TypeParam> expected(middle, 40, rate);
         expected.meet();
-        const Vec3D relative =
-            againstFlow(expected, expected.motion(0)) - againstFlow(expected, expected.motion(1));
-        ASSERT_LT(relative.dot(Vec3D(2, -3, 4).normalized()), 0.25);  // they met; 0.48 before
+        ASSERT_TRUE(periodic::haveMet(expected));
         for (int axis = 0; axis < 3; ++axis)
             for (int offset = -4; offset <= 4; ++offset) {
                 Vec3D place = middle;
                 place[axis] += side / 2 + 0.25 * offset * 1e-3;
                 PairInBoth<TypeParam> scene(place, 40, rate);
                 scene.meet();
-                for (std::size_t k : {0, 1}) {
-                    const GrainMotion a = scene.motion(k), b = expected.motion(k);
-                    EXPECT_LT((againstFlow(scene, a) - againstFlow(expected, b)).norm(), speedTolerance);
-                    EXPECT_LT((a.spin - b.spin).norm(), spinTolerance);
-                }
+                periodic::expectPairsMoveAlike(scene, expected);
             }
     }
 }
@@ -141,13 +112,9 @@ public:
 };
 
 TEST(ShearControl, hasTheSameBitsForAnyThreads) {
-    const std::uint64_t one = PressedShear<Wet>(50).hashAfter(1000);
-    EXPECT_NE(one, PressedShear<Wet>().hashAfter(1000));
-    for (const int threads : {2, 5}) {
-        PressedShear<Wet> scene(50);
-        scene.setNumberOfThreads(threads);
-        EXPECT_EQ(scene.hashAfter(1000), one) << threads;
-    }
+    const std::uint64_t hash =
+        periodic::expectSameBitsForAnyThreads([] { return PressedShear<Wet>(50); }, {2, 5});
+    EXPECT_NE(hash, PressedShear<Wet>().hashAfter(1000));
 }
 
 TEST(ShearControl, goesOnAfterARestartWithTheSameBits) {
@@ -158,14 +125,8 @@ TEST(ShearControl, goesOnAfterARestartWithTheSameBits) {
     whole.step(300);
     whole.setTargetShearStress(80, 2e-4);
     whole.step(333);
-    whole.writeRestart(file);
-    whole.step(600);
     PressedShear<Wet> resumed(50);
-    resumed.restartFrom(file);
-    resumed.initialise();
-    resumed.step(600);
-    EXPECT_EQ(stateHash(resumed.particleHandler.store()), stateHash(whole.particleHandler.store()));
-    EXPECT_EQ(resumed.getPeriodicBox().imageShift, whole.getPeriodicBox().imageShift);
+    periodic::expectGoesOnAlike(whole, resumed, file, 600);
     EXPECT_EQ(resumed.getShearRate(), whole.getShearRate());
 
     PressedShear<Wet> other(60);
@@ -175,13 +136,7 @@ TEST(ShearControl, goesOnAfterARestartWithTheSameBits) {
 
 TEST(ShearControl, noContactIsMissed) {
     PressedShear<Dry> scene(50);
-    scene.initialise();
-    std::size_t overlaps = 0;
-    for (int k = 0; k < 40; ++k) {
-        scene.step(100);
-        overlaps += periodic::expectAllOverlapsKnown(scene);
-    }
-    EXPECT_GT(overlaps, 1000u);
+    EXPECT_GT(periodic::overlapsKnownInRounds(scene, 40, 100), 1000u);
 }
 
 /// The ledger closes as with a strain alone (StrainTest).
@@ -269,16 +224,7 @@ TEST(ShearControl, aStrainAlongAnotherAxisLeavesNoSteadyError) {
 }
 
 TEST(ShearControl, whatDoesNotFitIsRefused) {
-    const auto refusal = [](auto&& change) {
-        FewGrains<Smooth> scene(boxMaterial<Smooth>(0), {{.position = {0.005, 0.005, 0.005}}}, 1e-6);
-        for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, 0.01);
-        const std::string text = support::refusal([&] {
-            change(scene);
-            scene.initialise();
-        });
-        EXPECT_TRUE(text.empty() || support::isOneSentence(text)) << text;
-        return text;
-    };
+    const auto refusal = [](auto&& change) { return periodic::refusalOfOneGrain(3, change); };
     using support::contains;
     EXPECT_EQ(refusal([](auto& s) {
                   s.setLeesEdwards(0, 1, 1);
@@ -307,17 +253,10 @@ TEST(ShearControl, whatDoesNotFitIsRefused) {
 TEST(ShearControl, whatTheGrainsCannotBearEndsTheRun) {
     const auto end = [](const std::vector<GrainMotion>& grains, auto&& change) -> std::string {
         FewGrains<Smooth> scene(boxMaterial<Smooth>(0), grains, 1e-5);
-        for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, 0.01);
+        periodic::repeatAlongAllAxes(scene, 0.01);
         scene.setQuiet();
         change(scene);
-        scene.initialise();
-        try {
-            scene.step(400000);
-        } catch (const RunError& error) {
-            EXPECT_TRUE(support::isOneSentence(error.what()));
-            return error.what();
-        }
-        return {};
+        return periodic::endWithin(scene, 400000);
     };
     EXPECT_TRUE(support::contains(end({{.position = {0.005, 0.005, 0.005}}},
                                       [](auto& s) {

@@ -3,16 +3,12 @@
 
 #include <array>
 
-#include "Kernel/Base/RunError.h"
 #include "Kernel/CoarseGraining/MeanStress.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/HomogeneousStrain.h"
 #include "Kernel/Parts/StressServo.h"
 #include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
-#include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Periodic/Lattice.h"
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Periodic/ObliquePair.h"
@@ -25,31 +21,28 @@
 namespace pendular {
 namespace {
 
+using periodic::againstFlow;
+using periodic::Dry;
 using periodic::Lattice;
 using periodic::linear;
+using periodic::Smooth;
+using periodic::Wet;
 using scenes::boxMaterial;
 using scenes::FewGrains;
 using scenes::GrainMotion;
 using scenes::ShearedCloud;
 
-using Smooth = Species<LinearViscoelastic>;
 using Hertz = Species<HertzianViscoelastic>;
-using Dry = Species<HertzianViscoelastic, Mindlin>;
-using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
 constexpr double side = 0x1p-6;   // m
 constexpr double step = 0x1p-20;  // s
-
-Vec3D againstFlow(const Scene& scene, const GrainMotion& motion) {
-    return motion.velocity - scene.shearFlowAt(motion.position);
-}
 
 /// Without contacts, C x length stays, also of a grain that goes round the box and while the rate changes.
 TEST(Strain, aFreeGrainLosesSpeedAsTheLengthGrows) {
     const Vec3D speed(3, -2, 1);
     FewGrains<Smooth> scene(boxMaterial<Smooth>(0), {{.position = {0.001, 0.002, 0.003}, .velocity = speed}},
                             step);
-    for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, side);
+    periodic::repeatAlongAllAxes(scene, side);
     scene.setStrainRate(0, 10);
     scene.setStrainRate(2, -5);
     scene.initialise();
@@ -78,43 +71,38 @@ class PairInStrain : public FewGrains<S> {
 public:
     PairInStrain(const Vec3D& place, int axis, double rate)
         : FewGrains<S>(boxMaterial<S>(0), periodic::obliquePair(place), step) {
-        for (int k = 0; k < 3; ++k) this->setPeriodic(k, 0, side);
+        periodic::repeatAlongAllAxes(*this, side);
         this->setStrainRate(axis, rate);
     }
 };
 
 template <class S>
 class StrainedPair : public testing::Test {};
-using SpeciesOfAllKinds = testing::Types<Smooth, Dry, Wet>;
-TYPED_TEST_SUITE(StrainedPair, SpeciesOfAllKinds);
+TYPED_TEST_SUITE(StrainedPair, periodic::SpeciesOfAllKinds);
 
 /// A pair with friction or bridges, too, meets across a face as in the middle. The tolerances are those of a
 /// pair in shear (LeesEdwardsTest).
 TYPED_TEST(StrainedPair, meetsEverywhereAsInTheMiddle) {
     constexpr int steps = 1500;
-    constexpr double speedTolerance = 1e-9, spinTolerance = 2.5 / 0.8e-3 * speedTolerance;
     const Vec3D middle = Vec3D::Constant(side / 2);
     for (int axis = 0; axis < 3; ++axis)
         for (const double rate : {60.0, -60.0}) {
             PairInStrain<TypeParam> expected(middle, axis, rate);
             expected.run(steps);
-            const Vec3D relative =
-                againstFlow(expected, expected.motion(0)) - againstFlow(expected, expected.motion(1));
-            ASSERT_LT(relative.dot(Vec3D(2, -3, 4).normalized()), 0.25);  // they met; 0.48 before
+            ASSERT_TRUE(periodic::haveMet(expected));
             for (int offset = -4; offset <= 4; ++offset) {
                 Vec3D place = middle;
                 place[axis] += side / 2 + 0.25 * offset * 1e-3;
                 PairInStrain<TypeParam> scene(place, axis, rate);
                 scene.run(steps);
+                periodic::expectPairsMoveAlike(scene, expected);
                 for (std::size_t k : {0, 1}) {
-                    const GrainMotion a = scene.motion(k), b = expected.motion(k);
-                    EXPECT_LT((againstFlow(scene, a) - againstFlow(expected, b)).norm(), speedTolerance);
-                    EXPECT_LT((a.spin - b.spin).norm(), spinTolerance);
                     const PeriodicBox& box = scene.getPeriodicBox();
                     Vec3D shift = place - middle;
                     shift[axis] *= toEigen(box.length)[axis] / side;
-                    const Vector<double> off = toVector(Vec3D(a.position - b.position - shift));
-                    EXPECT_LT(norm(box.nearest(off)), speedTolerance * steps * step);
+                    const Vector<double> off =
+                        toVector(Vec3D(scene.motion(k).position - expected.motion(k).position - shift));
+                    EXPECT_LT(norm(box.nearest(off)), periodic::pairSpeedTolerance * steps * step);
                 }
             }
         }
@@ -148,12 +136,7 @@ TEST(Strain, ofRateZeroHasTheBitsOfAPeriodicScene) {
 }
 
 TEST(Strain, hasTheSameBitsForAnyThreads) {
-    const std::uint64_t one = PressedCloud<Wet>().hashAfter(1000);
-    for (const int threads : {2, 3, 8}) {
-        PressedCloud<Wet> scene;
-        scene.setNumberOfThreads(threads);
-        EXPECT_EQ(scene.hashAfter(1000), one) << threads;
-    }
+    periodic::expectSameBitsForAnyThreads([] { return PressedCloud<Wet>(); }, {2, 3, 8});
 }
 
 TEST(Strain, goesOnAfterARestartWithTheSameBits) {
@@ -164,15 +147,9 @@ TEST(Strain, goesOnAfterARestartWithTheSameBits) {
     whole.step(300);
     whole.setStrainRate(2, 40);  // in the run
     whole.step(333);
-    whole.writeRestart(file);
-    whole.step(600);
     PressedCloud<Wet> resumed;
-    resumed.restartFrom(file);
-    resumed.initialise();
+    periodic::expectGoesOnAlike(whole, resumed, file, 600);
     EXPECT_EQ(resumed.getStrainRate(2), 40);
-    resumed.step(600);
-    EXPECT_EQ(stateHash(resumed.particleHandler.store()), stateHash(whole.particleHandler.store()));
-    EXPECT_EQ(resumed.getPeriodicBox().length, whole.getPeriodicBox().length);
 
     StrainedCloud<Wet> other(3);
     other.restartFrom(file);
@@ -182,13 +159,7 @@ TEST(Strain, goesOnAfterARestartWithTheSameBits) {
 /// No pair is missed by a list that lasts.
 TEST(Strain, noContactIsMissed) {
     StrainedCloud<Dry> scene(40);
-    scene.initialise();
-    std::size_t overlaps = 0;
-    for (int k = 0; k < 60; ++k) {
-        scene.step(100);
-        overlaps += periodic::expectAllOverlapsKnown(scene);
-    }
-    EXPECT_GT(overlaps, 1000u);
+    EXPECT_GT(periodic::overlapsKnownInRounds(scene, 60, 100), 1000u);
     EXPECT_LT(scene.contacts().rebuildCount(), 1000u);
 }
 
@@ -314,17 +285,7 @@ TEST(HeavyStrain, looseGrainsComeUnderTheirStress) {
 }
 
 TEST(Strain, whatDoesNotFitIsRefused) {
-    const auto refusal = [](auto&& change) {
-        FewGrains<Smooth> scene(boxMaterial<Smooth>(0), {{.position = {0.005, 0.005, 0.005}}}, 1e-6);
-        scene.setPeriodic(0, 0, 0.01);
-        scene.setPeriodic(1, 0, 0.01);
-        const std::string text = support::refusal([&] {
-            change(scene);
-            scene.initialise();
-        });
-        EXPECT_TRUE(text.empty() || support::isOneSentence(text));
-        return text;
-    };
+    const auto refusal = [](auto&& change) { return periodic::refusalOfOneGrain(2, change); };
     EXPECT_EQ(refusal([](auto& s) { s.setStrainRate(0, 3); }), "");
     for (const double bad : {std::nan(""), infinity, -infinity}) {
         EXPECT_TRUE(support::contains(refusal([=](auto& s) { s.setStrainRate(0, bad); }), "strain rate"));
@@ -363,33 +324,23 @@ TEST(Strain, whatDoesNotFitIsRefused) {
 
 /// What cannot go on ends with a sentence.
 TEST(Strain, whatTheGrainsCannotBearEndsTheRun) {
-    const auto end = [](auto&& scene, int steps) {
-        scene.initialise();
-        try {
-            scene.step(static_cast<std::size_t>(steps));
-        } catch (const RunError& error) {
-            EXPECT_TRUE(support::isOneSentence(error.what()));
-            return std::string(error.what());
-        }
-        return std::string();
-    };
     const std::vector<GrainMotion> two{{.position = {0.001, 0.005, 0.005}},
                                        {.position = {0.006, 0.002, 0.005}}};
-    const auto periodic = [&](auto&& change) {
+    const auto ofTwo = [&](auto&& change) {
         FewGrains<Smooth> scene(boxMaterial<Smooth>(0), two, 1e-6);
-        for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, 0.01);
+        periodic::repeatAlongAllAxes(scene, 0.01);
         scene.setQuiet();
         change(scene);
-        return end(scene, 20000);
+        return periodic::endWithin(scene, 20000);
     };
-    EXPECT_TRUE(support::contains(periodic([](auto& s) { s.setStrainRate(2, -100); }), "length along z"));
-    EXPECT_TRUE(support::contains(periodic([](auto& s) {
+    EXPECT_TRUE(support::contains(ofTwo([](auto& s) { s.setStrainRate(2, -100); }), "length along z"));
+    EXPECT_TRUE(support::contains(ofTwo([](auto& s) {
                                       for (int axis = 0; axis < 3; ++axis) s.setTargetStress(axis, -10, 1e-3);
                                   }),
                                   "tension"));
     Lattice<Smooth> crushed(linear(), 4);
     for (int axis = 0; axis < 3; ++axis) crushed.setTargetStress(axis, 1e9, 1e-3);
-    EXPECT_TRUE(support::contains(end(crushed, 20000), "overlap"));
+    EXPECT_TRUE(support::contains(periodic::endWithin(crushed, 20000), "overlap"));
 }
 
 }  // namespace

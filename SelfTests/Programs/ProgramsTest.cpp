@@ -249,19 +249,40 @@ double fallingSpeed(double radius, double density, double ofAir, double viscosit
     return low;
 }
 
+/// The three numbers that a program prints after a word; zeros if there are none.
+std::array<double, 3> numbersAfter(const std::string& word, const std::string& output) {
+    std::array<double, 3> found{};
+    const std::size_t at = output.find(word);
+    const char* const begin = output.c_str() + (at == std::string::npos ? output.size() : at + word.size());
+    EXPECT_EQ(std::sscanf(begin, "%lf %lf %lf", &found[0], &found[1], &found[2]), 3) << output;
+    return found;
+}
+
 TEST(UserDefinedPart, fallsAtTheSpeedOfItsDrag) {
     const support::TestFolder folder;
     const auto ran = run(drivers + "/UserDefinedPart/UserDefinedPart --output " + folder.path().string());
     EXPECT_EQ(ran.exitCode, 0);
-    double x = 0, y = 0, z = 0;
-    const std::size_t at = ran.output.find("velocity: ");
-    ASSERT_NE(at, std::string::npos) << ran.output;
-    ASSERT_EQ(std::sscanf(ran.output.c_str() + at, "velocity: %lf %lf %lf", &x, &y, &z), 3);
+    const auto [x, y, z] = numbersAfter("velocity: ", ran.output);
     // The time of Stokes' drag, d^2 density / (18 viscosity), is 0.31 s, and the drag there is about twice
     // that: after 3 s exp(-20) is left. Digits end at 1e-4.
     EXPECT_NEAR(x, 0.5, 1e-4);
     EXPECT_NEAR(y, 0, 1e-4);
     EXPECT_NEAR(z, -fallingSpeed(1e-4, 2500, 1.2, 1.8e-5), 1e-4);
+}
+
+TEST(UserDefinedWall, swingsAtTheCurvaturesOfATorus) {
+    const support::TestFolder folder;
+    const auto ran = run(drivers + "/UserDefinedWall/UserDefinedWall --output " + folder.path().string());
+    EXPECT_EQ(ran.exitCode, 0);
+    const auto [x, y, z] = numbersAfter("position: ", ran.output);
+    // A ball that rolls without sliding, its centre on a circle, at small angles. What is left is of the
+    // order of the overlap over the radius, 3e-4 of the phase.
+    const auto swing = [](double amplitude, double radius) {
+        return amplitude * std::cos(std::sqrt(5 * 9.81 / (7 * radius)));
+    };
+    EXPECT_NEAR(x, swing(1.3e-3, 0.065), 4e-6);
+    EXPECT_NEAR(y, -0.065, 1e-5);
+    EXPECT_NEAR(z, swing(3e-4, 0.015), 2e-6);
 }
 
 TEST(UserDefinedLaw, runs) {

@@ -41,13 +41,8 @@ void runTo(Scene& scene, std::size_t steps) {
 
 /// Contacts that touch, and bridges that are stretched between grains that do not.
 std::pair<int, int> touchingAndStretched(const Scene& scene) {
-    int touching = 0, stretched = 0;
-    const auto& store = scene.contacts().store();
-    store.forEachListed([&](const Bucket&, std::uint32_t c) {
-        if (store.touches(c)) ++touching;
-        else stretched += store.acts(c) ? 1 : 0;
-    });
-    return {touching, stretched};
+    const ContactCounts all = scene.contacts().counts();
+    return {static_cast<int>(all.touching), static_cast<int>(all.acting - all.touching)};
 }
 
 /// Runs a scene to `end` in one go, and in another one that is restarted at `middle`.

@@ -73,7 +73,7 @@ TEST(GoldenHash, sceneDoesWhatItIsMeantFor) {
     Settled<Wet> settled;
     auto& scene = settled.scene;
     int touching = 0, bridged = 0, atWalls = 0;
-    scene.contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+    scene.contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const ObservedContact seen = scene.contacts().observe(scene.particleHandler.store(), bucket, contact);
         touching += seen.separation < 0 ? 1 : 0;
         bridged += seen.bridged && seen.separation > 0 ? 1 : 0;

@@ -118,7 +118,7 @@ TEST(HeavyManySizes, aLargeGrainComesToRestOnSmallOnes) {
     const std::uint32_t big = LargeOnSmall::edge * LargeOnSmall::edge;
     double lowestShare = 1, carried = 0;  // the large grain's contacts: vertical part of the normal
     double deepestUnderLarge = 0;
-    scene.contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+    scene.contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const auto seen = scene.contacts().observe(grains, bucket, contact);
         if (seen.separation >= 0) return;
         deepest = std::max(deepest, -seen.separation);

@@ -50,7 +50,7 @@ Counts countsOn(Shape wall) {
     const std::size_t before = scene.contacts().rebuildCount();
     scene.steps(1000);
     Counts counts;
-    scene.contacts().store().forEachListed(
+    scene.contacts().forEachListed(
         [&](const Bucket& bucket, std::uint32_t) { counts.listed += bucket.wall >= 0; });
     counts.touching = scene.touching();
     counts.rebuilds = scene.contacts().rebuildCount() - before;

@@ -317,8 +317,8 @@ TEST(MeshCorner, aGrainRestsOnThreeFacesWithAThirdOfItsWeightEach) {
     scene.initialise();
     scene.steps(20000);
     ASSERT_EQ(scene.touching(), 3);
-    scene.contacts().store().forEachListed([&](const Bucket&, std::uint32_t c) {
-        const double normalForce = scene.contacts().store().normalForceOf(c);
+    scene.contacts().forEachListed([&](const Bucket&, std::uint32_t c) {
+        const double normalForce = scene.contacts().normalForceOf(c);
         if (normalForce != 0) {
             EXPECT_NEAR(normalForce / (mass() * 9.81 / std::sqrt(3.0)), 1, 1e-9);
         }

@@ -55,9 +55,8 @@ public:
     }
     [[nodiscard]] int touching() {
         int count = 0;
-        this->contacts().store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-            count += bucket.wall >= 0 &&
-                     (this->contacts().store().states[c / Pack::lanes].touching >> (c % Pack::lanes) & 1);
+        this->contacts().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
+            count += bucket.wall >= 0 && this->contacts().touches(c);
         });
         return count;
     }

@@ -106,14 +106,7 @@ public:
         const Vec3D shift = this->motion(0).position - this->motion(1).position;
         return (v - this->motion(1).velocity).dot(shift.normalized());
     }
-    [[nodiscard]] bool isJoined() {
-        bool any = false;
-        const ContactStore& store = this->contacts().store();
-        store.forEachListed([&](const Bucket&, std::uint32_t c) {
-            any |= store.bitOf(store.states[c / Pack::lanes].bridged, c);
-        });
-        return any;
-    }
+    [[nodiscard]] bool isJoined() const { return this->contacts().counts().bridged > 0; }
     Outcome finish() {
         bool touched = false, joined = false;
         for (int k = 0; k < 2000000; ++k) {

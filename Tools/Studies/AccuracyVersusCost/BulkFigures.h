@@ -28,14 +28,13 @@ struct ContactFigures {
 /// Source: Weber (1966), Bulletin de Liaison des Ponts et Chaussees 20, 3-1.
 inline ContactFigures contactFigures(const Scene& scene) {
     const auto& grains = scene.particleHandler.store();
-    const auto& store = scene.contacts().store();
+    const ContactSystem& contacts = scene.contacts();
     ContactFigures figures{std::vector<int>(grains.size(), 0)};
-    store.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
-        if (!store.touches(contact)) return;
-        const ContactBlock& block = store.blocks[contact / Pack::lanes];
-        ++figures.contactsOf[block.first[contact % Pack::lanes]];
-        if (bucket.wall < 0) ++figures.contactsOf[block.second[contact % Pack::lanes]];
-        const ObservedContact seen = scene.contacts().observe(grains, bucket, contact);
+    contacts.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+        if (!contacts.touches(contact)) return;
+        ++figures.contactsOf[contacts.firstOf(contact)];
+        if (bucket.wall < 0) ++figures.contactsOf[contacts.secondOf(contact)];
+        const ObservedContact seen = contacts.observe(grains, bucket, contact);
         figures.virial -= toEigen(seen.shift) * toEigen(seen.force).transpose();
     });
     return figures;

@@ -114,16 +114,15 @@ private:
     }
     void add(ShearFigures& sum) const {
         const auto& grains = this->particleHandler.store();
-        const auto& contacts = this->contacts().store();
+        const ContactSystem& contacts = this->contacts();
         const double perVolume = 1 / (width * width * height);
         contacts.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
             if (!contacts.acts(contact)) return;
-            const ContactBlock& block = contacts.blocks[contact / Pack::lanes];
-            const TranslationRecord& first = grains.translation[block.first[contact % Pack::lanes]];
-            const TranslationRecord& second = grains.translation[block.second[contact % Pack::lanes]];
+            const TranslationRecord& first = grains.translation[contacts.firstOf(contact)];
+            const TranslationRecord& second = grains.translation[contacts.secondOf(contact)];
             const int free = (first.inverseMass > 0) + (second.inverseMass > 0);
             if (free == 0) return;
-            const ObservedContact seen = this->contacts().observe(grains, bucket, contact);
+            const ObservedContact seen = contacts.observe(grains, bucket, contact);
             sum.coordination += static_cast<double>(free) / static_cast<double>(freeGrains);
             sum.capillaryTension +=
                 seen.adhesiveForce * (first.radius + second.radius + seen.separation) * perVolume / 3;

@@ -1,0 +1,16 @@
+#include "Drivers/Shared/FirstState.h"
+
+#include <CLI/CLI.hpp>
+
+namespace pendular {
+
+void addFirstState(CLI::App& app, FirstState& o, const FirstStateTexts& texts) {
+    auto* grains = app.add_option("--grains", o.grains, texts.grains);
+    auto* walls = app.add_option("--walls", o.walls, texts.walls);
+    grains->needs(walls), walls->needs(grains);
+    app.add_option("--number", o.number, texts.number)->excludes(grains);
+    app.add_option("--softening", o.softening,
+                   "divides Young's moduli; the time step grows with its square root");
+}
+
+}  // namespace pendular
