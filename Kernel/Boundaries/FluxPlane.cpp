@@ -13,16 +13,16 @@
 
 namespace pendular {
 
-std::size_t FluxPlaneHandler::add(const Vec3D& normal, const Vec3D& point) {
+std::size_t FluxPlaneHandler::copyAndAddObject(const FluxPlane& described) {
     if (hasBegun) throw InputError("Simulation: flux planes can only be added before the run begins.");
     Plane plane;
-    plane.normal = checkedDirection("FluxPlane", "length of the normal", normal);
-    plane.offset = dot(plane.normal, checkedVector("FluxPlane", "point", point, "m"));
+    plane.normal = checkedDirection("FluxPlane", "length of the normal", described.normal);
+    plane.offset = dot(plane.normal, checkedVector("FluxPlane", "point", described.point, "m"));
     planes.push_back(plane);
     return planes.size() - 1;
 }
 
-const FluxCount& FluxPlaneHandler::count(std::size_t number) const {
+const FluxCount& FluxPlaneHandler::countOf(std::size_t number) const {
     if (number >= planes.size())
         throw InputError(fmt::format("There is no flux plane {}; the scene has {} (counted from 0).", number,
                                      planes.size()));

@@ -28,6 +28,12 @@ struct FluxCount {
     [[nodiscard]] double netLiquid() const { return liquidForwards - liquidBackwards; }
 };
 
+/// A plane as a driver describes it, before it is added to a scene.
+struct FluxPlane {
+    Vec3D normal;  // of any length
+    Vec3D point;   // m, on the plane
+};
+
 /// Planes that count the grains whose centres go through them. A grain counts +1 when its distance along the
 /// normal changes from below 0 to 0 or above in a step, and -1 the other way; one that goes to and fro nets
 /// 0 or 1. In a scene that repeats itself along the normal, the plane's images count, too; that a grain is
@@ -35,12 +41,11 @@ struct FluxCount {
 class FluxPlaneHandler {
 public:
     /// At set-up only. Returns the plane's number.
-    /// @param normal of any length; @param point on it, m
-    std::size_t add(const Vec3D& normal, const Vec3D& point);
+    std::size_t copyAndAddObject(const FluxPlane& plane);
     [[nodiscard]] std::size_t getSize() const { return planes.size(); }
     [[nodiscard]] bool isEmpty() const { return planes.empty(); }
     /// Throws InputError if there is no such plane.
-    [[nodiscard]] const FluxCount& count(std::size_t plane) const;
+    [[nodiscard]] const FluxCount& countOf(std::size_t plane) const;
 
     // Called by the scene, not by drivers.
 

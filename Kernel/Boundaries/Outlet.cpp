@@ -65,7 +65,7 @@ void OutletHandler::begin(const PeriodicBox& periodic, const ParticleStore& grai
     }
 }
 
-const GrainTally& OutletHandler::tally(std::size_t number) const {
+const GrainTally& OutletHandler::countOf(std::size_t number) const {
     if (number >= outlets.size())
         throw InputError(
             fmt::format("There is no outlet {}; the scene has {} (counted from 0).", number, outlets.size()));

@@ -59,7 +59,7 @@ public:
     [[nodiscard]] std::size_t getSize() const { return outlets.size(); }
     [[nodiscard]] bool isEmpty() const { return outlets.empty(); }
     /// What has gone through an outlet. Throws InputError if there is none.
-    [[nodiscard]] const GrainTally& tally(std::size_t outlet) const;
+    [[nodiscard]] const GrainTally& countOf(std::size_t outlet) const;
     /// What has gone through all outlets.
     [[nodiscard]] std::uint64_t removedNumber() const;
     [[nodiscard]] double removedMass() const;  // kg

@@ -37,7 +37,7 @@ const Spray& SprayHandler::getObject(std::size_t number) const {
     return sprays[number];
 }
 
-std::uint64_t SprayHandler::emittedBy(std::size_t number) const {
+std::uint64_t SprayHandler::countOf(std::size_t number) const {
     if (number >= sprays.size()) throw noSprayError(number, sprays.size());
     return counts[number];
 }

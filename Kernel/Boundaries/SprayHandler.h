@@ -53,7 +53,7 @@ public:
     /// Throws InputError if there is none.
     [[nodiscard]] const Spray& getObject(std::size_t number) const;
     /// How many droplets a spray has emitted.
-    [[nodiscard]] std::uint64_t emittedBy(std::size_t number) const;
+    [[nodiscard]] std::uint64_t countOf(std::size_t number) const;
     [[nodiscard]] const std::vector<Droplet>& droplets() const { return inFlight; }
     /// The droplets that have ended in the last step, in the order in which they came out.
     [[nodiscard]] const std::vector<CaughtDroplet>& caught() const { return caughtInStep; }

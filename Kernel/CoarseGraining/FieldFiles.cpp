@@ -85,7 +85,7 @@ std::vector<PolyDataField> fieldsOf(const FieldSums& sums) {
     addFields(FieldMaker(count, "", fields), sums.hasContacts(),
               [&](std::size_t sum, std::size_t k) { return sums.ofAll(sum, k); });
     const GrainGroups& groups = sums.groups();
-    for (std::size_t group = 0; groups.count() > 1 && group < groups.count(); ++group)
+    for (std::size_t group = 0; groups.size() > 1 && group < groups.size(); ++group)
         addFields(FieldMaker(count, groups.nameOf(group) + "_", fields), sums.hasContacts(),
                   [&](std::size_t sum, std::size_t k) { return sums.of(sum, group, k); });
     return fields;

@@ -94,7 +94,7 @@ FieldSums::FieldSums(FieldGrid grid, SmoothingKernel kernel, GrainGroups groups,
     });
     blocks = (points.counts()[order[2]] + Pack::lanes - 1) / Pack::lanes;
     const std::size_t rows = points.counts()[order[0]] * points.counts()[order[1]];
-    sums.assign(kinds.count() * rows * blocks * stored, Eight{});
+    sums.assign(kinds.size() * rows * blocks * stored, Eight{});
     for (std::size_t k = 0; k < 3; ++k) {
         perLength[k] = 1 / points.spacing(k);
         // Eight points can be taken from each one on.
@@ -141,7 +141,7 @@ double FieldSums::of(std::size_t sum, std::size_t group, std::size_t point) cons
 
 double FieldSums::ofAll(std::size_t sum, std::size_t point) const {
     double total = 0;
-    for (std::size_t group = 0; group < kinds.count(); ++group) total += of(sum, group, point);
+    for (std::size_t group = 0; group < kinds.size(); ++group) total += of(sum, group, point);
     return total;
 }
 

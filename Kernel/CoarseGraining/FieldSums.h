@@ -21,7 +21,7 @@ public:
     /// they are positive and increase.
     static GrainGroups bySize(std::vector<double> diameters);
 
-    [[nodiscard]] std::size_t count() const { return names.size(); }
+    [[nodiscard]] std::size_t size() const { return names.size(); }
     [[nodiscard]] const std::string& nameOf(std::size_t group) const { return names[group]; }
     /// 0 for species beyond those given.
     [[nodiscard]] std::uint32_t of(const GrainState::Grain& grain) const;

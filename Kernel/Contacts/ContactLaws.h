@@ -87,7 +87,7 @@ public:
     [[nodiscard]] virtual const GrainShapes* shapes() const { return nullptr; }
     virtual void mixAll() = 0;
     /// Whether a value of a species has been set since mixAll().
-    [[nodiscard]] virtual bool hasChanged() const = 0;
+    [[nodiscard]] virtual bool hasChanges() const = 0;
     /// @param changedInRun whether values have been changed since the run began
     virtual void visitState(StateArchive& archive, bool& changedInRun) = 0;
     [[nodiscard]] virtual std::vector<FieldValue> fields(int a, int b) const = 0;

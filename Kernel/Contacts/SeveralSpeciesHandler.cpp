@@ -85,7 +85,7 @@ void SeveralSpeciesHandler::remember() {
     mixedPairs = pairs.size();
 }
 
-bool SeveralSpeciesHandler::hasChanged() const {
+bool SeveralSpeciesHandler::hasChanges() const {
     return mixedSpecies != all.size() || mixedPairs != pairs.size() || mixedFrom.haveChanged();
 }
 

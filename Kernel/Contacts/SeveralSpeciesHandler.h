@@ -86,6 +86,7 @@ public:
     AnySpecies* addByName(std::string_view type);
 
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
+    [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     [[nodiscard]] AnySpecies* getObject(std::size_t index) const { return all[checked(index)].species.get(); }
 
     /// The contacts between the two species have the laws of this type.
@@ -118,7 +119,7 @@ public:
     /// The sentence that says what to do where a pair has no laws.
     [[nodiscard]] std::string sentenceOfNone(int a, int b) const;
     /// Whether a value has been set, or a species added, since mixAll().
-    [[nodiscard]] bool hasChanged() const;
+    [[nodiscard]] bool hasChanges() const;
     /// A run goes on with the species that it began with, and with the laws of each pair; with their values
     /// as they have been changed during the run, where they have.
     void visitState(StateArchive& archive, bool& changedInRun);

@@ -40,7 +40,7 @@ public:
     [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }
     [[nodiscard]] double density(std::size_t k) const override { return species.getObject(k)->getDensity(); }
     void mixAll() override { species.mixAll(); }
-    [[nodiscard]] bool hasChanged() const override { return species.hasChanged(); }
+    [[nodiscard]] bool hasChanges() const override { return species.hasChanges(); }
     void visitState(StateArchive& archive, bool& changedInRun) override {
         species.visitState(archive, changedInRun);
     }

@@ -79,7 +79,7 @@ std::size_t InletHandler::copyAndAddObject(const Inlet& inlet) {
     return inlets.size() - 1;
 }
 
-const InletCount& InletHandler::count(std::size_t number) const {
+const InletCount& InletHandler::countOf(std::size_t number) const {
     if (number >= inlets.size())
         throw InputError(
             fmt::format("There is no inlet {}; the scene has {} (counted from 0).", number, inlets.size()));

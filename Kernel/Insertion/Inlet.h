@@ -91,7 +91,7 @@ public:
     [[nodiscard]] std::size_t getSize() const { return inlets.size(); }
     [[nodiscard]] bool isEmpty() const { return inlets.empty(); }
     /// Throws InputError if there is no such inlet.
-    [[nodiscard]] const InletCount& count(std::size_t inlet) const;
+    [[nodiscard]] const InletCount& countOf(std::size_t inlet) const;
 
     // Called by the scene, not by drivers.
 

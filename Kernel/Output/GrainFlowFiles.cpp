@@ -15,7 +15,7 @@ struct InletRows {
     template <class Row>
     static void write(const Scene& scene, Row&& row) {
         for (std::size_t k = 0; k < scene.inletHandler.getSize(); ++k) {
-            const InletCount& count = scene.inletHandler.count(k);
+            const InletCount& count = scene.inletHandler.countOf(k);
             row(k, count.number, count.mass, count.lost);
         }
     }
@@ -28,7 +28,7 @@ struct OutletRows {
     template <class Row>
     static void write(const Scene& scene, Row&& row) {
         for (std::size_t k = 0; k < scene.outletHandler.getSize(); ++k) {
-            const GrainTally& tally = scene.outletHandler.tally(k);
+            const GrainTally& tally = scene.outletHandler.countOf(k);
             for (std::size_t s = 0; s < scene.laws().speciesCount(); ++s)
                 for (std::size_t c = 0; c < tally.classCount(); ++c) {
                     const GrainTally::Entry entry = tally.of(s, c);
@@ -47,7 +47,7 @@ struct FluxRows {
     template <class Row>
     static void write(const Scene& scene, Row&& row) {
         for (std::size_t k = 0; k < scene.fluxPlaneHandler.getSize(); ++k) {
-            const FluxCount& count = scene.fluxPlaneHandler.count(k);
+            const FluxCount& count = scene.fluxPlaneHandler.countOf(k);
             const Vec3D momentum = count.netMomentum();
             row(k, count.forwards, count.backwards, count.massForwards, count.massBackwards, momentum.x(),
                 momentum.y(), momentum.z(), count.liquidForwards, count.liquidBackwards);

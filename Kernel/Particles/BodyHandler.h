@@ -76,6 +76,7 @@ public:
     void removeObject(std::size_t number);
 
     [[nodiscard]] std::size_t getSize() const { return particles.store().bodies.size(); }
+    [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     /// The body with this number. Throws InputError if there is none.
     [[nodiscard]] BodyReference getObject(std::size_t number);
     /// The number of the body that a grain is part of, if any.

@@ -119,6 +119,7 @@ public:
 
     /// How many grains there are.
     [[nodiscard]] std::size_t getSize() const { return grains.count(); }
+    [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     /// The grain with this identity. Throws InputError if there is none.
     [[nodiscard]] GrainReference getObject(std::size_t identity);
     /// The same, under MercuryDPM's name.

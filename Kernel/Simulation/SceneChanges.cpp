@@ -21,7 +21,7 @@ void Scene::Inside::bookEnergyOfEnded(double stored) {
 }
 
 void Scene::Inside::mixChangedLaws() {
-    if (!laws().hasChanged()) return;
+    if (!laws().hasChanges()) return;
     laws().mixAll();
     lawsAreNew = true;
 }

@@ -42,6 +42,7 @@ public:
         return &added;
     }
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
+    [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     [[nodiscard]] S* getObject(std::size_t index) { return &all.at(checked(index)); }
     [[nodiscard]] const S* getObject(std::size_t index) const { return &all.at(checked(index)); }
     [[nodiscard]] S* getLastObject() { return getObject(all.size() - 1); }
@@ -72,7 +73,7 @@ public:
         remember();
     }
     /// Whether a value has been set since mixAll().
-    [[nodiscard]] bool hasChanged() const {
+    [[nodiscard]] bool hasChanges() const {
         return count != all.size() || mixedPairs != own.size() || mixedFrom.haveChanged();
     }
     /// The laws between species a and b, after mixAll(). Throws InputError if one of them was added since.

@@ -67,7 +67,7 @@ public:
     /// Whether each vertex lies at a free edge.
     [[nodiscard]] const std::vector<bool>& rim() const { return atRim; }
     [[nodiscard]] bool isClosed() const;
-    [[nodiscard]] double size() const { return extent; }            // m, the diagonal of the box around it
+    [[nodiscard]] double diagonal() const { return extent; }        // m, the diagonal of the box around it
     [[nodiscard]] double shortestEdge() const { return shortest; }  // m, without force
 
     /// Adds the forces (N) of springs and hinges to those on the vertices.

@@ -396,7 +396,7 @@ TEST(Fields, ofGroupsAreTheWhole) {
     FieldSums all(grid, kernel), bySpecies(grid, kernel, GrainGroups::bySpecies(2)),
         bySize(grid, kernel, GrainGroups::bySize({0.85e-3, 0.95e-3}));
     all.add(state), bySpecies.add(state), bySize.add(state);
-    ASSERT_EQ(bySize.groups().count(), 3u);
+    ASSERT_EQ(bySize.groups().size(), 3u);
     for (std::size_t k = 0; k < grid.size(); ++k)
         for (std::size_t sum = 0; sum < FieldSums::count; ++sum) {
             const double scale = 1e-12 * std::abs(all.ofAll(sum, k)) + 1e-13;

@@ -92,7 +92,7 @@ TEST(ChangedSceneLedger, closesWhereLiquidWeighs) {
          std::initializer_list<std::function<void(Box&)>>{nothing, wetter, nothing, denser, wetter})
         EXPECT_LT(openness<Box>(box, change, 150), 1);
     EXPECT_GT(box.liquidLedger().evaporated, 0);
-    EXPECT_GT(box.sprayHandler.emittedBy(0), 500u);
+    EXPECT_GT(box.sprayHandler.countOf(0), 500u);
     EXPECT_GT(box.interactions().size(), 10u);
     EXPECT_NE(box.getTotalMass(), before);
 }

@@ -22,7 +22,7 @@ struct InAndOut : FirstDriver {
         outlet.setPlane({0, 0, -1}, {0, 0, 0.03});  // what is below it goes
         outlet.setSizeClasses(std::array{2.5e-3});  // counted in two classes of diameters
         outletHandler.copyAndAddObject(outlet);
-        fluxPlaneHandler.add({0, 0, -1}, {0, 0, 0.04});                                      // normal, point
+        fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 0.04}});              // normal, point
         addOutput(OutletFile(0.01)), addOutput(FluxFile(0.01)), addOutput(InletFile(0.01));  // CSV tables
         setTimeMax(0.1);
     }
@@ -34,9 +34,9 @@ TEST_F(HowDoI, InAndOut) {
     run(scene);
     EXPECT_GT(scene.outletHandler.removedNumber(), 50u);
     // One more is the grain of the first driver, which was below the outlet's plane.
-    EXPECT_EQ(scene.inletHandler.count(0).number + 1,
+    EXPECT_EQ(scene.inletHandler.countOf(0).number + 1,
               scene.outletHandler.removedNumber() + scene.particleHandler.getSize());
-    EXPECT_GT(scene.fluxPlaneHandler.count(0).net(), 50);
+    EXPECT_GT(scene.fluxPlaneHandler.countOf(0).net(), 50);
 }
 
 }  // namespace

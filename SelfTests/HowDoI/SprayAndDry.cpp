@@ -30,7 +30,7 @@ TEST_F(HowDoI, SprayAndDry) {
     SprayAndDry scene;
     run(scene);
     // 19 droplets by 20 ms, and a droplet flies for 4.5 ms or so.
-    EXPECT_EQ(scene.sprayHandler.emittedBy(0), 19u);
+    EXPECT_EQ(scene.sprayHandler.countOf(0), 19u);
     const LiquidLedger ledger = scene.liquidLedger();
     EXPECT_GT(ledger.films, 10 * 4e-12);
     EXPECT_GT(ledger.airborne, 0);

@@ -104,7 +104,7 @@ public:
     explicit Adapting(int threads) : Ageing(threads) {
         setGravity({0, 0, -9.81});
         addWall({0, 0, -1}, {0, 0, -2 * d});
-        fluxPlaneHandler.add({0, 0, -1}, {0, 0, 10 * d});
+        fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 10 * d}});
         setAdaptiveTimeStep(0.5);
     }
 };
@@ -147,7 +147,7 @@ TEST(Outlet, letsGoWhatAConditionLetsThrough) {
             ++left;
         }
     }
-    const auto number = [&](std::size_t outlet) { return scene.outletHandler.tally(outlet).all().number; };
+    const auto number = [&](std::size_t outlet) { return scene.outletHandler.countOf(outlet).all().number; };
     EXPECT_NEAR(static_cast<double>(number(0)), 100 / 3.0, 1);
     EXPECT_GT(number(1), 20u);
     EXPECT_GT(left, 20u);
@@ -185,13 +185,13 @@ TEST(FluxPlane, countsMomentumAndLiquid) {
         grain.setPosition({5 * d * k, 0, -d}), scene.particleHandler.copyAndAddObject(grain);
     grain.setPosition({0, 9 * d, -d}), scene.particleHandler.copyAndAddObject(grain);
     grain.setPosition({0, 9 * d, -2 * d + 1e-9}), scene.particleHandler.copyAndAddObject(grain);
-    scene.fluxPlaneHandler.add({0, 0, 1}, {0, 0, 0});
-    scene.fluxPlaneHandler.add({0, 0, -1}, {0, 0, 0});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, 1}, {0, 0, 0}});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 0}});
     scene.setTimeStep(1e-6), scene.setTimeMax(1), scene.setQuiet();
     scene.initialise();
     for (int k = 0; k < 1500; ++k) scene.step();
     const double quantum = 1e-15;  // m^3, well above that of the films
-    const FluxCount& one = scene.fluxPlaneHandler.count(0);
+    const FluxCount& one = scene.fluxPlaneHandler.countOf(0);
     ASSERT_EQ(one.forwards, 6u);
     ASSERT_GT(scene.liquidLedger().bridges, 0);
     EXPECT_NEAR(one.liquidForwards, 6e-12, quantum);
@@ -202,7 +202,7 @@ TEST(FluxPlane, countsMomentumAndLiquid) {
     // it, but the two go through at different times.
     EXPECT_LT((one.netMomentum() - 7 * mass * velocity).norm(), 1e-4 * mass);
     EXPECT_NEAR(one.netLiquid(), 7e-12, quantum);
-    const FluxCount& back = scene.fluxPlaneHandler.count(1);
+    const FluxCount& back = scene.fluxPlaneHandler.countOf(1);
     EXPECT_EQ(back.backwards, 7u);
     EXPECT_EQ(back.momentumBackwards, one.momentumForwards);
     EXPECT_EQ(back.liquidBackwards, one.liquidForwards);
@@ -220,13 +220,13 @@ TEST(FluxPlane, countsTheVelocityOfTheMotion) {
         SphericalParticle grain = scene.grain({0.1, 0, -0.2});
         grain.setRadius(0.5 * d), grain.setPosition({0, 0, 0.4 * d});
         scene.particleHandler.copyAndAddObject(grain);
-        scene.fluxPlaneHandler.add({0, 0, -1}, {0, 0, 0});
+        scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 0}});
         const double step = 1e-3;
         scene.setTimeStep(step), scene.acceptUnstableTimeStep();
         scene.initialise();
         // It is at 0.15 mm after a step, and at -0.2 mm after two.
         scene.steps(2);
-        const FluxCount& count = scene.fluxPlaneHandler.count(0);
+        const FluxCount& count = scene.fluxPlaneHandler.countOf(0);
         ASSERT_EQ(count.forwards, 1u) << scheme.name;
         const Vec3D expected = massOf(d) * Vec3D(0.1, 0, -0.2 - 100 * 1.5 * step);
         // Round-off of places that are as large as the way.
@@ -357,14 +357,14 @@ public:
 TEST(Inlet, followsTheFill) {
     Filling scene(1);
     scene.initialise();
-    const auto risen = [&] { return scene.inletHandler.count(0).risen; };
+    const auto risen = [&] { return scene.inletHandler.countOf(0).risen; };
     double before = 0;
     for (int k = 0; k < 20000; ++k) {
         scene.step();
         ASSERT_LE(risen(), Filling::most * (1 + 1e-12));
         ASSERT_GE(risen(), before);
         before = risen();
-        const InletCount& count = scene.inletHandler.count(0);
+        const InletCount& count = scene.inletHandler.countOf(0);
         if (count.waits) {
             ASSERT_NEAR(risen(), Filling::most, 1e-12);  // only there is none made up for later
         } else if (risen() < Filling::most) {
@@ -372,7 +372,7 @@ TEST(Inlet, followsTheFill) {
         }
     }
     EXPECT_GT(risen(), 3 * d);
-    EXPECT_GT(scene.inletHandler.count(0).number, 300u);
+    EXPECT_GT(scene.inletHandler.countOf(0).number, 300u);
     double top = 0;
     for (GrainReference grain : scene.particleHandler) top = std::max(top, grain.getPosition().z());
     EXPECT_LT(top, risen() + 4 * d);
@@ -429,8 +429,8 @@ public:
             return true;
         });
         outletHandler.copyAndAddObject(end);
-        fluxPlaneHandler.add({1, 0, 0}, {20 * d, 0, 0});
-        fluxPlaneHandler.add({1, 0, 0}, {60 * d, 0, 0});
+        fluxPlaneHandler.copyAndAddObject(FluxPlane{{1, 0, 0}, {20 * d, 0, 0}});
+        fluxPlaneHandler.copyAndAddObject(FluxPlane{{1, 0, 0}, {60 * d, 0, 0}});
     }
     double momentumGone = 0;  // kg m/s, along the chute
 };
@@ -441,9 +441,9 @@ TEST(HeavySteadyChute, letsThroughWhatComes) {
     Chute scene(1);
     scene.initialise();
     scene.steps(50000);  // 0.25 s; a grain takes 0.08 s from end to end
-    const FluxCount start[] = {scene.fluxPlaneHandler.count(0), scene.fluxPlaneHandler.count(1)};
+    const FluxCount start[] = {scene.fluxPlaneHandler.countOf(0), scene.fluxPlaneHandler.countOf(1)};
     const double momentumAtStart = scene.getTotalMomentum().x(), goneAtStart = scene.momentumGone;
-    const std::uint64_t comeAtStart = scene.inletHandler.count(0).number;
+    const std::uint64_t comeAtStart = scene.inletHandler.countOf(0).number;
     const std::size_t bytes = scene.particleHandler.store().bytes() + scene.contacts().bytes();
     std::size_t least = scene.particleHandler.getSize(), most = least;
     double impulse = 0, largestForce = 0;  // N s, of gravity along the chute; N, of a contact between grains
@@ -458,10 +458,10 @@ TEST(HeavySteadyChute, letsThroughWhatComes) {
         for (const ObservedContact& seen : scene.interactions())
             if (seen.wall < 0) largestForce = std::max(largestForce, norm(seen.force));
     }
-    const auto come = static_cast<double>(scene.inletHandler.count(0).number - comeAtStart);
+    const auto come = static_cast<double>(scene.inletHandler.countOf(0).number - comeAtStart);
     EXPECT_NEAR(come, 900, 1);
-    const FluxCount& middle = scene.fluxPlaneHandler.count(0);
-    const FluxCount& end = scene.fluxPlaneHandler.count(1);
+    const FluxCount& middle = scene.fluxPlaneHandler.countOf(0);
+    const FluxCount& end = scene.fluxPlaneHandler.countOf(1);
     // They differ by how much the number of grains on the way changes.
     EXPECT_GT(least, 200u);
     EXPECT_LT(most, least + 40);
@@ -504,8 +504,8 @@ public:
         hole.setRegion(SphereRegion({8 * d, 8 * d, 0}, 2.5 * d));
         hole.setLeastAge(0.01);
         outletHandler.copyAndAddObject(hole);
-        fluxPlaneHandler.add({1, 0, 0}, {0, 0, 0});
-        fluxPlaneHandler.add({0, 0, -1}, {0, 0, 2 * d});
+        fluxPlaneHandler.copyAndAddObject(FluxPlane{{1, 0, 0}, {0, 0, 0}});
+        fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 2 * d}});
         setLiquidToCome(1e-9);
         setGravity({0, 0, -9.81});
         setTimeStep(std::min(5e-6, stabilityLimit())), setTimeMax(1), setQuiet();
@@ -523,7 +523,7 @@ TEST(Outlet, ofAWetPeriodicSceneGoesOnThroughARestart) {
     EXPECT_GT(scene.outletHandler.removedNumber(), 10u);
     EXPECT_GT(scene.liquidLedger().bridges, 0);
     EXPECT_EQ(scene.liquidLedger().unaccounted(), 0);
-    EXPECT_GT(scene.fluxPlaneHandler.count(1).liquidForwards, 0);
+    EXPECT_GT(scene.fluxPlaneHandler.countOf(1).liquidForwards, 0);
     expectTheSameThroughARestart<WetRain>(5000);
 }
 

@@ -48,7 +48,7 @@ public:
         outlet.setPlane({0, 0, -1}, {0, 0, 0});
         outlet.setSizeClasses(std::array{0.8 * d, 1.2 * d});
         outletHandler.copyAndAddObject(outlet);
-        fluxPlaneHandler.add({0, 0, -1}, {0, 0, 10 * d});
+        fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 10 * d}});
     }
 };
 
@@ -58,13 +58,13 @@ TEST(Inlet, bringsTheLargestSumOfWholeGrainsForAnyStep) {
         scene.initialise();
         for (int k = 0; k < 3000; ++k) {
             scene.step();
-            const InletCount& count = scene.inletHandler.count(0);
+            const InletCount& count = scene.inletHandler.countOf(0);
             const double due = 0.02 * scene.getTime();
             ASSERT_LE(count.mass, due * (1 + 1e-12));
             const double next = sphereMass(wideSizes().drawRadius(CountedRandom(1), count.number), 2500);
             ASSERT_GT(count.mass + next, due * (1 - 1e-12));
         }
-        EXPECT_GT(scene.inletHandler.count(0).number, 50u);
+        EXPECT_GT(scene.inletHandler.countOf(0).number, 50u);
     }
 }
 
@@ -73,21 +73,21 @@ TEST(Inlet, insertedIsInsideAndRemovedAtEachStep) {
     scene.initialise();
     for (int k = 0; k < 20000; ++k) {
         scene.step();
-        ASSERT_EQ(scene.inletHandler.count(0).number,
+        ASSERT_EQ(scene.inletHandler.countOf(0).number,
                   scene.particleHandler.getSize() + scene.outletHandler.removedNumber());
-        ASSERT_EQ(scene.inletHandler.count(0).number, scene.particleHandler.store().nextIdentity());
+        ASSERT_EQ(scene.inletHandler.countOf(0).number, scene.particleHandler.store().nextIdentity());
     }
     EXPECT_GT(scene.outletHandler.removedNumber(), 200u);
     // Those between the plane in the middle and the outlet.
     std::size_t below = 0;
     for (GrainReference grain : scene.particleHandler) below += grain.getPosition().z() <= 10 * d;
-    EXPECT_EQ(scene.fluxPlaneHandler.count(0).net(),
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(0).net(),
               static_cast<std::int64_t>(scene.outletHandler.removedNumber() + below));
     double mass = scene.outletHandler.removedMass();
     for (GrainReference grain : scene.particleHandler) mass += grain.getMass();
-    EXPECT_NEAR(mass, scene.inletHandler.count(0).mass, 1e-12 * mass);
+    EXPECT_NEAR(mass, scene.inletHandler.countOf(0).mass, 1e-12 * mass);
     // Even sizes from 0.5 to 1.5 d: 0.3, 0.4, 0.3 of the grains in the classes (five deviations).
-    const GrainTally& tally = scene.outletHandler.tally(0);
+    const GrainTally& tally = scene.outletHandler.countOf(0);
     const auto all = static_cast<double>(tally.all().number);
     EXPECT_NEAR(static_cast<double>(tally.of(0, 0).number), 0.3 * all, 5 * std::sqrt(0.21 * all));
     EXPECT_NEAR(static_cast<double>(tally.of(0, 1).number), 0.4 * all, 5 * std::sqrt(0.24 * all));
@@ -149,7 +149,7 @@ TEST(Inlet, seesWallsOnTheOtherSideOfAPeriodicFace) {
     scene.inletHandler.copyAndAddObject(inlet);
     scene.initialise();
     scene.steps(300);  // none overlaps the wall, which would end the run
-    EXPECT_GE(scene.inletHandler.count(0).number, 299u);
+    EXPECT_GE(scene.inletHandler.countOf(0).number, 299u);
     for (GrainReference grain : scene.particleHandler)
         EXPECT_GE(scene.gapToMesh(toVector(grain.getPosition())), 0.5 * d * (1 - 1e-12));
 }
@@ -168,7 +168,7 @@ TEST(Inlet, putsNothingOntoPeriodicImages) {
     scene.inletHandler.copyAndAddObject(inlet);
     scene.initialise();
     scene.steps(300);
-    EXPECT_TRUE(scene.inletHandler.count(0).waits);
+    EXPECT_TRUE(scene.inletHandler.countOf(0).waits);
     EXPECT_GT(scene.particleHandler.getSize(), 60u);
     EXPECT_GE(scene.leastGap(periodic), -1e-15 * d);
     std::size_t cut = 0;
@@ -202,25 +202,25 @@ public:
     }
     [[nodiscard]] std::size_t numberAt(double time) {
         while (getTime() < time - 0.5 * getTimeStep()) step();
-        return inletHandler.count(0).number;
+        return inletHandler.countOf(0).number;
     }
 };
 
 TEST(Inlet, makesUpForLackOfRoomOrLosesIt) {
     Blocked later(NoRoom::Later);
     EXPECT_EQ(later.numberAt(0.03), 0u);
-    EXPECT_TRUE(later.inletHandler.count(0).waits);
+    EXPECT_TRUE(later.inletHandler.countOf(0).waits);
     EXPECT_EQ(later.numberAt(0.0305), 20u);  // 1000/s since 0.01 s
     EXPECT_EQ(later.numberAt(0.0405), 30u);
     EXPECT_EQ(later.numberAt(0.06), 40u);
-    EXPECT_EQ(later.inletHandler.count(0).lost, 0);
+    EXPECT_EQ(later.inletHandler.countOf(0).lost, 0);
     Blocked lost(NoRoom::Lost);
     EXPECT_EQ(lost.numberAt(0.03), 0u);
     // The grain that waited comes at once; the next one after 1 ms.
     EXPECT_EQ(lost.numberAt(0.0305), 1u);
     EXPECT_EQ(lost.numberAt(0.0405), 11u);
     EXPECT_EQ(lost.numberAt(0.06), 20u);
-    EXPECT_NEAR(lost.inletHandler.count(0).lost, 19.1, 0.05);
+    EXPECT_NEAR(lost.inletHandler.countOf(0).lost, 19.1, 0.05);
 }
 
 TEST(Inlet, saysOnceThatThereIsNoRoom) {
@@ -264,7 +264,7 @@ TEST(Inlet, isRefusedWhereItCannotBe) {
     refused([](Inlet& i, S&) { i.setTimes(nan, 1); }, "first time");
     refused([](Inlet& i, S&) { i.setTimes(2, 1); }, "last time");
     refused([](Inlet& i, S&) { i.setTries(0); }, "number of tries");
-    refused([](Inlet&, S& s) { static_cast<void>(s.inletHandler.count(1)); }, "There is no inlet 1");
+    refused([](Inlet&, S& s) { static_cast<void>(s.inletHandler.countOf(1)); }, "There is no inlet 1");
     FilledScene scene;
     scene.initialise();
     EXPECT_TRUE(
@@ -439,7 +439,7 @@ TEST(Inlet, theLiquidOfItsGrainsIsKnownToCome) {
     WetScene scene;
     letWetGrainsCome(scene, 0);
     while (scene.getTime() < 0.0995) scene.step();
-    EXPECT_EQ(scene.inletHandler.count(0).number, 99u);
+    EXPECT_EQ(scene.inletHandler.countOf(0).number, 99u);
     EXPECT_NEAR(scene.liquidLedger().absorbed, 99e-12, 1e-12 * 99e-12);
 }
 
@@ -459,10 +459,10 @@ TEST(Inlet, endsTheRunBeforeAStepWhenNoMoreLiquidCanBeCounted) {
         }
     }
     EXPECT_TRUE(contains(text, "say by setLiquidToCome()")) << text;
-    EXPECT_GE(scene.inletHandler.count(0).number, 10u);
+    EXPECT_GE(scene.inletHandler.countOf(0).number, 10u);
     EXPECT_EQ(scene.getTime(), time);
     EXPECT_EQ(scene.particleHandler.getObject(0).getPosition(), before);
-    EXPECT_EQ(scene.inletHandler.count(0).number, scene.particleHandler.getSize());
+    EXPECT_EQ(scene.inletHandler.countOf(0).number, scene.particleHandler.getSize());
     EXPECT_EQ(scene.liquidLedger().unaccounted(), 0);
     FilledScene dry;
     Inlet inlet = inletOf(dry, wideSizes());
@@ -476,7 +476,7 @@ TEST(Inlet, endsTheRunBeforeAStepWhenNoMoreLiquidCanBeCounted) {
 // A step that fails is no part of the run: its crossing is counted when it is made again.
 TEST(FluxPlane, countsNothingOfAStepThatFails) {
     FilledScene scene;
-    scene.fluxPlaneHandler.add({0, 0, 1}, {0, 0, 1.5e-6});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, 1}, {0, 0, 1.5e-6}});
     for (const Vec3D& velocity : {Vec3D(0, 0, 1), Vec3D(0, 0, 0)}) {
         SphericalParticle grain = scene.grain(velocity);
         grain.setRadius(0.5 * d), grain.setPosition({velocity.z() * 20 * d, 0, 0});
@@ -486,11 +486,11 @@ TEST(FluxPlane, countsNothingOfAStepThatFails) {
     scene.step();
     scene.particleHandler.getObject(1).setVelocity({1e6, 0, 0});  // farther than a radius in a step
     EXPECT_THROW(scene.step(), RunError);
-    EXPECT_EQ(scene.fluxPlaneHandler.count(0).forwards, 0u);
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(0).forwards, 0u);
     scene.particleHandler.getObject(1).setVelocity({0, 0, 0});
     scene.steps(2);
-    EXPECT_EQ(scene.fluxPlaneHandler.count(0).forwards, 1u);
-    EXPECT_EQ(scene.fluxPlaneHandler.count(0).massForwards, massOf(d));
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(0).forwards, 1u);
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(0).massForwards, massOf(d));
 }
 
 /// Wet grains come onto a floor, touch and share their liquid, and leave through a hole.
@@ -528,8 +528,8 @@ TEST(Outlet, theLiquidOfWhatComesAndLeavesIsInTheLedger) {
     EXPECT_GT(scene.outletHandler.removedNumber(), 20u);
     EXPECT_GT(scene.liquidLedger().removed, 15e-12);
     EXPECT_NEAR(scene.liquidLedger().absorbed,
-                1e-12 * static_cast<double>(scene.inletHandler.count(0).number),
-                1e-15 * static_cast<double>(scene.inletHandler.count(0).number));
+                1e-12 * static_cast<double>(scene.inletHandler.countOf(0).number),
+                1e-15 * static_cast<double>(scene.inletHandler.countOf(0).number));
 }
 
 TEST(Outlet, writesWhatHasGoneAsATable) {
@@ -551,7 +551,7 @@ TEST(Outlet, writesWhatHasGoneAsATable) {
     const auto rows = lines(table);
     ASSERT_EQ(rows.size(), 1u + 5 * 3);
     EXPECT_EQ(rows[0], "time_s,outlet,species,diameter_from_m,diameter_to_m,number,mass_kg");
-    const GrainTally::Entry last = scene.outletHandler.tally(0).of(0, 2);
+    const GrainTally::Entry last = scene.outletHandler.countOf(0).of(0, 2);
     EXPECT_GT(last.number, 0u);
     EXPECT_TRUE(contains(rows.back(), fmt::format(",0,0,0.0012,inf,{},", last.number)));
     EXPECT_EQ(lines(flux).size(), 1u + 5);
@@ -566,7 +566,7 @@ TEST(Outlet, isRefusedWhereItCannotBe) {
     EXPECT_TRUE(isOneSentence(refusal([&] { outlet.setPlane({0, 0, 1}, {0, nan, 0}); })));
     EXPECT_TRUE(isOneSentence(refusal([&] { outlet.setSizeClasses(std::array{2 * d, d}); })));
     EXPECT_TRUE(isOneSentence(refusal([&] { outlet.setSizeClasses(std::array{nan}); })));
-    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.outletHandler.tally(0)); })));
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.outletHandler.countOf(0)); })));
     scene.initialise();
     outlet.setPlane({0, 0, 1}, {0, 0, 0});
     EXPECT_TRUE(isOneSentence(refusal([&] { scene.outletHandler.copyAndAddObject(outlet); })));
@@ -582,15 +582,16 @@ TEST(FluxPlane, countsALatticeThatGoesThrough) {
                 grain.setRadius(0.5 * d), grain.setPosition({2 * d * x, 2 * d * y, -2 * d * (z + 0.5)});
                 scene.particleHandler.copyAndAddObject(grain);
             }
-    scene.fluxPlaneHandler.add({0, 0, 3}, {7, 7, 0});
-    scene.fluxPlaneHandler.add({0, 0, -1}, {0, 0, 0});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, 3}, {7, 7, 0}});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 0}});
     scene.setTimeStep(1e-5);
     scene.initialise();
     scene.steps(5000);  // 50 mm: 25 layers
-    EXPECT_EQ(scene.fluxPlaneHandler.count(0).forwards, 36u * 25);
-    EXPECT_EQ(scene.fluxPlaneHandler.count(0).backwards, 0u);
-    EXPECT_EQ(scene.fluxPlaneHandler.count(1).net(), -36 * 25);
-    EXPECT_NEAR(scene.fluxPlaneHandler.count(0).netMass(), 36 * 25 * massOf(d), 1e-12 * 36 * 25 * massOf(d));
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(0).forwards, 36u * 25);
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(0).backwards, 0u);
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(1).net(), -36 * 25);
+    EXPECT_NEAR(scene.fluxPlaneHandler.countOf(0).netMass(), 36 * 25 * massOf(d),
+                1e-12 * 36 * 25 * massOf(d));
 }
 
 TEST(FluxPlane, ofAGrainThatSwingsNetsNothing) {
@@ -598,14 +599,14 @@ TEST(FluxPlane, ofAGrainThatSwingsNetsNothing) {
     SphericalParticle grain = scene.grain();
     grain.setRadius(0.5 * d), grain.fixParticle();
     scene.particleHandler.copyAndAddObject(grain);
-    scene.fluxPlaneHandler.add({1, 0, 0}, {0, 0, 0});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{1, 0, 0}, {0, 0, 0}});
     scene.setTimeStep(1e-5);
     scene.initialise();
     for (int k = 0; k < 4001; ++k) {  // it is held, and moves with the velocity that it is given
         scene.particleHandler.getObject(0).setVelocity({k % 4 < 2 ? -1.0 : 1.0, 0, 0});
         scene.step();
     }
-    const FluxCount& count = scene.fluxPlaneHandler.count(0);
+    const FluxCount& count = scene.fluxPlaneHandler.countOf(0);
     EXPECT_GE(count.forwards, 999u);
     EXPECT_GE(count.backwards, 999u);
     EXPECT_LE(std::abs(count.net()), 1);
@@ -618,27 +619,29 @@ TEST(FluxPlane, takesNoJumpAcrossAPeriodForACrossing) {
     grain.setRadius(0.5 * d), grain.setPosition({9 * d, 0, 0});
     scene.particleHandler.copyAndAddObject(grain);
     for (const double x : {0.0, 0.5 * d, 5 * d, 10 * d, 23 * d})
-        scene.fluxPlaneHandler.add({1, 0, 0}, {x, 0, 0});
-    scene.fluxPlaneHandler.add({-1, 0, 0}, {2 * d, 0, 0});
-    scene.fluxPlaneHandler.add({0, 1, 0}, {0, 1 * d, 0});
+        scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{1, 0, 0}, {x, 0, 0}});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{-1, 0, 0}, {2 * d, 0, 0}});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 1, 0}, {0, 1 * d, 0}});
     scene.setTimeStep(1e-5);
     scene.initialise();
     scene.steps(9999);  // 99.99 mm: ten times round, less than a step to the start
     for (std::size_t k = 0; k < 5; ++k) {
-        EXPECT_EQ(scene.fluxPlaneHandler.count(k).forwards, 10u) << k;
-        EXPECT_EQ(scene.fluxPlaneHandler.count(k).backwards, 0u) << k;
+        EXPECT_EQ(scene.fluxPlaneHandler.countOf(k).forwards, 10u) << k;
+        EXPECT_EQ(scene.fluxPlaneHandler.countOf(k).backwards, 0u) << k;
     }
-    EXPECT_EQ(scene.fluxPlaneHandler.count(5).net(), -10);
-    EXPECT_EQ(scene.fluxPlaneHandler.count(6).net(), 0);
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(5).net(), -10);
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(6).net(), 0);
     scene.particleHandler.getObject(0).setPosition({3 * d, 0, 0});  // a hook's jump is none, either
     scene.step();
-    EXPECT_EQ(scene.fluxPlaneHandler.count(5).net(), -10);
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(5).net(), -10);
 
     FilledScene inclined;
     inclined.setPeriodic(0, 0, 10 * d);
-    inclined.fluxPlaneHandler.add({1, 1, 0}, {0, 0, 0});
+    inclined.fluxPlaneHandler.copyAndAddObject(FluxPlane{{1, 1, 0}, {0, 0, 0}});
     EXPECT_TRUE(isOneSentence(refusal([&] { inclined.initialise(); })));
-    EXPECT_TRUE(isOneSentence(refusal([&] { scene.fluxPlaneHandler.add({0, nan, 0}, {0, 0, 0}); })));
+    EXPECT_TRUE(isOneSentence(refusal([&] {
+        scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, nan, 0}, {0, 0, 0}});
+    })));
 }
 
 // A silo that is filled and emptied ten times: what it takes is that of its fullest time.

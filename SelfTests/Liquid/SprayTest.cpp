@@ -108,7 +108,7 @@ TEST(Spray, isTheSameForAnyStep) {
         scene.setGravity({0, 0, -g});
         scene.initialise();
         while (scene.getTime() < 0.05 - 0.1 * step) scene.step();
-        EXPECT_EQ(scene.sprayHandler.emittedBy(0), 50u);
+        EXPECT_EQ(scene.sprayHandler.countOf(0), 50u);
         EXPECT_EQ(scene.liquidLedger().unaccounted(), 0);
         EXPECT_NEAR(scene.liquidLedger().airborne / (50 * spray.dropletVolume()), 1, 0.2);
         const std::vector<Droplet>& now = scene.sprayHandler.droplets();
@@ -348,7 +348,7 @@ Counts rain(const std::vector<Place>& places, const Spray& spray) {
         if (caught.particle != CaughtDroplet::none) ++counts.drops[caught.particle], ++counts.onGrains;
     for (auto&& grain : scene.particleHandler)
         counts.liquid.push_back(grain.getLiquidVolume() / spray.dropletVolume());
-    EXPECT_EQ(scene.all.size(), scene.sprayHandler.emittedBy(0));
+    EXPECT_EQ(scene.all.size(), scene.sprayHandler.countOf(0));
     return counts;
 }
 
@@ -448,8 +448,8 @@ TEST(Spray, isConservedInABoxThatSettles) {
         most = std::max(most, ledger.airborne);
     }
     const LiquidLedger ledger = box.liquidLedger();
-    EXPECT_EQ(box.sprayHandler.emittedBy(0), box.sprayHandler.getObject(0).countAt(box.getTime()));
-    EXPECT_GT(box.sprayHandler.emittedBy(0), 470u);
+    EXPECT_EQ(box.sprayHandler.countOf(0), box.sprayHandler.getObject(0).countAt(box.getTime()));
+    EXPECT_GT(box.sprayHandler.countOf(0), 470u);
     EXPECT_GT(most, 0);
     EXPECT_GT(ledger.evaporated, 0);
     EXPECT_GT(ledger.films + ledger.bridges, ledger.initial) << "more has come than has dried";
@@ -640,7 +640,7 @@ TEST(Spray, refusesWhatCannotBeCounted) {
             scene.sprayHandler.copyAndAddObject(oneDrop({0, 0, 0}, {1, 0, 0}, 10));
         })));
         EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.sprayHandler.getObject(1)); })));
-        EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.sprayHandler.emittedBy(1)); })));
+        EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.sprayHandler.countOf(1)); })));
     }
     {  // Where nothing is wet.
         Species<LinearViscoelastic> dry;

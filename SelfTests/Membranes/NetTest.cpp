@@ -207,7 +207,7 @@ TEST(MembraneNet, pressureInAClosedNetHasNoForceAndNoTorqueAndWorksAsPTimesDV) {
         size += norm(forces[v]);
     }
     EXPECT_LT(norm(force), 1e-14 * size);  // sums of some hundred numbers of this size
-    EXPECT_LT(norm(torque), 1e-14 * size * net.size());
+    EXPECT_LT(norm(torque), 1e-14 * size * net.diagonal());
     // The volume is a cubic function of a shift d: V(d) - V(-d) = 2 dV + 2 x its cubic term, of (d / size)^3.
     Points there = at, back = at;
     double work = 0;
@@ -242,7 +242,7 @@ TEST(MembraneNet, elasticForcesAreTheGradientOfTheEnergy) {
         size += norm(forces[v]);
     }
     EXPECT_LT(norm(force), 1e-13 * size);
-    EXPECT_LT(norm(torque), 1e-13 * size * net.size());
+    EXPECT_LT(norm(torque), 1e-13 * size * net.diagonal());
     const auto energy = [&](const Points& p) { return net.stretchingEnergy(p) + net.bendingEnergy(p); };
     EXPECT_GT(net.bendingEnergy(at), 0.05 * net.stretchingEnergy(at));
     UniformRandom random(9);

@@ -171,7 +171,7 @@ TEST(Clump, addsAllOfItOrNothing) {
 TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
     constexpr double r = 1e-3, speed = 0.5;
     FewGrains<Smooth> scene(material(), {{.radius = r, .position = {0, 0, 0}}}, 1e-5);
-    scene.fluxPlaneHandler.add({0, 0, 1}, {0, 0, 0.012});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, 1}, {0, 0, 0.012}});
     Clump clump{ClumpTemplate({{{0, 0, 0}, r}, {{0.8 * r, 0, 0}, 0.7 * r}, {{0, 0.4 * r, r}, r}})};
     clump.setSpecies(scene.speciesHandler.getObject(0));
     clump.setPosition({0, 0, 0.01});
@@ -192,7 +192,7 @@ TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
     sums.add(stateOf(scene));
     EXPECT_NEAR(sums.ofAll(FieldSums::Mass, 0) * grid.volume() / all, 1, 1e-13);
     EXPECT_NEAR(sums.ofAll(FieldSums::Momentum + 2, 0) * grid.volume() / (body.getMass() * speed), 1, 1e-13);
-    const FluxCount& count = scene.fluxPlaneHandler.count(0);
+    const FluxCount& count = scene.fluxPlaneHandler.countOf(0);
     EXPECT_EQ(count.forwards, 3u);
     EXPECT_NEAR(count.netMass() / body.getMass(), 1, 1e-14);
     // The error is that of the way in a step, each end of which is rounded: half a unit of the last digit of

@@ -159,7 +159,8 @@ void give(PlainScene<S>& scene, Feature feature) {
             return static_cast<void>(scene.outletHandler.copyAndAddObject(outlet));
         }
         case Feature::FluxPlanes:
-            return static_cast<void>(scene.fluxPlaneHandler.add({1, 0, 0}, {1.5e-3, 0, 0}));
+            return static_cast<void>(
+                scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{1, 0, 0}, {1.5e-3, 0, 0}}));
         case Feature::ViscousBridges:
         case Feature::Superquadrics:
             return;  // by the type of the scene

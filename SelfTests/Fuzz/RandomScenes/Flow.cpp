@@ -118,7 +118,8 @@ void addFluxPlane(Making& making) {
     const Vec3D middle = 0.5 * (making.lowest + making.highest);
     const bool inclined = making.draw.oneIn(2) && !making.has("periodic");
     const Vec3D normal = inclined ? making.draw.direction() : Vec3D(Vec3D::Unit(making.draw.whole(0, 2)));
-    making.scene.fluxPlaneHandler.add(making.draw.give("normal", normal), making.draw.give("point", middle));
+    making.scene.fluxPlaneHandler.copyAndAddObject(
+        FluxPlane{making.draw.give("normal", normal), making.draw.give("point", middle)});
 }
 
 }  // namespace
