@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "Kernel/Insertion/MeshRegion.h"
+#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Species/Laws.h"
 #include "Kernel/Walls/InfiniteCylinder.h"
 #include "Kernel/Walls/InfiniteWall.h"
 #include "SelfTests/Insertion/Meshes.h"
@@ -189,14 +191,16 @@ TEST(Region, readsClosedMeshesOfPolygons) {
 }
 
 TEST(Region, betweenWalls) {
+    Simulation<LinearViscoelasticSpecies> scene;
+    const auto* const material = scene.speciesHandler.copyAndAddObject({});
     WallHandler walls;
     InfiniteCylinder tube;
     tube.set({0, 0, 1}, {0, 0, 0}, 1, CylinderSide::Inside);
-    tube.species = 0;
+    tube.setSpecies(material);
     walls.copyAndAddObject(tube);
     InfiniteWall slope;  // through the tube's middle, so that half of it is left
     slope.set({0, 1, -1}, {0, 0, 1});
-    slope.species = 0;
+    slope.setSpecies(material);
     walls.copyAndAddObject(slope);
     const BetweenWalls region(walls, {-1, -1, 0}, {1, 1, 2});
     // 2^16 points that cover the box evenly: far better than random ones, for which this is two deviations.
