@@ -51,44 +51,66 @@ void FluxPlaneHandler::beforeMotion(const ParticleStore& grains) {
     for (Plane& plane : planes) plane.before = plane.count;
     from.resize(grains.size());
     for (std::size_t k = 0; k < grains.size(); ++k) from[k] = grains.translation[k].position;
+    bodiesFrom.resize(grains.bodies.size());
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) bodiesFrom[k] = grains.bodies[k].position;
+}
+
+void FluxPlaneHandler::findCrossings(const Plane& plane, const ParticleStore& grains) {
+    crossings.clear();
+    const Vector<double> normal = plane.normal;
+    const double offset = plane.offset, period = plane.period;
+    // The number of images of the plane, or of the one plane, that lie behind a body changes by 1 at each.
+    const auto collect = [&](auto&& imagesBehind) {
+        const auto timesOf = [&](const Vector<double>& before, const Vector<double>& now) {
+            return imagesBehind(dot(normal, now) - offset) - imagesBehind(dot(normal, before) - offset);
+        };
+        for (std::uint32_t k = 0; k < grains.size(); ++k) {
+            const TranslationRecord& grain = grains.translation[k];
+            const double times = timesOf(from[k], grain.position);
+            if (times != 0 && grain.radius > 0 && !grains.bodies.contains(grains.identity[k]))
+                crossings.push_back(
+                    {grains.identity[k], k, RigidBodies::none, times, grain.position - from[k]});
+        }
+        for (std::uint32_t k = 0; k < grains.bodies.size(); ++k) {
+            const Vector<double>& now = grains.bodies[k].position;
+            const std::uint32_t first = grains.bodies.membersOf(k).front().grain;
+            if (const double times = timesOf(bodiesFrom[k], now); times != 0)
+                crossings.push_back({first, grains.place[first], k, times, now - bodiesFrom[k]});
+        }
+    };
+    if (period > 0) collect([=](double distance) { return std::floor(distance / period); });
+    else collect([](double distance) { return distance >= 0 ? 1.0 : 0.0; });
+    // Places depend on the list of contacts, sums must not.
+    std::ranges::sort(crossings, {}, &Crossing::identity);
+}
+
+/// The velocity is the way over the step: that of the grain is the one that contacts are to see, with most
+/// integrators that of the end of the step. A way errs by 1e-16 of its place.
+void FluxPlaneHandler::add(FluxCount& count, const Crossing& crossing, double mass, double liquid,
+                           double step) {
+    const double times = std::abs(crossing.times);
+    const Vector<double> velocity = (1 / step) * crossing.way;
+    const bool forwards = crossing.times > 0;
+    (forwards ? count.forwards : count.backwards) += static_cast<std::uint64_t>(times);
+    (forwards ? count.massForwards : count.massBackwards) += times * mass;
+    (forwards ? count.momentumForwards : count.momentumBackwards) += times * mass * velocity;
+    (forwards ? count.liquidForwards : count.liquidBackwards) += times * liquid;
 }
 
 void FluxPlaneHandler::afterMotion(ParticleHandler& particles, double step,
                                    const std::function<double(std::uint32_t)>& liquidOf) {
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     for (Plane& plane : planes) {
-        crossings.clear();
-        const Vector<double> normal = plane.normal;
-        const double offset = plane.offset, period = plane.period;
-        // The number of images of the plane, or of the one plane, that lie behind a grain changes by 1 at
-        // each.
-        const auto collect = [&](auto&& imagesBehind) {
-            for (std::size_t k = 0; k < grains.size(); ++k) {
-                const TranslationRecord& grain = grains.translation[k];
-                const double times = imagesBehind(dot(normal, grain.position) - offset) -
-                                     imagesBehind(dot(normal, from[k]) - offset);
-                if (times != 0 && grain.radius > 0)
-                    crossings.push_back({grains.identity[k], static_cast<std::uint32_t>(k), times});
-            }
-        };
-        if (period > 0) collect([=](double distance) { return std::floor(distance / period); });
-        else collect([](double distance) { return distance >= 0 ? 1.0 : 0.0; });
-        // Places depend on the list of contacts, sums must not.
-        std::ranges::sort(crossings, {}, &Crossing::identity);
+        findCrossings(plane, grains);
         for (const Crossing& crossing : crossings) {
-            const TranslationRecord& grain = grains.translation[crossing.place];
-            const double times = std::abs(crossing.times);
-            const double mass = times * particles.massAt(crossing.place);
-            const double liquid = times * liquidOf(crossing.place);
-            // The velocity is that of the way. The grain's own velocity is the one that contacts are to see:
-            // with most integrators that of the end of the step. A way errs by 1e-16 of its place.
-            const Vector<double> velocity = (1 / step) * (grain.position - from[crossing.place]);
-            FluxCount& count = plane.count;
-            const bool forwards = crossing.times > 0;
-            (forwards ? count.forwards : count.backwards) += static_cast<std::uint64_t>(times);
-            (forwards ? count.massForwards : count.massBackwards) += mass;
-            (forwards ? count.momentumForwards : count.momentumBackwards) += mass * velocity;
-            (forwards ? count.liquidForwards : count.liquidBackwards) += liquid;
+            if (crossing.body == RigidBodies::none) {
+                add(plane.count, crossing, particles.massAt(crossing.place), liquidOf(crossing.place), step);
+                continue;
+            }
+            double liquid = 0;  // m^3
+            for (const BodyMember& member : grains.bodies.membersOf(crossing.body))
+                liquid += liquidOf(grains.place[member.grain]);
+            add(plane.count, crossing, grains.bodies[crossing.body].mass, liquid, step);
         }
     }
 }

@@ -11,11 +11,10 @@ namespace pendular {
 
 class StateArchive;
 
-/// What has gone through a plane. Masses are those of solid spheres of the grains' densities, in rigid bodies
-/// the grains' shares of the bodies' masses; velocities are those with which grains moved in the step in
-/// which they went through it: way over time.
+/// What has gone through a plane: grains, and rigid bodies, each as one. Velocities are those with which they
+/// moved in the step in which they went through it: way over time.
 struct FluxCount {
-    std::uint64_t forwards = 0, backwards = 0;   // grains, with the plane's normal and against it
+    std::uint64_t forwards = 0, backwards = 0;   // with the plane's normal and against it
     double massForwards = 0, massBackwards = 0;  // kg
     Vector<double> momentumForwards{0, 0, 0}, momentumBackwards{0, 0, 0};  // kg m/s
     // m^3, of films, half of each bridge between grains, and all of each one to a wall
@@ -34,7 +33,8 @@ struct FluxPlane {
     Vec3D point;   // m, on the plane
 };
 
-/// Planes that count the grains whose centres go through them. A grain counts +1 when its distance along the
+/// Planes that count the grains whose centres go through them, and the rigid bodies whose centres of mass do.
+/// A grain or body counts +1 when its distance along the
 /// normal changes from below 0 to 0 or above in a step, and -1 the other way; one that goes to and fro nets
 /// 0 or 1. In a scene that repeats itself along the normal, the plane's images count, too; that a grain is
 /// brought back into the period is no crossing, nor is that a hook puts it elsewhere.
@@ -69,12 +69,20 @@ private:
         FluxCount count, before;         // and that before the motion
     };
     struct Crossing {
-        std::uint32_t identity, place;
-        double times;  // forwards
+        std::uint32_t identity;  // of a rigid body, that of its first grain
+        std::uint32_t place;     // of the grain
+        std::uint32_t body;      // where the rigid body is, or RigidBodies::none
+        double times;            // forwards
+        Vector<double> way;      // m, in the step
     };
+    /// Grains in no rigid body that have gone through a plane, and bodies.
+    void findCrossings(const Plane& plane, const ParticleStore& grains);
+    /// @param mass kg and @param liquid m^3, of what has gone through the plane
+    static void add(FluxCount& count, const Crossing& crossing, double mass, double liquid, double step);
 
     std::vector<Plane> planes;
-    std::vector<Vector<double>> from;  // m, of the grain at each place, before the motion
+    std::vector<Vector<double>> from,
+        bodiesFrom;  // m, of the grain at each place and of each body, before the motion
     std::vector<Crossing> crossings;
     bool hasBegun = false;
 };

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
@@ -105,11 +107,20 @@ std::uint32_t OutletHandler::firstTooYoung(const Outlet& outlet, double time) co
     return young == arrivals.begin() ? 0 : (young - 1)->next;
 }
 
-void OutletHandler::letOut(ParticleHandler& particles, double time, int threads) {
+void OutletHandler::letOut(ParticleHandler& particles, BodyHandler& bodies, double time, int threads) {
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     if (longestAge > 0) noteArrivals(grains.nextIdentity(), time);
     std::vector<std::uint32_t> tooYoung;
     for (const Outlet& outlet : outlets) tooYoung.push_back(firstTooYoung(outlet, time));
+    leaving.clear();
+    findGrains(grains, tooYoung, threads);
+    findBodies(grains, tooYoung);
+    std::ranges::sort(leaving);
+    for (const Leaving& one : leaving) remove(one, particles, bodies);
+}
+
+void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung,
+                               int threads) {
     found.resize(static_cast<std::size_t>(threads));
     for (auto& own : found) own.clear();
     inParts(
@@ -121,24 +132,44 @@ void OutletHandler::letOut(ParticleHandler& particles, double time, int threads)
                     if (grain.radius == 0 || grain.inverseMass == 0 || grains.identity[k] >= tooYoung[o] ||
                         !outlets[o].takes(grain.position))
                         continue;
+                    if (grains.bodies.contains(grains.identity[k])) break;
                     found[static_cast<std::size_t>(part)].push_back({grains.identity[k], o});
                     if (!outlets[o].condition) break;
                 }
         },
         16384);
-    leaving.clear();
     for (const auto& own : found) leaving.insert(leaving.end(), own.begin(), own.end());
-    std::ranges::sort(leaving);
-    for (const auto& [identity, outlet] : leaving) {
-        if (!particles.contains(identity)) continue;  // it has gone through an earlier one
-        const GrainReference grain = particles.getObject(identity);
-        if (outlets[outlet].condition && !outlets[outlet].condition(grain)) continue;
-        const int species = grain.getSpeciesIndex();
-        const double radius = grain.getRadius();
-        particles.removeObject(identity);
-        outlets[outlet].tally.add(static_cast<std::size_t>(species), radius,
-                                  particles.massOf(radius, species));
+}
+
+void OutletHandler::findBodies(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung) {
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        const std::span<const BodyMember> members = grains.bodies.membersOf(k);
+        const std::uint32_t youngest = std::ranges::max(members, {}, &BodyMember::grain).grain;
+        for (std::uint32_t o = 0; o < outlets.size(); ++o) {
+            if (youngest >= tooYoung[o] || !outlets[o].takes(grains.bodies[k].position)) continue;
+            leaving.push_back({members.front().grain, o, grains.bodies.numberOf(k)});
+            if (!outlets[o].condition) break;
+        }
     }
+}
+
+void OutletHandler::remove(const Leaving& one, ParticleHandler& particles, BodyHandler& bodies) {
+    if (!particles.contains(one.identity)) return;  // it has gone through an earlier one
+    Outlet& outlet = outlets[one.outlet];
+    const GrainReference grain = particles.getObject(one.identity);
+    if (outlet.condition && !outlet.condition(grain)) return;
+    const int species = grain.getSpeciesIndex();
+    double radius = grain.getRadius(), mass;
+    if (one.body == RigidBodies::none) {
+        mass = particles.massOf(radius, species);
+        particles.removeObject(one.identity);
+    } else {
+        const BodyReference body = bodies.getObject(one.body);
+        radius = std::cbrt(body.getVolume() / (4 * std::numbers::pi / 3));
+        mass = body.getMass();
+        bodies.removeObject(one.body);
+    }
+    outlet.tally.add(static_cast<std::size_t>(species), radius, mass);
 }
 
 void OutletHandler::visitArrivals(StateArchive& archive) {

@@ -7,13 +7,15 @@
 
 #include "Kernel/Boundaries/GrainTally.h"
 #include "Kernel/Insertion/Region.h"
+#include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 
 namespace pendular {
 
 /// A place at which grains leave a scene: each one whose centre is in a region, or beyond a plane, at the end
-/// of a step is counted and removed; in a scene that repeats itself, each one of which an image is there.
-/// Grains that are held in place stay.
+/// of a step is counted and removed; in a scene that repeats itself, each one of which an image is there. A
+/// rigid body goes as a whole, when its centre of mass is there, and counts as one. Grains that are held in
+/// place stay.
 class Outlet {
 public:
     /// Lets grains in a region go.
@@ -24,14 +26,15 @@ public:
     /// Lets grains beyond a plane go: on the side to which its normal points.
     /// @param normal of any length; @param point on it, m
     void setPlane(const Vec3D& normal, const Vec3D& point);
-    /// Borders (m) between the classes of diameters by which grains are counted; one class without them.
+    /// Borders (m) between the classes of diameters by which grains are counted; one class without them. A
+    /// rigid body has the diameter of the sphere of its volume.
     void setSizeClasses(std::span<const double> diameters) { tally.setClasses(diameters); }
     /// s: only those go that have been in the scene at least so long. What is there when the run begins came
     /// then.
     void setLeastAge(double age);
-    /// Lets only those grains go for which the function is true. It is asked in the order of identities, on
-    /// one thread, only for grains that would go without it. A restart file cannot keep a function: it keeps
-    /// that there is one, and a scene without it does not go on.
+    /// Lets only those go for which the function is true. It is asked in the order of identities, on one
+    /// thread, only for grains that would go without it, and of a rigid body for its first grain. A restart
+    /// file cannot keep a function: it keeps that there is one, and a scene without it does not go on.
     void setCondition(std::function<bool(const GrainReference&)> function);
 
 private:
@@ -69,14 +72,15 @@ public:
     /// The run begins. Throws InputError for a region that is longer than the period, and for a plane across
     /// which the scene repeats itself: all grains have images beyond it.
     void begin(const PeriodicBox& periodic, const ParticleStore& grains, double time);
-    /// Lets grains out at the end of a step, at a time (s), in the order of identities. There are no rigid
-    /// bodies.
-    void letOut(ParticleHandler& particles, double time, int threads);
+    /// Lets grains out at the end of a step, at a time (s), in the order of identities.
+    void letOut(ParticleHandler& particles, BodyHandler& bodies, double time, int threads);
     void visitState(StateArchive& archive);
 
 private:
     struct Leaving {
-        std::uint32_t identity, outlet;
+        std::uint32_t identity;  // of a rigid body, that of its first grain
+        std::uint32_t outlet;
+        std::uint32_t body = RigidBodies::none;  // its number
         auto operator<=>(const Leaving&) const = default;
     };
     /// All grains whose identity is below `next` had come by a time. (Identities rise with the time.)
@@ -90,6 +94,11 @@ private:
     [[nodiscard]] std::vector<Arrival>::const_iterator firstYoung(double age, double time) const;
     /// The first identity that came too late: it and later ones are too young for an outlet at a time (s).
     [[nodiscard]] std::uint32_t firstTooYoung(const Outlet& outlet, double time) const;
+    /// Grains that are in no rigid body, on all threads; then the bodies.
+    /// @param tooYoung of each outlet, as of firstTooYoung()
+    void findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung, int threads);
+    void findBodies(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung);
+    void remove(const Leaving& one, ParticleHandler& particles, BodyHandler& bodies);
     void visitArrivals(StateArchive& archive);
 
     std::vector<Outlet> outlets;

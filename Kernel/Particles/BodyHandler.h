@@ -17,7 +17,9 @@ public:
     BodyReference(ParticleHandler& particles, std::uint32_t body) : handler(&particles), number(body) {}
 
     [[nodiscard]] std::uint32_t getId() const { return number; }
-    [[nodiscard]] double getMass() const { return body().mass; }                       // kg
+    [[nodiscard]] double getMass() const { return body().mass; }  // kg
+    /// m^3; overlaps of its grains are counted once
+    [[nodiscard]] double getVolume() const { return handler->store().bodies.volumeOf(at()); }
     [[nodiscard]] Vec3D getInertia() const { return toEigen(body().inertia); }         // kg m^2, principal
     [[nodiscard]] Vec3D getPosition() const { return toEigen(body().position); }       // m, centre of mass
     [[nodiscard]] Vec3D getVelocity() const { return toEigen(body().velocity); }       // m/s

@@ -13,7 +13,7 @@ void OutletPart::begin(StepContext& scene, bool /*isRestarted*/) {
 }
 
 void OutletPart::atEnd(StepContext& step) {
-    outlets.letOut(step.particles, step.time + step.length, step.threads);
+    outlets.letOut(step.particles, step.bodies, step.time + step.length, step.threads);
     step.contacts.sumLostForces(step.grains());
 }
 

@@ -51,8 +51,6 @@ constexpr std::array table{
              otherIntegrator},
     Conflict{RigidBodies, SpringsInStep, "grains of a body keep no accelerations of their own",
              otherIntegrator},
-    Conflict{RigidBodies, Outlets, "outlets take grains one by one, and those of a body go together",
-             "leave the outlets out, and remove bodies in a hook by bodyHandler.removeObject()"},
     Conflict{RigidBodies, FilmMass, "the mass of a body does not follow the films of its grains",
              "leave setLiquidDensity() out"},
     Conflict{RigidBodies, ImpactWear, "several grains of a body may hit at once",

@@ -375,7 +375,6 @@ TEST(Outlet, isRefusedWhereTheSceneCannotHaveIt) {
         EXPECT_TRUE(isOneSentence(text)) << part;
         EXPECT_TRUE(contains(text, part)) << text;
     };
-    refused([](FilledScene& s, Outlet&) { s.bodyHandler.join({0, 1}); }, "rigid bodies");
     refused([](FilledScene& s, Outlet&) { s.setPeriodic(2, 0, 9 * d); }, "outlet 0: the normal of its plane");
     refused(
         [](FilledScene& s, Outlet& o) {
@@ -395,22 +394,6 @@ TEST(Outlet, isRefusedWhereTheSceneCannotHaveIt) {
             s.setLeesEdwards(0, 1, 10);
         },
         "shear (setLeesEdwards()) and outlets cannot be combined");
-    // In the run: before a step, so that positions belong to the time.
-    FilledScene scene;
-    Outlet outlet;
-    outlet.setPlane({0, 0, 1}, {0, 0, 1.5e-6});
-    scene.outletHandler.copyAndAddObject(outlet);
-    for (const double x : {0.0, 2 * d}) {
-        SphericalParticle grain = scene.grain({0, 0, 1});
-        grain.setRadius(0.5 * d), grain.setPosition({x, 0, 0});
-        scene.particleHandler.copyAndAddObject(grain);
-    }
-    scene.initialise();
-    scene.step();
-    scene.bodyHandler.join({0, 1});
-    EXPECT_THROW(scene.step(), RunError);
-    EXPECT_EQ(scene.getTime(), 1e-6);
-    EXPECT_EQ(scene.particleHandler.getObject(0).getPosition().z(), 1e-6);
 }
 
 using WetScene = Simulation<LinearViscoelasticSlidingFrictionLiquidMigrationWilletSpecies>;

@@ -166,8 +166,8 @@ TEST(Clump, addsAllOfItOrNothing) {
     scene.step();
 }
 
-// Grains stand for shares of the mass of their body, in fields, outputs and at planes that count: overlaps
-// do not count twice.
+// Grains stand for shares of the mass of their body in fields and outputs, and a plane counts the body:
+// overlaps do not count twice.
 TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
     constexpr double r = 1e-3, speed = 0.5;
     FewGrains<Smooth> scene(material(), {{.radius = r, .position = {0, 0, 0}}}, 1e-5);
@@ -192,8 +192,13 @@ TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
     sums.add(stateOf(scene));
     EXPECT_NEAR(sums.ofAll(FieldSums::Mass, 0) * grid.volume() / all, 1, 1e-13);
     EXPECT_NEAR(sums.ofAll(FieldSums::Momentum + 2, 0) * grid.volume() / (body.getMass() * speed), 1, 1e-13);
+<<<<<<< HEAD
     const FluxCount& count = scene.fluxPlaneHandler.countOf(0);
     EXPECT_EQ(count.forwards, 3u);
+=======
+    const FluxCount& count = scene.fluxPlaneHandler.count(0);
+    EXPECT_EQ(count.forwards, 1u);
+>>>>>>> 903096b (Outlets take rigid bodies, and planes count them: each as one, by its centre of mass)
     EXPECT_NEAR(count.netMass() / body.getMass(), 1, 1e-14);
     // The error is that of the way in a step, each end of which is rounded: half a unit of the last digit of
     // its place.

@@ -8,6 +8,7 @@
 
 #include "BuildFolders.h"
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"
@@ -207,6 +208,19 @@ std::string refusalOf(const Conflict& conflict) {
     if (conflict.a == Feature::Superquadrics) return refusalOfEllipsoids(conflict.b);
     if (conflict.b == Feature::ViscousBridges) return refusalOf<Viscous>({conflict.a});
     return refusalOf<Wet>({conflict.a, conflict.b});
+}
+
+// Before a step, so that positions belong to the time.
+TEST(Conflicts, areRefusedInTheRunBeforeTheGrainsMove) {
+    PlainScene<Wet> scene;
+    scene.setIntegrator(integrators::adamsMoulton);
+    scene.particleHandler.getObject(0).setVelocity({1, 0, 0});
+    scene.initialise();
+    scene.step();
+    scene.bodyHandler.join({0, 1});
+    EXPECT_THROW(scene.step(), RunError);
+    EXPECT_EQ(scene.getTime(), 1e-8);
+    EXPECT_EQ(scene.particleHandler.getObject(0).getPosition().x(), 1e-8);
 }
 
 TEST(Conflicts, areRefusedWithTheirSentence) {
