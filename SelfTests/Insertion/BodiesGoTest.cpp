@@ -22,7 +22,7 @@ class Rain : public FilledScene {
 public:
     explicit Rain(int threads = 1) : FilledScene(threads) {
         setGravity({0, 0, -gravity});
-        setTimeStep(1e-5);
+        setTimeStep(4e-6);
         support::Random random(7);
         Clump clump{rod()};
         clump.setSpecies(material);
@@ -65,7 +65,7 @@ TEST(BodiesGo, throughAnOutletAsAWhole) {
     EXPECT_GT(std::cbrt(6 * volume / std::numbers::pi), 1.05 * d);
     scene.initialise();
     for (int k = 0; k < 60; ++k) {
-        scene.steps(100);
+        scene.steps(270);
         const auto [rods, grains] = scene.below(0, scene.getTime());
         const GrainTally& gone = scene.outletHandler.tally(0);
         ASSERT_EQ(gone.of(0, 1).number, rods);
@@ -88,7 +88,7 @@ TEST(BodiesGo, throughAPlaneWithTheirMomentum) {
     Rain scene;
     scene.fluxPlaneHandler.add({0, 0, -1}, {0, 0, 0});
     scene.initialise();
-    scene.steps(7000);
+    scene.steps(16500);
     double expected = 0, mass = 0;  // kg m/s, kg
     const double massOfRod = scene.bodyHandler.getObject(0).getMass();
     for (std::size_t k = 0; k < scene.heights.size(); ++k) {
@@ -119,7 +119,7 @@ TEST(BodiesGo, whenTheyAreOldEnoughAndTheConditionSaysSo) {
     scene.steps(1);
     EXPECT_EQ(asked, 60);
     EXPECT_EQ(scene.outletHandler.tally(0).all().number, 20u);
-    scene.steps(98);
+    scene.steps(248);
     EXPECT_EQ(scene.bodyHandler.getSize(), 40u);
     scene.steps(2);
     EXPECT_EQ(scene.bodyHandler.getSize(), 0u);
@@ -131,10 +131,10 @@ TEST(BodiesGo, withTheSameBitsForAnyThreads) {
     for (const int threads : {1, 3}) {
         Rain scene(threads);
         Outlet outlet;
-        outlet.setRegion(SphereRegion({10 * d, 5 * d, 0}, 6 * d));
+        outlet.setRegion(SphereRegion({10 * d, 5 * d, 0}, 9 * d));
         scene.outletHandler.copyAndAddObject(outlet);
         scene.initialise();
-        scene.steps(2000);
+        scene.steps(5000);
         EXPECT_GT(scene.outletHandler.tally(0).all().number, 5u);
         hashes.push_back(scene.hash());
     }
