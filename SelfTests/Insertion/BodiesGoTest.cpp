@@ -59,7 +59,7 @@ TEST(BodiesGo, throughAnOutletAsAWhole) {
     // The sphere of a rod's volume is larger than a grain.
     outlet.setSizeClasses(std::array{1.05 * d});
     scene.outletHandler.copyAndAddObject(outlet);
-    scene.fluxPlaneHandler.add({0, 0, -1}, {0, 0, 0});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 0}});
     const double massOfRod = scene.bodyHandler.getObject(0).getMass(),
                  volume = massOfRod / FilledScene::density;
     EXPECT_GT(std::cbrt(6 * volume / std::numbers::pi), 1.05 * d);
@@ -67,12 +67,12 @@ TEST(BodiesGo, throughAnOutletAsAWhole) {
     for (int k = 0; k < 60; ++k) {
         scene.steps(270);
         const auto [rods, grains] = scene.below(0, scene.getTime());
-        const GrainTally& gone = scene.outletHandler.tally(0);
+        const GrainTally& gone = scene.outletHandler.countOf(0);
         ASSERT_EQ(gone.of(0, 1).number, rods);
         ASSERT_EQ(gone.of(0, 0).number, grains);
         ASSERT_EQ(scene.bodyHandler.getSize(), 40 - rods);
         ASSERT_EQ(scene.particleHandler.getSize(), 2 * (40 - rods) + 20 - grains);
-        const FluxCount& through = scene.fluxPlaneHandler.count(0);
+        const FluxCount& through = scene.fluxPlaneHandler.countOf(0);
         ASSERT_EQ(through.forwards, rods + grains);
         const double mass =
             static_cast<double>(rods) * massOfRod + static_cast<double>(grains) * massOfGrain();
@@ -86,7 +86,7 @@ TEST(BodiesGo, throughAnOutletAsAWhole) {
 // Momentum is that of free fall, whatever a body's spin: v = sqrt(2 g h) to a step's change of it.
 TEST(BodiesGo, throughAPlaneWithTheirMomentum) {
     Rain scene;
-    scene.fluxPlaneHandler.add({0, 0, -1}, {0, 0, 0});
+    scene.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 0}});
     scene.initialise();
     scene.steps(16500);
     double expected = 0, mass = 0;  // kg m/s, kg
@@ -96,8 +96,8 @@ TEST(BodiesGo, throughAPlaneWithTheirMomentum) {
         expected -= own * std::sqrt(2 * gravity * scene.heights[k]);
         mass += own;
     }
-    EXPECT_EQ(scene.fluxPlaneHandler.count(0).forwards, 60u);
-    EXPECT_NEAR(scene.fluxPlaneHandler.count(0).netMomentum().z(), expected,
+    EXPECT_EQ(scene.fluxPlaneHandler.countOf(0).forwards, 60u);
+    EXPECT_NEAR(scene.fluxPlaneHandler.countOf(0).netMomentum().z(), expected,
                 mass * gravity * scene.getTimeStep());
 }
 
@@ -118,12 +118,12 @@ TEST(BodiesGo, whenTheyAreOldEnoughAndTheConditionSaysSo) {
     scene.initialise();
     scene.steps(1);
     EXPECT_EQ(asked, 60);
-    EXPECT_EQ(scene.outletHandler.tally(0).all().number, 20u);
+    EXPECT_EQ(scene.outletHandler.countOf(0).all().number, 20u);
     scene.steps(248);
     EXPECT_EQ(scene.bodyHandler.getSize(), 40u);
     scene.steps(2);
     EXPECT_EQ(scene.bodyHandler.getSize(), 0u);
-    EXPECT_EQ(scene.outletHandler.tally(1).all().number, 40u);
+    EXPECT_EQ(scene.outletHandler.countOf(1).all().number, 40u);
 }
 
 TEST(BodiesGo, withTheSameBitsForAnyThreads) {
@@ -135,7 +135,7 @@ TEST(BodiesGo, withTheSameBitsForAnyThreads) {
         scene.outletHandler.copyAndAddObject(outlet);
         scene.initialise();
         scene.steps(5000);
-        EXPECT_GT(scene.outletHandler.tally(0).all().number, 5u);
+        EXPECT_GT(scene.outletHandler.countOf(0).all().number, 5u);
         hashes.push_back(scene.hash());
     }
     EXPECT_EQ(hashes[0], hashes[1]);
@@ -158,10 +158,10 @@ TEST(BodiesGo, superquadricsToo) {
     scene.setTimeStep(1e-6);
     scene.initialise();
     scene.step();
-    EXPECT_EQ(scene.outletHandler.tally(0).all().number, 2u);
+    EXPECT_EQ(scene.outletHandler.countOf(0).all().number, 2u);
     // 4/3 pi a b c
     const double volume = 4 * std::numbers::pi / 3 * 2 * d * d * d;
-    EXPECT_NEAR(scene.outletHandler.tally(0).all().mass, 2 * volume * material->getDensity(),
+    EXPECT_NEAR(scene.outletHandler.countOf(0).all().mass, 2 * volume * material->getDensity(),
                 1e-12 * volume * material->getDensity());
     EXPECT_EQ(scene.particleHandler.getSize(), 3u);
 }

@@ -196,7 +196,7 @@ TEST(Clump, hasItsMassInFieldsAndAtPlanes) {
     const FluxCount& count = scene.fluxPlaneHandler.countOf(0);
     EXPECT_EQ(count.forwards, 3u);
 =======
-    const FluxCount& count = scene.fluxPlaneHandler.count(0);
+    const FluxCount& count = scene.fluxPlaneHandler.countOf(0);
     EXPECT_EQ(count.forwards, 1u);
 >>>>>>> 903096b (Outlets take rigid bodies, and planes count them: each as one, by its centre of mass)
     EXPECT_NEAR(count.netMass() / body.getMass(), 1, 1e-14);
