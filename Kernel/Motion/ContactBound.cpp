@@ -25,6 +25,21 @@ double inUnits(double value, double unit) {
 /// 2^-40 of the power of two above the value.
 double unitOf(double largest) { return largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 39) : 0; }
 
+double sizeOf(const Vector<double>& coupling) { return norm(coupling); }
+/// Of all its entries: not less than its largest singular value.
+double sizeOf(const std::array<double, 9>& coupling) {
+    double sum = 0;
+    for (const double entry : coupling) sum += entry * entry;
+    return std::sqrt(sum);
+}
+
+/// The springs of friction in the spin; a grain that is a sphere has no others there.
+template <class One>
+const std::array<double, 6>& springsOfFriction(const One& one) {
+    if constexpr (requires { one.friction; }) return one.friction;
+    else return one.spring.spin;
+}
+
 struct Terms {
     double along, across;  // of n n and of 1 - n n
 };
@@ -89,24 +104,63 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
         }
         press(contacts.laws(), bucket, ofBucket, outlook, found.meanOverlap);
     });
-    blocks.assign(grains.size(), {});
+    box = &contacts.periodicBox();
+    findBodies(grains);
     chooseWeights(grains);
     for (const Term& term : terms) {
         addTo(grains, term, term.first, term.second);
         if (term.second != none) addTo(grains, term, term.second, term.first);
     }
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-        if (blocks[k].contacts == 0) continue;
-        // Most grains are seen not to bind before their eigenvalues are found.
-        if (stepOf(blocks[k], integrator, false) > found.step) continue;
-        const double step = stepOf(blocks[k], integrator, true);
-        if (step > found.step || (step == found.step && grains.identity[k] > found.grain)) continue;
-        found.step = step;
-        found.grain = grains.identity[k];
-        found.contactsOfGrain = blocks[k].contacts;
-        found.overlapOfGrain = blocks[k].overlap;
-    }
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+        takeLeast(blocks[k], grains.identity[k], integrator, found);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+        takeLeast(bodies[k], grains.bodies.membersOf(k).front().grain, integrator, found);
     return found;
+}
+
+template <class One>
+void ContactBounds::takeLeast(const One& one, std::uint32_t identity, const Integrator& integrator,
+                              ContactBound& found) {
+    if (one.contacts == 0) return;
+    // Most are seen not to bind before their eigenvalues are found.
+    if (stepOf(one, integrator, false) > found.step) return;
+    const double step = stepOf(one, integrator, true);
+    if (step > found.step || (step == found.step && identity > found.grain)) return;
+    found.step = step;
+    found.grain = identity;
+    found.contactsOfGrain = one.contacts;
+    found.overlapOfGrain = one.overlap;
+}
+
+void ContactBounds::findBodies(const ParticleStore& grains) {
+    blocks.assign(grains.size(), {});
+    bodies.assign(grains.bodies.size(), {});
+    movers.clear();
+    if (bodies.empty()) return;
+    for (std::uint32_t place = 0; place < grains.size(); ++place) movers.push_back(place);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+        for (const BodyMember& member : grains.bodies.membersOf(k))
+            movers[grains.place[member.grain]] = static_cast<std::uint32_t>(blocks.size() + k);
+}
+
+Vector<double> ContactBounds::armOf(const ParticleStore& grains, const Term& term,
+                                    std::uint32_t place) const {
+    const TranslationRecord& grain = grains.translation[place];
+    const double toContact = place == term.first ? grain.radius : -grain.radius;
+    const RigidBody& body = grains.bodies[moverAt(place) - blocks.size()];
+    return box->nearest(grain.position - body.position) + toContact * term.normal;
+}
+
+double ContactBounds::inverseInertia(const ParticleStore& grains, std::uint32_t place) const {
+    if (!isInBody(place)) return grains.rotation[place].inverseInertia;
+    const Vector<double>& moments = grains.bodies[moverAt(place) - blocks.size()].inertia;
+    return 1 / std::min({moments.x, moments.y, moments.z});
+}
+
+double ContactBounds::mobility(const ParticleStore& grains, const Term& term, std::uint32_t place) const {
+    const double inverseMass = grains.translation[place].inverseMass;
+    if (!isInBody(place)) return inverseMass;
+    return inverseMass + squaredNorm(armOf(grains, term, place)) * inverseInertia(grains, place);
 }
 
 /// Finds the load of each grain, and the units of the sums.
@@ -119,18 +173,19 @@ void ContactBounds::chooseWeights(const ParticleStore& grains) {
         return std::max({s.normal.*part, s.sliding.*part, s.rolling.*part, s.torsion.*part});
     };
     const auto springOf = [&](const Term& term, std::uint32_t place) {
-        return stiffest(term.stiffness, &SpringAndDashpot::spring) * grains.translation[place].inverseMass;
+        return stiffest(term.stiffness, &SpringAndDashpot::spring) * mobility(grains, term, place);
     };
+    loads.assign(blocks.size() + bodies.size(), 0);
     double largest = 0, dashpot = 0;
     for (const Term& term : terms)
         forBoth(term, [&](std::uint32_t place) { largest = std::max(largest, springOf(term, place)); });
     springUnit = unitOf(largest);
     for (const Term& term : terms)
         forBoth(term, [&](std::uint32_t place) {
-            blocks[place].load += inUnits(springOf(term, place), springUnit);
+            loads[moverAt(place)] += inUnits(springOf(term, place), springUnit);
         });
     largest = 0;
-    for (const OfGrain& block : blocks) largest = std::max(largest, block.load);
+    for (const double load : loads) largest = std::max(largest, load);
     // An entry is at most 5/2 (1 + t) k/m, with t k/m at most the load of the other grain.
     springUnit = unitOf(8 * largest);
     for (const Term& term : terms) {
@@ -139,7 +194,7 @@ void ContactBounds::chooseWeights(const ParticleStore& grains) {
             term.second == none ? 1 : 1 + std::max(weight(term.first, other), weight(other, term.first));
         forBoth(term, [&](std::uint32_t place) {
             dashpot = std::max(dashpot, share * stiffest(term.stiffness, &SpringAndDashpot::dashpot) *
-                                            grains.translation[place].inverseMass);
+                                            mobility(grains, term, place));
         });
     }
     dashpotUnit = unitOf(4 * dashpot);
@@ -286,18 +341,27 @@ void ContactBounds::press(const ContactLaws& laws, const Bucket& bucket, std::sp
     }
 }
 
+double ContactBounds::shareOf(const ParticleStore& grains, std::uint32_t place, std::uint32_t other) const {
+    const bool isShared = other != none && grains.translation[other].inverseMass > 0;
+    return isShared ? 1 + weight(place, other) : 1;
+}
+
+template <class One>
+void ContactBounds::note(const Term& term, One& one) {
+    ++one.contacts;
+    one.overlap = std::max(one.overlap, term.pair.overlap / term.smallerRadius);
+    one.ownDashpot = std::min(one.ownDashpot, term.stiffness.normal.dashpot / term.pair.effectiveMass);
+}
+
 void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::uint32_t place,
                           std::uint32_t other) {
     const TranslationRecord& grain = grains.translation[place];
-    if (grain.inverseMass == 0) return;
+    if (grain.inverseMass == 0 || (!(term.gap < 0) && !term.drags)) return;
+    if (isInBody(place)) return addToBody(grains, term, place, other);
     OfGrain& block = blocks[place];
     const ContactStiffness& s = term.stiffness;
-    const bool isShared = other != none && grains.translation[other].inverseMass > 0;
-    const double share = isShared ? 1 + weight(place, other) : 1, over = share * grain.inverseMass;
-    if (!(term.gap < 0) && !term.drags) return;
-    ++block.contacts;
-    block.overlap = std::max(block.overlap, term.pair.overlap / term.smallerRadius);
-    block.ownDashpot = std::min(block.ownDashpot, s.normal.dashpot / term.pair.effectiveMass);
+    const double over = shareOf(grains, place, other) * grain.inverseMass;
+    note(term, block);
     add(block.spring.shift, {over * s.normal.spring, over * s.sliding.spring}, term.normal, springUnit);
     add(block.dashpot.shift, {over * s.normal.dashpot, over * s.sliding.dashpot}, term.normal, dashpotUnit);
     if (!grains.hasSpin) return;
@@ -305,8 +369,7 @@ void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::ui
     const double ownInertia = grains.rotation[place].inverseInertia;                     // 1/(kg m^2)
     const double lever2 = grain.radius * grain.radius * ownInertia / grain.inverseMass;  // 5/2 of a sphere
     const double arm = term.pair.bodies.effectiveRadius(),
-                 turn =
-                     arm * arm * (ownInertia + (other == none ? 0 : grains.rotation[other].inverseInertia));
+                 turn = arm * arm * (ownInertia + (other == none ? 0 : inverseInertia(grains, other)));
     const double rim = over * lever2, cross = over * std::sqrt(lever2);
     add(block.spring.spin, {turn * s.torsion.spring, rim * s.sliding.spring + turn * s.rolling.spring},
         term.normal, springUnit);
@@ -322,20 +385,65 @@ void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::ui
     couple(block.dashpot.coupling, cross * s.sliding.dashpot, dashpotUnit);
 }
 
-double ContactBounds::stepOf(const OfGrain& grain, const Integrator& integrator, bool exact) {
-    const auto largest = [exact](const Block& block) {
+/// Adds over a mass and a moment of inertia what a spring, or a dashpot, of these strengths gives: shift S,
+/// spin A^T S A and coupling S A, where w x a = A w.
+void ContactBounds::addToBody(const ParticleStore& grains, const Term& term, std::uint32_t place,
+                              std::uint32_t other) {
+    OfBody& block = bodies[moverAt(place) - blocks.size()];
+    note(term, block);
+    const ContactStiffness& s = term.stiffness;
+    if (grains.hasSpin) block.relaxation = std::min(block.relaxation, s.shortestRelaxation());
+    const double share = shareOf(grains, place, other), ownInertia = inverseInertia(grains, place),
+                 overMass = share * grains.translation[place].inverseMass, overInertia = share * ownInertia,
+                 overBoth = std::sqrt(overMass * overInertia);
+    const Vector<double> n = term.normal, a = armOf(grains, term, place), lever = cross(a, n);
+    const double a2 = squaredNorm(a), lever2 = squaredNorm(lever);
+    const auto addSpin = [&](std::array<double, 6>& to, double along, double across, double unit) {
+        if (a2 > 0) add(to, {0, overInertia * across * a2}, (1 / std::sqrt(a2)) * a, unit);
+        if (lever2 > 0)
+            add(to, {overInertia * (along - across) * lever2, 0}, (1 / std::sqrt(lever2)) * lever, unit);
+    };
+    const auto addPart = [&](Block<std::array<double, 9>>& to, double along, double across, double unit) {
+        add(to.shift, {overMass * along, overMass * across}, n, unit);
+        addSpin(to.spin, along, across, unit);
+        const double normal = overBoth * (along - across), sliding = overBoth * across;
+        const std::array<double, 9> parts{normal * n.x * lever.x,
+                                          normal * n.x * lever.y + sliding * a.z,
+                                          normal * n.x * lever.z - sliding * a.y,
+                                          normal * n.y * lever.x - sliding * a.z,
+                                          normal * n.y * lever.y,
+                                          normal * n.y * lever.z + sliding * a.x,
+                                          normal * n.z * lever.x + sliding * a.y,
+                                          normal * n.z * lever.y - sliding * a.x,
+                                          normal * n.z * lever.z};
+        for (std::size_t k = 0; k < parts.size(); ++k) to.coupling[k] += inUnits(parts[k], unit);
+    };
+    addPart(block.spring, s.normal.spring, s.sliding.spring, springUnit);
+    addPart(block.dashpot, s.normal.dashpot, s.sliding.dashpot, dashpotUnit);
+    if (!grains.hasSpin) return;
+    addSpin(block.friction, 0, s.sliding.spring, springUnit);
+    const double arm = term.pair.bodies.effectiveRadius(),
+                 turn = arm * arm * (ownInertia + (other == none ? 0 : inverseInertia(grains, other)));
+    for (std::array<double, 6>* to : {&block.spring.spin, &block.friction})
+        add(*to, {turn * s.torsion.spring, turn * s.rolling.spring}, n, springUnit);
+    add(block.dashpot.spin, {turn * s.torsion.dashpot, turn * s.rolling.dashpot}, n, dashpotUnit);
+}
+
+template <class One>
+double ContactBounds::stepOf(const One& one, const Integrator& integrator, bool exact) {
+    const auto largest = [exact](const auto& block) {
         const double shift = largestEigenvalue(block.shift, exact),
-                     spin = largestEigenvalue(block.spin, exact), between = norm(block.coupling);
+                     spin = largestEigenvalue(block.spin, exact), between = sizeOf(block.coupling);
         return 0.5 * (shift + spin + std::hypot(shift - spin, 2 * between));
     };
     const SignChange signChange(integrator);
-    SpringAndDashpot mode{largest(grain.spring), largest(grain.dashpot)};
+    SpringAndDashpot mode{largest(one.spring), largest(one.dashpot)};
     if (!integrator.contacts.timesTouches) return signChange.limit(mode);
-    if (integrator.contacts.implicitForces) mode.dashpot = std::max(mode.dashpot - grain.ownDashpot, 0.0);
+    if (integrator.contacts.implicitForces) mode.dashpot = std::max(mode.dashpot - one.ownDashpot, 0.0);
     double step = signChange.limit(mode);
     if (integrator.contacts.springsInStep) return step;
-    const double spin = largestEigenvalue(grain.spring.spin, exact);
-    if (spin > 0) step = std::min(step, springsAheadLimit(spin, grain.relaxation, integrator));
+    const double spin = largestEigenvalue(springsOfFriction(one), exact);
+    if (spin > 0) step = std::min(step, springsAheadLimit(spin, one.relaxation, integrator));
     return step;
 }
 

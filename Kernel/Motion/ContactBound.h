@@ -47,6 +47,10 @@ struct ContactBound {
 /// that is held, has no block and leaves its partner k alone. Of a block, the eigenvalues of the parts of
 /// shift and spin are exact, and their coupling is bounded by its norm. The same for dashpots.
 ///
+/// A rigid body has one block, to which the contacts of all its grains add: with the arm a from its centre of
+/// mass to a contact, s1 = S (v + w x a) for S = n n and 1 - n n. Its moments of inertia count as the
+/// smallest of them.
+///
 /// The stiffness of friction is that of contacts that stick. What turns the normal forces (F/d of each) is
 /// left out: a thousandth.
 ///
@@ -58,10 +62,11 @@ public:
                                     const ContactOutlook& outlook = {});
 
 private:
-    /// The springs (1/s^2) or dashpots (1/s) of a grain, over its mass and moment of inertia.
+    /// The springs (1/s^2) or dashpots (1/s) of a grain or body, over its mass and moment of inertia.
+    template <class Coupling>
     struct Block {
         std::array<double, 6> shift{}, spin{};  // xx yy zz xy xz yz
-        Vector<double> coupling{0, 0, 0};
+        Coupling coupling{};
     };
     struct Term {
         std::uint32_t first, second;  // places; second: none at a wall
@@ -74,13 +79,17 @@ private:
         double smallerRadius = 0;  // m
         bool drags = false;        // a bridge
     };
-    struct OfGrain {
-        Block spring, dashpot;
+    template <class Coupling>
+    struct OfOne {
+        Block<Coupling> spring, dashpot;
         double ownDashpot = infinity;  // 1/s, the least that one of its contacts makes implicit
         double relaxation = infinity;  // s, of the least damped spring of friction
         double overlap = 0;            // of the smaller radius
         std::size_t contacts = 0;
-        double load = 0;  // 1/s^2, sum of spring over mass
+    };
+    using OfGrain = OfOne<Vector<double>>;  // its coupling is the vector product with this
+    struct OfBody : OfOne<std::array<double, 9>> {
+        std::array<double, 6> friction{};  // the part of friction's springs in the spin
     };
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
@@ -99,18 +108,44 @@ private:
     static void press(const ContactLaws& laws, const Bucket& bucket, std::span<Term> ofBucket,
                       const ContactOutlook& outlook, double mean);
     void summarise(ContactBound& found) const;
+    void findBodies(const ParticleStore& grains);
     void chooseWeights(const ParticleStore& grains);
+    /// Where the load of the grain at a place is, or of the body that it is part of.
+    [[nodiscard]] std::uint32_t moverAt(std::uint32_t place) const {
+        return movers.empty() ? place : movers[place];
+    }
+    [[nodiscard]] bool isInBody(std::uint32_t place) const { return moverAt(place) >= blocks.size(); }
+    /// m, from the centre of mass of the body to the contact.
+    [[nodiscard]] Vector<double> armOf(const ParticleStore& grains, const Term& term,
+                                       std::uint32_t place) const;
+    /// 1/kg: how easily a force at the contact moves it; at least that.
+    [[nodiscard]] double mobility(const ParticleStore& grains, const Term& term, std::uint32_t place) const;
+    [[nodiscard]] double inverseInertia(const ParticleStore& grains, std::uint32_t place) const;
     /// The weight t of the grain at a place in a contact with another one.
     [[nodiscard]] double weight(std::uint32_t place, std::uint32_t other) const {
-        const double own = blocks[place].load, others = blocks[other].load;
+        const double own = loads[moverAt(place)], others = loads[moverAt(other)];
         return own > 0 && others > 0 ? others / own : 1;
     }
+    /// What the grain at a place takes of the contact: 1 + t.
+    [[nodiscard]] double shareOf(const ParticleStore& grains, std::uint32_t place, std::uint32_t other) const;
     void addTo(const ParticleStore& grains, const Term& term, std::uint32_t place, std::uint32_t other);
+    void addToBody(const ParticleStore& grains, const Term& term, std::uint32_t place, std::uint32_t other);
+    /// What grain and body take note of in the same way.
+    template <class One>
+    static void note(const Term& term, One& one);
     /// s; not exact: at most that
-    [[nodiscard]] static double stepOf(const OfGrain& grain, const Integrator& integrator, bool exact);
+    template <class One>
+    [[nodiscard]] static double stepOf(const One& one, const Integrator& integrator, bool exact);
+    template <class One>
+    static void takeLeast(const One& one, std::uint32_t identity, const Integrator& integrator,
+                          ContactBound& found);
 
     std::vector<Term> terms;
-    std::vector<OfGrain> blocks;  // of the grains by place
+    std::vector<OfGrain> blocks;        // of the grains by place
+    std::vector<OfBody> bodies;         // of the rigid bodies
+    std::vector<std::uint32_t> movers;  // of each place; empty without bodies
+    std::vector<double> loads;          // 1/s^2, sum of spring over mass: of the grains, then of the bodies
+    const PeriodicBox* box = nullptr;
     // The parts of a wall that are near one grain, and their points.
     std::vector<std::uint32_t> parts;
     std::vector<WallPoint> points;

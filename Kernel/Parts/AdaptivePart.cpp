@@ -1,10 +1,12 @@
 #include "Kernel/Parts/AdaptivePart.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Parts/FlowPart.h"
 #include "Kernel/Parts/InletPart.h"
 #include "Kernel/Step/StepTimes.h"
 
@@ -14,9 +16,12 @@ Features AdaptivePart::features(const StepContext& /*scene*/) const {
     return adaptive.isSet() ? Features{Feature::AdaptiveStep} : Features{};
 }
 
-double AdaptivePart::largestStepOf(const StepContext& scene, const GrainSizes& sizes) {
-    const double most = 0.9 / std::numbers::pi * shortestHalfPeriod(*scene.laws, sizes, scene.walls);
-    return most < infinity ? most : scene.length;  // nothing can touch
+/// Rigid bodies answer to a contact as a mass that is a share of a free sphere's.
+double AdaptivePart::largestStepOf(const StepContext& scene, const GrainSizes& sizes) const {
+    const double ofFree = shortestHalfPeriod(*scene.laws, sizes, scene.walls),
+                 most = 0.9 / std::numbers::pi * ofFree * std::sqrt(sizes.response.inertia);
+    return std::min(most < infinity ? most : scene.length,  // nothing can touch
+                    shareOfServo * flow.shortestServoTime());
 }
 
 /// Grains that have come shorten the step until the next choice; other changes ask for one.
@@ -34,8 +39,8 @@ void AdaptivePart::prepare(StepContext& step) {
     const StepTimes::Within search(step.times, StepTimes::Part::Search);
     const GrainSizes sizes = sizesOfScene(*step.laws, grains, inlets);
     const double most = largestStepOf(step, sizes);
-    const AdaptiveStep::Outlook outlook =
-        adaptive.lookAhead(grains, step.length, most, norm(step.gravity), sizes.smallest());
+    const AdaptiveStep::Outlook outlook = adaptive.lookAhead(
+        grains, step.box, step.length, most, norm(step.gravity), step.largestReach, sizes.smallest());
     ContactBound bound;
     if (outlook.isKnown()) {
         step.contacts.listWithin(grains, outlook.contacts.reach);

@@ -6,12 +6,14 @@
 
 namespace pendular {
 
+class FlowPart;
 class InletHandler;
 
 /// The time step that follows the contacts.
 class AdaptivePart : public StepPart {
 public:
-    explicit AdaptivePart(const InletHandler& ofScene) : inlets(ofScene) {}
+    AdaptivePart(const InletHandler& inletsOfScene, const FlowPart& flowOfScene)
+        : inlets(inletsOfScene), flow(flowOfScene) {}
 
     [[nodiscard]] std::string_view name() const override { return "adaptiveStep"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
@@ -28,10 +30,14 @@ public:
     [[nodiscard]] const AdaptiveStep& step() const { return adaptive; }
 
 private:
-    /// s, for the stiffest pair
-    [[nodiscard]] static double largestStepOf(const StepContext& scene, const GrainSizes& sizes);
+    /// Of the time in which a servo of stress reaches its aim, a step is at most this.
+    static constexpr double shareOfServo = 0.1;
+
+    /// s, for the stiffest pair, and for the servos.
+    [[nodiscard]] double largestStepOf(const StepContext& scene, const GrainSizes& sizes) const;
 
     const InletHandler& inlets;
+    const FlowPart& flow;
     AdaptiveStep adaptive;
     ContactBounds bounds;
 };

@@ -18,33 +18,61 @@ Vector<double> meanVelocity(const ParticleStore& grains) {
     return (1 / std::max(count, 1.0)) * sum;
 }
 
-/// m/s, of grains in the frame of a velocity: the two largest speeds, and the largest in that of the scene.
+/// Speeds (m/s) of grains: the two largest against those around them, and the largest of all.
 struct Speeds {
     double first = 0, second = 0, largest = 0;
+
+    void add(double speed, double inSpace) {
+        second = std::max(second, std::min(first, speed));
+        first = std::max(first, speed);
+        largest = std::max(largest, inSpace);
+    }
 };
-Speeds speedsOf(const ParticleStore& grains, const Vector<double>& frame) {
+
+/// @param around velocity (m/s) at a place (m): of what is there. A grain of a rigid body may get the speed
+/// that the body's turning gives it in any direction.
+template <class Around>
+Speeds speedsOf(const ParticleStore& grains, const Around& around) {
     Speeds found;
     for (const std::uint32_t at : grains.place) {
         const TranslationRecord& grain = grains.translation[at];
-        const double speed = norm(grain.velocity - frame);
-        found.second = std::max(found.second, std::min(found.first, speed));
-        found.first = std::max(found.first, speed);
-        found.largest = std::max(found.largest, norm(grain.velocity));
+        found.add(norm(grain.velocity - around(grain.position)), norm(grain.velocity));
+    }
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        const RigidBody& body = grains.bodies[k];
+        const double own = norm(body.velocity - around(body.position)), inSpace = norm(body.velocity),
+                     spin = norm(body.spin());
+        for (const BodyMember& member : grains.bodies.membersOf(k)) {
+            const double turning = spin * norm(member.arm);
+            found.add(own + turning, inSpace + turning);
+        }
     }
     return found;
 }
 
+/// 1/s, the rate at which a flow parts two places, at most (the norm of its gradient).
+double rateOf(const PeriodicBox& box) {
+    double sum = 0;
+    for (const Vector<double>& axis : {Vector<double>{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+        sum += squaredNorm(box.flowAt(box.middle() + axis));
+    return std::sqrt(sum);
+}
+
 }  // namespace
 
-AdaptiveStep::Outlook AdaptiveStep::lookAhead(const ParticleStore& grains, double step, double most,
-                                              double gravity, double smallestRadius) {
+AdaptiveStep::Outlook AdaptiveStep::lookAhead(const ParticleStore& grains, const PeriodicBox& box,
+                                              double step, double most, double gravity, double reach,
+                                              double smallestRadius) {
     const double time = static_cast<double>(interval) * longest(step, most);
-    const Vector<double> frame = meanVelocity(grains);
-    const Speeds speeds = speedsOf(grains, frame);
+    const bool flows = box.imagesMove;
+    const Vector<double> frame = flows ? Vector<double>{0, 0, 0} : meanVelocity(grains);
+    const Speeds speeds =
+        speedsOf(grains, [&](const Vector<double>& place) { return flows ? box.flowAt(place) : frame; });
     // A wall may gain as much again as it has; what it gains beyond that is seen.
     const double walls = 2 * wallSpeed + norm(frame);
     const double falling = 0.5 * gravity * time;  // m/s, in the mean of the time
-    const double meeting = speeds.first + std::max(speeds.second, walls) + falling;
+    const double meeting =
+        speeds.first + std::max(speeds.second, walls) + falling + (flows ? rateOf(box) * reach : 0);
     supposedSpeed = speeds.largest + meeting + falling;
     supposedWallSpeed = 2 * wallSpeed;
     wallSpeed = 0;

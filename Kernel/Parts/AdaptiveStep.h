@@ -5,6 +5,7 @@
 
 #include "Kernel/Motion/ContactBound.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -58,9 +59,10 @@ public:
         double longest;  // s, in which bodies move as far as they may in a step
         [[nodiscard]] bool isKnown() const { return longest > 0; }  // not of an endless wall that tilts
     };
-    /// @param step s, that was; @param most s, the largest; @param gravity m/s^2
-    [[nodiscard]] Outlook lookAhead(const ParticleStore& grains, double step, double most, double gravity,
-                                    double smallestRadius);
+    /// @param step s, that was; @param most s, the largest; @param gravity m/s^2; @param reach m, at which
+    /// two grains act on each other at most; @param smallestRadius m
+    [[nodiscard]] Outlook lookAhead(const ParticleStore& grains, const PeriodicBox& box, double step,
+                                    double most, double gravity, double reach, double smallestRadius);
     /// The step (s) until the next choice, where grains have come: at most what any contact of theirs stands.
     /// @param step s, that is; @param most, limit as below
     [[nodiscard]] double shorten(double step, double most, double limit) const {

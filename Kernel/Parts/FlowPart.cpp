@@ -92,14 +92,19 @@ void FlowPart::begin(StepContext& scene, bool isRestarted) {
     shear.move(scene.box, scene.time);
 }
 
-void FlowPart::prepare(StepContext& step) {
-    double shortest = infinity;  // s
-    double lowest = 0;           // Pa
+double FlowPart::shortestServoTime() const {
+    double shortest = shear.isControlled ? shear.time : infinity;
     for (const AxisStrain& axis : strain.axes)
-        if (axis.isControlled)
-            shortest = std::min(shortest, axis.time), lowest = std::min(lowest, axis.stress);
-    if (shear.isControlled) shortest = std::min(shortest, shear.time);
+        if (axis.isControlled) shortest = std::min(shortest, axis.time);
+    return shortest;
+}
+
+void FlowPart::prepare(StepContext& step) {
+    const double shortest = shortestServoTime();
     if (shortest == infinity) return;
+    double lowest = 0;  // Pa
+    for (const AxisStrain& axis : strain.axes)
+        if (axis.isControlled) lowest = std::min(lowest, axis.stress);
     constexpr double looksInTime = 100;
     const auto interval =
         static_cast<std::size_t>(std::clamp(shortest / step.length / looksInTime, 1.0, 1e15));

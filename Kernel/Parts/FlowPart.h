@@ -60,6 +60,9 @@ public:
     /// they are brought back.
     static void takeVelocitiesOfImages(StepContext& step);
 
+    /// The shortest time (s) in which a servo reaches its aim; infinite without one.
+    [[nodiscard]] double shortestServoTime() const;
+
 private:
     AxisStrain& axisToStrain(const PeriodicBox& box, int axis, std::string_view what, bool inRun);
     void setStrain(PeriodicBox& box, int axis, const AxisStrain& how, const Refusal& inRun);

@@ -230,8 +230,8 @@ public:
     /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; with 0.9 bulk figures
     /// were the same to 2.4 %) of what they and those that may come stand, at most 0.9 over the highest
     /// frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The run
-    /// begins with setTimeStep(). At set-up; not with moving images (shear, strain), rigid bodies, walls that
-    /// forces move, viscous bridges or integrators that remember a step.
+    /// begins with setTimeStep(). At set-up; not with superquadrics, walls that forces move, viscous bridges
+    /// or integrators that remember a step.
     void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const;
     [[nodiscard]] const Integrator& getIntegrator() const;
@@ -259,7 +259,7 @@ private:
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;
     void addOwnPart(std::unique_ptr<StepPart> part);
-    void requireNoBodies(std::string_view call) const;
+    void requireSpheres(std::string_view call) const;
     void requireImagesAtRest(std::string_view what) const;
     /// A function that refuses a change which does not go together with moving images; empty at set-up.
     std::function<void()> refusalInRun();

@@ -21,7 +21,7 @@ namespace pendular {
 Scene::Inside::Inside(Scene& of)
     : scene(of),
       context{of.particleHandler, of.bodyHandler, of.wallHandler, contacts, box, of.logger, of.stepTimer()},
-      adaptive(of.inletHandler),
+      adaptive(of.inletHandler, flow),
       fluxPlanes(of.fluxPlaneHandler),
       liquid(of.sprayHandler, of.inletHandler),
       outlets(of.outletHandler),

@@ -5,6 +5,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/Simulation/SceneInside.h"
 #include "Kernel/Species/Field.h"
 
@@ -35,13 +36,13 @@ double Scene::shortestContactTime() {
 
 double Scene::stableStepOfContacts() {
     requireBegun("stableStepOfContacts()");
-    requireNoBodies("stableStepOfContacts()");
+    requireSpheres("stableStepOfContacts()");
     return ContactBounds().find(contacts(), wallHandler, particleHandler.store(), scheme()).step;
 }
 
 StabilityAdvice Scene::stabilityAdvice() {
     requireBegun("stabilityAdvice()");
-    requireNoBodies("stabilityAdvice()");
+    requireSpheres("stabilityAdvice()");
     const ParticleStore& grains = particleHandler.store();
     const auto find = [&](const ContactOutlook& outlook) {
         return ContactBounds().find(contacts(), wallHandler, grains, scheme(), outlook);
@@ -50,11 +51,11 @@ StabilityAdvice Scene::stabilityAdvice() {
                        smooth = find({.sticking = false});
     const double limit = stabilityLimit();
     const bool acts = now.step < infinity;
-    std::size_t sides = 0, free = 0;
+    std::size_t sides = 0, moving = 0;
     contacts().forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         if (contacts().touches(contact)) sides += bucket.wall < 0 ? 2 : 1;
     });
-    for (const std::uint32_t at : grains.place) free += grains.isFree(at) ? 1 : 0;
+    forEachMovingBody(grains, [&](double, const Vector<double>&, const Vector<double>&) { ++moving; });
     return {
         .limit = limit,
         .step = now.step,
@@ -63,7 +64,7 @@ StabilityAdvice Scene::stabilityAdvice() {
         .byFriction = acts ? smooth.step / now.step : 1,
         .largestOverlap = now.largestOverlap,
         .meanOverlap = now.meanOverlap,
-        .contactsOfGrain = static_cast<double>(sides) / static_cast<double>(std::max<std::size_t>(free, 1)),
+        .contactsOfGrain = static_cast<double>(sides) / static_cast<double>(std::max<std::size_t>(moving, 1)),
         .slidingShare = slidingShare(contacts(), grains),
         .grain = now.grain,
         .species = acts ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
@@ -71,10 +72,10 @@ StabilityAdvice Scene::stabilityAdvice() {
         .overlapOfThis = now.overlapOfGrain};
 }
 
-void Scene::requireNoBodies(std::string_view call) const {
-    if (!particleHandler.store().bodies.empty())
+void Scene::requireSpheres(std::string_view call) const {
+    if (laws().shapes())
         throw InputError(
-            fmt::format("Simulation: {} does not know rigid bodies; take stabilityLimit().", call));
+            fmt::format("Simulation: {} knows the contacts of spheres only; take stabilityLimit().", call));
 }
 
 void Scene::setAdaptiveTimeStep(double share, std::optional<double> largestStep) {

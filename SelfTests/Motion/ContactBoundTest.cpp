@@ -143,6 +143,128 @@ TEST(ContactBound, isBelowTheExactStepOfClustersAndNear) {
         }
 }
 
+/// Pairs of grains of a cluster that overlap, each grain in at most one.
+std::vector<std::array<std::uint32_t, 2>> pairsOf(const std::vector<scenes::GrainMotion>& grains) {
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    std::vector<bool> taken(grains.size());
+    for (std::uint32_t i = 0; i < grains.size(); ++i)
+        for (std::uint32_t j = i + 1; j < grains.size() && !taken[i]; ++j) {
+            const double gap =
+                (grains[j].position - grains[i].position).norm() - grains[i].radius - grains[j].radius;
+            if (taken[j] || gap > 0) continue;
+            taken[i] = taken[j] = true;
+            pairs.push_back({i, j});
+        }
+    return pairs;
+}
+
+/// The mass, the centre and the inertia of the solid spheres of a pair.
+BodyMass massOf(const std::vector<scenes::GrainMotion>& grains, std::span<const std::uint32_t> members) {
+    BodyMass sum{0, Vec3D::Zero(), Eigen::Matrix3d::Zero()};
+    for (const std::uint32_t k : members) {
+        const double m = sphereMass(grains[k].radius, density);
+        sum.mass += m, sum.centre += m * grains[k].position;
+    }
+    sum.centre /= sum.mass;
+    for (const std::uint32_t k : members) {
+        const double m = sphereMass(grains[k].radius, density);
+        const Vec3D d = grains[k].position - sum.centre;
+        sum.inertia +=
+            m * (d.squaredNorm() + 0.4 * grains[k].radius * grains[k].radius) * Eigen::Matrix3d::Identity() -
+            m * d * d.transpose();
+    }
+    return sum;
+}
+
+/// 1/s^2, as largestSquaredFrequency(), of grains of which pairs are joined: 6 rows for each grain or body.
+double largestSquaredFrequencyOfBodies(const std::vector<scenes::GrainMotion>& grains,
+                                       const std::vector<std::array<std::uint32_t, 2>>& pairs) {
+    std::vector<std::vector<std::uint32_t>> bodies;
+    std::vector<std::size_t> bodyOf(grains.size(), grains.size());
+    for (const auto& pair : pairs) {
+        for (const std::uint32_t k : pair) bodyOf[k] = bodies.size();
+        bodies.emplace_back(pair.begin(), pair.end());
+    }
+    for (std::uint32_t k = 0; k < grains.size(); ++k)
+        if (bodyOf[k] == grains.size()) bodyOf[k] = bodies.size(), bodies.push_back({k});
+    const auto size = static_cast<Eigen::Index>(6 * bodies.size());
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size), inertia = stiffness;
+    std::vector<Vec3D> centres;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const BodyMass own = massOf(grains, bodies[b]);
+        const auto at = static_cast<Eigen::Index>(6 * b);
+        inertia.block<3, 3>(at, at) = own.mass * Eigen::Matrix3d::Identity();
+        inertia.block<3, 3>(at + 3, at + 3) = own.inertia;
+        centres.push_back(own.centre);
+    }
+    const auto add = [&](std::size_t i, std::size_t j, const Vec3D& n, const Vec3D& point) {
+        Eigen::MatrixXd slip = Eigen::MatrixXd::Zero(3, size);
+        const auto side = [&](std::size_t k, double sign) {
+            const auto at = static_cast<Eigen::Index>(6 * bodyOf[k]);
+            const Vec3D arm = point - centres[bodyOf[k]];
+            Eigen::Matrix3d turn;  // w x arm
+            turn << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+            slip.block<3, 3>(0, at) += sign * Eigen::Matrix3d::Identity();
+            slip.block<3, 3>(0, at + 3) += sign * turn;
+        };
+        side(i, 1);
+        if (j < grains.size()) side(j, -1);
+        const Eigen::Matrix3d k = normalSpring * n * n.transpose() +
+                                  slidingSpring * (Eigen::Matrix3d::Identity() - n * n.transpose());
+        stiffness += slip.transpose() * k * slip;
+    };
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const Vec3D& place = grains[i].position;
+        if (place.z() < grains[i].radius) add(i, grains.size(), {0, 0, -1}, {place.x(), place.y(), 0});
+        for (std::size_t j = i + 1; j < grains.size(); ++j) {
+            const Vec3D apart = grains[j].position - place;
+            const double overlap = grains[i].radius + grains[j].radius - apart.norm();
+            if (overlap > 0 && bodyOf[i] != bodyOf[j])
+                add(i, j, apart.normalized(),
+                    place + (grains[i].radius - 0.5 * overlap) * apart.normalized());
+        }
+    }
+    return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, inertia)
+        .eigenvalues()
+        .maxCoeff();
+}
+
+// Of pairs that are joined: the smallest moment of inertia counts for all three, and the coupling of shift
+// and spin by its norm, so that the bound is within 1.8 of the exact step.
+TEST(ContactBound, isBelowTheExactStepOfRigidBodies) {
+    for (const double ratio : {1.0, 2.0})
+        for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+            const auto grains = cluster(25, ratio, seed);
+            const auto pairs = pairsOf(grains);
+            ASSERT_GT(pairs.size(), 6u);
+            scenes::FewGrains<Linear> scene(linear(), grains, 1e-9, {{{0, 0, -1}, {0, 0, 0}}});
+            scene.setIntegrator(integrators::velocityVerlet);
+            scene.setQuiet();
+            for (const auto& pair : pairs) scene.bodyHandler.join({pair[0], pair[1]}, massOf(grains, pair));
+            scene.initialise();
+            const double exact = 2 / std::sqrt(largestSquaredFrequencyOfBodies(grains, pairs)),
+                         bound = scene.stableStepOfContacts();
+            EXPECT_LE(bound, exact) << ratio << " " << seed;
+            EXPECT_GE(bound, exact / 1.8) << ratio << " " << seed;
+        }
+}
+
+// A body of one sphere is that sphere.
+TEST(ContactBound, isThatOfTheSphereForABodyOfOne) {
+    const auto grains = cluster(12, 2, 3);
+    const auto stepOf = [&](bool joined) {
+        scenes::FewGrains<Linear> scene(linear(), grains, 1e-9, {{{0, 0, -1}, {0, 0, 0}}});
+        scene.setIntegrator(integrators::velocityVerlet);
+        scene.setQuiet();
+        for (std::uint32_t k = 0; joined && k < grains.size(); ++k) scene.bodyHandler.join({k});
+        scene.initialise();
+        return scene.stableStepOfContacts();
+    };
+    // The coupling of a body counts with sqrt(2) of that of a sphere: both cannot differ by more than that.
+    EXPECT_LE(stepOf(true), stepOf(false) * (1 + 1e-9));
+    EXPECT_GE(stepOf(true), stepOf(false) / 1.2);
+}
+
 // k_n = 2 E* sqrt(R* d) and k_t = 2/3 8 G* sqrt(R* d), at the overlap of each contact.
 TEST(ContactBound, hasTheStiffnessOfEachOverlap) {
     using Hertz = Species<HertzianViscoelastic, Mindlin>;

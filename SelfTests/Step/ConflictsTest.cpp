@@ -186,11 +186,9 @@ std::string refusalOfEllipsoids(Feature with) {
     return support::refusal([&] {
         Ellipsoids scene;
         for (const int axis : {0, 1, 2}) scene.setPeriodic(axis, -0.1, 0.1);
-        if (with == Feature::StressServo) {
-            scene.setTargetStress(2, 100, 0.1);
-        } else {
-            addInlet(scene);
-        }
+        if (with == Feature::StressServo) scene.setTargetStress(2, 100, 0.1);
+        else if (with == Feature::AdaptiveStep) scene.setAdaptiveTimeStep(0.9);
+        else addInlet(scene);
         scene.initialise();
     });
 }

@@ -67,7 +67,7 @@ std::vector<Feature> methodFeatures() {
         {.name = "AdaptiveStep",
          .share = 0.1,
          .add = addAdaptiveStep,
-         .excludes = {"AdamsMoulton", "body", "moving images", "driven wall", "membrane", "viscous bridges",
+         .excludes = {"AdamsMoulton", "Superquadrics", "driven wall", "membrane", "viscous bridges",
                       "TimeStepChange"}},
         {.name = "UnstableStep",
          .share = 0.03,
