@@ -1,5 +1,6 @@
 #include "Kernel/Motion/ContactBound.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -25,19 +26,39 @@ double inUnits(double value, double unit) {
 /// 2^-40 of the power of two above the value.
 double unitOf(double largest) { return largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 39) : 0; }
 
-double sizeOf(const Vector<double>& coupling) { return norm(coupling); }
-/// Of all its entries: not less than its largest singular value.
-double sizeOf(const std::array<double, 9>& coupling) {
-    double sum = 0;
-    for (const double entry : coupling) sum += entry * entry;
-    return std::sqrt(sum);
-}
+constexpr std::array axesOfSpace{Vector<double>{1, 0, 0}, Vector<double>{0, 1, 0}, Vector<double>{0, 0, 1}};
 
-/// The springs of friction in the spin; a grain that is a sphere has no others there.
-template <class One>
-const std::array<double, 6>& springsOfFriction(const One& one) {
-    if constexpr (requires { one.friction; }) return one.friction;
-    else return one.spring.spin;
+/// What a motion of a rigid body gives at a contact: its slip along a direction is the product of this with
+/// sqrt(M) v and sqrt(I) w in the principal axes.
+struct BodySlip {
+    using Six = std::array<double, 6>;
+
+    /// @param contact m, from the centre of mass, in the principal axes
+    BodySlip(const RigidBody& body, const Vector<double>& contact)
+        : arm(contact),
+          shift(1 / std::sqrt(body.mass)),
+          spin{1 / std::sqrt(body.inertia.x), 1 / std::sqrt(body.inertia.y), 1 / std::sqrt(body.inertia.z)} {}
+
+    [[nodiscard]] Six along(const Vector<double>& direction) const {
+        Six slip = turning(cross(arm, direction));
+        slip[0] = shift * direction.x, slip[1] = shift * direction.y, slip[2] = shift * direction.z;
+        return slip;
+    }
+    /// Of the spin alone, about an axis.
+    [[nodiscard]] Six turning(const Vector<double>& axis) const {
+        return {0, 0, 0, spin.x * axis.x, spin.y * axis.y, spin.z * axis.z};
+    }
+
+    Vector<double> arm;   // m
+    double shift;         // 1/sqrt(kg)
+    Vector<double> spin;  // 1/sqrt(kg m^2)
+};
+
+void addSquare(ContactBounds::BodyMatrix& to, double factor, const BodySlip::Six& slip, double unit) {
+    std::size_t k = 0;
+    for (std::size_t row = 0; row < 6; ++row)
+        for (std::size_t column = 0; column <= row; ++column)
+            to[k++] += inUnits(factor * slip[row] * slip[column], unit);
 }
 
 struct Terms {
@@ -160,7 +181,10 @@ double ContactBounds::inverseInertia(const ParticleStore& grains, std::uint32_t 
 double ContactBounds::mobility(const ParticleStore& grains, const Term& term, std::uint32_t place) const {
     const double inverseMass = grains.translation[place].inverseMass;
     if (!isInBody(place)) return inverseMass;
-    return inverseMass + squaredNorm(armOf(grains, term, place)) * inverseInertia(grains, place);
+    const RigidBody& body = grains.bodies[moverAt(place) - blocks.size()];
+    const Vector<double> lever = body.orientation.turnBack(cross(armOf(grains, term, place), term.normal));
+    return inverseMass + lever.x * lever.x / body.inertia.x + lever.y * lever.y / body.inertia.y +
+           lever.z * lever.z / body.inertia.z;
 }
 
 /// Finds the load of each grain, and the units of the sums.
@@ -385,64 +409,68 @@ void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::ui
     couple(block.dashpot.coupling, cross * s.sliding.dashpot, dashpotUnit);
 }
 
-/// Adds over a mass and a moment of inertia what a spring, or a dashpot, of these strengths gives: shift S,
-/// spin A^T S A and coupling S A, where w x a = A w.
 void ContactBounds::addToBody(const ParticleStore& grains, const Term& term, std::uint32_t place,
                               std::uint32_t other) {
     OfBody& block = bodies[moverAt(place) - blocks.size()];
     note(term, block);
+    const RigidBody& body = grains.bodies[moverAt(place) - blocks.size()];
     const ContactStiffness& s = term.stiffness;
-    if (grains.hasSpin) block.relaxation = std::min(block.relaxation, s.shortestRelaxation());
-    const double share = shareOf(grains, place, other), ownInertia = inverseInertia(grains, place),
-                 overMass = share * grains.translation[place].inverseMass, overInertia = share * ownInertia,
-                 overBoth = std::sqrt(overMass * overInertia);
-    const Vector<double> n = term.normal, a = armOf(grains, term, place), lever = cross(a, n);
-    const double a2 = squaredNorm(a), lever2 = squaredNorm(lever);
-    const auto addSpin = [&](std::array<double, 6>& to, double along, double across, double unit) {
-        if (a2 > 0) add(to, {0, overInertia * across * a2}, (1 / std::sqrt(a2)) * a, unit);
-        if (lever2 > 0)
-            add(to, {overInertia * (along - across) * lever2, 0}, (1 / std::sqrt(lever2)) * lever, unit);
-    };
-    const auto addPart = [&](Block<std::array<double, 9>>& to, double along, double across, double unit) {
-        add(to.shift, {overMass * along, overMass * across}, n, unit);
-        addSpin(to.spin, along, across, unit);
-        const double normal = overBoth * (along - across), sliding = overBoth * across;
-        const std::array<double, 9> parts{normal * n.x * lever.x,
-                                          normal * n.x * lever.y + sliding * a.z,
-                                          normal * n.x * lever.z - sliding * a.y,
-                                          normal * n.y * lever.x - sliding * a.z,
-                                          normal * n.y * lever.y,
-                                          normal * n.y * lever.z + sliding * a.x,
-                                          normal * n.z * lever.x + sliding * a.y,
-                                          normal * n.z * lever.y - sliding * a.x,
-                                          normal * n.z * lever.z};
-        for (std::size_t k = 0; k < parts.size(); ++k) to.coupling[k] += inUnits(parts[k], unit);
+    const double share = shareOf(grains, place, other);
+    const Vector<double> n = body.orientation.turnBack(term.normal),
+                         arm = body.orientation.turnBack(armOf(grains, term, place));
+    const BodySlip slip(body, arm);
+    const auto addPart = [&](BodyMatrix& to, double along, double across, double unit) {
+        for (const Vector<double>& axis : axesOfSpace) addSquare(to, share * across, slip.along(axis), unit);
+        addSquare(to, share * (along - across), slip.along(n), unit);
     };
     addPart(block.spring, s.normal.spring, s.sliding.spring, springUnit);
     addPart(block.dashpot, s.normal.dashpot, s.sliding.dashpot, dashpotUnit);
     if (!grains.hasSpin) return;
-    addSpin(block.friction, 0, s.sliding.spring, springUnit);
-    const double arm = term.pair.bodies.effectiveRadius(),
-                 turn = arm * arm * (ownInertia + (other == none ? 0 : inverseInertia(grains, other)));
-    for (std::array<double, 6>* to : {&block.spring.spin, &block.friction})
-        add(*to, {turn * s.torsion.spring, turn * s.rolling.spring}, n, springUnit);
-    add(block.dashpot.spin, {turn * s.torsion.dashpot, turn * s.rolling.dashpot}, n, dashpotUnit);
+    block.relaxation = std::min(block.relaxation, s.shortestRelaxation());
+    for (const Vector<double>& axis : axesOfSpace)
+        addSquare(block.friction, share * s.sliding.spring, slip.turning(cross(arm, axis)), springUnit);
+    addSquare(block.friction, -share * s.sliding.spring, slip.turning(cross(arm, n)), springUnit);
+    const double ratio = other == none ? 0 : inverseInertia(grains, other) / inverseInertia(grains, place),
+                 lever = term.pair.bodies.effectiveRadius(), turn = lever * lever * (1 + ratio);
+    const auto addTurn = [&](BodyMatrix& to, double along, double across, double unit) {
+        for (const Vector<double>& axis : axesOfSpace) addSquare(to, turn * across, slip.turning(axis), unit);
+        addSquare(to, turn * (along - across), slip.turning(n), unit);
+    };
+    for (BodyMatrix* to : {&block.spring, &block.friction})
+        addTurn(*to, s.torsion.spring, s.rolling.spring, springUnit);
+    addTurn(block.dashpot, s.torsion.dashpot, s.rolling.dashpot, dashpotUnit);
+}
+
+double ContactBounds::largestOf(const GrainBlock& block, bool exact) {
+    const double shift = largestEigenvalue(block.shift, exact), spin = largestEigenvalue(block.spin, exact),
+                 between = norm(block.coupling);
+    return 0.5 * (shift + spin + std::hypot(shift - spin, 2 * between));
+}
+
+double ContactBounds::largestOf(const BodyMatrix& block, bool exact) {
+    Eigen::Matrix<double, 6, 6> matrix;
+    std::size_t k = 0;
+    for (int row = 0; row < 6; ++row)
+        for (int column = 0; column <= row; ++column) matrix(row, column) = matrix(column, row) = block[k++];
+    if (exact) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(matrix,
+                                                                                Eigen::EigenvaluesOnly);
+        return solver.eigenvalues()[5];
+    }
+    // Wolkowicz and Styan, as for three rows: mean + sqrt(5) standard deviations.
+    const double mean = matrix.trace() / 6;
+    return mean + std::sqrt(std::max(5 * (matrix.squaredNorm() / 6 - mean * mean), 0.0));
 }
 
 template <class One>
 double ContactBounds::stepOf(const One& one, const Integrator& integrator, bool exact) {
-    const auto largest = [exact](const auto& block) {
-        const double shift = largestEigenvalue(block.shift, exact),
-                     spin = largestEigenvalue(block.spin, exact), between = sizeOf(block.coupling);
-        return 0.5 * (shift + spin + std::hypot(shift - spin, 2 * between));
-    };
     const SignChange signChange(integrator);
-    SpringAndDashpot mode{largest(one.spring), largest(one.dashpot)};
+    SpringAndDashpot mode{largestOf(one.spring, exact), largestOf(one.dashpot, exact)};
     if (!integrator.contacts.timesTouches) return signChange.limit(mode);
     if (integrator.contacts.implicitForces) mode.dashpot = std::max(mode.dashpot - one.ownDashpot, 0.0);
     double step = signChange.limit(mode);
     if (integrator.contacts.springsInStep) return step;
-    const double spin = largestEigenvalue(springsOfFriction(one), exact);
+    const double spin = springsInSpin(one, exact);
     if (spin > 0) step = std::min(step, springsAheadLimit(spin, one.relaxation, integrator));
     return step;
 }

@@ -32,6 +32,10 @@ struct ContactBound {
     std::size_t touching = 0;  // contacts
 };
 
+/// The largest eigenvalue of a symmetric matrix (xx yy zz xy xz yz), from above.
+/// @param exact to 1e-6; else up to 1.5 times as large
+[[nodiscard]] double largestEigenvalue(const std::array<double, 6>& matrix, bool exact = true);
+
 /// The largest stable step of the contacts of a scene: of each grain the highest frequency that its own
 /// contacts can give it, with their stiffness at their overlaps, their directions and what friction does to
 /// the spin.
@@ -48,8 +52,7 @@ struct ContactBound {
 /// shift and spin are exact, and their coupling is bounded by its norm. The same for dashpots.
 ///
 /// A rigid body has one block, to which the contacts of all its grains add: with the arm a from its centre of
-/// mass to a contact, s1 = S (v + w x a) for S = n n and 1 - n n. Its moments of inertia count as the
-/// smallest of them.
+/// mass to a contact, s1 = n.(v + w x a) or, across, (1 - n n)(v + w x a). Its eigenvalues are exact.
 ///
 /// The stiffness of friction is that of contacts that stick. What turns the normal forces (F/d of each) is
 /// left out: a thousandth.
@@ -57,16 +60,18 @@ struct ContactBound {
 /// Sums are exact, in units of 2^-40 of the largest term, so that no bit depends on the order of the list.
 class ContactBounds {
 public:
+    /// A symmetric matrix of shift and spin in the principal axes of a rigid body, by rows of its lower half.
+    using BodyMatrix = std::array<double, 21>;
+
     [[nodiscard]] ContactBound find(const ContactSystem& contacts, const WallHandler& walls,
                                     const ParticleStore& grains, const Integrator& integrator,
                                     const ContactOutlook& outlook = {});
 
 private:
-    /// The springs (1/s^2) or dashpots (1/s) of a grain or body, over its mass and moment of inertia.
-    template <class Coupling>
-    struct Block {
+    /// The springs (1/s^2) or dashpots (1/s) of a grain, over its mass and moment of inertia.
+    struct GrainBlock {
         std::array<double, 6> shift{}, spin{};  // xx yy zz xy xz yz
-        Coupling coupling{};
+        Vector<double> coupling{0, 0, 0};       // is the vector product with this
     };
     struct Term {
         std::uint32_t first, second;  // places; second: none at a wall
@@ -79,17 +84,17 @@ private:
         double smallerRadius = 0;  // m
         bool drags = false;        // a bridge
     };
-    template <class Coupling>
+    template <class Block>
     struct OfOne {
-        Block<Coupling> spring, dashpot;
+        Block spring{}, dashpot{};
         double ownDashpot = infinity;  // 1/s, the least that one of its contacts makes implicit
         double relaxation = infinity;  // s, of the least damped spring of friction
         double overlap = 0;            // of the smaller radius
         std::size_t contacts = 0;
     };
-    using OfGrain = OfOne<Vector<double>>;  // its coupling is the vector product with this
-    struct OfBody : OfOne<std::array<double, 9>> {
-        std::array<double, 6> friction{};  // the part of friction's springs in the spin
+    using OfGrain = OfOne<GrainBlock>;
+    struct OfBody : OfOne<BodyMatrix> {
+        BodyMatrix friction{};  // the part of friction's springs in the spin
     };
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
@@ -118,7 +123,7 @@ private:
     /// m, from the centre of mass of the body to the contact.
     [[nodiscard]] Vector<double> armOf(const ParticleStore& grains, const Term& term,
                                        std::uint32_t place) const;
-    /// 1/kg: how easily a force at the contact moves it; at least that.
+    /// 1/kg: how easily a force along the normal moves it there.
     [[nodiscard]] double mobility(const ParticleStore& grains, const Term& term, std::uint32_t place) const;
     [[nodiscard]] double inverseInertia(const ParticleStore& grains, std::uint32_t place) const;
     /// The weight t of the grain at a place in a contact with another one.
@@ -133,6 +138,16 @@ private:
     /// What grain and body take note of in the same way.
     template <class One>
     static void note(const Term& term, One& one);
+    /// The largest eigenvalue; not exact: at least that.
+    [[nodiscard]] static double largestOf(const GrainBlock& block, bool exact);
+    [[nodiscard]] static double largestOf(const BodyMatrix& block, bool exact);
+    /// 1/s^2, of the springs of friction alone.
+    [[nodiscard]] static double springsInSpin(const OfGrain& grain, bool exact) {
+        return largestEigenvalue(grain.spring.spin, exact);
+    }
+    [[nodiscard]] static double springsInSpin(const OfBody& body, bool exact) {
+        return largestOf(body.friction, exact);
+    }
     /// s; not exact: at most that
     template <class One>
     [[nodiscard]] static double stepOf(const One& one, const Integrator& integrator, bool exact);
@@ -151,9 +166,5 @@ private:
     std::vector<WallPoint> points;
     double springUnit = 0, dashpotUnit = 0;
 };
-
-/// The largest eigenvalue of a symmetric matrix (xx yy zz xy xz yz), from above.
-/// @param exact to 1e-6; else up to 1.5 times as large
-[[nodiscard]] double largestEigenvalue(const std::array<double, 6>& matrix, bool exact = true);
 
 }  // namespace pendular

@@ -229,10 +229,9 @@ double largestSquaredFrequencyOfBodies(const std::vector<scenes::GrainMotion>& g
         .maxCoeff();
 }
 
-// Of pairs that are joined: the smallest moment of inertia counts for all three, and the coupling of shift
-// and spin by its norm, so that the bound is within 1.8 of the exact step.
+// Of pairs that are joined.
 TEST(ContactBound, isBelowTheExactStepOfRigidBodies) {
-    for (const double ratio : {1.0, 2.0})
+    for (const auto& [ratio, within] : {std::pair{1.0, 1.5}, std::pair{2.0, 1.8}})
         for (std::uint64_t seed = 1; seed <= 10; ++seed) {
             const auto grains = cluster(25, ratio, seed);
             const auto pairs = pairsOf(grains);
@@ -245,7 +244,7 @@ TEST(ContactBound, isBelowTheExactStepOfRigidBodies) {
             const double exact = 2 / std::sqrt(largestSquaredFrequencyOfBodies(grains, pairs)),
                          bound = scene.stableStepOfContacts();
             EXPECT_LE(bound, exact) << ratio << " " << seed;
-            EXPECT_GE(bound, exact / 1.8) << ratio << " " << seed;
+            EXPECT_GE(bound, exact / within) << ratio << " " << seed;
         }
 }
 
@@ -260,9 +259,8 @@ TEST(ContactBound, isThatOfTheSphereForABodyOfOne) {
         scene.initialise();
         return scene.stableStepOfContacts();
     };
-    // The coupling of a body counts with sqrt(2) of that of a sphere: both cannot differ by more than that.
-    EXPECT_LE(stepOf(true), stepOf(false) * (1 + 1e-9));
-    EXPECT_GE(stepOf(true), stepOf(false) / 1.2);
+    // Only the coupling of a sphere is bounded by its norm.
+    EXPECT_NEAR(stepOf(true) / stepOf(false), 1, 0.1);
 }
 
 // k_n = 2 E* sqrt(R* d) and k_t = 2/3 8 G* sqrt(R* d), at the overlap of each contact.
