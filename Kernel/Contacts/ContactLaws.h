@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactTiming.h"
+#include "Kernel/Contacts/LiquidLaws.h"
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Species/Bodies.h"
-#include "Kernel/Species/BridgeSurface.h"
 #include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Law.h"
-#include "Kernel/Species/LiquidRules.h"
 #include "Kernel/Species/Stiffness.h"
 
 namespace pendular {
@@ -64,7 +63,8 @@ struct FieldValue {
 
 /// What a scene asks of the laws of its species, whatever they are: SpeciesLaws gives it for a species type,
 /// SeveralSpeciesLaws for species of several types. All functions of a pair take the indices of two species.
-class ContactLaws : public GrainSpecies {
+/// What only liquid needs is in LiquidLaws.
+class ContactLaws : public GrainSpecies, public LiquidLaws {
 public:
     ContactLayout layout;
     std::string_view name, friction;
@@ -105,42 +105,12 @@ public:
     /// What is out of the domain of each law, with the law's name.
     [[nodiscard]] virtual std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const = 0;
-    /// m^3; nothing where no laws of the scene have a bridge
-    [[nodiscard]] virtual std::optional<double> bridgeVolume(int a, int b) const = 0;
-
-    /// How liquid moves between the two; nothing where it does not.
-    [[nodiscard]] virtual std::optional<LiquidRules> liquidRules(int a, int b) const = 0;
-
-    /// m: bodies that have not touched form a bridge below this gap; 0 where they must touch. This is for
-    /// bridges of a fixed volume.
-    [[nodiscard]] virtual double filmContactGap(int a, int b) const = 0;
-    /// The gap (m) as above where liquid moves, for films of this thickness (m, of both bodies together).
-    [[nodiscard]] virtual double filmContactGap(int a, int b, const Bodies& bodies, double films) const = 0;
-    /// Films have met: the bridge that liquid is about to make there will resist from the gap `start` (m) on,
-    /// of which the bodies have gone up to `gap` (m).
-    virtual void meetFilms(int a, int b, double* interaction, double gap, double start) const = 0;
-
-    /// The free surface of a bridge of this volume (m^3) at a separation (m), where liquid moves.
-    /// @param solved with pressure and filling angles
-    [[nodiscard]] virtual BridgeSurface bridgeSurface(int a, int b, const Bodies& bodies, double volume,
-                                                      double separation, bool solved) const = 0;
 
     // The functions below take what contacts remember as numbers.
-    /// Prepares a bridge; where liquid moves, a contact without one.
-    virtual void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const = 0;
-    /// Prepares a bridge of this volume (m^3), where liquid moves.
-    virtual void prepareBridge(int a, int b, const Bodies& bodies, double volume,
-                               double* interaction) const = 0;
-    /// A bridge that was prepared again goes on with what it remembered.
-    virtual void takeBridgeState(int a, int b, double* interaction, const double* before) const = 0;
-    /// Called between two steps: if the separation (m) is not what it was at the end of the last one (by more
-    /// than roundOff, m), the bodies have been put there, and a bridge forgets how they moved.
-    virtual void checkGap(int a, int b, double* interaction, double separation, double roundOff) const = 0;
+    /// Prepares the adhesion of a contact; where liquid moves, that of one without a bridge.
+    virtual void prepareAdhesion(int a, int b, const Bodies& bodies, double* interaction) const = 0;
     [[nodiscard]] virtual double adhesiveForce(int a, int b, const double* interaction,
                                                double separation) const = 0;
-    /// Minus the work (J) that a bridge still does from a separation (m) to its rupture, where liquid moves.
-    [[nodiscard]] virtual double adhesionEnergy(int a, int b, const double* interaction,
-                                                double separation) const = 0;
     virtual void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const = 0;
     [[nodiscard]] virtual double springLength(int a, int b, const double* history) const = 0;
 

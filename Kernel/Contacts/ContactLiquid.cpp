@@ -83,7 +83,7 @@ double ContactLiquid::separationOf(const ContactStore& store, const ContactLaws&
     return observeContact(store, laws, grains, *periodic, bucket, wall, contact).separation;
 }
 
-void ContactLiquid::listed(const ContactStore& store, const ContactLaws& laws) {
+void ContactLiquid::listed(const ContactStore& store, const LiquidLaws& laws) {
     if (!moves()) return;
     walls.resize(std::max(walls.size(), shapes->getSize()));
     rules.clear();
@@ -126,7 +126,7 @@ static bool isWithin(const ContactStore& store, const ParticleStore& grains, con
 }
 
 const std::vector<FilmContact>& ContactLiquid::findFilmContacts(const ContactStore& store,
-                                                                const ContactLaws& laws,
+                                                                const LiquidLaws& laws,
                                                                 const ParticleStore& grains, double length,
                                                                 double approached) {
     filmContacts.clear();
@@ -150,7 +150,7 @@ const std::vector<FilmContact>& ContactLiquid::findFilmContacts(const ContactSto
 }
 
 /// The film of a wall has no thickness: its account knows no area.
-void ContactLiquid::lookForFilms(const ContactStore& store, const ContactLaws& laws,
+void ContactLiquid::lookForFilms(const ContactStore& store, const LiquidLaws& laws,
                                  const ParticleStore& grains, const Bucket& bucket, std::uint32_t contact,
                                  double length) {
     const std::size_t block = contact / Pack::lanes, lane = contact % Pack::lanes;
@@ -180,7 +180,7 @@ void ContactLiquid::lookForFilms(const ContactStore& store, const ContactLaws& l
     filmContacts.push_back({contact, gap, std::min(meets, before)});
 }
 
-void ContactLiquid::move(ContactStore& store, const ContactLaws& laws, ParticleStore& grains,
+void ContactLiquid::move(ContactStore& store, const LiquidLaws& laws, ParticleStore& grains,
                          ContactEvents& events) {
     places.clear(), ruptured.clear(), formed.clear();
     const auto look = [&](const std::vector<std::uint32_t>& identities) {
@@ -188,7 +188,7 @@ void ContactLiquid::move(ContactStore& store, const ContactLaws& laws, ParticleS
             if (grains.place.contains(identity)) places.push_back(grains.place[identity]);
     };
     look(looked), look(filmsOfGrains->takeWetted());
-    ListedLiquid liquid = of(store, laws, grains);
+    ListedLiquid liquid = of(store, grains);
     for (const ContactChange& change : events.changes()) {
         if (!liquid.moves(change.contact)) continue;
         if (liquid.volumeOf(change.contact) > 0) {
@@ -262,7 +262,7 @@ void ContactLiquid::dryFilms(ParticleStore& grains, double time) {
 
 void ContactLiquid::dryBridges(ContactStore& store, const ContactLaws& laws, ParticleStore& grains,
                                double time) {
-    const ListedLiquid liquid = of(store, laws, grains);
+    const ListedLiquid liquid = of(store, grains);
     places.clear();
     for (std::size_t slot = Pack::lanes; slot < store.memory.slotCount(); ++slot) {
         double& volume = store.memory.volumeOf(slot);
@@ -313,10 +313,9 @@ void ContactLiquid::remember(const ParticleStore& grains) {
     for (const std::uint32_t place : places) looked.push_back(grains.identity[place]);
 }
 
-void ContactLiquid::release(ContactStore& store, const ContactLaws& laws, ParticleStore& grains,
-                            std::uint32_t contact) {
+void ContactLiquid::release(ContactStore& store, ParticleStore& grains, std::uint32_t contact) {
     if (!moves() || store.slots[contact / Pack::lanes] == ContactStore::asleep) return;
-    ListedLiquid liquid = of(store, laws, grains);
+    ListedLiquid liquid = of(store, grains);
     places.clear();
     for (const std::uint32_t which : {0u, 1u})  // a touch ends, too
         if (which == 0 || !liquid.isAtWall(contact)) places.push_back(liquid.grainOf(contact, which));
@@ -324,9 +323,9 @@ void ContactLiquid::release(ContactStore& store, const ContactLaws& laws, Partic
     remember(grains);
 }
 
-void ContactLiquid::clip(ContactStore& store, const ContactLaws& laws, ParticleStore& grains) {
+void ContactLiquid::clip(ContactStore& store, ParticleStore& grains) {
     if (!moves()) return;
-    ListedLiquid liquid = of(store, laws, grains);
+    ListedLiquid liquid = of(store, grains);
     places.clear();
     store.forEachListed([&](const Bucket&, std::uint32_t contact) {
         if (!store.acts(contact)) return;

@@ -25,7 +25,6 @@ struct ListedLiquid {
     using Number = std::uint32_t;
 
     ContactStore& store;
-    const ContactLaws& laws;
     ParticleStore& grains;
     GrainFilms& films;
     const std::vector<QuantisedRules>& rulesOfBuckets;
@@ -104,7 +103,7 @@ public:
     [[nodiscard]] const Evaporation& evaporation() const { return drying; }
     [[nodiscard]] bool moves() const { return filmsOfGrains != nullptr; }
     /// Contacts have been listed again.
-    void listed(const ContactStore& store, const ContactLaws& laws);
+    void listed(const ContactStore& store, const LiquidLaws& laws);
     /// Prepares again, before the forces of a step, the bridges whose volumes have changed since the last
     /// one; where they have dried only, when the volume has changed by 0.1 % since the last preparation. (d
     /// ln F / d ln V is 0 to 1, and the rupture distance goes as V^(1/3).) Until then observers see the
@@ -117,12 +116,12 @@ public:
     /// Called at the end of a step (s), before move(): the contacts without a bridge whose films meet, in the
     /// order of the list. They need memory for move().
     /// @param approached m, that bodies can have approached since they were listed
-    const std::vector<FilmContact>& findFilmContacts(const ContactStore& store, const ContactLaws& laws,
+    const std::vector<FilmContact>& findFilmContacts(const ContactStore& store, const LiquidLaws& laws,
                                                      const ParticleStore& grains, double length,
                                                      double approached);
     /// Called at the end of a step: what has begun and ended in it moves liquid. Bridges that form are added
     /// to the events.
-    void move(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, ContactEvents& events);
+    void move(ContactStore& store, const LiquidLaws& laws, ParticleStore& grains, ContactEvents& events);
     /// Called at the end of a step (s) that ends at a time (s), after move(): films and bridges dry. A bridge
     /// that gets too small for its gap ruptures in the next step.
     void dry(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, double time, double length);
@@ -135,9 +134,9 @@ public:
     /// Liquid of droplets (m^3, a multiple of the quantum) evaporates.
     void addEvaporated(double volume) { evaporated += volume; }
     /// A contact is about to end because a body is removed or changed.
-    void release(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, std::uint32_t contact);
+    void release(ContactStore& store, ParticleStore& grains, std::uint32_t contact);
     /// Values of species have changed: what bridges hold above V_max goes to films.
-    void clip(ContactStore& store, const ContactLaws& laws, ParticleStore& grains);
+    void clip(ContactStore& store, ParticleStore& grains);
 
     [[nodiscard]] LiquidLedger ledger(const ContactStore& store, const ParticleStore& grains) const;
     /// m^3, what a wall has got back minus what it gave.
@@ -148,8 +147,8 @@ public:
     void requireWhole(const StateArchive& archive, const ContactStore& store) const;
 
 private:
-    ListedLiquid of(ContactStore& store, const ContactLaws& laws, ParticleStore& grains) {
-        return {store, laws, grains, *filmsOfGrains, rules, walls, formed, changed, filmContacts};
+    ListedLiquid of(ContactStore& store, ParticleStore& grains) {
+        return {store, grains, *filmsOfGrains, rules, walls, formed, changed, filmContacts};
     }
     void remember(const ParticleStore& grains);
     void dryFilms(ParticleStore& grains, double time);
@@ -159,7 +158,7 @@ private:
     [[nodiscard]] double lost(double volume, std::uint64_t whose, std::uint32_t purpose) const;
     [[nodiscard]] double separationOf(const ContactStore& store, const ContactLaws& laws,
                                       const ParticleStore& grains, std::uint32_t contact) const;
-    void lookForFilms(const ContactStore& store, const ContactLaws& laws, const ParticleStore& grains,
+    void lookForFilms(const ContactStore& store, const LiquidLaws& laws, const ParticleStore& grains,
                       const Bucket& bucket, std::uint32_t contact, double length);
     void bookChange(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains,
                     std::uint32_t contact, const double* before, bool byMigration);

@@ -65,7 +65,7 @@ double ContactSystem::renew(Grains& grains) {
     });
     sumLostForces(grains);
     listNow(grains, false);
-    liquid.clip(contacts, *species, grains);
+    liquid.clip(contacts, grains);
     return stored;
 }
 
@@ -304,7 +304,7 @@ double ContactSystem::endContactsAtWall(Grains& grains, int wall) {
 /// It is listed no more, and its memory and its force are zero.
 double ContactSystem::endContact(Grains& grains, std::uint32_t contact) {
     contactEvents.end(contacts, contact, grains.identity);
-    liquid.release(contacts, *species, grains, contact);
+    liquid.release(contacts, grains, contact);
     const std::size_t block = contact / Pack::lanes;
     const auto others = static_cast<std::uint8_t>(~(1u << contact % Pack::lanes));
     BlockState& state = contacts.states[block];

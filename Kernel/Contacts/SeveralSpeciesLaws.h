@@ -48,6 +48,21 @@ public:
         int a, int b, const Bodies& bodies) const override {
         return ofPair(a, b).brokenLimits(a, b, bodies);
     }
+
+    void prepareAdhesion(int a, int b, const Bodies& bodies, double* interaction) const override {
+        ofPair(a, b).prepareAdhesion(a, b, bodies, interaction);
+    }
+    [[nodiscard]] double adhesiveForce(int a, int b, const double* interaction,
+                                       double separation) const override {
+        return ofPair(a, b).adhesiveForce(a, b, interaction, separation);
+    }
+    void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const override {
+        ofPair(a, b).turn(a, b, history, rotation);
+    }
+    [[nodiscard]] double springLength(int a, int b, const double* history) const override {
+        return ofPair(a, b).springLength(a, b, history);
+    }
+
     /// Zero for a dry pair beside wet ones.
     [[nodiscard]] std::optional<double> bridgeVolume(int a, int b) const override;
 
@@ -67,9 +82,6 @@ public:
         ofPair(a, b).meetFilms(a, b, interaction, gap, start);
     }
 
-    void prepareBridge(int a, int b, const Bodies& bodies, double* interaction) const override {
-        ofPair(a, b).prepareBridge(a, b, bodies, interaction);
-    }
     void prepareBridge(int a, int b, const Bodies& bodies, double volume,
                        double* interaction) const override {
         ofPair(a, b).prepareBridge(a, b, bodies, volume, interaction);
@@ -80,10 +92,6 @@ public:
     void checkGap(int a, int b, double* interaction, double separation, double roundOff) const override {
         ofPair(a, b).checkGap(a, b, interaction, separation, roundOff);
     }
-    [[nodiscard]] double adhesiveForce(int a, int b, const double* interaction,
-                                       double separation) const override {
-        return ofPair(a, b).adhesiveForce(a, b, interaction, separation);
-    }
     [[nodiscard]] double adhesionEnergy(int a, int b, const double* interaction,
                                         double separation) const override {
         return ofPair(a, b).adhesionEnergy(a, b, interaction, separation);
@@ -91,12 +99,6 @@ public:
     [[nodiscard]] BridgeSurface bridgeSurface(int a, int b, const Bodies& bodies, double volume,
                                               double separation, bool solved) const override {
         return ofPair(a, b).bridgeSurface(a, b, bodies, volume, separation, solved);
-    }
-    void turn(int a, int b, double* history, const FrameRotation<double>& rotation) const override {
-        ofPair(a, b).turn(a, b, history, rotation);
-    }
-    [[nodiscard]] double springLength(int a, int b, const double* history) const override {
-        return ofPair(a, b).springLength(a, b, history);
     }
 
     void prepare(const std::vector<Bucket>& buckets) override;

@@ -80,6 +80,31 @@ public:
         });
         return found;
     }
+
+    void prepareAdhesion([[maybe_unused]] int a, [[maybe_unused]] int b,
+                         [[maybe_unused]] const Bodies& bodies, [[maybe_unused]] double* to) const override {
+        if constexpr (Adhesion::acts) putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies), to);
+    }
+    [[nodiscard]] double adhesiveForce(int /*a*/, int /*b*/, [[maybe_unused]] const double* from,
+                                       [[maybe_unused]] double separation) const override {
+        if constexpr (Adhesion::acts)
+            return memoryFrom<Interaction<double>>(from).force(separationFor<Adhesion>(-separation));
+        else return 0;
+    }
+    void turn(int /*a*/, int /*b*/, [[maybe_unused]] double* numbers,
+              [[maybe_unused]] const FrameRotation<double>& rotation) const override {
+        if constexpr (S::Friction::acts) {
+            auto history = memoryFrom<History<double>>(numbers);
+            history.turn(rotation);
+            putMemory(history, numbers);
+        }
+    }
+    [[nodiscard]] double springLength(int /*a*/, int /*b*/,
+                                      [[maybe_unused]] const double* numbers) const override {
+        if constexpr (S::Friction::acts) return norm(memoryFrom<History<double>>(numbers).slidingSpring());
+        else return 0;
+    }
+
     [[nodiscard]] std::optional<double> bridgeVolume([[maybe_unused]] int a,
                                                      [[maybe_unused]] int b) const override {
         if constexpr (requires(typename S::Mixed laws) { laws.liquidBridgeVolume; })
@@ -114,10 +139,6 @@ public:
     }
 
     void prepareBridge([[maybe_unused]] int a, [[maybe_unused]] int b, [[maybe_unused]] const Bodies& bodies,
-                       [[maybe_unused]] double* to) const override {
-        if constexpr (Adhesion::acts) putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies), to);
-    }
-    void prepareBridge([[maybe_unused]] int a, [[maybe_unused]] int b, [[maybe_unused]] const Bodies& bodies,
                        [[maybe_unused]] double volume, [[maybe_unused]] double* to) const override {
         if constexpr (MovesLiquid<Adhesion>)
             putMemory(static_cast<const Adhesion&>(of(a, b)).prepare(bodies, volume), to);
@@ -138,12 +159,6 @@ public:
             putMemory(bridge, numbers);
         }
     }
-    [[nodiscard]] double adhesiveForce(int /*a*/, int /*b*/, [[maybe_unused]] const double* from,
-                                       [[maybe_unused]] double separation) const override {
-        if constexpr (Adhesion::acts)
-            return memoryFrom<Interaction<double>>(from).force(separationFor<Adhesion>(-separation));
-        else return 0;
-    }
     [[nodiscard]] double adhesionEnergy(int /*a*/, int /*b*/, [[maybe_unused]] const double* from,
                                         [[maybe_unused]] double separation) const override {
         if constexpr (MovesLiquid<Adhesion>)
@@ -161,19 +176,6 @@ public:
             return solved ? solveBridgeSurface(bridge, separation)
                           : BridgeSurface{.area = bridgeArea(bridge, separation)};
         } else return {};
-    }
-    void turn(int /*a*/, int /*b*/, [[maybe_unused]] double* numbers,
-              [[maybe_unused]] const FrameRotation<double>& rotation) const override {
-        if constexpr (S::Friction::acts) {
-            auto history = memoryFrom<History<double>>(numbers);
-            history.turn(rotation);
-            putMemory(history, numbers);
-        }
-    }
-    [[nodiscard]] double springLength(int /*a*/, int /*b*/,
-                                      [[maybe_unused]] const double* numbers) const override {
-        if constexpr (S::Friction::acts) return norm(memoryFrom<History<double>>(numbers).slidingSpring());
-        else return 0;
     }
 
     void prepare(const std::vector<Bucket>& buckets) override {

@@ -28,7 +28,7 @@ inline void prepareAgain(ContactStore& store, const ContactLaws& laws, const Buc
     if (laws.liquidRules(bucket.species1, bucket.species2))
         laws.prepareBridge(bucket.species1, bucket.species2, bodies,
                            std::abs(store.memory.preparedVolumeOf(slot)), bridge.data());
-    else laws.prepareBridge(bucket.species1, bucket.species2, bodies, bridge.data());
+    else laws.prepareAdhesion(bucket.species1, bucket.species2, bodies, bridge.data());
     laws.takeBridgeState(bucket.species1, bucket.species2, bridge.data(), before);
     store.memory.interaction.set(slot, bridge.data());
 }
@@ -44,7 +44,7 @@ inline void prepareBlock(ContactStore& store, std::size_t block, unsigned lanes,
         const Bodies bodies = bodiesOf(store, bucket, block * Pack::lanes + lane, grains);
         if (bodies.radius1 != last.radius1 || bodies.radius2 != last.radius2) {
             last = bodies;
-            laws.prepareBridge(bucket.species1, bucket.species2, bodies, prepared.data());
+            laws.prepareAdhesion(bucket.species1, bucket.species2, bodies, prepared.data());
         }
         store.memory.interaction.set(store.slotOf(block * Pack::lanes + lane), prepared.data());
     }

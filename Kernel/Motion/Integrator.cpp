@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/StabilityLimit.h"
@@ -37,14 +36,8 @@ std::string description(const Integrator& i) {
 }
 
 void checkIntegrator(const Integrator& i) {
-    for (const auto& [field, value] : {std::pair{"position0", i.position0},
-                                       {"position1", i.position1},
-                                       {"velocity0", i.velocity0},
-                                       {"velocity1", i.velocity1},
-                                       {"corrector", i.corrector},
-                                       {"now", i.now},
-                                       {"earlier", i.earlier}})
-        checkValue(fmt::format("integrator {}", i.name), field, value, "", anyFinite);
+    for (const Integrator::Coefficient& c : Integrator::coefficients())
+        checkValue(fmt::format("integrator {}", i.name), c.name, i.*c.value, "", anyFinite);
     const double position = i.position0 + i.position1,
                  velocity = i.velocity0 + i.velocity1 + i.corrector * (1 - i.now + i.earlier);
     constexpr double rounding = 1e-12;

@@ -26,54 +26,59 @@ struct Integrator {
     [[nodiscard]] constexpr bool takesMeanAcceleration() const {
         return !remembersEarlier() && corrector == 0.5 && velocity0 - corrector * now == 0.5;
     }
+    struct Coefficient {
+        std::string_view name;
+        double Integrator::*value;
+    };
+    static constexpr std::array<Coefficient, 7> coefficients() {
+        return {{{"position0", &Integrator::position0},
+                 {"position1", &Integrator::position1},
+                 {"velocity0", &Integrator::velocity0},
+                 {"velocity1", &Integrator::velocity1},
+                 {"corrector", &Integrator::corrector},
+                 {"now", &Integrator::now},
+                 {"earlier", &Integrator::earlier}}};
+    }
     /// Integrators are equal if their coefficients are; the name does not count.
     friend constexpr bool operator==(const Integrator& a, const Integrator& b) {
-        return a.position0 == b.position0 && a.position1 == b.position1 && a.velocity0 == b.velocity0 &&
-               a.velocity1 == b.velocity1 && a.corrector == b.corrector && a.now == b.now &&
-               a.earlier == b.earlier && a.contacts == b.contacts;
+        for (const Coefficient& c : coefficients())
+            if (a.*c.value != b.*c.value) return false;
+        return a.contacts == b.contacts;
     }
 };
 
 namespace integrators {
 
+/// The steps of Velocity Verlet. Between the two parts of a step the velocity is v + ahead h a; the second
+/// part makes it the one at the end of the step.
+constexpr Integrator verletSteps(std::string_view name, double ahead, const ContactTiming& contacts) {
+    return {.name = name,
+            .position0 = 0.5,
+            .position1 = 0,
+            .velocity0 = ahead,
+            .velocity1 = 0,
+            .corrector = 0.5,
+            .now = 2 * ahead - 1,
+            .earlier = 0,
+            .contacts = contacts};
+}
+
 /// Velocity Verlet for forces that depend on the velocity: contacts see v + h a, which is right to second
 /// order in a dashpot, and their own force implicitly: two grains follow the trapezoidal rule. The default.
-inline constexpr Integrator predictedVelocityVerlet{.name = "PredictedVelocityVerlet",
-                                                    .position0 = 0.5,
-                                                    .position1 = 0,
-                                                    .velocity0 = 1,
-                                                    .velocity1 = 0,
-                                                    .corrector = 0.5,
-                                                    .now = 1,
-                                                    .earlier = 0,
-                                                    .contacts = {true, true}};
+inline constexpr Integrator predictedVelocityVerlet =
+    verletSteps("PredictedVelocityVerlet", 1, {.implicitForces = true, .timesTouches = true});
 
 /// The default with tangential springs that move to the force with the velocity in the middle of the step.
 /// Without this, it keeps them half a step ahead by the velocities v + h a, which feeds springs without
 /// dashpots; a scene takes this one by itself where they lack them (lacksDashpots() in StabilityLimit.h).
 /// It stands longer steps, too, as long as its springs allow. It costs the loads of accelerations in each
 /// contact.
-inline constexpr Integrator springsInStep{.name = "SpringsInStep",
-                                          .position0 = 0.5,
-                                          .position1 = 0,
-                                          .velocity0 = 1,
-                                          .velocity1 = 0,
-                                          .corrector = 0.5,
-                                          .now = 1,
-                                          .earlier = 0,
-                                          .contacts = {.springsInStep = true}};
+inline constexpr Integrator springsInStep = verletSteps("SpringsInStep", 1, {.springsInStep = true});
 
 /// Velocity Verlet as in other codes: contacts see the velocity in the middle of the step, which is first
 /// order in a dashpot.
-inline constexpr Integrator velocityVerlet{.name = "VelocityVerlet",
-                                           .position0 = 0.5,
-                                           .position1 = 0,
-                                           .velocity0 = 0.5,
-                                           .velocity1 = 0,
-                                           .corrector = 0.5,
-                                           .now = 0,
-                                           .earlier = 0,
-                                           .contacts = {false, false}};
+inline constexpr Integrator velocityVerlet =
+    verletSteps("VelocityVerlet", 0.5, {.implicitForces = false, .timesTouches = false});
 
 /// Third order between touches: the prediction of Beeman (1976), J. Comput. Phys. 20, 130, velocities of
 /// Adams and Bashforth before and of Adams and Moulton after the forces. Explicit in dashpots; keeps the last

@@ -4,9 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "Kernel/Species/Adhesion/ViscousLiquidBridgeWillett.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidMigrationLS.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidMigrationWillett.h"
+#include "Kernel/Species/Adhesion/CombinedLaws.h"
 #include "Kernel/Species/Friction/NoFriction.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

@@ -4,8 +4,7 @@
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Simulation/RunSummary.h"
-#include "Kernel/Species/Adhesion/LiquidFilmsWillett.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidBridgeWillett.h"
+#include "Kernel/Species/Adhesion/CombinedLaws.h"
 #include "Kernel/Species/Adhesion/WetWall.h"
 #include "Kernel/Species/Friction/NoFriction.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

@@ -1,8 +1,7 @@
 // Liquid that moves in a flow whose images slide past each other.
 #include <gtest/gtest.h>
 
-#include "Kernel/Species/Adhesion/LiquidMigrationWillett.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidMigrationWillett.h"
+#include "Kernel/Species/Adhesion/CombinedLaws.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/NoFriction.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"

@@ -4,9 +4,7 @@
 #include <numbers>
 
 #include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidBridgeWillett.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidBridgeYoungLaplace.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidMigrationLS.h"
+#include "Kernel/Species/Adhesion/CombinedLaws.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Liquid/ViscousPair.h"

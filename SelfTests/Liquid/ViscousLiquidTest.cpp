@@ -5,7 +5,7 @@
 #include "Kernel/Contacts/Evaporation.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidMigrationWillett.h"
+#include "Kernel/Species/Adhesion/CombinedLaws.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Support/TestFolder.h"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "Kernel/Species/Adhesion/ViscousLiquidBridgeWillett.h"
+#include "Kernel/Species/Adhesion/CombinedLaws.h"
 #include "Kernel/Species/Friction/NoFriction.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"

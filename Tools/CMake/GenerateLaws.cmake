@@ -1,11 +1,22 @@
 # Writes a header that lists all laws and names all species composed of them. A law is a header in the folder of
-# its kind below Kernel/Species/ (not in a sub-folder), named after the struct it defines: no list has to be
-# edited.
+# its kind below Kernel/Species/ (not in a sub-folder), named after the struct it defines, or a line
+# "using Name = ..." of the header CombinedLaws.h in that folder: no list has to be edited.
 
-# In `names`: the laws of one kind, the one that is no law ("NoFriction") first.
-function(pendular_find_laws kind names)
-    file(GLOB found CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Kernel/Species/${kind}/*.h")
-    list(TRANSFORM found REPLACE "^.*/([^/]*)\\.h$" "\\1")
+# In `headers`: those of the laws of one kind; in `names`: its laws, the one that is no law ("NoFriction") first.
+function(pendular_find_laws kind headers names)
+    set(folder "${PROJECT_SOURCE_DIR}/Kernel/Species/${kind}")
+    file(GLOB found CONFIGURE_DEPENDS RELATIVE "${folder}" "${folder}/*.h")
+    list(SORT found)
+    set(${headers} "${found}" PARENT_SCOPE)
+    set(combined "")
+    if("CombinedLaws.h" IN_LIST found)
+        list(REMOVE_ITEM found "CombinedLaws.h")
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${folder}/CombinedLaws.h")
+        file(STRINGS "${folder}/CombinedLaws.h" combined REGEX "^using [A-Za-z]+ = ")
+        list(TRANSFORM combined REPLACE "^using ([A-Za-z]+) = .*$" "\\1")
+    endif()
+    list(TRANSFORM found REPLACE "\\.h$" "")
+    list(APPEND found ${combined})
     list(SORT found)
     if("No${kind}" IN_LIST found)
         list(REMOVE_ITEM found "No${kind}")
@@ -39,9 +50,9 @@ function(pendular_generate_laws header)
     set(includes "")
     set(lists "")
     foreach(kind IN ITEMS Normal Friction Adhesion)
-        pendular_find_laws(${kind} laws${kind})
-        foreach(law IN LISTS laws${kind})
-            string(APPEND includes "#include \"Kernel/Species/${kind}/${law}.h\"\n")
+        pendular_find_laws(${kind} headers laws${kind})
+        foreach(lawHeader IN LISTS headers)
+            string(APPEND includes "#include \"Kernel/Species/${kind}/${lawHeader}\"\n")
         endforeach()
         list(JOIN laws${kind} ", " joined)
         string(APPEND lists "using ${kind}Laws = TypeList<${joined}>;\n")

@@ -74,12 +74,7 @@ WetWall::Interaction<double> WetWall::prepare(const Bodies& bodies) const {
 
 BridgeResistance<double> WetWall::largestResistance(const Bodies& bodies) const {
     if (range(bodies) == 0) return {};
-    auto wet = prepare(bodies);
-    BridgeMotion<double> motion{};
-    motion.separation = std::min(roughness, liquidLayerThickness);
-    motion.asymmetry = 1;
-    motion.forms = true;
-    return wet.resist(*this, motion);
+    return resistanceAtRoughness(bodies, liquidLayerThickness, 1);
 }
 
 std::optional<std::string> WetWall::objection(const Bodies& bodies) const {

@@ -81,7 +81,7 @@ struct WetWallInteraction {
     template <class Law>
     [[nodiscard]] BridgeResistance<T> resist(const Law& /*law*/, const BridgeMotion<T>& motion) {
         const T x = motion.separation - depth;
-        wetted = select((x > T(0)) & (hasRuptured(motion, x) | motion.forms | (wetted == T(0))), T(0), T(1));
+        wetted = wettedAfter(wetted, x > T(0), hasRuptured(motion, x), motion.forms);
         const T factor = T(6 * std::numbers::pi) * viscosity;
         const T gap = max(motion.separation, roughness), near = factor * radius * radius / gap;
         const T apart = wetted * shareApart(motion);
@@ -99,12 +99,9 @@ struct WetWallInteraction {
         r.rolling = sticking * (ofShift - T(2) * ofBoth + ofSpin);
         return r;
     }
-    /// The capillary number of a bridge where it is above the largest one that the range is made for; else 0.
     template <class Law>
     [[nodiscard]] T numberAboveBound(const Law& law, T separation, T opening) const {
-        const T number = capillaryNumber(opening, viscosity, surfaceTension);
-        const MaskOf<T> isBridge = (separation > depth) & (wetted > T(0));
-        return select(isBridge & (number > T(law.largestCapillaryNumber)), number, T(0));
+        return numberAboveBoundOf(*this, law, separation, opening);
     }
     template <class Law>
     void takeState(const Law& /*law*/, const WetWallInteraction& before) {
@@ -145,7 +142,7 @@ private:
 /// folder. I and III have the same forces, so all that a contact must remember is whether the grain has been
 /// in the layer: a grain that comes back from IV is in I again, and one that leaves without having touched
 /// the wall draws a bridge as well. Grains are dry among themselves.
-struct WetWall {
+struct WetWall : LayerLaw<WetWall> {
     static constexpr std::string_view name = "WetWall";
     static constexpr std::string_view summary =
         "wall under a layer of liquid: viscous and capillary forces as a grain goes in, comes out and draws "
@@ -163,13 +160,9 @@ struct WetWall {
     double halfFillingAngle = unset;      // phi, rad
     double contactAngle = unset;          // theta, rad
     double surfaceTension = unset;        // sigma, N/m
-    double viscosity = unset;             // eta, Pa s
     double liquidDensity = unset;         // rho_l, kg/m^3
-    double roughness = unset;             // epsilon, m
     double growingBridge = 0;
     double bridgeGravity = 0;  // m/s^2
-    double capillaryInContact = 0;
-    double largestCapillaryNumber = 1;
 
     static constexpr auto fields() {
         using Law = WetWall;
@@ -217,20 +210,14 @@ struct WetWall {
     void setHalfFillingAngle(double value) { setField(*this, &WetWall::halfFillingAngle, value); }
     void setContactAngle(double value) { setField(*this, &WetWall::contactAngle, value); }
     void setSurfaceTension(double value) { setField(*this, &WetWall::surfaceTension, value); }
-    void setViscosity(double value) { setField(*this, &WetWall::viscosity, value); }
     void setLiquidDensity(double value) { setField(*this, &WetWall::liquidDensity, value); }
-    void setRoughness(double value) { setField(*this, &WetWall::roughness, value); }
     void setGrowingBridge(bool value) { growingBridge = value ? 1 : 0; }
     void setBridgeGravity(double value) { setField(*this, &WetWall::bridgeGravity, value); }
-    void setCapillaryInContact(bool value) { capillaryInContact = value ? 1 : 0; }
-    void setLargestCapillaryNumber(double value) { setField(*this, &WetWall::largestCapillaryNumber, value); }
     [[nodiscard]] double getLiquidLayerThickness() const { return liquidLayerThickness; }
     [[nodiscard]] double getHalfFillingAngle() const { return halfFillingAngle; }
     [[nodiscard]] double getContactAngle() const { return contactAngle; }
     [[nodiscard]] double getSurfaceTension() const { return surfaceTension; }
-    [[nodiscard]] double getViscosity() const { return viscosity; }
     [[nodiscard]] double getLiquidDensity() const { return liquidDensity; }
-    [[nodiscard]] double getRoughness() const { return roughness; }
 
     template <class T>
     using Interaction = WetWallInteraction<T>;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "Kernel/Simulation/Simulation.h"
-#include "Kernel/Species/Adhesion/ViscousLiquidBridgeWillett.h"
+#include "Kernel/Species/Adhesion/CombinedLaws.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 
 // Two equal grains that a viscous bridge joins at a gap, and what becomes of their speed: in closed form, and

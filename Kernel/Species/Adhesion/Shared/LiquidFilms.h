@@ -58,7 +58,7 @@ struct LiquidFilmsInteraction {
         const T h = motion.separation;
         const T root = sqrt(capillaryNumber(-motion.approach, viscosity, surfaceTension));
         length = min(max(bridge.range() * (T(1) + root), depth), T(0.98) * reach);
-        wetted = select((h > depth) & ((h > length) | motion.forms | (wetted == T(0))), T(0), T(1));
+        wetted = wettedAfter(wetted, h > depth, h > length, motion.forms);
         const T factor = T(6 * std::numbers::pi) * viscosity * radius;
         const T gap = max(h, roughness), apart = wetted * shareApart(motion);
         BridgeResistance<T> r;
@@ -67,12 +67,9 @@ struct LiquidFilmsInteraction {
         resistSlipAndRolling(r, sticking * logarithmOfGap(gap, cutOff), motion.asymmetry);
         return r;
     }
-    /// The capillary number of a bridge where it is above the largest one that the range is made for; else 0.
     template <class Law>
     [[nodiscard]] T numberAboveBound(const Law& law, T separation, T opening) const {
-        const T number = capillaryNumber(opening, viscosity, surfaceTension);
-        const MaskOf<T> isBridge = (separation > depth) & (wetted > T(0));
-        return select(isBridge & (number > T(law.largestCapillaryNumber)), number, T(0));
+        return numberAboveBoundOf(*this, law, separation, opening);
     }
     template <class Law>
     void takeState(const Law& /*law*/, const LiquidFilmsInteraction& before) {
@@ -94,7 +91,7 @@ struct LiquidFilmsInteraction {
 /// Each contact has the whole films of its bodies: for liquid that several bridges of a grain share, see
 /// LiquidMigration. A wall has a film as grains of its species have.
 template <class Bridge>
-struct LiquidFilms : Bridge {
+struct LiquidFilms : Bridge, LayerLaw<LiquidFilms<Bridge>> {
     static constexpr std::string_view name = FilmNames<Bridge>::name;
     static constexpr std::string_view summary = FilmNames<Bridge>::summary;
     static constexpr bool formsAtContact = false;
@@ -102,10 +99,6 @@ struct LiquidFilms : Bridge {
     static constexpr BridgeResists resists = BridgeResists::Rolling;
 
     double filmThickness = unset;  // delta, m
-    double viscosity = unset;      // eta, Pa s
-    double roughness = unset;      // epsilon, m
-    double capillaryInContact = 0;
-    double largestCapillaryNumber = 1;
 
     static constexpr auto fields() {
         using Law = LiquidFilms;
@@ -142,15 +135,7 @@ struct LiquidFilms : Bridge {
     void setContactAngle(double value) { setField(*this, &LiquidFilms::contactAngle, value); }
     void setSurfaceTension(double value) { setField(*this, &LiquidFilms::surfaceTension, value); }
     void setFilmThickness(double value) { setField(*this, &LiquidFilms::filmThickness, value); }
-    void setViscosity(double value) { setField(*this, &LiquidFilms::viscosity, value); }
-    void setRoughness(double value) { setField(*this, &LiquidFilms::roughness, value); }
-    void setCapillaryInContact(bool value) { capillaryInContact = value ? 1 : 0; }
-    void setLargestCapillaryNumber(double value) {
-        setField(*this, &LiquidFilms::largestCapillaryNumber, value);
-    }
     [[nodiscard]] double getFilmThickness() const { return filmThickness; }
-    [[nodiscard]] double getViscosity() const { return viscosity; }
-    [[nodiscard]] double getRoughness() const { return roughness; }
 
     template <class T>
     using Interaction = LiquidFilmsInteraction<T, typename Bridge::template Interaction<T>>;
@@ -173,30 +158,26 @@ struct LiquidFilms : Bridge {
         const double radius = bodies.effectiveRadius(), depth = 2 * filmThickness;
         return {.bridge = bridge.prepare(bodies),
                 .depth = depth,
-                .roughness = roughness,
+                .roughness = this->roughness,
                 .wetted = 0,
                 .reach = range(bodies),
-                .viscosity = viscosity,
+                .viscosity = this->viscosity,
                 .surfaceTension = this->surfaceTension,
                 .radius = radius,
                 .cutOff = volume(bodies) / (std::numbers::pi * radius),
                 .length = std::max(bridge.range(bodies), depth),
-                .forceInContact = capillaryInContact};
+                .forceInContact = this->capillaryInContact};
     }
     /// m: the largest rupture distance at the speeds that the law is given; 0 where no body has a film.
     [[nodiscard]] double range(const Bodies& bodies) const {
         if (!isWet(bodies)) return 0;
-        const double rupture = bridgeBetween(bodies).range(bodies) * (1 + std::sqrt(largestCapillaryNumber));
+        const double rupture =
+            bridgeBetween(bodies).range(bodies) * (1 + std::sqrt(this->largestCapillaryNumber));
         return 1.03 * std::max(rupture, 2 * filmThickness);
     }
     [[nodiscard]] BridgeResistance<double> largestResistance(const Bodies& bodies) const {
         if (!isWet(bodies)) return {};
-        auto wet = prepare(bodies);
-        BridgeMotion<double> motion{};
-        motion.separation = std::min(roughness, filmThickness);
-        motion.asymmetry = bodies.radius1 == bodies.radius2 ? 0 : 1;
-        motion.forms = true;
-        return wet.resist(*this, motion);
+        return this->resistanceAtRoughness(bodies, filmThickness, bodies.radius1 == bodies.radius2 ? 0 : 1);
     }
     [[nodiscard]] std::optional<std::string> objection(const Bodies& bodies) const {
         if (!isWet(bodies)) return std::nullopt;

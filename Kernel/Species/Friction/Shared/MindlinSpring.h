@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "Kernel/Species/Friction/Shared/SlidingSpring.h"
 #include "Kernel/Species/Friction/Shared/SpringSlider.h"
 #include "Kernel/Species/Friction/Shared/TangentialSpring.h"
 
@@ -21,13 +22,10 @@ inline double computeEffectiveShearModulus(double elasticModulus, double poisson
 /// in proportion to the overlap, for which it is exact (Mindlin and Deresiewicz 1953). Other codes use 1, the
 /// stiffness of a contact that is already pressed: set springFactor. Neither is exact for an impact.
 template <class Law>
-struct MindlinSpring {
-    static constexpr bool acts = true;
+struct MindlinSpring : SlidingSpring<Law> {
     static constexpr double largestOverlap = 0.1;  // of the effective radius, as in Hertz's theory
 
     double effectiveShearModulus = unset;  // G*, Pa
-    double slidingDissipation = unset;     // beta_t
-    double slidingFrictionCoefficient = 0;
     double springFactor = 2.0 / 3.0;
 
     static constexpr auto fields() {
@@ -44,15 +42,9 @@ struct MindlinSpring {
               "factor of the stiffness 8 G* a: see the law", "Di Renzo and Di Maio (2005), equation 15"}});
     }
 
-    void setEffectiveShearModulus(double value) { set(&MindlinSpring::effectiveShearModulus, value); }
-    void setSlidingDissipation(double value) { set(&MindlinSpring::slidingDissipation, value); }
-    void setSlidingFrictionCoefficient(double value) {
-        set(&MindlinSpring::slidingFrictionCoefficient, value);
-    }
-    void setSpringFactor(double value) { set(&MindlinSpring::springFactor, value); }
+    void setEffectiveShearModulus(double value) { this->set(&MindlinSpring::effectiveShearModulus, value); }
+    void setSpringFactor(double value) { this->set(&MindlinSpring::springFactor, value); }
     [[nodiscard]] double getEffectiveShearModulus() const { return effectiveShearModulus; }
-    [[nodiscard]] double getSlidingDissipation() const { return slidingDissipation; }
-    [[nodiscard]] double getSlidingFrictionCoefficient() const { return slidingFrictionCoefficient; }
     [[nodiscard]] double getSpringFactor() const { return springFactor; }
 
     /// Derives what the user has not set and the normal law can give: beta_t by equation 4.8. A normal law
@@ -63,8 +55,8 @@ struct MindlinSpring {
                           typename Normal::Prepared;
                           normal.prepare().dampingFactor;
                       })
-            if (!isSet(slidingDissipation))
-                slidingDissipation = std::sqrt(2.0 / 3.0) * normal.getDissipation();
+            if (!isSet(this->slidingDissipation))
+                this->slidingDissipation = std::sqrt(2.0 / 3.0) * normal.getDissipation();
     }
 
     struct PreparedSpring {
@@ -75,7 +67,8 @@ struct MindlinSpring {
     };
     [[nodiscard]] PreparedSpring prepareSpring() const {
         return {8 * effectiveShearModulus, springFactor,
-                slidingDissipation * std::sqrt(8 * effectiveShearModulus), slidingFrictionCoefficient};
+                this->slidingDissipation * std::sqrt(8 * effectiveShearModulus),
+                this->slidingFrictionCoefficient};
     }
     using Prepared = PreparedSpring;
     template <class Normal>
@@ -97,20 +90,6 @@ struct MindlinSpring {
     }
     static double stiffness(const PreparedSpring& p, const Contact<double>& contact) {
         return p.springFactor * p.stiffnessFactor * contact.contactRadius;
-    }
-
-    /// On body 1 (N).
-    template <class T, class OfLaw, class Memory>
-    [[gnu::always_inline]] static Vector<T> force(const OfLaw& p, const Contact<T>& contact, T normalForce,
-                                                  const Slip<T>& slip, Memory& history) {
-        return Law::slide(p, contact, normalForce, slip, history).force;
-    }
-
-    [[nodiscard]] double range(const Bodies&) const { return 0; }
-
-private:
-    void set(double MindlinSpring::*member, double value) {
-        setField(static_cast<Law&>(*this), member, value);
     }
 };
 
