@@ -7,6 +7,7 @@
 #include "Kernel/Energy/ContactAccount.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/WornWall.h"
@@ -136,11 +137,11 @@ public:
                 const EnergyRecord then = record;  // addContact() makes the present sample the last one
                 const double slidElsewhere = std::exchange(account.sliding, 0);
                 addContact(record, grain, other, kind, step, account);
-                const Vector<double> at = grains.translation[first].position + depthOf(then, grain.radius);
+                const Vector<double> arm = depthOf(then, grain.radius);
                 if (!grain.isHeld)
-                    worn->takeWear(second, at,
+                    worn->takeWear(second, grains.translation[first].position + arm,
                                    contactWear(then, account.sliding, before[rank[first]].velocity,
-                                               1 / grains.translation[first].inverseMass));
+                                               massAtContact(grains, box, first, arm)));
                 account.sliding += slidElsewhere;
             }
             // The membrane's own account has this work, as it was done on the vertices.
@@ -178,6 +179,17 @@ private:
     static Vector<double> depthOf(const EnergyRecord& record, double radius) {
         const ContactSample& sample = record.now.acts() ? record.now : record.last;
         return (radius - 2 * sample.halfOverlap) * sample.normal;
+    }
+
+    /// The mass (kg) that a wall feels at a contact with the grain at a place: of a rigid body, what its
+    /// turning leaves of it. @param arm m, from the centre of the grain to the contact
+    static double massAtContact(const Grains& grains, const PeriodicBox& box, std::uint32_t place,
+                                const Vector<double>& arm) {
+        const TranslationRecord& grain = grains.translation[place];
+        const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
+        if (number == RigidBodies::none) return 1 / grain.inverseMass;
+        const RigidBody& body = grains.bodies[grains.bodies.find(number)];
+        return 1 / mobilityOf(body, box.nearest(grain.position - body.position) + arm, (1 / norm(arm)) * arm);
     }
 
     static double energyOfPistons(const WallHandler& walls) {

@@ -8,6 +8,7 @@
 #include "Kernel/Math/ElementaryFunctions.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/Walls/PartCover.h"
 
 namespace pendular {
@@ -179,12 +180,8 @@ double ContactBounds::inverseInertia(const ParticleStore& grains, std::uint32_t 
 }
 
 double ContactBounds::mobility(const ParticleStore& grains, const Term& term, std::uint32_t place) const {
-    const double inverseMass = grains.translation[place].inverseMass;
-    if (!isInBody(place)) return inverseMass;
-    const RigidBody& body = grains.bodies[moverAt(place) - blocks.size()];
-    const Vector<double> lever = body.orientation.turnBack(cross(armOf(grains, term, place), term.normal));
-    return inverseMass + lever.x * lever.x / body.inertia.x + lever.y * lever.y / body.inertia.y +
-           lever.z * lever.z / body.inertia.z;
+    if (!isInBody(place)) return grains.translation[place].inverseMass;
+    return mobilityOf(grains.bodies[moverAt(place) - blocks.size()], armOf(grains, term, place), term.normal);
 }
 
 /// Finds the load of each grain, and the units of the sums.

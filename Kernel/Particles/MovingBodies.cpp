@@ -43,6 +43,12 @@ double volumeOfBodies(const ParticleStore& grains) {
     return volume;
 }
 
+double mobilityOf(const RigidBody& body, const Vector<double>& arm, const Vector<double>& direction) {
+    const Vector<double> lever = body.orientation.turnBack(cross(arm, direction));
+    return 1 / body.mass + lever.x * lever.x / body.inertia.x + lever.y * lever.y / body.inertia.y +
+           lever.z * lever.z / body.inertia.z;
+}
+
 void catchMomentum(ParticleStore& grains, std::uint32_t place, const PeriodicBox& periodic, double mass,
                    const Vector<double>& point, const Vector<double>& velocity) {
     TranslationRecord& grain = grains.translation[place];

@@ -44,6 +44,12 @@ void forEachMovingBodyInOrder(const ParticleStore& grains, Use&& use) {
 /// m^3, of all of them; overlaps within a rigid body are counted once.
 [[nodiscard]] double volumeOfBodies(const ParticleStore& grains);
 
+/// By how much (1/kg) a unit impulse along a direction (unit) at a point of a body changes the velocity of
+/// that point along it: 1/M and what the body's turning adds. @param arm m, from the centre of mass to the
+/// point
+[[nodiscard]] double mobilityOf(const RigidBody& body, const Vector<double>& arm,
+                                const Vector<double>& direction);
+
 /// A mass (kg) that flies at a velocity (m/s) hits the grain at a place, at a point (m, the image nearest to
 /// it), and its momentum stays there: a plastic impact. Momentum is conserved; of a rigid body, the angular
 /// momentum about any point as well, and the point and the mass have one velocity afterwards. A single grain

@@ -53,8 +53,6 @@ constexpr std::array table{
              otherIntegrator},
     Conflict{RigidBodies, FilmMass, "the mass of a body does not follow the films of its grains",
              "leave setLiquidDensity() out"},
-    Conflict{RigidBodies, ImpactWear, "several grains of a body may hit at once",
-             "take WearLaw::archard(), reye() or none()"},
     Conflict{Superquadrics, AdaptiveStep, "its bound of the step counts with contacts of spheres",
              leaveAdaptiveOut},
     Conflict{AdaptiveStep, DrivenWalls, singleGrains, leaveAdaptiveOut},

@@ -12,7 +12,7 @@ struct ContactWear {
     double slidingWork = 0;           // J, that the slider of friction dissipates
     double loadTimesPath = 0;         // N m, the normal force times the path that it slides
     bool isImpact = false;            // the touch begins in this step, as follows
-    double mass = 0;                  // kg, of the grain, or of the rigid body that it belongs to
+    double mass = 0;                  // kg, of the grain; of a rigid body, what the contact feels of it
     double normalSpeed = 0;           // m/s, of the grain's centre against the surface; positive
     double tangentialSpeed = 0;       // m/s
     Vector<double> towards{0, 0, 0};  // unit, from the grain to the wall

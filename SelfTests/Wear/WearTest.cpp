@@ -161,6 +161,33 @@ TEST(Wear, ofAnImpactIsThatOfFinnieInTheTriangleThatIsHit) {
     }
 }
 
+/// A rod hits with its lower end. The contact feels M of it where the rod points at the wall, and less the
+/// more it turns: 1 / (1/M + x^2 / I) for the distance x of the contact from the centre along the wall.
+TEST(Wear, ofARigidBodyIsThatOfTheMassThatTheContactFeels) {
+    const WearLaw law = WearLaw::finnie(0.5, 1e9);
+    constexpr double half = 2.5 * radius, speed = 2;
+    for (const double degrees : {90.0, 60.0, 30.0}) {
+        const double tilt = degrees * std::numbers::pi / 180;
+        PlateScene scene({}, plate(0.1, 10), law, Vec3D::Zero());
+        Clump rod{ClumpTemplate({{{-half, 0, 0}, radius}, {{half, 0, 0}, radius}})};
+        rod.setSpecies(scene.speciesHandler.getObject(0));
+        rod.setOrientation(Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vec3D::UnitY())));
+        rod.setPosition({0, 0, half * std::sin(tilt) + radius + 1e-5});
+        rod.setVelocity({0.5 * speed, 0, -speed});
+        const BodyReference body = scene.bodyHandler.copyAndAddObject(rod);
+        scene.initialise();
+        for (int k = 0; k < 1000 && scene.wear().impacts == 0; ++k) scene.step();
+        const double x = half * std::cos(tilt), inertia = body.getInertia().maxCoeff(),
+                     felt = 1 / (1 / body.getMass() + x * x / inertia),
+                     expected = 0.5 * finnieEnergy(felt, speed, 0.5 * speed) / 1e9;
+        EXPECT_EQ(scene.wear().impacts, 1);
+        // Found at the end of a step of the touch, in which the rod has turned by at most v h / r.
+        EXPECT_NEAR(scene.wear().volume, expected, expected * speed * wallTests::step / radius);
+        EXPECT_NEAR(scene.wear().impactWork, 0.5 * felt * speed * speed,
+                    0.5 * felt * speed * speed * speed * wallTests::step / radius);
+    }
+}
+
 /// The wall counts in its own frame: by a quarter of a turn about the vertical the point (3, 1) mm of the
 /// scene is the point (1, -3) mm of the wall.
 TEST(Wear, isCountedInTheFrameOfTheWall) {

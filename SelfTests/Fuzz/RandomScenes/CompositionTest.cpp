@@ -15,16 +15,16 @@ void judgeOne(std::span<const std::string_view> names, std::uint64_t seed) {
         ADD_FAILURE() << fmt::format("{}:\n{}", fmt::join(names, " and "), report(recipe, verdict));
 }
 
-class Composition : public testing::TestWithParam<std::size_t> {};
+class HeavyComposition : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(Composition, ofEachWithTheLaterOnes) {
+TEST_P(HeavyComposition, ofEachWithTheLaterOnes) {
     const std::span<const std::string_view> all = composedFeatures();
     for (std::size_t other = GetParam() + 1; other < all.size(); ++other)
         if (whyNoPair(all[GetParam()], all[other]).empty())
             judgeOne(std::array{all[GetParam()], all[other]}, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pairs, Composition, testing::Range<std::size_t>(0, composedFeatures().size()),
+INSTANTIATE_TEST_SUITE_P(Pairs, HeavyComposition, testing::Range<std::size_t>(0, composedFeatures().size()),
                          [](const auto& feature) { return std::string(composedFeatures()[feature.param]); });
 
 /// Triples at random; each failure names its seed and its recipe.
