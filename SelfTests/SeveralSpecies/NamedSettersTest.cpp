@@ -98,9 +98,9 @@ TEST(NamedSetter, givesARestitution) {
     EXPECT_NEAR(species->get("effectiveElasticModulus"), 0.5e7 / (1 - 0.09), 1e-3);
     scene.laws().mixAll();
     EXPECT_NEAR(scene.laws().fields(0, 0)[0].value, 0.5e7 / (1 - 0.09), 1e-3);
-    EXPECT_FALSE(scene.laws().hasChanged());
+    EXPECT_FALSE(scene.laws().hasChanges());
     species->set("elasticModulusAndPoissonRatio", {2e7, 0.3});
-    EXPECT_TRUE(scene.laws().hasChanged());
+    EXPECT_TRUE(scene.laws().hasChanges());
 }
 
 TEST(NamedSetter, thatThereIsNotIsRefusedWithTheNearest) {

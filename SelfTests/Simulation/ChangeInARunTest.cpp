@@ -482,7 +482,7 @@ TEST(MixtureThatIsRefused, leavesThePairsAsTheyWere) {
     EXPECT_EQ(one.mixture(0, 0).getStiffness(), stiffness);
     EXPECT_EQ(one.mixture(0, 1).getStiffness(), 1.5 * stiffness);
     EXPECT_EQ(one.mixture(1, 1).getStiffness(), 3 * stiffness);
-    EXPECT_TRUE(one.hasChanged());
+    EXPECT_TRUE(one.hasChanges());
 
     Simulation<Smooth, Rolling> several;
     auto* first = several.speciesHandler.copyAndAddObject(smooth());
@@ -494,7 +494,7 @@ TEST(MixtureThatIsRefused, leavesThePairsAsTheyWere) {
     EXPECT_TRUE(contains(refusal([&] { several.laws().mixAll(); }), "stiffness = -1 N/m"));
     for (const auto& [a, b] : {std::pair(0, 0), std::pair(0, 1), std::pair(1, 1)})
         EXPECT_EQ(several.laws().fields(a, b).at(0).value, stiffness) << a << b;
-    EXPECT_TRUE(several.laws().hasChanged());
+    EXPECT_TRUE(several.laws().hasChanges());
 
     Hooked<Smooth> scene(smooth(), {{}, {.position = {1.99 * r, 0, 0}}}, step);
     EXPECT_TRUE(contains(
