@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "Kernel/Walls/BoxTree.h"
-#include "Kernel/Walls/Wall.h"
+#include "Kernel/Walls/FaceSurface.h"
 
 namespace pendular {
 
@@ -29,7 +28,7 @@ struct TriangleWeights {
 
 /// Triangles whose corners move, as contacts see them: each is a part, and the rules of edges are those of a
 /// TriangleWall (README of this folder). Nothing is merged.
-class MembraneSurface {
+class MembraneSurface : public FaceSurface<MembraneSurface> {
 public:
     using Point = Vector<double>;
     using Corners = std::array<std::uint32_t, 3>;
@@ -41,13 +40,13 @@ public:
 
     /// The vertices have moved.
     void update(std::span<const Point> at);
-    // These functions do what those of Wall do; points get no velocity.
-    void listParts(const Point& centre, double reach, std::vector<std::uint32_t>& parts) const;
     /// The unit normal of a triangle.
     [[nodiscard]] const Point& normalOf(std::uint32_t part) const { return faces[part].normal; }
-    void findPoints(const Point& centre, double reach, std::span<const std::uint32_t> parts,
-                    std::span<WallPoint> points) const;
-    [[nodiscard]] bool isCrossed(const Point& from, const Point& to) const;
+    [[nodiscard]] ConvexFace faceOf(std::uint32_t part) const {
+        const Face& face = faces[part];
+        return {face.normal, face.offset, face.sides};
+    }
+    [[nodiscard]] bool meetSmoothly(std::uint32_t a, std::uint32_t b) const;
 
     /// An edge that goes through a triangle of which it has no corner: of any two sheets that go through each
     /// other an edge of one does that.
@@ -60,31 +59,17 @@ public:
                                                        std::span<const Point> at) const;
 
 private:
-    struct Side {
-        Point corner, edge;     // m
-        Point inward;           // unit, in the plane
-        double offset;          // m, inward . corner
-        double inverseLength2;  // 1/m^2
-    };
     struct Face {
         Point normal;   // unit
         double offset;  // m
-        std::array<Side, 3> sides;
+        std::array<FaceSide, 3> sides;
     };
-    [[nodiscard]] static Face faceOf(const Point& a, const Point& b, const Point& c);
-    [[nodiscard]] static WallPoint nearest(const Face& face, const Point& centre);
-    [[nodiscard]] static bool holds(const Face& face, const Point& point, double tolerance);
-    /// The point at which the way between two points goes through a face.
-    [[nodiscard]] static std::optional<Point> crossing(const Face& face, const Point& from, const Point& to,
-                                                       double tolerance);
-    [[nodiscard]] bool meetSmoothly(std::uint32_t a, std::uint32_t b) const;
+    [[nodiscard]] static Face faceBetween(const Point& a, const Point& b, const Point& c);
 
     std::vector<Corners> corners;
     std::vector<std::array<std::uint32_t, 2>> pairs;  // of neighbours, lower first, sorted
     std::vector<Face> faces;
     std::vector<Box> boxes;
-    BoxTree tree;
-    double size = 0;  // m, diagonal of the box around all
 };
 
 }  // namespace pendular

@@ -6,22 +6,11 @@
 #include <cmath>
 
 #include "Kernel/Base/RunError.h"
-#include "Kernel/Walls/BoxTree.h"
-#include "Kernel/Walls/MeshParts.h"
-#include "Kernel/Walls/PartCover.h"
+#include "Kernel/Walls/FaceSurface.h"
 
 namespace pendular {
 
 namespace {
-
-/// A side of a part, from its corner to the next one.
-struct Side {
-    Vector<double> corner;  // m
-    Vector<double> edge;    // m
-    Vector<double> inward;  // unit, in the part's plane
-    double offset;          // m, inward . corner
-    double inverseLength2;  // 1/m^2
-};
 
 struct Face {
     Vector<double> normal;     // unit
@@ -33,23 +22,30 @@ struct Face {
 
 }  // namespace
 
-struct TriangleMesh {
+struct TriangleMesh : FaceSurface<TriangleMesh> {
     std::vector<Face> faces;
-    std::vector<Side> sides;
+    std::vector<FaceSide> sides;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> smoothPairs;
-    BoxTree tree;
     Box box;
-    double size = 0, radius = 0;  // m; radius: of all corners around the middle of the box
+    double radius = 0;  // m, of all corners around the middle of the box
     std::size_t leftOut = 0;
     MeshTriangles triangles;
 
     TriangleMesh(std::span<const Triangle> given, CoplanarTriangles coplanar);
 
-    [[nodiscard]] std::span<const Side> sidesOf(const Face& face) const {
+    [[nodiscard]] std::span<const FaceSide> sidesOf(const Face& face) const {
         return std::span(sides).subspan(face.begin, face.end - face.begin);
     }
-    [[nodiscard]] WallPoint nearest(const Face& face, const Vector<double>& centre) const;
-    [[nodiscard]] bool holds(const Face& face, const Vector<double>& point, double tolerance) const;
+    [[nodiscard]] ConvexFace faceOf(std::uint32_t part) const {
+        return {faces[part].normal, faces[part].offset, sidesOf(faces[part])};
+    }
+    /// Without a look at the sides of a face that is out of reach.
+    [[nodiscard]] WallPoint pointOf(std::uint32_t part, const Vector<double>& centre, double reach) const {
+        const Face& face = faces[part];
+        const double distance2 = squaredNorm(face.middle - centre), needed = reach + face.radius;
+        if (distance2 > needed * needed) return {face.normal, std::sqrt(distance2) - face.radius, {0, 0, 0}};
+        return faceOf(part).nearest(centre);
+    }
     [[nodiscard]] bool meetSmoothly(std::uint32_t a, std::uint32_t b) const {
         return std::binary_search(smoothPairs.begin(), smoothPairs.end(),
                                   std::pair(std::min(a, b), std::max(a, b)));
@@ -73,11 +69,8 @@ TriangleMesh::TriangleMesh(std::span<const Triangle> given, CoplanarTriangles co
                   std::sqrt(farthest2), static_cast<std::uint32_t>(sides.size()), 0};
         Box around;
         for (std::size_t k = 0; k < part.corners.size(); ++k) {
-            const Vector<double> corner = part.corners[k],
-                                 edge = part.corners[(k + 1) % part.corners.size()] - corner;
-            const Vector<double> across = cross(part.normal, edge);
-            const Vector<double> inward = (1 / norm(across)) * across;
-            sides.push_back({corner, edge, inward, dot(inward, corner), 1 / squaredNorm(edge)});
+            const Vector<double> corner = part.corners[k];
+            sides.push_back(sideFrom(corner, part.corners[(k + 1) % part.corners.size()], part.normal));
             around.include(corner);
         }
         face.end = static_cast<std::uint32_t>(sides.size());
@@ -86,35 +79,7 @@ TriangleMesh::TriangleMesh(std::span<const Triangle> given, CoplanarTriangles co
         box.include(around);
     }
     tree = BoxTree(boxes);
-    for (const Side& side : sides) radius = std::max(radius, norm(side.corner - box.middle()));
-}
-
-/// Above the inside of a convex polygon the nearest point is the foot of the perpendicular, else one of the
-/// sides beyond which the centre lies.
-WallPoint TriangleMesh::nearest(const Face& face, const Vector<double>& centre) const {
-    const double height = dot(face.normal, centre) - face.offset;
-    const Vector<double> towards = height < 0 ? face.normal : -face.normal;
-    double least = infinity;
-    Vector<double> shift = towards;
-    for (const Side& side : sidesOf(face)) {
-        if (dot(side.inward, centre) >= side.offset) continue;
-        const Vector<double> fromCorner = centre - side.corner;
-        const double share = std::clamp(dot(fromCorner, side.edge) * side.inverseLength2, 0.0, 1.0);
-        const Vector<double> toSide = share * side.edge - fromCorner;
-        const double distance2 = squaredNorm(toSide);
-        if (distance2 >= least) continue;
-        least = distance2;
-        shift = toSide;
-    }
-    if (least == infinity) return {towards, std::abs(height), {0, 0, 0}};
-    const double distance = std::sqrt(least);
-    return {distance > 0 ? (1 / distance) * shift : towards, distance, {0, 0, 0}};
-}
-
-bool TriangleMesh::holds(const Face& face, const Vector<double>& point, double tolerance) const {
-    if (!(std::abs(dot(face.normal, point) - face.offset) <= tolerance)) return false;
-    return std::ranges::all_of(
-        sidesOf(face), [&](const Side& side) { return dot(side.inward, point) >= side.offset - tolerance; });
+    for (const FaceSide& side : sides) radius = std::max(radius, norm(side.corner - box.middle()));
 }
 
 void TriangleWall::set(std::span<const Triangle> triangles) {
@@ -260,49 +225,21 @@ std::vector<OpenEdge> TriangleWall::openEdges() const {
 
 void TriangleWall::listInBody(const Vector<double>& centre, double reach,
                               std::vector<std::uint32_t>& parts) const {
-    const std::size_t before = parts.size();
-    mesh->tree.forEachNear(centre, reach, [&](std::uint32_t part) {
-        if (mesh->nearest(mesh->faces[part], centre).distance < reach) parts.push_back(part);
-    });
-    std::sort(parts.begin() + static_cast<std::ptrdiff_t>(before), parts.end());
+    mesh->listParts(centre, reach, parts);
 }
 
 void TriangleWall::findInBody(const Vector<double>& centre, double reach,
                               std::span<const std::uint32_t> parts, std::span<WallPoint> points) const {
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        const Face& face = mesh->faces[parts[k]];
-        const double distance2 = squaredNorm(face.middle - centre), needed = reach + face.radius;
-        if (distance2 > needed * needed)
-            points[k] = {face.normal, std::sqrt(distance2) - face.radius, {0, 0, 0}};
-        else points[k] = mesh->nearest(face, centre);
-    }
-    if (parts.size() < 2) return;
-    const double tolerance = meshTolerance * mesh->size + 1e-7 * reach;
-    leaveOutCovered(points, reach, [&](std::uint32_t near, std::uint32_t far) {
-        const Vector<double> point = centre + points[far].distance * points[far].normal;
-        return mesh->holds(mesh->faces[parts[near]], point, tolerance) ||
-               (isSmooth(points[near].normal, points[far].normal) &&
-                mesh->meetSmoothly(parts[near], parts[far]));
-    });
+    mesh->findPoints(centre, reach, parts, points);
 }
 
 bool TriangleWall::isCrossedInBody(const Vector<double>& from, const Vector<double>& to) const {
-    const Vector<double> middle = 0.5 * (from + to), way = to - from;
-    bool crossed = false;
-    mesh->tree.forEachNear(middle, 0.5 * norm(way) + meshTolerance * mesh->size, [&](std::uint32_t part) {
-        const Face& face = mesh->faces[part];
-        const double before = dot(face.normal, from) - face.offset,
-                     after = dot(face.normal, to) - face.offset;
-        if ((before < 0) == (after < 0)) return;
-        const Vector<double> at = from + (before / (before - after)) * way;
-        crossed = crossed || mesh->holds(face, at, meshTolerance * mesh->size + 1e-9 * norm(way));
-    });
-    return crossed;
+    return mesh->isCrossed(from, to);
 }
 
 void TriangleWall::visitShape(StateArchive& archive) const {
     std::vector<Vector<double>> corners;
-    for (const Side& side : given->sides) corners.push_back(side.corner);
+    for (const FaceSide& side : given->sides) corners.push_back(side.corner);
     archive.same("shape", "TriangleWall");
     archive.same("parts", given->faces.size());
     archive.same<double>("corners", std::span<const Vector<double>>(corners));
@@ -323,7 +260,7 @@ WallSurface TriangleWall::surfaceInBody(const SceneSphere&) const {
     }
     for (const Face& face : mesh->faces) {
         Polygon& polygon = surface.polygons.emplace_back();
-        for (const Side& side : mesh->sidesOf(face)) polygon.push_back(side.corner);
+        for (const FaceSide& side : mesh->sidesOf(face)) polygon.push_back(side.corner);
     }
     return surface;
 }
