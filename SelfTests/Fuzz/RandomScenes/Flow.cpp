@@ -128,10 +128,7 @@ std::vector<Feature> flowFeatures() {
     constexpr unsigned both = momentum | angularMomentum;
     return {
         {.name = "Insert", .share = 0.12, .add = addInsert, .kinds = {"room"}},
-        {.name = "InsertedClumps",
-         .share = 0.05,
-         .add = addInsertedClumps,
-         .kinds = {"room", "body"}},
+        {.name = "InsertedClumps", .share = 0.05, .add = addInsertedClumps, .kinds = {"room", "body"}},
         {.name = "InsertInRun",
          .share = 0.08,
          .add = addInsertInRun,
