@@ -15,8 +15,14 @@
 
 namespace pendular {
 
+std::size_t numberOfWalls(const WallHandler& walls) {
+    std::size_t count = 0;
+    for (std::size_t w = 0; w < walls.getSize(); ++w) count += walls.isRemoved(w) ? 0 : 1;
+    return count;
+}
+
 std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
-    return std::clamp<std::size_t>(grains + 3 * walls.getSize(), 2, contactsInDensestBed + 1) - 1;
+    return std::clamp<std::size_t>(grains + 3 * numberOfWalls(walls), 2, contactsInDensestBed + 1) - 1;
 }
 
 /// The contacts for which the mass of a piston is checked: before its first step a guess, a full layer; then

@@ -70,6 +70,9 @@ double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains,
 void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                   double timeStep, const Integrator& integrator);
 
+/// How many walls there are, without those that were removed.
+[[nodiscard]] std::size_t numberOfWalls(const WallHandler& walls);
+
 /// Half a period (s) of the fastest oscillation that two bodies of the scene can have; infinite without
 /// grains.
 double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls);

@@ -22,6 +22,7 @@
 #include "Kernel/Files/CsvFile.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Parts/AdaptiveStep.h"
 #include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Simulation/Scene.h"
@@ -98,7 +99,7 @@ void addRun(SummaryRows& rows, const Scene& scene) {
     rows.add("threads", scene.getNumberOfThreads());
     rows.add("grains", scene.particleHandler.getSize());
     if (const std::size_t bodies = scene.bodyHandler.getSize(); bodies > 0) rows.add("rigid bodies", bodies);
-    rows.add("walls", scene.wallHandler.getSize());
+    rows.add("walls", numberOfWalls(scene.wallHandler));
     const Vec3D g = scene.getGravity();
     rows.add("gravity", fmt::format("{} {} {}", g.x(), g.y(), g.z()), "m/s^2");
 }

@@ -57,7 +57,7 @@ void Scene::setGravity(const Vec3D& acceleration) {
     for (const double part : acceleration) checkValue("Simulation", "gravity", part, "m/s^2", anyFinite);
     particleHandler.finishStep();  // with the gravity that it had
     takeUnlessRefused(inside->context.gravity, toVector(acceleration), [&] {
-        if (getPeriodicBox().imagesMove) inside->refuseForMovingImages();
+        if (getPeriodicBox().imagesMove || hasBegun()) inside->refuseForMovingImages();
     });
     ParticleHandler::Inside::setGravity(particleHandler, inside->context.gravity);
     inside->adaptive.chooseAnew();

@@ -84,7 +84,7 @@ void Scene::Inside::setUp() {
 
 Features Scene::Inside::featuresOfScene() const {
     Features found;
-    if (scene.wallHandler.getSize() > 0) found.add(Feature::Walls);
+    if (numberOfWalls(scene.wallHandler) > 0) found.add(Feature::Walls);
     for (const WornWall* const worn : wornWalls(scene.wallHandler)) {
         if (!worn) continue;
         found.add(Feature::WornWalls);
@@ -107,7 +107,9 @@ Features Scene::Inside::wakeParts() {
 
 void Scene::Inside::refuseForMovingImages() {
     contextNow(stepLength());
-    refuseConflictsOf(flow.features(context), wakeParts());
+    const Features found = wakeParts();
+    refuseConflictsOf(flow.features(context), found);
+    if (scene.hasBegun()) parts.refuseOwnConflicts(found);
     flow.check(context);
 }
 

@@ -11,11 +11,11 @@ namespace pendular {
 
 void StepList::add(std::unique_ptr<StepPart> part) {
     const auto hasItsName = [&](const StepPart* other) { return other->name() == part->name(); };
-    if (part->name().empty() || std::ranges::any_of(parts, hasItsName))
-        throw InputError(
-            fmt::format("Simulation: a part of the step has the name '{}'; it must have one of "
-                        "its own.",
-                        part->name()));
+    if (part->name().empty())
+        throw InputError("Simulation: a part of the step has no name; give it one of its own.");
+    if (std::ranges::any_of(parts, hasItsName))
+        throw InputError(fmt::format(
+            "Simulation: two parts of the step have the name '{}'; give each one of its own.", part->name()));
     parts.push_back(part.get());
     own.push_back(std::move(part));
 }

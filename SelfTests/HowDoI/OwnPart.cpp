@@ -8,8 +8,14 @@ namespace {
 struct StillAir : StepPart {
     explicit StillAir(double airViscosity) : viscosity(airViscosity) {}  // Pa s
     std::string_view name() const override { return "still air"; }
+    std::span<const Conflict> ownConflicts() const override {
+        static constexpr Conflict bodies{Feature::OwnPart, Feature::RigidBodies,
+                                         "the drag is that of spheres", "leave the air out"};
+        return {&bodies, 1};
+    }
     void prepare(StepContext& step) override {
         for (GrainReference grain : step.particles) {
+            if (grain.isFixed()) continue;
             const double rate = 6 * M_PI * viscosity * grain.getRadius() / grain.getMass();
             const Vec3D before = grain.getVelocity();
             grain.setVelocity(std::exp(-rate * step.length) * before);

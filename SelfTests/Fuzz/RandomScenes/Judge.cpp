@@ -198,7 +198,7 @@ RunEnd runInParts(const Recipe& recipe, const JudgeOptions& options, const fs::p
         way.stopAfter = stop;
         const RunEnd part = runOnce(recipe, options, way);
         if (part.end != "ended" || part.steps != stop)
-            return runOnce(recipe, options, {.folder = folder, .threads = 3});
+            return way.goesOnFrom.empty() ? runOnce(recipe, options, {.folder = folder, .threads = 3}) : part;
         way = {.folder = folder,
                .threads = 4 - way.threads,
                .goesOnFrom = folder / "run-restart.h5",
