@@ -1,7 +1,10 @@
 #include "Kernel/Parts/AccountPart.h"
 
+#include <fmt/format.h>
+
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/StepTimes.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 
@@ -40,6 +43,13 @@ void AccountPart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {
     archive.finite("ledger", ledger);
     archive.finite("energyAtStart", energyAtStart);
     if (kept) account.visitState(archive);
+}
+
+void AccountPart::addTo(SummaryRows& rows) const {
+    for (const auto& entry : EnergyLedger::entries())
+        rows.addNumber(fmt::format("energy: {}", entry.name), ledger.*entry.member, "J");
+    rows.addNumber("energy lost", ledger.lost(), "J");
+    rows.addNumber("energy unaccounted for", changeSinceStart(), "J");
 }
 
 }  // namespace pendular

@@ -17,6 +17,7 @@ public:
     void finish(StepContext& step) override;
     void takeBack(StepContext& step) override;
     void visitSetting(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
 
     void keep(bool keepIt) { kept = keepIt; }
     [[nodiscard]] bool isKept() const { return kept; }

@@ -9,6 +9,7 @@
 #include "Kernel/Parts/FlowPart.h"
 #include "Kernel/Parts/InletPart.h"
 #include "Kernel/Step/StepTimes.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 
@@ -67,6 +68,13 @@ void AdaptivePart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {
 
 void AdaptivePart::visitState(StateArchive& /*archive*/, StepContext& scene) {
     scene.contacts.expectOverlaps(adaptive.supposedOverlap());
+}
+
+void AdaptivePart::addTo(SummaryRows& rows) const {
+    if (!adaptive.hasChosen()) return;
+    rows.add("time step chosen anew", adaptive.choiceCount());
+    rows.addNumber("smallest time step", adaptive.smallestStep(), "s");
+    rows.addNumber("largest time step", adaptive.largestStep(), "s");
 }
 
 }  // namespace pendular

@@ -24,6 +24,7 @@ public:
     void afterForces(StepContext& step) override;
     void visitSetting(StateArchive& archive, StepContext& scene) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
 
     void set(double share, double largestStep) { adaptive.set(share, largestStep); }
     void chooseAnew() { adaptive.chooseAnew(); }

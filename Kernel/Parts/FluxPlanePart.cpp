@@ -1,6 +1,9 @@
 #include "Kernel/Parts/FluxPlanePart.h"
 
+#include <fmt/format.h>
+
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 
@@ -21,5 +24,13 @@ void FluxPlanePart::moveSurroundings(StepContext& step) {
 void FluxPlanePart::takeBack(StepContext& /*step*/) { planes.takeBack(); }
 
 void FluxPlanePart::visitState(StateArchive& archive, StepContext& /*scene*/) { planes.visitState(archive); }
+
+void FluxPlanePart::addTo(SummaryRows& rows) const {
+    for (std::size_t k = 0; k < planes.getSize(); ++k) {
+        const FluxCount& count = planes.countOf(k);
+        rows.add(fmt::format("flux plane {}: net number along its normal", k), count.net());
+        rows.addNumber(fmt::format("flux plane {}: net mass along its normal", k), count.netMass(), "kg");
+    }
+}
 
 }  // namespace pendular

@@ -18,6 +18,7 @@ public:
     void moveSurroundings(StepContext& step) override;
     void takeBack(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
 
 private:
     FluxPlaneHandler& planes;

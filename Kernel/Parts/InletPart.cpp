@@ -1,8 +1,11 @@
 #include "Kernel/Parts/InletPart.h"
 
+#include <fmt/format.h>
+
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 
@@ -35,6 +38,14 @@ GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, co
         sizes.count += contactsInDensestBed + 1;
     }
     return sizes;
+}
+
+void InletPart::addTo(SummaryRows& rows) const {
+    for (std::size_t k = 0; k < inlets.getSize(); ++k) {
+        const InletCount& count = inlets.countOf(k);
+        rows.add(fmt::format("inlet {}: grains that have come", k), count.number);
+        rows.addNumber(fmt::format("inlet {}: mass that has come", k), count.mass, "kg");
+    }
 }
 
 }  // namespace pendular

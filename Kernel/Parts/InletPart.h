@@ -18,6 +18,7 @@ public:
     void prepare(StepContext& step) override;
     void atEnd(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
 
     /// The scene into which grains come.
     [[nodiscard]] static InsertionScene placesOf(const StepContext& scene);

@@ -1,6 +1,9 @@
 #include "Kernel/Parts/OutletPart.h"
 
+#include <fmt/format.h>
+
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 
@@ -18,5 +21,13 @@ void OutletPart::atEnd(StepContext& step) {
 }
 
 void OutletPart::visitState(StateArchive& archive, StepContext& /*scene*/) { outlets.visitState(archive); }
+
+void OutletPart::addTo(SummaryRows& rows) const {
+    for (std::size_t k = 0; k < outlets.getSize(); ++k) {
+        const GrainTally::Entry gone = outlets.countOf(k).all();
+        rows.add(fmt::format("outlet {}: grains and bodies that have gone", k), gone.number);
+        rows.addNumber(fmt::format("outlet {}: mass that has gone", k), gone.mass, "kg");
+    }
+}
 
 }  // namespace pendular

@@ -16,6 +16,7 @@ public:
     void begin(StepContext& scene, bool isRestarted) override;
     void atEnd(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
 
 private:
     OutletHandler& outlets;

@@ -2,6 +2,7 @@
 
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Step/StepTimes.h"
+#include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
 
@@ -21,5 +22,7 @@ void SprayPart::finish(StepContext& step) {
 void SprayPart::visitState(StateArchive& archive, StepContext& scene) {
     if (scene.particles.films().areKept()) sprays.visitState(archive, scene.particles.films());
 }
+
+void SprayPart::addTo(SummaryRows& rows) const { rows.add("droplets in flight", sprays.droplets().size()); }
 
 }  // namespace pendular

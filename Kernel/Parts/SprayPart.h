@@ -15,6 +15,7 @@ public:
     void prepare(StepContext& step) override;
     void finish(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
 
 private:
     SprayHandler& sprays;

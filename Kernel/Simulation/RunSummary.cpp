@@ -18,12 +18,10 @@
 #include "Kernel/Contacts/Evaporation.h"
 #include "Kernel/Contacts/LiquidLedger.h"
 #include "Kernel/Contacts/OverlapWatch.h"
-#include "Kernel/Energy/EnergyLedger.h"
 #include "Kernel/Files/CsvFile.h"
+#include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Particles/ParticleStore.h"
-#include "Kernel/Motion/SceneLimits.h"
-#include "Kernel/Parts/AdaptiveStep.h"
 #include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Simulation/SceneCheck.h"
@@ -86,11 +84,6 @@ void addRun(SummaryRows& rows, const Scene& scene) {
     rows.add("steps", scene.getNumberOfTimeSteps());
     if (scene.getFirstStep() > 0) rows.add("restarted after steps", scene.getFirstStep());
     rows.addNumber("time step", scene.getTimeStep(), "s");
-    if (const AdaptiveStep& adaptive = scene.adaptiveTimeStep(); adaptive.hasChosen()) {
-        rows.add("time step chosen anew", adaptive.choiceCount());
-        rows.addNumber("smallest time step", adaptive.smallestStep(), "s");
-        rows.addNumber("largest time step", adaptive.largestStep(), "s");
-    }
     rows.addNumber("stability limit",
                    sceneStabilityLimit(scene.laws(), scene.grainSizes(scene.particleHandler.store()),
                                        scene.wallHandler, scene.scheme()),
@@ -126,7 +119,6 @@ void addLiquid(SummaryRows& rows, const Scene& scene) {
         rows.addNumber("liquid: emitted by sprays", ledger.emitted, "m^3");
         rows.addNumber("liquid: in flight", ledger.airborne, "m^3");
         rows.addNumber("liquid: lost by sprays", ledger.lost, "m^3");
-        rows.add("droplets in flight", scene.sprayHandler.droplets().size());
     }
     if (scene.getEvaporation().dropletsEvaporate()) {
         rows.addNumber("liquid: evaporated", ledger.evaporated, "m^3");
@@ -159,13 +151,7 @@ void addHealth(SummaryRows& rows, const Scene& scene) {
     if (scene.movesLiquid()) addLiquid(rows, scene);
     rows.addNumber("largest speed", std::sqrt(speed2), "m/s");
     rows.addNumber("kinetic energy", kineticEnergy(grains), "J");
-    if (!scene.keepsEnergyLedger()) return;
-    const EnergyLedger& ledger = scene.energyLedger();
-    for (const auto& entry : EnergyLedger::entries())
-        rows.addNumber(fmt::format("energy: {}", entry.name), ledger.*entry.member, "J");
-    rows.addNumber("energy lost", ledger.lost(), "J");
-    rows.addNumber("energy unaccounted for", scene.energyUnaccountedFor(), "J");
-    if (gainsByPressing(scene.laws().friction))
+    if (scene.keepsEnergyLedger() && gainsByPressing(scene.laws().friction))
         rows.add("note on friction",
                  "springs of Mindlin gain energy where contacts are pressed deeper (see energy: "
                  "lost_in_stiffening); those of MindlinIncremental do not");

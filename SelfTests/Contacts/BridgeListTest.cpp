@@ -84,13 +84,18 @@ private:
                 ruptured += static_cast<int>(joined.erase(key));
         });
     }
-    /// A new list holds the pairs that can touch before the next one, those joined by a bridge, and no
-    /// others: nothing is searched at the bridges' length.
+    /// A new list holds the pairs that can touch before the next one, those joined by a bridge, the walls
+    /// within the length of a grain's bridge at a wall, to which it may pass on, and no others: nothing else
+    /// is searched at the bridges' length.
     void expectListed() {
         std::set<ContactKey> expected = joined, listed;
-        forEachPair([&](const ContactKey& key, double separation, auto) {
-            if (separation < skin) expected.insert(key);
-            else keptApart += joined.contains(key) ? 1 : 0;
+        std::set<std::uint32_t> atWalls;  // grains with a bridge at one
+        for (const ContactKey& key : joined)
+            if (std::get<0>(key) >= 0) atWalls.insert(std::get<1>(key));
+        forEachPair([&](const ContactKey& key, double separation, auto rupture) {
+            const bool mayPass = std::get<0>(key) >= 0 && atWalls.contains(std::get<1>(key));
+            if (separation < skin || (mayPass && separation < skin + rupture())) expected.insert(key);
+            if (separation >= skin) keptApart += joined.contains(key) ? 1 : 0;
         });
         system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
             listed.insert(keyOf(system.store(), scene.particleHandler.store().identity, bucket, c));
@@ -100,7 +105,7 @@ private:
     std::set<ContactKey> joinedInStore() {
         std::set<ContactKey> result;
         system.store().forEachListed([&](const Bucket& bucket, std::uint32_t c) {
-            if ((system.store().states[c / Pack::lanes].bridged >> (c % Pack::lanes) & 1) != 0)
+            if (system.isBridged(c))
                 result.insert(keyOf(system.store(), scene.particleHandler.store().identity, bucket, c));
         });
         return result;

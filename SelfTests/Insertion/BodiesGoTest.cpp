@@ -4,8 +4,10 @@
 #include <numbers>
 
 #include "Kernel/Simulation/SuperquadricSimulation.h"
+#include "Kernel/Step/SummaryRows.h"
 #include "SelfTests/Insertion/FilledScene.h"
 #include "SelfTests/Support/Random.h"
+#include "SelfTests/Support/Refusal.h"
 
 namespace pendular {
 namespace {
@@ -81,6 +83,11 @@ TEST(BodiesGo, throughAnOutletAsAWhole) {
         ASSERT_NEAR(gone.all().mass, mass, 60 * 0x1p-52 * mass);
     }
     EXPECT_EQ(scene.particleHandler.getSize(), 0u);
+    SummaryRows rows;
+    scene.addPartsTo(rows);
+    for (const std::string_view row : {"outlet 0: grains and bodies that have gone 60\n",
+                                       "flux plane 0: net number along its normal 60\n"})
+        EXPECT_TRUE(support::contains(rows.shown(), row)) << rows.shown();
 }
 
 // Momentum is that of free fall, whatever a body's spin: v = sqrt(2 g h) to a step's change of it.
