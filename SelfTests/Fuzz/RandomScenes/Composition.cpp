@@ -117,6 +117,7 @@ std::string_view whyNoPair(std::string_view a, std::string_view b) {
 Recipe recipeWith(std::span<const std::string_view> names, std::uint64_t seed) {
     Recipe recipe;
     recipe.seed = fullScene(seed);
+    recipe.steps = 80;
     std::vector<std::string> features(names.begin(), names.end());
     for (const std::string_view name : names) addNeeded(features, featureNamed(name));
     if (std::ranges::find(features, "Superquadrics") == features.end()) features.emplace_back("Grains");
