@@ -34,10 +34,10 @@ struct FluxPlane {
 };
 
 /// Planes that count the grains whose centres go through them, and the rigid bodies whose centres of mass do.
-/// A grain or body counts +1 when its distance along the
-/// normal changes from below 0 to 0 or above in a step, and -1 the other way; one that goes to and fro nets
-/// 0 or 1. In a scene that repeats itself along the normal, the plane's images count, too; that a grain is
-/// brought back into the period is no crossing, nor is that a hook puts it elsewhere.
+/// A grain or body counts +1 when its distance along the normal changes from below 0 to 0 or above in a step,
+/// and -1 the other way; one that goes to and fro nets 0 or 1. In a scene that repeats itself along the
+/// normal, the plane's images count, too; that a grain is brought back into the period is no crossing, nor is
+/// that a hook puts it elsewhere.
 class FluxPlaneHandler {
 public:
     /// At set-up only. Returns the plane's number.

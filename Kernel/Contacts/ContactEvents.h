@@ -28,7 +28,7 @@ public:
     }
     /// Events since the last step belong to the next one.
     void leaveForNextStep();
-    /// To be called before and after the forces of a bucket; after() also gives the columns of contacts that
+    /// Called before and after the forces of a bucket; after() also gives the columns of contacts that
     /// begin to act the numbers with which they start.
     void before(const ContactStore& store, const Bucket& bucket) {
         if (listening || watching || !startsOfColumns.empty())

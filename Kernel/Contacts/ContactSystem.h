@@ -35,7 +35,7 @@ class ContactSystem {
 public:
     using Grains = ParticleStore;
 
-    /// To be called when species, walls and grains are known.
+    /// Called when species, walls and grains are known.
     /// @param skinChoice contacts are listed again when bodies can have approached by the skin: the sum over
     /// the steps of the largest shifts of two bodies; @param films of the grains, where liquid moves
     void prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,

@@ -17,7 +17,7 @@ public:
 
     void listed() { *this = {}; }
 
-    /// To be asked every `interval` steps since the list.
+    /// Asked every `interval` steps since the list.
     /// @param listCost ns
     [[nodiscard]] bool newListPays(const ContactStore& store, double listCost) {
         const double idle = count(store);

@@ -22,7 +22,7 @@ public:
 
     [[nodiscard]] virtual ContactLaws& laws() = 0;
     [[nodiscard]] virtual std::unique_ptr<AnyLaws> nothingSetForPair() const = 0;
-    /// To be called before the pairs are mixed, with the number of species of the scene.
+    /// Called before the pairs are mixed, with the number of species of the scene.
     virtual void begin(std::size_t speciesCount) = 0;
     /// Mixes the laws of a pair. Throws InputError.
     /// @param own null: the driver sets none

@@ -23,7 +23,7 @@ public:
     /// Contacts have been listed.
     void listed(const ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains);
 
-    /// To be called when the points of all walls have been found.
+    /// Called when the points of all walls have been found.
     /// @param wake gives memory to a block of contacts
     void join(ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains,
               const WallHandler& walls, int threads, const std::function<void(std::size_t)>& wake);

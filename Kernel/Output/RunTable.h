@@ -40,7 +40,7 @@ public:
         if (file) file->close();
     }
 
-    /// To be called in the driver's visitState(). Throws InputError where the table that is there is not the
+    /// Called in the driver's visitState(). Throws InputError where the table that is there is not the
     /// one that the restart file knows.
     void visitState(StateArchive& archive);
 

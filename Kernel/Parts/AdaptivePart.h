@@ -31,7 +31,7 @@ public:
     [[nodiscard]] const AdaptiveStep& step() const { return adaptive; }
 
 private:
-    /// Of the time in which a servo of stress reaches its aim, a step is at most this.
+    /// The longest step, over the time in which a servo of stress reaches its aim.
     static constexpr double shareOfServo = 0.1;
 
     /// s, for the stiffest pair, and for the servos.

@@ -29,7 +29,7 @@ public:
 
     /// The run ends at another time (s).
     void setEnd(double time) { end = time; }
-    /// To be called after each step: whether show() is to be called. It looks at the clock some twenty times
+    /// Called after each step: whether show() is to be called. It looks at the clock some twenty times
     /// a second.
     [[nodiscard]] bool isDue(std::size_t step);
     /// Shows how far the run is at its end, and ends the line, if something was shown before.

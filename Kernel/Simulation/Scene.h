@@ -230,8 +230,7 @@ public:
     /// The time step follows the contacts (AdaptiveStep): a share (above 0, up to 1; with 0.9 bulk figures
     /// were the same to 2.4 %) of what they and those that may come stand, at most 0.9 over the highest
     /// frequency of two grains (shortestContactTime() 0.9 / pi) and at most the largest step (s). The run
-    /// begins with setTimeStep(). At set-up; not with superquadrics, walls that forces move, viscous bridges
-    /// or integrators that remember a step.
+    /// begins with setTimeStep(). At set-up. Kernel/Step/README.md says what it does not go with.
     void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const;
     [[nodiscard]] const Integrator& getIntegrator() const;
