@@ -44,7 +44,11 @@ void Scene::Inside::takeOverChanges() {
         const bool newLaws = std::exchange(lawsAreNew, false), newStep = stepLength() != checkedStep,
                    changedWalls = walls.hasChanges();
         const auto firstNewWall = static_cast<int>(walls.firstNewWall());
-        if (!newLaws && !changedWalls && !newStep && !ParticleHandler::Inside::hasChanges(particles)) return;
+        // Springs may work in the step again, as they do after a restart without bodies.
+        const bool lastBodyWent = checkedSizes.hasBodies && context.grains().bodies.empty();
+        if (!newLaws && !changedWalls && !newStep && !lastBodyWent &&
+            !ParticleHandler::Inside::hasChanges(particles))
+            return;
         const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
         const bool changedGrains = !changes.placed.empty() || !changes.altered.empty(),
                    newBodies = changedWalls || changedGrains;
@@ -59,7 +63,8 @@ void Scene::Inside::takeOverChanges() {
             {.laws = newLaws, .walls = changedWalls, .grains = changedGrains, .timeStep = newStep});
         choosePartsLength();
         const bool withShapes = laws().shapes() && !changes.added.empty(), hadEnds = periodicWalls.haveEnds();
-        if (newLaws || newBodies || withShapes || stepLength() != checkedStep || isNewToChecks(changes.added))
+        if (newLaws || newBodies || withShapes || lastBodyWent || stepLength() != checkedStep ||
+            isNewToChecks(changes.added))
             check();
         ParticleStore& grains = particles.store();
         if (periodicWalls.haveEnds()) wrapPlaced(grains, changes, hadEnds);

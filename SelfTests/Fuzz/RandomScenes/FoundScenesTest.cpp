@@ -30,6 +30,9 @@ INSTANTIATE_TEST_SUITE_P(
         FoundScene{"stepIsCheckedForABodyJoinedInTheRun",
                    "seed=1378 features=HertzianViscoelasticMindlinLiquidBridgeWillett,Grains,JoinInRun "
                    "steps=4 grains=1"},
+        FoundScene{"springsInStepWhenTheLastBodyGoes",
+                   "seed=4152 features=LinearViscoelasticSlidingFrictionLiquidMigrationWillett,Grains,"
+                   "BodyChange,InsertedClumps steps=4 grains=4"},
         FoundScene{
             "strainOfWetGrains",
             "seed=1585 features=HertzianViscoelasticMindlinViscousLiquidMigrationLS,Strain,Grains,Films "
