@@ -15,7 +15,7 @@ struct ContactEvent {
     std::uint32_t particle1;  // identity; the lower one
     std::uint32_t particle2;  // `none` at a wall
     int wall;                 // -1: grain with grain
-    std::uint32_t part;       // of the wall
+    std::uint32_t part;       // of the wall; of an image: see WallImages
     Kind kind;
 
     friend auto operator<=>(const ContactEvent&, const ContactEvent&) = default;

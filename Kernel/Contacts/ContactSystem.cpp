@@ -321,10 +321,7 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     archive.same("columns", names);
     RememberedContacts remembered;
     if (archive.isWriting()) remembered.take(contacts, grains.identity, threads);
-    std::vector<std::size_t> partsOfWalls;
-    for (std::size_t w = 0; w < walls->getSize(); ++w)
-        partsOfWalls.push_back(walls->getObject(w).partCount());
-    remembered.visitState(archive, contacts.memory, ledger, grains, partsOfWalls);
+    remembered.visitState(archive, contacts.memory, ledger, grains, *walls);
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
     if (species->hasLargestCapillaryNumber)
         archive.group("capillaryNumbers", [&] { capillaryWatch.visitState(archive); });
@@ -533,7 +530,7 @@ void ContactSystem::sumForcesOn(const Grains& grains, std::size_t number) {
     const Vector<double> about = toVector(wall.getTorquePoint());
     WallForceSum sum;
     for (const Bucket& bucket : contacts.buckets)
-        if (bucket.wall == static_cast<int>(number)) addWallForces(contacts, bucket, grains, about, sum);
+        if (bucket.wall == static_cast<int>(number)) addWallForces(contacts, bucket, wall, grains, about, sum);
     wall.setForce(sum.force.value(), sum.torque.value(), sum.touches);
 }
 

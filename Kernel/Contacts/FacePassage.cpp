@@ -41,6 +41,7 @@ void FacePassage::leave(const Grains& grains, std::span<const std::uint32_t> pla
     for (const std::uint32_t place : places) {
         Passing& passing = grainsThatPass.emplace_back();
         passing.place = place;
+        passing.position = grains.translation[place].position;
         if (place >= store.sides.grainCount()) continue;  // it came after the list
         for (const std::uint32_t side : store.sides.of(place))
             note(grains, store.contactAt(side / 2), passing);
@@ -78,12 +79,24 @@ void FacePassage::arrive(const Grains& grains, double reach, double time) {
     for (Passing& passing : grainsThatPass) {
         if (grains.translation[passing.place].inverseMass == 0) continue;  // held grains touch no walls
         for (std::uint32_t wall = 0; wall < walls.getSize(); ++wall)
-            if (isFollowed[wall] && !findPartners(grains, passing, wall, reach))
+            if (walls.getObject(wall).isRepeated())
+                goOnAtImages(grains, passing, wall);
+            else if (isFollowed[wall] && !findPartners(grains, passing, wall, reach))
                 throw RunError(fmt::format(
                     "At time {:.6g} s particle {} goes through a face of the periodic scene where wall {} is "
                     "not the same on both sides: walls are not repeated, so let this one go on through the "
                     "faces, or keep grains away from where it does not.",
                     time, grains.identity[passing.place], wall));
+    }
+}
+
+void FacePassage::goOnAtImages(const Grains& grains, Passing& passing, std::uint32_t wall) {
+    const Vector<double> way = grains.translation[passing.place].position - passing.position;
+    for (const Seen& before : passing.before) {
+        if (before.wall != wall) continue;
+        meetsWalls = true;
+        if (store.acts(before.contact))
+            passing.parts.push_back({wall, before.part, walls.getObject(wall).partAfter(way, before.part)});
     }
 }
 

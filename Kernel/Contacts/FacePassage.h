@@ -49,6 +49,7 @@ private:
     };
     struct Passing {
         std::uint32_t place;
+        Vector<double> position{0, 0, 0};  // m, before it is brought back
         std::vector<Seen> before;
         std::vector<RememberedContacts::NewPart> parts;
     };
@@ -59,6 +60,8 @@ private:
     [[nodiscard]] std::vector<Seen> allSeenAt(const Grains& grains, std::uint32_t place, std::uint32_t wall,
                                               double reach) const;
     [[nodiscard]] double rangeAt(const Grains& grains, std::uint32_t place, std::uint32_t wall) const;
+    /// A wall that the scene repeats has all parts again: contacts go on with those of another image.
+    void goOnAtImages(const Grains& grains, Passing& passing, std::uint32_t wall);
     /// Returns whether all that matters has a partner.
     bool findPartners(const Grains& grains, Passing& passing, std::uint32_t wall, double reach);
 

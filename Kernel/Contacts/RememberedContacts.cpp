@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 
@@ -90,7 +91,7 @@ void RememberedContacts::goOn(std::uint32_t place, std::span<const NewPart> part
 
 void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory, bool ledger,
                                     const ParticleStore& grains,
-                                    const std::vector<std::size_t>& partsOfWalls) {
+                                    const WallHandler& walls) {
     const std::size_t width = memory.numberCount();
     std::vector<double> numbers;
     std::vector<EnergyRecord> energies;
@@ -103,7 +104,7 @@ void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory
         archive.require(energies.size() == (ledger ? entries.size() : 0), "energies",
                         "has another number of rows than contacts/pairs");
         archive.requireFinite("numbers", numbers);
-        requireEntries(archive, grains, partsOfWalls);
+        requireEntries(archive, grains, walls);
         begins.assign(grains.size() + 1, 0);
         for (const Entry& entry : entries) ++begins[grains.place[entry.owner] + 1];
         std::partial_sum(begins.begin(), begins.end(), begins.begin());
@@ -131,11 +132,11 @@ void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory
 }
 
 void RememberedContacts::requireEntries(const StateArchive& archive, const ParticleStore& grains,
-                                        const std::vector<std::size_t>& partsOfWalls) const {
+                                        const WallHandler& walls) const {
     for (const Entry& e : entries) {
         const bool isAmong =
-            grains.place.contains(e.owner) && e.wall <= partsOfWalls.size() &&
-            (e.wall == 0 ? grains.place.contains(e.other) : e.other < partsOfWalls[e.wall - 1]);
+            grains.place.contains(e.owner) && e.wall <= walls.getSize() &&
+            (e.wall == 0 ? grains.place.contains(e.other) : walls.getObject(e.wall - 1).hasPart(e.other));
         archive.require(isAmong && (e.wall > 0 || e.owner < e.other), "pairs",
                         "has a contact of grains, walls or parts of a wall that the scene has not");
         archive.require((e.state & (touching | bridged)) != 0 && e.state < 8, "pairs",

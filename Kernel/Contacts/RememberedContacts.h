@@ -8,6 +8,8 @@
 
 namespace pendular {
 
+class WallHandler;
+
 /// The contacts that touched or were bridged, and where the memory holds what they remember, found again by
 /// who they join: what a new list takes over, and what a restart file holds. Neither knows how contacts were
 /// listed.
@@ -26,10 +28,10 @@ public:
     /// @param identity of the grain at each place, as the store's contacts have it
     void take(const ContactStore& store, const std::vector<std::uint32_t>& identity, int threads);
     /// Writes them in the order of identities, or reads them. Throws InputError unless they are contacts of
-    /// this scene: grains by identity, and how many parts each wall has.
+    /// this scene: grains by identity, and the parts of walls.
     /// @param memory what they remember; what it had before is gone when they are read
     void visitState(StateArchive& archive, ContactMemory& memory, bool ledger, const ParticleStore& grains,
-                    const std::vector<std::size_t>& partsOfWalls);
+                    const WallHandler& walls);
 
     [[nodiscard]] std::size_t size() const { return entries.size(); }
     [[nodiscard]] const Entry& entry(std::uint32_t number) const { return entries[number]; }
@@ -55,7 +57,7 @@ private:
     static Entry entryOf(const ContactStore& store, const std::vector<std::uint32_t>& identity,
                          std::uint32_t contact);
     void requireEntries(const StateArchive& archive, const ParticleStore& grains,
-                        const std::vector<std::size_t>& partsOfWalls) const;
+                        const WallHandler& walls) const;
 
     std::vector<std::uint32_t> begins;  // of the entries of each place
     std::vector<Entry> entries;

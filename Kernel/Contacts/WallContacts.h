@@ -6,6 +6,7 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Walls/Wall.h"
 
 namespace pendular {
 
@@ -62,17 +63,18 @@ struct WallForceSum {
 };
 
 /// Adds what the grains of a bucket do to its wall.
-/// @param about m, the point of the torque. The contact point lies half the
+/// @param about m, the point of the torque, which an image of the wall has at its own place. The contact point lies half the
 /// overlap below the grain's surface, where the grain's own lever arm ends: so the angular momentum of grain
 /// and wall is kept.
-inline void addWallForces(const ContactStore& store, const Bucket& bucket, const ParticleStore& grains,
-                          const Vector<double>& about, WallForceSum& sum) {
+inline void addWallForces(const ContactStore& store, const Bucket& bucket, const Wall& wall,
+                          const ParticleStore& grains, const Vector<double>& about, WallForceSum& sum) {
     const ContactMemory& memory = store.memory;
     for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
         const std::size_t b = c / Pack::lanes, lane = c % Pack::lanes;
         if (!store.acts(c)) continue;
         const TranslationRecord& grain = grains.translation[store.blocks[b].first[lane]];
         Vector<double> point = grain.position - about;
+        if (wall.isRepeated()) point -= wall.imageShift(store.secondOf(c), grain.position);
         if (memory.getLayout().hasTorque) {
             const auto& n = store.wallPoints[b - store.firstWallBlock()].normal;
             point += (grain.radius - memory.records[store.slotOf(c)].halfOverlap) *

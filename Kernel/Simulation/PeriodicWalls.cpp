@@ -93,20 +93,48 @@ std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const Su
                        high - low, names[axis], where, advice);
 }
 
+void PeriodicWalls::repeat(RigidWall& wall, std::size_t number) {
+    const Vector<double> half = wall.surroundings().half;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double length = 2 * half.*along[k], period = periodic.length.*along[k];
+        if (period > 0 && length > WallImages::mostPeriods * period)
+            throw InputError(fmt::format(
+                "wall {} is {:.6g} m long along {}, and it is not the same after a period of {:.6g} m: a mesh "
+                "that is to be repeated with the scene is not longer than {} periods; make it shorter.",
+                number, length, names[k], period, WallImages::mostPeriods));
+    }
+    if (wall.partCount() > WallImages::mostParts)
+        throw InputError(fmt::format(
+            "wall {} has {} parts, and it is not the same after a period: a mesh that is to be repeated with "
+            "the scene has at most {}; take a coarser mesh.",
+            number, wall.partCount(), WallImages::mostParts));
+    wall.repeat(periodic.length);
+}
+
 void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size_t axis, double outside) {
-    const Wall& wall = walls.getObject(number);
+    Wall& wall = walls.getObject(number);
+    auto* const rigid = dynamic_cast<RigidWall*>(&wall);
     const double needed = looks[number].needed;
+    const auto isRepeated = [&] {
+        if (!wall.isRepeated()) return false;
+        Look alike;
+        alike.isEndless = false;
+        alike.passes = true;
+        alike.needed = needed;
+        looks[number].along.fill(alike);
+        return true;
+    };
+    if (isRepeated()) return;
     const PeriodicFaces faces = facesOf(axis, needed);
     const SurfaceAtFaces seen = wall.atFaces(faces);
     const double met = needed + outside;
-    if (seen.margin < met * rounded) throw InputError(sentence(number, axis, seen, met));
-    if (seen.passes && movesVertices(wall))
-        throw InputError(fmt::format(
-            "wall {} goes through a periodic face, and its vertices move with its wear, on each side as "
-            "grains wear them there, so that they would no longer fit; keep its wear without a motion of "
-            "vertices, or let it end before the faces.",
-            number));
-    const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);
+    // Vertices move on each side as grains wear them there, so that two ends would no longer fit.
+    const bool isAlike = seen.margin >= met * rounded, staysAlike = !seen.passes || !movesVertices(wall);
+    if (!(isAlike && staysAlike)) {
+        if (rigid && rigid->canBeRepeated()) repeat(*rigid, number);
+        if (isRepeated()) return;
+        throw InputError(sentence(number, axis, seen, met));
+    }
     looks[number].along[axis] = {.isEndless = seen.isEndless,
                                  .passes = seen.passes,
                                  .needed = needed,
@@ -125,6 +153,9 @@ void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const Peri
                           const ContactLaws& laws, const GrainSizes& sizes, double widestBody,
                           double smallestRadius) {
     const bool isOther = haveChanged || smallest != smallestRadius || looks.size() != walls.getSize();
+    if (!(periodic.length == box.length))  // they were of another scene, or of an attempt that was refused
+        for (std::size_t w = 0; w < walls.getSize(); ++w)
+            if (auto* const rigid = dynamic_cast<RigidWall*>(&walls.getObject(w))) rigid->repeat({0, 0, 0});
     periodic = box;
     smallest = smallestRadius;
     bodyReach = 0.5 * widestBody;
@@ -142,15 +173,27 @@ void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const Peri
             const Look& known = looks[w].along[axis];
             if (periodic.length.*along[axis] == 0) continue;
             if (isOther || needed != known.needed || !isWhereItWas(wall, known)) look(walls, w, axis, 0);
-            spare = std::min(spare, known.margin - needed);
         }
+        for (const Look& known : looks[w].along) spare = std::min(spare, known.margin - needed);
     }
     // The other half is left to walls that move.
     band = std::clamp(0.5 * spare, 0.0, widestBand * smallest);
     collectEnds();
 }
 
-void PeriodicWalls::visitState(StateArchive& archive) {
+void PeriodicWalls::visitState(StateArchive& archive, const WallHandler& walls) {
+    // A wall that moves may have been alike at both faces when the run of the file began.
+    std::vector<std::uint32_t> repeated;
+    for (std::uint32_t w = 0; w < walls.getSize(); ++w)
+        if (walls.getObject(w).isRepeated()) repeated.push_back(w);
+    archive.column<std::uint32_t>("repeatedWalls", repeated);
+    for (const std::uint32_t number : repeated) {
+        auto* const wall =
+            number < walls.getSize() ? dynamic_cast<RigidWall*>(&walls.getObject(number)) : nullptr;
+        archive.require(wall && wall->canBeRepeated(), "repeatedWalls", "has a wall that cannot be repeated");
+        repeat(*wall, number);
+        look(walls, number, 0, 0);
+    }
     archive.finite("band", band);
     archive.require(band >= 0 && band <= widestBand * smallest, "band",
                     "is no distance to which grains may be outside");
@@ -173,7 +216,7 @@ bool PeriodicWalls::isWhereItWas(const Wall& wall, const Look& last) {
 /// axis brings an end nearer.
 bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks& of, double shift) const {
     const double length = periodic.length.*along[axis];
-    if (length == 0) return false;
+    if (length == 0 || wall.isRepeated()) return false;
     Look& last = of.along[axis];
     const double spare = last.margin - (of.needed + band) * rounded;
     const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);

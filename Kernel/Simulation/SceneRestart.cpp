@@ -15,7 +15,8 @@ void Scene::Inside::visitAll(StateArchive& archive) {
     }
     visitScene(archive);
     if (archive.isReading()) prepare();
-    if (periodicWalls.haveEnds()) archive.group("periodicWalls", [&] { periodicWalls.visitState(archive); });
+    if (periodicWalls.haveEnds())
+        archive.group("periodicWalls", [&] { periodicWalls.visitState(archive, scene.wallHandler); });
     archive.group("contacts", [&] { contacts.visitState(archive, scene.particleHandler.store()); });
     archive.group("parts", [&] { parts.visitStates(archive, context); });
     archive.value("noRoomWasTold", noRoomWasTold);

@@ -59,6 +59,7 @@ struct SurfaceExtent {
     Vector<double> centre{0, 0, 0};  // m
     double radius = 0;               // m, of all points around the centre; may be infinite
     Vector<double> axis{0, 0, 0};    // unit; of a plane its normal
+    Vector<double> half{0, 0, 0};    // m, half the lengths of a box along the axes; of a mesh
 
     /// The farthest (m) that the surface as a set of points moves between two poses.
     [[nodiscard]] double displacement(const Pose& from, const Pose& to) const;

@@ -146,15 +146,16 @@ const WornTriangles& TriangleWall::getWear() const {
     return *worn;
 }
 
-void TriangleWall::takeWear(std::uint32_t part, const Vector<double>& point, const ContactWear& done) {
+void TriangleWall::takeWear(std::uint32_t partMet, const Vector<double>& point, const ContactWear& done) {
     if (done.slidingWork == 0 && !done.isImpact) return;
+    const std::uint32_t part = partOfShape(partMet);
     if (moving && dot(getPose().turn(mesh->faces[part].normal), done.towards) > 0)
         throw RunError(fmt::format(
             "A grain wears triangle {} of a TriangleWall from behind: where vertices move, grains must be on "
             "the side to which the normals point; turn the triangle's corners round, or give the other side "
             "triangles of its own.",
             part));
-    noted.push_back({part, getPose().placeBack(point), done});
+    noted.push_back({part, getPose().placeBack(point - imageShift(partMet, point)), done});
 }
 
 /// The vertices first, which may fail: by what was worn off before this step.
@@ -196,7 +197,7 @@ std::size_t TriangleWall::getNumberOfParts() const { return mesh ? mesh->faces.s
 std::size_t TriangleWall::getNumberLeftOut() const { return mesh ? mesh->leftOut : 0; }
 
 std::optional<Vector<double>> TriangleWall::facetNormal(std::uint32_t part) const {
-    return getPose().turn(mesh->faces[part].normal);
+    return getPose().turn(mesh->faces[partOfShape(part)].normal);
 }
 
 std::vector<OpenEdge> TriangleWall::openEdges() const {
@@ -246,7 +247,10 @@ void TriangleWall::visitShape(StateArchive& archive) const {
 }
 
 SurfaceExtent TriangleWall::extent() const {
-    return {SurfaceExtent::Symmetry::None, mesh->box.middle(), mesh->radius, {0, 0, 0}};
+    return {.symmetry = SurfaceExtent::Symmetry::None,
+            .centre = mesh->box.middle(),
+            .radius = mesh->radius,
+            .half = 0.5 * (mesh->box.highest - mesh->box.lowest)};
 }
 
 WallSurface TriangleWall::surfaceInBody(const SceneSphere&) const {

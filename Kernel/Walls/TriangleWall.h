@@ -50,6 +50,7 @@ public:
         return worn->of(triangle);
     }
     [[nodiscard]] bool movesVertices() const override { return moving.has_value(); }
+    [[nodiscard]] bool canBeRepeated() const override { return true; }
     [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override {
         return polygonsAtFaces(surface({}).polygons, faces);
     }

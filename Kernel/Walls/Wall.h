@@ -64,9 +64,11 @@ public:
     [[nodiscard]] int getSpeciesIndex() const { return species; }
 
     [[nodiscard]] virtual std::size_t partCount() const { return 1; }
+    /// Whether a contact can be with this part, also of an image.
+    [[nodiscard]] virtual bool hasPart(std::uint32_t part) const { return part < partCount(); }
 
     /// Appends the parts that a sphere with this centre may touch while its centre is within `reach` (m) of
-    /// them.
+    /// them; where the scene repeats the wall, also those of its images.
     virtual void listParts(const Vector<double>& centre, double reach,
                            std::vector<std::uint32_t>& parts) const = 0;
 
@@ -99,6 +101,19 @@ public:
     /// that cannot tell says that it goes through them: then only the run finds out.
     [[nodiscard]] virtual SurfaceAtFaces atFaces(const PeriodicFaces& /*faces*/) const {
         return {.passes = true};
+    }
+
+    /// Whether the scene repeats it, so that parts of its images have numbers of their own (see WallImages).
+    [[nodiscard]] virtual bool isRepeated() const { return false; }
+    /// m, how far the image that a grain (its centre, m) meets by a part is from the wall itself.
+    [[nodiscard]] virtual Vector<double> imageShift(std::uint32_t /*part*/,
+                                                    const Vector<double>& /*centre*/) const {
+        return {0, 0, 0};
+    }
+    /// The part that a grain meets where it met this one, when it has been brought back by a way (m) of whole
+    /// periods.
+    [[nodiscard]] virtual std::uint32_t partAfter(const Vector<double>& /*way*/, std::uint32_t part) const {
+        return part;
     }
 
     /// Moves the wall to where it is at a time (s); returns how far (m) any point of its surface can have

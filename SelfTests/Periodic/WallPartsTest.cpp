@@ -4,11 +4,7 @@
 
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Simulation/StateHash.h"
-#include "Kernel/Species/BridgeLaws.h"
-#include "Kernel/Species/Friction/Mindlin.h"
-#include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "SelfTests/Liquid/WetScenes.h"
-#include "SelfTests/Periodic/ThroughFaces.h"
+#include "SelfTests/Periodic/PavedFloor.h"
 #include "SelfTests/Support/TestFolder.h"
 
 // Grains go through the faces of a periodic scene on walls of several parts, as on walls of one part.
@@ -16,84 +12,16 @@
 namespace pendular::periodic {
 namespace {
 
-using scenes::GrainMotion;
-
-using Smooth = Species<HertzianViscoelastic>;
-using Dry = Species<HertzianViscoelastic, Mindlin>;
-using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeWillett>;
-using Migrating = Species<HertzianViscoelastic, Mindlin, LiquidMigrationWillett>;
-
-constexpr double reach = 2 * r;  // m, of walls beyond the faces
-
-/// The material of the box, with bridges where the species has them.
-template <class S>
-S material() {
-    S species = scenes::boxMaterial<S>(0);
-    if constexpr (requires { species.setLiquidBridgeVolume(1.0); }) {
-        species.setLiquidBridgeVolume(0.01 * r * r * r);
-        species.setContactAngle(0.2);
-        species.setSurfaceTension(0.07);
-    }
-    if constexpr (requires { species.setLiquidBridgeVolumeMax(1.0); }) species = wet::boxMaterial<S>(0);
-    return species;
-}
-
-/// At 2 m/s and less a grain goes through a face every 2000 steps.
-std::vector<GrainMotion> rollingGrains() {
-    return {{.radius = r, .position = {0.5 * length, 0.3 * length, r}, .velocity = {1.9, 0.7, 0}},
-            {.radius = r, .position = {0.2 * length, 0.8 * length, 1.5 * r}, .velocity = {-1.3, 0.4, 0}},
-            {.radius = 0.8 * r,
-             .position = {0.7 * length, 0.1 * length, 0.8 * r},
-             .velocity = {0.2, -1.6, 0},
-             .spin = {300, 0, 100}}};
-}
-
-template <class S>
-void expectSameMotion(ThroughFaces<S>& found, ThroughFaces<S>& expected, double tolerance) {
-    const PeriodicBox& box = found.getPeriodicBox();
-    for (std::size_t g = 0; g < expected.particleHandler.getSize(); ++g) {
-        const GrainMotion a = found.motion(g), b = expected.motion(g);
-        EXPECT_LT(norm(box.nearest(toVector(Vec3D(a.position - b.position)))), tolerance * r) << g;
-        EXPECT_LT((a.velocity - b.velocity).norm(), tolerance) << g;
-        EXPECT_LT((a.spin - b.spin).norm(), tolerance / r) << g;
-    }
-}
-
 template <class S>
 class WallParts : public testing::Test {};
 using SpeciesOfAllKinds = testing::Types<Smooth, Dry, Wet, Migrating>;
 TYPED_TEST_SUITE(WallParts, SpeciesOfAllKinds);
 
-template <class S>
-std::unique_ptr<ThroughFaces<S>> onFloor(bool isMesh, int threads = 1, double beyond = reach) {
-    auto scene =
-        std::make_unique<ThroughFaces<S>>(rollingGrains(), std::initializer_list<int>{0, 1}, material<S>());
-    scene->setNumberOfThreads(threads);
-    scene->listenToContacts();
-    scene->keepEnergyLedger();
-    if constexpr (requires(S s) { s.setLiquidBridgeVolumeMax(1.0); })
-        for (auto&& grain : scene->particleHandler) grain.setLiquidVolume(2e-12);
-    if (isMesh) {
-        const TriangleWall* const mesh = scene->add(meshOf(paving(-beyond, length + beyond)));
-        EXPECT_GT(mesh->getNumberOfParts(), 100u);
-        scene->wallHandler.getObject(0).keepForces();
-        return scene;
-    }
-    InfiniteWall plane;
-    plane.set({0, 0, -1}, {0, 0, 0});
-    scene->add(plane)->keepForces();
-    return scene;
-}
-
-/// Positions are rounded to 2^-60 m a step, and the steps of a touch amplify that to some 1e-10 m/s (as in
-/// FaceTest.cpp); friction damps what it changes, so a hundred touches add up to less than 1e-8 of 1 m/s.
-constexpr double roundOff = 1e-8;
-
 // The former code lost a touch, its spring and its bridge at each face, until contacts were listed again.
 TYPED_TEST(WallParts, aPavedFloorIsThePlane) {
     for (const double beyond : {1.3 * r, reach}) {
         SCOPED_TRACE(beyond / r);
-        auto found = onFloor<TypeParam>(true, 1, beyond), expected = onFloor<TypeParam>(false);
+        auto found = onFloor<TypeParam>({true, -beyond, length + beyond}), expected = onFloor<TypeParam>({false});
         found->initialise();
         expected->initialise();
         const double closedBefore = found->energyLedger().closed(),
@@ -184,7 +112,7 @@ TYPED_TEST(WallParts, wavesThatRepeatThemselvesAreALongFloor) {
 /// Steps until a grain has been brought back for the so-manieth time.
 template <class S>
 std::size_t stepOfCrossing(int number) {
-    auto scene = onFloor<S>(true);
+    auto scene = onFloor<S>({true});
     scene->initialise();
     while (scene->crossings < number) scene->steps(1);
     return scene->getNumberOfTimeSteps();
@@ -195,14 +123,14 @@ TYPED_TEST(WallParts, restartsAtAFaceHaveTheSameBits) {
     for (const int number : {2}) {
         const std::size_t at = stepOfCrossing<TypeParam>(number), last = at + 1000;
         const auto file = [&](std::size_t step) { return folder.path() / (std::to_string(step) + ".h5"); };
-        auto whole = onFloor<TypeParam>(true);
+        auto whole = onFloor<TypeParam>({true});
         whole->initialise();
         for (std::size_t step = 1; step <= last; ++step) {
             whole->step();
             if (step + 2 >= at && step <= at + 1) whole->writeRestart(file(step));
         }
         for (std::size_t step = at - 2; step <= at + 1; ++step) {
-            auto half = onFloor<TypeParam>(true, step % 2 == 0 ? 3 : 1);
+            auto half = onFloor<TypeParam>({true}, step % 2 == 0 ? 3 : 1);
             half->restartFrom(file(step));
             half->initialise();
             while (half->getNumberOfTimeSteps() < last) half->step();
@@ -215,7 +143,7 @@ TYPED_TEST(WallParts, restartsAtAFaceHaveTheSameBits) {
 TYPED_TEST(WallParts, haveTheSameBitsForAnyThreads) {
     std::vector<std::uint64_t> hashes;
     for (const int threads : {1, 3}) {
-        auto scene = onFloor<TypeParam>(true, threads);
+        auto scene = onFloor<TypeParam>({true}, threads);
         scene->initialise();
         scene->steps(4000);
         EXPECT_GT(scene->crossings, 2);
