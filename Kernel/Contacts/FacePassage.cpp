@@ -84,7 +84,7 @@ void FacePassage::arrive(const Grains& grains, double reach, double time) {
             else if (isFollowed[wall] && !findPartners(grains, passing, wall, reach))
                 throw RunError(fmt::format(
                     "At time {:.6g} s particle {} goes through a face of the periodic scene where wall {} is "
-                    "not the same on both sides: walls are not repeated, so let this one go on through the "
+                    "not the same on both sides: only meshes are repeated, so let this one go on through the "
                     "faces, or keep grains away from where it does not.",
                     time, grains.identity[passing.place], wall));
     }

@@ -72,7 +72,7 @@ std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const Su
     const double needed = 1.001 * met, low = periodic.lowest.*along[axis],
                  high = low + periodic.length.*along[axis];
     const std::string advice = fmt::format(
-        "walls are not repeated, and grains at a face meet them up to {:.4g} m beyond it: let it go "
+        "only meshes are repeated, and grains at a face meet them up to {:.4g} m beyond it: let it go "
         "on alike for {:.6g} m beyond both faces, or end {:.6g} m before them.",
         met, needed, needed);
     const auto ending = [&](std::string_view how, double end, double face) {

@@ -50,7 +50,7 @@ constexpr std::array refusedElsewhere{
                      "refused where the step is changed"},
     RefusedElsewhere{"along this axis stays; strain", "a matter of axes: others can be strained"},
     RefusedElsewhere{"is above the stability limit", "a matter of the numbers of a scene"},
-    RefusedElsewhere{"walls are not repeated", "not built: images of walls"},
+    RefusedElsewhere{"only meshes are repeated", "a shape that is no mesh has no images"},
     RefusedElsewhere{"in shear or strain grains cannot be inserted", "not built: insert() in a flow"},
     RefusedElsewhere{"superquadrics touch InfiniteWall only", "not built: shapes at other walls"},
     RefusedElsewhere{"is no superquadric", "not built: spheres beside shapes"},
