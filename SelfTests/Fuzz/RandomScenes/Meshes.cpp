@@ -7,12 +7,14 @@ namespace pendular::fuzz {
 
 namespace {
 
-/// A floor of triangles with normals upwards, whose corners lie at or a little below the grains, and that
-/// goes on beyond them on all sides.
+/// A floor of triangles with normals upwards, whose corners lie at or a little below the grains. It goes on
+/// beyond them on all sides, or ends at periodic faces.
 std::vector<Triangle> anyFloor(Making& making) {
     const int columns = making.draw.whole(1, 3), rows = making.draw.whole(1, 3);
     const bool flat = making.draw.oneIn(3);
-    const Vec3D margin = 1.5 * making.scales.cell * Vec3D(1, 1, 0);
+    Vec3D margin = 1.5 * making.scales.cell * Vec3D(1, 1, 0);
+    for (const int axis : {0, 1})
+        if (making.isPeriodic[static_cast<std::size_t>(axis)] && (columns + rows) % 2 == 0) margin[axis] = 0;
     const Vec3D from = making.lowest - margin, size = making.highest + margin - from;
     std::vector<Vector<double>> corners;
     for (int y = 0; y <= rows; ++y)
