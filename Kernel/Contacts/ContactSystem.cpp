@@ -530,7 +530,8 @@ void ContactSystem::sumForcesOn(const Grains& grains, std::size_t number) {
     const Vector<double> about = toVector(wall.getTorquePoint());
     WallForceSum sum;
     for (const Bucket& bucket : contacts.buckets)
-        if (bucket.wall == static_cast<int>(number)) addWallForces(contacts, bucket, wall, grains, about, sum);
+        if (bucket.wall == static_cast<int>(number))
+            addWallForces(contacts, bucket, wall, grains, about, sum);
     wall.setForce(sum.force.value(), sum.torque.value(), sum.touches);
 }
 

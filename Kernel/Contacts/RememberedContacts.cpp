@@ -90,8 +90,7 @@ void RememberedContacts::goOn(std::uint32_t place, std::span<const NewPart> part
 }
 
 void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory, bool ledger,
-                                    const ParticleStore& grains,
-                                    const WallHandler& walls) {
+                                    const ParticleStore& grains, const WallHandler& walls) {
     const std::size_t width = memory.numberCount();
     std::vector<double> numbers;
     std::vector<EnergyRecord> energies;

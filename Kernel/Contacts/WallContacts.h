@@ -63,9 +63,9 @@ struct WallForceSum {
 };
 
 /// Adds what the grains of a bucket do to its wall.
-/// @param about m, the point of the torque, which an image of the wall has at its own place. The contact point lies half the
-/// overlap below the grain's surface, where the grain's own lever arm ends: so the angular momentum of grain
-/// and wall is kept.
+/// @param about m, the point of the torque, which an image of the wall has at its own place. The contact
+/// point lies half the overlap below the grain's surface, where the grain's own lever arm ends: so the
+/// angular momentum of grain and wall is kept.
 inline void addWallForces(const ContactStore& store, const Bucket& bucket, const Wall& wall,
                           const ParticleStore& grains, const Vector<double>& about, WallForceSum& sum) {
     const ContactMemory& memory = store.memory;

@@ -99,7 +99,8 @@ void PeriodicWalls::repeat(RigidWall& wall, std::size_t number) {
         const double length = 2 * half.*along[k], period = periodic.length.*along[k];
         if (period > 0 && length > WallImages::mostPeriods * period)
             throw InputError(fmt::format(
-                "wall {} is {:.6g} m long along {}, and it is not the same after a period of {:.6g} m: a mesh "
+                "wall {} is {:.6g} m long along {}, and it is not the same after a period of {:.6g} m: a "
+                "mesh "
                 "that is to be repeated with the scene is not longer than {} periods; make it shorter.",
                 number, length, names[k], period, WallImages::mostPeriods));
     }
@@ -111,30 +112,30 @@ void PeriodicWalls::repeat(RigidWall& wall, std::size_t number) {
     wall.repeat(periodic.length);
 }
 
+void PeriodicWalls::takeAsRepeated(std::size_t number) {
+    Look alike;
+    alike.isEndless = false;
+    alike.passes = true;
+    alike.needed = looks[number].needed;
+    looks[number].along.fill(alike);
+}
+
 void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size_t axis, double outside) {
     Wall& wall = walls.getObject(number);
     auto* const rigid = dynamic_cast<RigidWall*>(&wall);
     const double needed = looks[number].needed;
-    const auto isRepeated = [&] {
-        if (!wall.isRepeated()) return false;
-        Look alike;
-        alike.isEndless = false;
-        alike.passes = true;
-        alike.needed = needed;
-        looks[number].along.fill(alike);
-        return true;
-    };
-    if (isRepeated()) return;
+    if (wall.isRepeated()) return takeAsRepeated(number);
     const PeriodicFaces faces = facesOf(axis, needed);
     const SurfaceAtFaces seen = wall.atFaces(faces);
     const double met = needed + outside;
     // Vertices move on each side as grains wear them there, so that two ends would no longer fit.
     const bool isAlike = seen.margin >= met * rounded, staysAlike = !seen.passes || !movesVertices(wall);
-    if (!(isAlike && staysAlike)) {
-        if (rigid && rigid->canBeRepeated()) repeat(*rigid, number);
-        if (isRepeated()) return;
-        throw InputError(sentence(number, axis, seen, met));
+    const bool isOutside = seen.lowest >= faces.highest() || seen.highest <= faces.lowest;
+    if (rigid && rigid->canBeRepeated() && (isOutside || !isAlike || !staysAlike)) {
+        repeat(*rigid, number);
+        return takeAsRepeated(number);
     }
+    if (!isAlike) throw InputError(sentence(number, axis, seen, met));
     looks[number].along[axis] = {.isEndless = seen.isEndless,
                                  .passes = seen.passes,
                                  .needed = needed,
@@ -192,7 +193,7 @@ void PeriodicWalls::visitState(StateArchive& archive, const WallHandler& walls) 
             number < walls.getSize() ? dynamic_cast<RigidWall*>(&walls.getObject(number)) : nullptr;
         archive.require(wall && wall->canBeRepeated(), "repeatedWalls", "has a wall that cannot be repeated");
         repeat(*wall, number);
-        look(walls, number, 0, 0);
+        takeAsRepeated(number);
     }
     archive.finite("band", band);
     archive.require(band >= 0 && band <= widestBand * smallest, "band",

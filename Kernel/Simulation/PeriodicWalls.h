@@ -16,10 +16,11 @@ struct GrainSizes;
 
 /// The walls of a scene that repeats itself. Grains that go through a face must see the same of them behind
 /// it: what a wall has within their reach of one face it must have at the other one, too. A mesh that has not
-/// is repeated with the scene; other shapes are refused. Where walls have ends, grains are brought back as soon as one of them is outside by more than a band,
-/// and nowhere else: so no wall is looked at from farther outside, and no bit depends on when contacts are
-/// listed. The band is a fifth of the smallest radius where walls are alike for so much farther, and twice
-/// that; where they are not, it is narrower, and contacts are listed more often.
+/// is repeated with the scene; other shapes are refused. Where walls have ends, grains are brought back as
+/// soon as one of them is outside by more than a band, and nowhere else: so no wall is looked at from farther
+/// outside, and no bit depends on when contacts are listed. The band is a fifth of the smallest radius where
+/// walls are alike for so much farther, and twice that; where they are not, it is narrower, and contacts are
+/// listed more often.
 class PeriodicWalls {
 public:
     /// Looks at the walls. Throws InputError where one is not alike at both faces, and cannot be repeated.
@@ -62,6 +63,7 @@ private:
     void look(const WallHandler& walls, std::size_t wall, std::size_t axis, double outside);
     /// Repeats a wall with the scene. Throws InputError where it is too long, or has too many parts.
     void repeat(RigidWall& wall, std::size_t number);
+    void takeAsRepeated(std::size_t number);
     [[nodiscard]] static bool isWhereItWas(const Wall& wall, const Look& last);
     void forgetChecks(std::size_t walls);
     [[nodiscard]] double neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes) const;

@@ -309,11 +309,12 @@ SurroundingBox RigidWall::surroundings() const {
 void RigidWall::listParts(const Vector<double>& centre, double reach,
                           std::vector<std::uint32_t>& parts) const {
     if (!isRepeated()) return listOwn(centre, reach, parts);
-    images.forEachWithin(centre, reach, surroundings(), [&](const Vector<double>& shift, std::uint32_t image) {
-        const std::size_t begin = parts.size();
-        listOwn(centre - shift, reach, parts);
-        for (std::size_t k = begin; k < parts.size(); ++k) parts[k] |= image;
-    });
+    images.forEachWithin(centre, reach, surroundings(),
+                         [&](const Vector<double>& shift, std::uint32_t image) {
+                             const std::size_t begin = parts.size();
+                             listOwn(centre - shift, reach, parts);
+                             for (std::size_t k = begin; k < parts.size(); ++k) parts[k] |= image;
+                         });
 }
 
 /// Parts of one image follow each other, as listParts() gives them.

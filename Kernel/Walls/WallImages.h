@@ -91,7 +91,8 @@ private:
     /// The number of an image, which is at most four from that nearest to a grain.
     static int numberOf(int bits, double apart, double period) {
         const int nearest = periodsIn(apart, period);
-        const auto above = static_cast<int>(static_cast<std::uint32_t>(bits - nearest + modulus / 2) % modulus);
+        const auto above =
+            static_cast<int>(static_cast<std::uint32_t>(bits - nearest + modulus / 2) % modulus);
         return period > 0 ? nearest + above - modulus / 2 : 0;
     }
 

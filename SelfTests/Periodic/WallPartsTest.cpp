@@ -21,7 +21,8 @@ TYPED_TEST_SUITE(WallParts, SpeciesOfAllKinds);
 TYPED_TEST(WallParts, aPavedFloorIsThePlane) {
     for (const double beyond : {1.3 * r, reach}) {
         SCOPED_TRACE(beyond / r);
-        auto found = onFloor<TypeParam>({true, -beyond, length + beyond}), expected = onFloor<TypeParam>({false});
+        auto found = onFloor<TypeParam>({true, -beyond, length + beyond}),
+             expected = onFloor<TypeParam>({false});
         found->initialise();
         expected->initialise();
         const double closedBefore = found->energyLedger().closed(),
