@@ -22,7 +22,6 @@ constexpr std::string_view noImagesOfWalls = "walls have no images, and those of
                                "what comes or is counted does not know the flow in which the images move",
                            singleGrains = "its bound of the step counts with grains that move by themselves",
                            leaveAdaptiveOut = "leave setAdaptiveTimeStep() out",
-                           otherIntegrator = "take integrators::predictedVelocityVerlet or velocityVerlet",
                            stepsOfOneLength = "they need steps of one length";
 
 constexpr std::array table{
@@ -47,12 +46,6 @@ constexpr std::array table{
     Conflict{Superquadrics, StressServo, "its servo knows the stiffness of contacts of spheres only",
              "give the scene a rate instead (setStrainRate(), setShearRate())"},
     Conflict{Superquadrics, Inlets, "inlets bring spheres", "leave the inlets out, and add all at set-up"},
-    Conflict{RigidBodies, EarlierAccelerations, "the motion of bodies keeps no acceleration of the last step",
-             otherIntegrator},
-    Conflict{RigidBodies, SpringsInStep, "grains of a body keep no accelerations of their own",
-             otherIntegrator},
-    Conflict{RigidBodies, FilmMass, "the mass of a body does not follow the films of its grains",
-             "leave setLiquidDensity() out"},
     Conflict{Superquadrics, AdaptiveStep, "its bound of the step counts with contacts of spheres",
              leaveAdaptiveOut},
     Conflict{AdaptiveStep, DrivenWalls, singleGrains, leaveAdaptiveOut},
