@@ -269,8 +269,7 @@ void ContactSystem::takeForceAway(Grains& grains, const Bucket& bucket, std::uin
         if (!grains.isFree(place)) return;
         const TranslationRecord& grain = grains.translation[place];
         const HeldBits held = grains.heldAt(place);
-        grains.acceleration[place] -=
-            held.partAlong((sign * grain.inverseMass) * contacts.forceOf(contact));
+        grains.acceleration[place] -= held.partAlong((sign * grain.inverseMass) * contacts.forceOf(contact));
         if (!memory.getLayout().hasTorque) return;
         const Vector<double> torque = torqueOn(grain, sign);
         grains.rotation[place].angularAcceleration -=

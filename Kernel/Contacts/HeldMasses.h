@@ -15,14 +15,15 @@ struct HeldMass {
     double inverse;    // 1/kg: how much a force along the normal moves both against each other
     double effective;  // kg, for dashpots that are made for a coefficient of restitution
 };
-/// Along the normal n a grain moves as 1/m times the part of n^2 along its free axes. Dashpots follow from the
-/// mass that this makes, so that a pair rebounds as is wanted; up to twice the mass of the lighter one, where
-/// next to nothing can move along the normal, and the dashpots act across it.
-inline HeldMass heldMass(const Vector<double>& normal, double inverseMass1, HeldBits held1, double inverseMass2,
-                         HeldBits held2) {
+/// Along the normal n a grain moves as 1/m times the part of n^2 along its free axes. Dashpots follow from
+/// the mass that this makes, so that a pair rebounds as is wanted; up to twice the mass of the lighter one,
+/// where next to nothing can move along the normal, and the dashpots act across it.
+inline HeldMass heldMass(const Vector<double>& normal, double inverseMass1, HeldBits held1,
+                         double inverseMass2, HeldBits held2) {
     const double inverse = inverseMass1 * squaredNorm(held1.partAlong(normal)) +
                            inverseMass2 * squaredNorm(held2.partAlong(normal));
-    const double larger = std::max(inverseMass1, inverseMass2), smaller = std::min(inverseMass1, inverseMass2);
+    const double larger = std::max(inverseMass1, inverseMass2),
+                 smaller = std::min(inverseMass1, inverseMass2);
     const double least = smaller > 0 ? smaller : larger;
     return {std::max(inverse, 1e-9 * least), 1 / std::max({inverse, 0.5 * least, 1e-200})};
 }

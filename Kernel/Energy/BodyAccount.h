@@ -19,8 +19,7 @@ public:
         before.clear(), loads.clear();
         for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
             const RigidBody& body = grains.bodies[k];
-            before.push_back(
-                {body.velocity, body.rotationalEnergy(), body.angularMomentum, body.torque});
+            before.push_back({body.velocity, body.rotationalEnergy(), body.angularMomentum, body.torque});
             for (const BodyMember& member : grains.bodies.membersOf(k))
                 loads.push_back(sumOf(grains, contacts, member));
         }
@@ -66,8 +65,8 @@ public:
 
 private:
     struct Before {
-        Vector<double> velocity;  // m/s
-        double turning;           // J
+        Vector<double> velocity;                 // m/s
+        double turning;                          // J
         Vector<double> angularMomentum, torque;  // kg m^2/s, N m
     };
 
@@ -87,7 +86,8 @@ private:
             grains.bodies.isSphere(grains, k)
                 ? loads[number].torque + sumOf(grains, contacts, grains.bodies.membersOf(k)[0]).torque
                 : before[k].torque + body.torque;
-        double given = dot(turning, body.angularMomentum - before[k].angularMomentum - (0.5 * step) * torques);
+        double given =
+            dot(turning, body.angularMomentum - before[k].angularMomentum - (0.5 * step) * torques);
         if (squaredNorm(velocity) == 0) return given;
         Vector<double> force = 2 * body.mass * gravity;
         for (const BodyMember& member : grains.bodies.membersOf(k))

@@ -330,10 +330,11 @@ private:
                 sum.add(dot(turned, mean.spin) / grains.rotation[k].inverseInertia);
             }
         }
-        bodies.addGainBesidesContacts(grains, contacts, gravity, step, sum, byHolders, [&](std::uint32_t place) {
-            const BodyMotion mean = meanMotion(grains, place);
-            return std::pair(mean.velocity, mean.spin);
-        });
+        bodies.addGainBesidesContacts(grains, contacts, gravity, step, sum, byHolders,
+                                      [&](std::uint32_t place) {
+                                          const BodyMotion mean = meanMotion(grains, place);
+                                          return std::pair(mean.velocity, mean.spin);
+                                      });
         return sum.value();
     }
 

@@ -142,8 +142,8 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
     return found;
 }
 
-/// A grain does not move along and about axes in which it is held. (Those of bodies are left as if free, which
-/// bounds them, too.)
+/// A grain does not move along and about axes in which it is held. (Those of bodies are left as if free,
+/// which bounds them, too.)
 void ContactBounds::holdBlock(HeldBits held, OfGrain& of) {
     if (!held.any()) return;
     const auto keepFree = [](std::array<double, 6>& m, const Vector<double>& f) {
@@ -397,9 +397,9 @@ template <class One>
 void ContactBounds::note(const Term& term, One& one) {
     ++one.contacts;
     one.overlap = std::max(one.overlap, term.pair.overlap / term.smallerRadius);
-    one.ownDashpot = term.isHeld ? 0  // less is implicit than its mass says
-                                 : std::min(one.ownDashpot,
-                                            term.stiffness.normal.dashpot / term.pair.effectiveMass);
+    one.ownDashpot = term.isHeld
+                         ? 0  // less is implicit than its mass says
+                         : std::min(one.ownDashpot, term.stiffness.normal.dashpot / term.pair.effectiveMass);
 }
 
 void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::uint32_t place,

@@ -134,14 +134,15 @@ public:
         std::vector<double> farthest(static_cast<std::size_t>(threads), 0);
         if (scheme.remembersEarlier() || scheme.contacts.springsInStep)
             stepSingly(order, threads, finish, beginStep, farthest);
-        else inParts((order.size() + lanes - 1) / lanes, threads,
-                [&](int part, std::size_t first, std::size_t end) {
-                    double most = 0;
-                    for (std::size_t group = first; group < end; ++group)
-                        most = std::max(most, stepGroup(order, group * lanes, finish, beginStep));
-                    farthest[static_cast<std::size_t>(part)] = most;
-                },
-                groupsWorthAThread);
+        else
+            inParts((order.size() + lanes - 1) / lanes, threads,
+                    [&](int part, std::size_t first, std::size_t end) {
+                        double most = 0;
+                        for (std::size_t group = first; group < end; ++group)
+                            most = std::max(most, stepGroup(order, group * lanes, finish, beginStep));
+                        farthest[static_cast<std::size_t>(part)] = most;
+                    },
+                    groupsWorthAThread);
         for (const std::uint32_t k : bodies.spheres()) follow(k, beginStep);
         stepSingly(bodies.heldOnes(), threads, finish, beginStep, farthest);
         return *std::ranges::max_element(farthest);

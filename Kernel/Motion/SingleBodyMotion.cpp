@@ -75,17 +75,16 @@ double SingleBodyMotion::begin(std::size_t k, double step) {
     const HeldBits held = bodies.heldAxesOf(k);
     const std::span<const BodyMember> members = bodies.membersOf(k);
     std::vector<TranslationRecord> before;
-    for (const BodyMember& member : members)
-        before.push_back(grains.translation[grains.place[member.grain]]);
+    for (const BodyMember& member : members) before.push_back(grains.translation[grains.place[member.grain]]);
     const Vector<double> spinBefore = bodies.spinOf(k);
 
     const EarlierBodyMotion earlier = earlierOf(k);
     const auto both = [](double a, const Vector<double>& now, double b, const Vector<double>& then) {
         return a * now + b * then;
     };
-    body.position += step * (body.velocity +
-                             step * held.partAlong(both(scheme.position0, body.acceleration,
-                                                        scheme.position1, earlier.acceleration)));
+    body.position +=
+        step * (body.velocity + step * held.partAlong(both(scheme.position0, body.acceleration,
+                                                           scheme.position1, earlier.acceleration)));
     const Vector<double> middle =
         body.angularMomentum +
         step * held.partAbout(both(scheme.position0, body.torque, scheme.position1, earlier.torque));
@@ -116,8 +115,8 @@ void SingleBodyMotion::takeBack(std::size_t k, double step) {
     RigidBody& body = bodies[k];
     const HeldBits held = bodies.heldAxesOf(k);
     const EarlierBodyMotion earlier = earlierOf(k);
-    body.velocity -= step * held.partAlong(scheme.velocity0 * body.acceleration +
-                                           scheme.velocity1 * earlier.acceleration);
+    body.velocity -=
+        step * held.partAlong(scheme.velocity0 * body.acceleration + scheme.velocity1 * earlier.acceleration);
     body.position -= step * (body.velocity + step * held.partAlong(scheme.position0 * body.acceleration +
                                                                    scheme.position1 * earlier.acceleration));
     body.angularMomentum -=

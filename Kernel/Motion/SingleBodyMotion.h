@@ -7,15 +7,15 @@
 
 namespace pendular {
 
-/// The two parts of a step for one rigid body after the other: for bodies that are held along or about axes, and
-/// for all bodies with integrators that remember the last step or move springs in it. RigidBodyMotion moves
-/// others, eight at once.
+/// The two parts of a step for one rigid body after the other: for bodies that are held along or about axes,
+/// and for all bodies with integrators that remember the last step or move springs in it. RigidBodyMotion
+/// moves others, eight at once.
 ///
 /// A body that is held about some axes keeps its angular momentum about the others but for the torques; its
-/// spin in an orientation follows from that (spinOfHeld()), and it turns by its spin in the middle of the step, in
-/// the orientation that it has there. With an integrator that remembers, a free body turns by a splitting of
-/// fourth order: three steps of FreeTurn.h, of 1.3512, -1.7024 and 1.3512 steps (Yoshida 1990, Phys. Lett. A 150,
-/// 262).
+/// spin in an orientation follows from that (spinOfHeld()), and it turns by its spin in the middle of the
+/// step, in the orientation that it has there. With an integrator that remembers, a free body turns by a
+/// splitting of fourth order: three steps of FreeTurn.h, of 1.3512, -1.7024 and 1.3512 steps (Yoshida 1990,
+/// Phys. Lett. A 150, 262).
 class SingleBodyMotion {
 public:
     SingleBodyMotion(ParticleStore& store, const Integrator& integrator, const PeriodicBox& periodic)

@@ -32,26 +32,28 @@ public:
     /// The new accelerations, and with them the velocities at the end of the step.
     static void finish(Grains& grains, const ContactStore& store, const Vector<double>& gravity, double step,
                        int threads, const Integrator& scheme) {
-        largestOfAll(grains, threads, scheme, [&, weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
-            Motion motion = load(grains, k);
-            accelerate<remembers, isHeld>(grains, store, weight, step, scheme, k, motion);
-            storeVelocity(grains, k, motion);
-            storeAcceleration(grains, k, motion);
-            return 0.0;
-        });
+        largestOfAll(grains, threads, scheme,
+                     [&, weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
+                         Motion motion = load(grains, k);
+                         accelerate<remembers, isHeld>(grains, store, weight, step, scheme, k, motion);
+                         storeVelocity(grains, k, motion);
+                         storeAcceleration(grains, k, motion);
+                         return 0.0;
+                     });
     }
     static double finishAndBegin(Grains& grains, const ContactStore& store, const Vector<double>& gravity,
                                  double step, double nextStep, int threads, const Integrator& scheme,
                                  const PeriodicBox& box) {
-        return largestOfAll(
-            grains, threads, scheme, [&, weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
-                Motion motion = load(grains, k);
-                accelerate<remembers, isHeld>(grains, store, weight, step, scheme, k, motion);
-                storeAcceleration(grains, k, motion);
-                const double shift2 = move<remembers>(grains, nextStep, scheme, k, box, motion);
-                storeVelocity(grains, k, motion);
-                return shift2;
-            });
+        return largestOfAll(grains, threads, scheme,
+                            [&, weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
+                                Motion motion = load(grains, k);
+                                accelerate<remembers, isHeld>(grains, store, weight, step, scheme, k, motion);
+                                storeAcceleration(grains, k, motion);
+                                const double shift2 =
+                                    move<remembers>(grains, nextStep, scheme, k, box, motion);
+                                storeVelocity(grains, k, motion);
+                                return shift2;
+                            });
     }
 
     /// Undoes begin, up to round-off.
@@ -86,8 +88,8 @@ private:
         return last;
     }
 
-    /// The largest of function.operator()<remembers, isHeld>(k) over some grains, with the function inlined: by
-    /// itself g++ inlines none of this size that is called from two places.
+    /// The largest of function.operator()<remembers, isHeld>(k) over some grains, with the function inlined:
+    /// by itself g++ inlines none of this size that is called from two places.
     template <bool remembers, bool isHeld, class Function, class PlaceOf>
     [[gnu::flatten]] static double largestOf(const Function& function, std::size_t first, std::size_t end,
                                              const PlaceOf& placeOf) {
@@ -112,9 +114,10 @@ private:
                 [&](int part, std::size_t first, std::size_t end) {
                     const double most =
                         hasBodies
-                            ? largestOf<remembers, isHeld>(function, first, end,
-                                                   [&](std::size_t k) -> std::size_t { return own[k]; })
-                            : largestOf<remembers, isHeld>(function, first, end, [](std::size_t k) { return k; });
+                            ? largestOf<remembers, isHeld>(
+                                  function, first, end, [&](std::size_t k) -> std::size_t { return own[k]; })
+                            : largestOf<remembers, isHeld>(function, first, end,
+                                                           [](std::size_t k) { return k; });
                     largest[static_cast<std::size_t>(part)] = most;
                 },
                 grainsWorthAThread);

@@ -112,9 +112,10 @@ HeldBits requireJoinable(ParticleHandler& particles, std::span<const std::uint32
             std::ranges::count(identities, identities[k]) > 1)
             throw InputError(fmt::format("particle {} is in a rigid body already.", identities[k]));
         if (grain.getHeldAxes() != particles.getObject(identities[0]).getHeldAxes())
-            throw InputError(fmt::format("particles {} and {} are not held alike, and can be in no rigid body; "
-                                         "hold all or none by fixParticle() or setHeldAxes() first.",
-                                         identities[0], identities[k]));
+            throw InputError(
+                fmt::format("particles {} and {} are not held alike, and can be in no rigid body; "
+                            "hold all or none by fixParticle() or setHeldAxes() first.",
+                            identities[0], identities[k]));
     }
     return HeldBits(particles.getObject(identities[0]).getHeldAxes());
 }
@@ -178,15 +179,15 @@ void BodyReference::setHeldAxes(const HeldAxes& axes) {
     const bool wasHeld = grains.bodies.isHeld(k);
     const HeldBits held(axes);
     if (held.byte() == grains.bodies.heldAxesOf(k).byte()) return;
-    if (grains.bodies.isSphere(grains, k)) {  // it moves as its grain, whose forces are not kept where it is held
+    if (grains.bodies.isSphere(grains,
+                               k)) {  // it moves as its grain, whose forces are not kept where it is held
         grains.bodies.follow(grains, k);
         const HeldBits before = grains.bodies.heldAxesOf(k);
         const Vector<double>& gravity = ParticleHandler::Inside::gravityOf(*handler);
         grains.bodies[k].acceleration += gravity - before.partAlong(gravity);
     }
     grains.bodies.hold(grains, k, held);
-    for (const std::uint32_t grain : getGrains())
-        ParticleHandler::Inside::noteHeld(*handler, grain, wasHeld);
+    for (const std::uint32_t grain : getGrains()) ParticleHandler::Inside::noteHeld(*handler, grain, wasHeld);
 }
 
 BodyHandler::Solid BodyHandler::solidOf(const std::vector<Ball>& spheres) {

@@ -20,13 +20,13 @@ public:
     [[nodiscard]] double getMass() const { return body().mass; }  // kg; with films that have a mass
     /// m^3; overlaps of its grains are counted once
     [[nodiscard]] double getVolume() const { return handler->store().bodies.volumeOf(at()); }
-    [[nodiscard]] Vec3D getInertia() const { return toEigen(body().inertia); }         // kg m^2, principal
-    [[nodiscard]] Vec3D getPosition() const { return toEigen(body().position); }       // m, centre of mass
-    [[nodiscard]] Vec3D getVelocity() const { return toEigen(body().velocity); }       // m/s
-    [[nodiscard]] Vec3D getAngularVelocity() const {                                   // rad/s
+    [[nodiscard]] Vec3D getInertia() const { return toEigen(body().inertia); }    // kg m^2, principal
+    [[nodiscard]] Vec3D getPosition() const { return toEigen(body().position); }  // m, centre of mass
+    [[nodiscard]] Vec3D getVelocity() const { return toEigen(body().velocity); }  // m/s
+    [[nodiscard]] Vec3D getAngularVelocity() const {                              // rad/s
         return toEigen(handler->store().bodies.spinOf(at()));
     }
-    [[nodiscard]] Vec3D getAngularMomentum() const {                                   // kg m^2/s
+    [[nodiscard]] Vec3D getAngularMomentum() const {  // kg m^2/s
         return toEigen(body().angularMomentum);
     }
     /// The force (N) of all contacts and of its weight, in the last step; also along axes along which it is
@@ -69,8 +69,8 @@ public:
     /// Joins grains to a body, which takes over the motion of their spheres: momentum and angular momentum,
     /// if it has their mass. That is so if none is given. In a periodic scene the nearest images are joined.
     /// Grains that are all held alike make a body that is held so. Throws InputError for grains that are held
-    /// otherwise than the others, or in a body already; that overlap without a given mass; or for a mass or an
-    /// inertia that no body can have.
+    /// otherwise than the others, or in a body already; that overlap without a given mass; or for a mass or
+    /// an inertia that no body can have.
     /// @param mass its centre is in space, as the grains are now
     BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass = {}) {
         return join(identities, mass, nullptr);

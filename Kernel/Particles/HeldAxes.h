@@ -43,9 +43,7 @@ public:
     [[nodiscard]] constexpr Vector<double> freeAlong() const { return free(bits); }
     [[nodiscard]] constexpr Vector<double> freeAbout() const { return free(bits >> 3); }
     /// The part of a vector in which it is free.
-    [[nodiscard]] constexpr Vector<double> partAlong(const Vector<double>& v) const {
-        return part(v, bits);
-    }
+    [[nodiscard]] constexpr Vector<double> partAlong(const Vector<double>& v) const { return part(v, bits); }
     [[nodiscard]] constexpr Vector<double> partAbout(const Vector<double>& v) const {
         return part(v, bits >> 3);
     }

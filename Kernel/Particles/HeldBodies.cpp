@@ -30,8 +30,8 @@ Vector<double> spinOfHeld(const Vector<double>& inertia, const Quaternion& orien
     }
     // Cramer's rule, of a symmetric matrix.
     const Vector<double> minor = cross(rows[1], rows[2]);
-    const Vector<double> side = sides[0] * minor + sides[1] * cross(rows[2], rows[0]) +
-                                sides[2] * cross(rows[0], rows[1]);
+    const Vector<double> side =
+        sides[0] * minor + sides[1] * cross(rows[2], rows[0]) + sides[2] * cross(rows[0], rows[1]);
     return axes.partAbout((1 / dot(rows[0], minor)) * side) + heldSpin;
 }
 

@@ -54,7 +54,8 @@ void forEachMovingBodyInOrder(const ParticleStore& grains, Use&& use) {
 /// A mass (kg) that flies at a velocity (m/s) hits the grain at a place, at a point (m, the image nearest to
 /// it), and its momentum stays there: a plastic impact. Momentum is conserved; of a rigid body, the angular
 /// momentum about any point as well, and the point and the mass have one velocity afterwards. A single grain
-/// does not turn by it: liquid spreads over it. What is held stays along and about the axes of that. The mass itself is not added.
+/// does not turn by it: liquid spreads over it. What is held stays along and about the axes of that. The mass
+/// itself is not added.
 void catchMomentum(ParticleStore& grains, std::uint32_t place, const PeriodicBox& periodic, double mass,
                    const Vector<double>& point, const Vector<double>& velocity);
 

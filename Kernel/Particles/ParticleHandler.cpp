@@ -165,8 +165,9 @@ void GrainReference::setHeldAxes(const HeldAxes& axes) {
     ParticleStore& grains = handler->store();
     const HeldBits held(axes), before = grains.heldAt(at);
     // Along axes along which it was held it begins to fall.
-    setAcceleration(grains, at, before.partAlong(grains.acceleration[at]) +
-                                    (handler->gravity - before.partAlong(handler->gravity)));
+    setAcceleration(
+        grains, at,
+        before.partAlong(grains.acceleration[at]) + (handler->gravity - before.partAlong(handler->gravity)));
     grains.setHeldAt(at, held);
     followFreely(grains, at);
     grains.translation[at].velocity = held.partAlong(grains.translation[at].velocity);

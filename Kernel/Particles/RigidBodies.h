@@ -63,10 +63,10 @@ struct HeldBody {
 
 /// A body without the films of its grains, where these have a mass.
 struct DryBody {
-    double mass = 0;                 // kg
-    Vector<double> inertia{0, 0, 0}; // kg m^2, about its own principal axes
-    Vector<double> centre{0, 0, 0};  // m, of the body with films, from its own, in its own axes
-    Quaternion axes{};               // turns the principal axes of the body with films into its own
+    double mass = 0;                  // kg
+    Vector<double> inertia{0, 0, 0};  // kg m^2, about its own principal axes
+    Vector<double> centre{0, 0, 0};   // m, of the body with films, from its own, in its own axes
+    Quaternion axes{};                // turns the principal axes of the body with films into its own
 };
 
 /// A grain of a rigid body.
@@ -136,7 +136,9 @@ public:
     [[nodiscard]] double exposedShareOf(std::uint32_t grain) const;
 
     /// Along and about which axes a body is held.
-    [[nodiscard]] HeldBits heldAxesOf(std::size_t at) const { return held.empty() ? HeldBits() : held[at].axes; }
+    [[nodiscard]] HeldBits heldAxesOf(std::size_t at) const {
+        return held.empty() ? HeldBits() : held[at].axes;
+    }
     [[nodiscard]] bool areSomeHeld() const { return !held.empty(); }
     /// Whether it is held altogether: then its grains are held, too.
     [[nodiscard]] bool isHeld(std::size_t at) const { return heldAxesOf(at).areAll(); }
@@ -159,9 +161,11 @@ public:
     void startEarlier(bool remembers);
 
     /// kg, without films
-    [[nodiscard]] double dryMassOf(std::size_t at) const { return dry.empty() ? bodies[at].mass : dry[at].mass; }
-    /// The films of a body's grains, each a thin shell about the centre of its sphere, have a mass: mass, centre
-    /// and moments follow. Each point keeps its velocity, and forces stay.
+    [[nodiscard]] double dryMassOf(std::size_t at) const {
+        return dry.empty() ? bodies[at].mass : dry[at].mass;
+    }
+    /// The films of a body's grains, each a thin shell about the centre of its sphere, have a mass: mass,
+    /// centre and moments follow. Each point keeps its velocity, and forces stay.
     /// @param films kg, of each grain of the body; @param gravity m/s^2, part of the acceleration
     void weigh(ParticleStore& grains, std::size_t at, std::span<const double> films,
                const Vector<double>& gravity);
@@ -234,12 +238,12 @@ private:
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
     std::vector<RigidBody> bodies;
-    std::vector<double> volumes;         // m^3, of each
-    std::vector<HeldBody> held;          // of each; empty while none is held
-    std::vector<DryBody> dry;            // of each; empty while films have no mass
-    std::vector<Vector<double>> dryArms; // m, of each of `members`, in its dry body; empty as `dry`
-    std::vector<double> films;           // kg, of each of `members`; empty as `dry`
-    std::vector<std::uint32_t> numbers;  // of each; they grow
+    std::vector<double> volumes;          // m^3, of each
+    std::vector<HeldBody> held;           // of each; empty while none is held
+    std::vector<DryBody> dry;             // of each; empty while films have no mass
+    std::vector<Vector<double>> dryArms;  // m, of each of `members`, in its dry body; empty as `dry`
+    std::vector<double> films;            // kg, of each of `members`; empty as `dry`
+    std::vector<std::uint32_t> numbers;   // of each; they grow
     std::vector<std::uint32_t> begins{0};
     std::vector<BodyMember> members;
     std::vector<MemberInSpace> inOrder;  // of the bodies in `order`, body by body

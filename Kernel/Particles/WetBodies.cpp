@@ -88,8 +88,8 @@ void RigidBodies::visitDry(StateArchive& archive) {
     for (const DryBody& own : dry)
         archive.require(own.mass > 0 && own.inertia.x > 0 && own.inertia.y > 0 && own.inertia.z > 0, "dry",
                         "has a mass or a moment of inertia that is not positive");
-    archive.require(!begins.empty() && dryArms.size() == begins.back() && films.size() == begins.back(), "films",
-                    "or dryArms have another number of rows than bodies/grains");
+    archive.require(!begins.empty() && dryArms.size() == begins.back() && films.size() == begins.back(),
+                    "films", "or dryArms have another number of rows than bodies/grains");
     for (const double film : films) archive.require(film >= 0, "films", "has a negative mass");
 }
 

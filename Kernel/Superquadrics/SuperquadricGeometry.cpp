@@ -23,9 +23,9 @@ Vector<Pack> load(const LaneColumn* from) {
 
 ContactAcceleration<Pack> SuperquadricGeometry::accelerations(const Vector<double>* acceleration,
                                                               Pack /*lever*/) const {
-    const auto ofSurface = [&](const std::array<std::uint32_t, Pack::lanes>& grains, const Vector<Pack>& arm) {
-        auto [x, y, z] =
-            loadRecords<3>(reinterpret_cast<const double*>(rotation) + 4, 8, grains.data());
+    const auto ofSurface = [&](const std::array<std::uint32_t, Pack::lanes>& grains,
+                               const Vector<Pack>& arm) {
+        auto [x, y, z] = loadRecords<3>(reinterpret_cast<const double*>(rotation) + 4, 8, grains.data());
         return gatherVectors(acceleration, grains.data()) + cross(Vector<Pack>{x, y, z}, arm);
     };
     Vector<Pack> own = ofSurface(contacts->first, arm1);

@@ -13,9 +13,10 @@ struct HeldAxesScene : FirstDriver {
         grain.setHeldAxes({.z = true, .aboutX = true, .aboutY = true});  // moves in the plane of x and y
         GrainReference disc = particleHandler.copyAndAddObject(grain);
         GrainReference roller = particleHandler.getObject(0);
-        roller.setHeldAxes({.x = true, .y = true, .z = true, .aboutX = true, .aboutZ = true});  // turns about y
-        roller.setAngularVelocity({0, 50, 0});                                                // rad/s
-        disc.setVelocity({0.1, 0, 0});                                                        // m/s
+        roller.setHeldAxes(
+            {.x = true, .y = true, .z = true, .aboutX = true, .aboutZ = true});  // turns about y
+        roller.setAngularVelocity({0, 50, 0});                                   // rad/s
+        disc.setVelocity({0.1, 0, 0});                                           // m/s
         // [end]
         setGravity({0, 0, -9.81});
     }

@@ -201,8 +201,8 @@ Eigen::Matrix3d inertiaAt(double mass, const Vec3D& place) {
     return mass * (place.squaredNorm() * Eigen::Matrix3d::Identity() - place * place.transpose());
 }
 
-// Films are shells about the centres of their spheres. Mass, centre and inertia are summed here in space; each
-// point of the body goes on as it was.
+// Films are shells about the centres of their spheres. Mass, centre and inertia are summed here in space;
+// each point of the body goes on as it was.
 TEST(ClumpLiquid, filmsArePartOfTheMassOfABody) {
     const std::vector<double> films{2e-10, 5e-10, 0};  // m^3, some per cent of the solid
     WetClump dry(bent()), wet(bent());
@@ -251,8 +251,8 @@ TEST(ClumpLiquid, filmsArePartOfTheMassOfABody) {
     EXPECT_EQ(body.getInertia(), dry.body().getInertia());
 }
 
-// Grains with films that are joined keep their momentum and angular momentum; a grain and a body give liquid to
-// each other and come to the same state through a restart.
+// Grains with films that are joined keep their momentum and angular momentum; a grain and a body give liquid
+// to each other and come to the same state through a restart.
 TEST(ClumpLiquid, wetGrainsThatAreJoinedKeepTheirMomentum) {
     struct Joined : scenes::FewGrains<Wet> {
         Joined()
@@ -269,8 +269,7 @@ TEST(ClumpLiquid, wetGrainsThatAreJoinedKeepTheirMomentum) {
         }
         void setupInitialConditions() override {
             const double films[] = {2e-10, 1e-10, 4e-10};
-            for (std::uint32_t n = 0; n < 3; ++n)
-                particleHandler.getObject(n).setLiquidVolume(films[n]);
+            for (std::uint32_t n = 0; n < 3; ++n) particleHandler.getObject(n).setLiquidVolume(films[n]);
         }
     };
     Joined scene;
@@ -287,7 +286,8 @@ TEST(ClumpLiquid, wetGrainsThatAreJoinedKeepTheirMomentum) {
     for (int n = 0; n < 200; ++n) scene.step();
     scene.writeRestart(folder.path() / "half.h5");
     for (int n = 0; n < 300; ++n) scene.step();
-    EXPECT_NEAR(ledger.closed(), closed, 500 * 200 * 0x1p-53 * (std::abs(ledger.kinetic) + std::abs(ledger.driver)));
+    EXPECT_NEAR(ledger.closed(), closed,
+                500 * 200 * 0x1p-53 * (std::abs(ledger.kinetic) + std::abs(ledger.driver)));
     EXPECT_EQ(scene.liquidLedger().unaccounted(), 0);
     double films = 0;
     for (const GrainReference grain : scene.particleHandler) films += 1000 * grain.getLiquidVolume();

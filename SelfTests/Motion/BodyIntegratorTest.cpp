@@ -45,8 +45,9 @@ Rough rough() {
 }
 double orderOf(const Integrator& scheme) { return scheme == integrators::adamsMoulton ? 3 : 2; }
 
-/// How far (m) the height of a dimer that lies on a plane is from the closed form after an eighth of a period:
-/// M z'' = -2 (k (z - z0) + c z'), started so that z''' = 0 and the step before the first does not count.
+/// How far (m) the height of a dimer that lies on a plane is from the closed form after an eighth of a
+/// period: M z'' = -2 (k (z - z0) + c z'), started so that z''' = 0 and the step before the first does not
+/// count.
 double errorOnPlane(const Integrator& scheme, int steps) {
     const double c = 0.1 * std::sqrt(k * m), w2 = k / m, g = 0.5 * c / m;  // 2 k/M, half of 2 c/M
     const double wd = std::sqrt(w2 - g * g), depth = 1e-6;
@@ -102,8 +103,8 @@ TEST(BodyIntegrator, hasItsOrderInATurningOscillation) {
     }
 }
 
-// A free top of the moments of a dimer and one more grain: the spin about its axes returns after a period, found
-// here with steps of a twentieth.
+// A free top of the moments of a dimer and one more grain: the spin about its axes returns after a period,
+// found here with steps of a twentieth.
 TEST(BodyIntegrator, freeFlightIsExactAndATopTurnsToFourthOrder) {
     const auto flown = [](const Integrator& scheme, int steps) {
         FewGrains<Smooth> scene(smooth(),
@@ -131,8 +132,8 @@ TEST(BodyIntegrator, freeFlightIsExactAndATopTurnsToFourthOrder) {
     EXPECT_LT(second, 1e-3);
 }
 
-// A dimer that does not turn sticks on a plane by two springs of friction without dashpots: M x'' = -2 k_t x, of
-// which the default feeds the motion, and springs in the step do not.
+// A dimer that does not turn sticks on a plane by two springs of friction without dashpots: M x'' = -2 k_t x,
+// of which the default feeds the motion, and springs in the step do not.
 TEST(BodyIntegrator, springsInTheStepDoNotFeedABody) {
     constexpr double depth = 1e-5, kt = 300, v = 1e-4;
     const double w = std::sqrt(kt / m);
@@ -217,7 +218,9 @@ TEST(BodyIntegrator, closesTheLedgerThroughJoinsAndBreakage) {
         BoxOfBodies scene(scheme);
         scene.initialise();
         scene.steps(650);
-        EXPECT_LT(energy::openness<BoxOfBodies>(scene, [](BoxOfBodies& s) { s.steps(300); }, 50), 1)
+        EXPECT_LT(energy::openness<BoxOfBodies>(
+                      scene, [](BoxOfBodies& s) { s.steps(300); }, 50),
+                  1)
             << scheme.name;
     }
 }

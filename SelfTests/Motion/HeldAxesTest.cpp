@@ -27,10 +27,11 @@ using Smooth = Species<LinearViscoelastic>;
 using Rough = Species<LinearViscoelastic, SlidingFriction>;
 using Hertz = Species<HertzianViscoelastic>;
 
-constexpr double r = 1e-3, density = 2500, k = 1000;          // m, kg/m^3, N/m
+constexpr double r = 1e-3, density = 2500, k = 1000;                // m, kg/m^3, N/m
 const double m = 4.0 / 3 * std::numbers::pi * r * r * r * density;  // kg
 
-constexpr HeldAxes turnsOnly{.x = true, .y = true, .z = true}, inPlane{.z = true, .aboutX = true, .aboutY = true};
+constexpr HeldAxes turnsOnly{.x = true, .y = true, .z = true},
+    inPlane{.z = true, .aboutX = true, .aboutY = true};
 
 Smooth smooth() {
     Smooth s;
@@ -50,9 +51,9 @@ Rough rough(double friction = 0.4) {
     return s;
 }
 
-// A sphere that turns about y only lies on a plane that is dragged along x at u. Coulomb's force mu k d at the arm
-// a = r - d/2 gives it the torque T, of which the spring of friction takes the way s = mu k d / k_t to build up:
-// w(t) = T/I (t - s / (2 u)), as long as a w < u; in the end it rolls with the plane, a w = u.
+// A sphere that turns about y only lies on a plane that is dragged along x at u. Coulomb's force mu k d at
+// the arm a = r - d/2 gives it the torque T, of which the spring of friction takes the way s = mu k d / k_t
+// to build up: w(t) = T/I (t - s / (2 u)), as long as a w < u; in the end it rolls with the plane, a w = u.
 TEST(HeldAxes, aSphereThatOnlyTurnsIsSpunUpByADraggedPlane) {
     constexpr double d = 1e-5, u = 1, h = 1e-6, mu = 0.4;
     FewGrains<Rough> scene(rough(mu), {{.radius = r, .position = {0, 0, r - d}}}, h);
@@ -102,8 +103,8 @@ TEST(HeldAxes, aSphereInAPlaneRollsDownASlopeAsWithoutTheRest) {
     EXPECT_NEAR(held.velocity.x(), 5.0 / 7 * 0.5 * 0.1, 1e-3 * 0.036);
 }
 
-// Two spheres at arms a = r rest on two held ones at an overlap d: turned by q, the spring of each is pressed by
-// a q more or less, so that I q'' = -2 k a^2 q to first order, I = 2 (2/5 m r^2 + m a^2).
+// Two spheres at arms a = r rest on two held ones at an overlap d: turned by q, the spring of each is pressed
+// by a q more or less, so that I q'' = -2 k a^2 q to first order, I = 2 (2/5 m r^2 + m a^2).
 double torsionAfter(const Integrator& scheme, int steps, const HeldAxes& axes, Vec3D* place = nullptr) {
     constexpr double d = 1e-5, q = 1e-5;
     const double inertia = 2.8 * m * r * r, frequency = std::sqrt(2 * k * r * r / inertia);
@@ -183,7 +184,9 @@ TEST(HeldAxes, aFlatGasStaysFlatAndClosesItsLedger) {
         for (const GrainReference grain : scene.particleHandler) all.push_back(grain.getPosition().z());
         return all;
     }();
-    EXPECT_LT(energy::openness<FlatGas>(scene, [](FlatGas&) {}, 5000), 1);
+    EXPECT_LT(energy::openness<FlatGas>(
+                  scene, [](FlatGas&) {}, 5000),
+              1);
     EXPECT_GT(scene.energyLedger().lost(), 0);
     std::size_t n = 0;
     for (const GrainReference grain : scene.particleHandler) {
@@ -239,13 +242,14 @@ TEST(HeldAxes, aGrainReboundsFromWhatIsHeldAsFromAWall) {
     const double fixed = rebound([](auto& s) { s.particleHandler.getObject(1).fixParticle(); });
     EXPECT_NEAR(fixed, 0.5, 0.005);
     EXPECT_NEAR(rebound([](auto& s) { s.particleHandler.getObject(1).setHeldAxes(turnsOnly); }), fixed, 1e-9);
-    EXPECT_NEAR(rebound([](auto& s) { s.particleHandler.getObject(1).setHeldAxes({.z = true}); }), fixed, 1e-9);
+    EXPECT_NEAR(rebound([](auto& s) { s.particleHandler.getObject(1).setHeldAxes({.z = true}); }), fixed,
+                1e-9);
     EXPECT_NEAR(rebound([](auto& s) { s.bodyHandler.join({1, 2}).fixBody(); }), fixed, 1e-9);
     EXPECT_NEAR(rebound([](auto& s) { s.bodyHandler.join({1, 2}).setHeldAxes(turnsOnly); }), fixed, 1e-9);
 }
 
-// A body that is held goes its way at the velocity and the spin that it is given, whatever hits it: its grains
-// are on circles about the centre.
+// A body that is held goes its way at the velocity and the spin that it is given, whatever hits it: its
+// grains are on circles about the centre.
 TEST(HeldAxes, aHeldBodyKeepsItsMotion) {
     FewGrains<Rough> scene(rough(),
                            {{.radius = r, .position = {-r, 0, 0}},
@@ -260,13 +264,17 @@ TEST(HeldAxes, aHeldBodyKeepsItsMotion) {
     EXPECT_TRUE(body.isFixed() && scene.particleHandler.getObject(0).isFixed());
     scene.initialise();
     EXPECT_EQ(scene.getKineticEnergy(), scene.energyLedger().kinetic);  // of the third grain only
-    EXPECT_LT(energy::openness<FewGrains<Rough>>(scene, [](auto&) {}, 10000), 1);
+    EXPECT_LT(energy::openness<FewGrains<Rough>>(
+                  scene, [](auto&) {}, 10000),
+              1);
     EXPECT_GT(scene.motion(2).velocity.z(), 0);  // it has bounced
     const double angle = 50 * 0.01;
     EXPECT_LT((body.getPosition() - Vec3D(1e-4, 0, 0)).norm(), 1e-15);
     // (w h)^4 / 120 a step of the turn
-    EXPECT_LT((scene.motion(1).position - body.getPosition() -
-               Vec3D(r * std::cos(angle), r * std::sin(angle), 0)).norm(), 1e-12 * r);
+    EXPECT_LT(
+        (scene.motion(1).position - body.getPosition() - Vec3D(r * std::cos(angle), r * std::sin(angle), 0))
+            .norm(),
+        1e-12 * r);
     EXPECT_EQ(body.getAngularVelocity(), Vec3D(0, 0, 50));
     EXPECT_NE(scene.energyLedger().walls, 0);
     body.fixBody(false);
@@ -299,7 +307,9 @@ TEST(HeldAxes, bodiesAndGrainsThatAreDrivenAlongHeldAxesCloseTheLedger) {
     grain.setAngularVelocity({0, 30, 0});
     scene.initialise();
     const double total = scene.energyLedger().total();
-    EXPECT_LT(energy::openness<FewGrains<Rough>>(scene, [](auto&) {}, 20000), 1);
+    EXPECT_LT(energy::openness<FewGrains<Rough>>(
+                  scene, [](auto&) {}, 20000),
+              1);
     EXPECT_EQ(body.getVelocity().y(), 0.02);
     EXPECT_EQ(body.getAngularVelocity().z(), 40);
     EXPECT_EQ(scene.motion(3).velocity.x(), 0.05);
