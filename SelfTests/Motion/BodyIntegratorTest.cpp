@@ -218,10 +218,14 @@ TEST(BodyIntegrator, closesTheLedgerThroughJoinsAndBreakage) {
         BoxOfBodies scene(scheme);
         scene.initialise();
         scene.steps(650);
-        EXPECT_LT(energy::openness<BoxOfBodies>(
-                      scene, [](BoxOfBodies& s) { s.steps(300); }, 50),
-                  1)
-            << scheme.name;
+        const std::function<void(BoxOfBodies&)> changes[] = {
+            [](BoxOfBodies& box) {
+                box.bodyHandler.join({3, 4});
+            },
+            [](BoxOfBodies& box) { box.bodyHandler.removeObject(1); },
+            [](BoxOfBodies& box) { box.bodyHandler.removeObject(0); }};
+        for (const auto& change : changes)
+            EXPECT_LT(energy::openness<BoxOfBodies>(scene, change, 150), 1) << scheme.name;
     }
 }
 
