@@ -258,8 +258,8 @@ TEST(ClumpLiquid, wetGrainsThatAreJoinedKeepTheirMomentum) {
         Joined()
             : FewGrains(material(),
                         {{.radius = r, .position = {0, 0, 0}, .velocity = {0.1, 0, 0.02}, .spin = {5, 0, 30}},
-                         {.radius = 0.8 * r, .position = {1.8 * r, 0, 0}, .velocity = {0.1, 0.05, 0}},
-                         {.radius = r, .position = {1.8 * r, 1.79 * r, 0}, .velocity = {0.1, 0.03, 0}}},
+                         {.radius = 0.8 * r, .position = {2.2 * r, 0, 0}, .velocity = {0.1, 0.05, 0}},
+                         {.radius = r, .position = {2.2 * r, 1.79 * r, 0}, .velocity = {0.1, 0.03, 0}}},
                         1e-5) {
             setLiquidDensity(1000);
             keepEnergyLedger();
