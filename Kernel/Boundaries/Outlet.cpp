@@ -143,6 +143,7 @@ void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std:
 
 void OutletHandler::findBodies(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung) {
     for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        if (grains.bodies.isHeld(k)) continue;
         const std::span<const BodyMember> members = grains.bodies.membersOf(k);
         const std::uint32_t youngest = std::ranges::max(members, {}, &BodyMember::grain).grain;
         for (std::uint32_t o = 0; o < outlets.size(); ++o) {
@@ -166,7 +167,7 @@ void OutletHandler::remove(const Leaving& one, ParticleHandler& particles, BodyH
     } else {
         const BodyReference body = bodies.getObject(one.body);
         radius = std::cbrt(body.getVolume() / (4 * std::numbers::pi / 3));
-        mass = body.getMass();
+        mass = particles.store().bodies.dryMassOf(particles.store().bodies.find(one.body));
         bodies.removeObject(one.body);
     }
     outlet.tally.add(static_cast<std::size_t>(species), radius, mass);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/HeldMasses.h"
 #include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"
@@ -69,6 +70,7 @@ struct PairGeometry {
     const RotationRecord* rotation;
     const ContactBlock& block;
     const PeriodicBox& box;
+    const HeldBits* held;  // of all grains; null where none is held along some axes
 
     Vector<Pack> shift;          // m, centre 2 - centre 1
     Vector<Pack> imageVelocity;  // m/s, where images move: of body 2 against the image that is met
@@ -76,8 +78,9 @@ struct PairGeometry {
     Pack radius1, radius2;
 
     [[gnu::always_inline]] PairGeometry(const TranslationRecord* t, const RotationRecord* r,
-                                        const ContactBlock& b, const PeriodicBox& periodic)
-        : translation(t), rotation(r), block(b), box(periodic) {
+                                        const ContactBlock& b, const PeriodicBox& periodic,
+                                        const HeldBits* heldAxes = nullptr)
+        : translation(t), rotation(r), block(b), box(periodic), held(heldAxes) {
         auto [x1, y1, z1, r1] = loadRecords<4>(numbers(t), 8, b.first.data());
         auto [x2, y2, z2, r2] = loadRecords<4>(numbers(t), 8, b.second.data());
         shift = {x2 - x1, y2 - y1, z2 - z1};
@@ -125,6 +128,13 @@ struct PairGeometry {
         g.effectiveRadius = radius1 * radius2 * (distance2 * g.inverseMass * reciprocal);
         g.normal = shift * g.inverseDistance;
         g.overlap = sum - distance;
+        if (held) [[unlikely]] {
+            const HeldMasses masses =
+                heldMasses(held, block.first, &block.second, copyOf(g.normal.x), copyOf(g.normal.y),
+                           copyOf(g.normal.z), im1, im2, copyOf(g.inverseMass), copyOf(g.effectiveMass));
+            g.inverseMass = masses.inverse;
+            g.effectiveMass = masses.effective;
+        }
         if constexpr (S::hasTorque) {
             g.lever = g.overlap;
             if constexpr (S::hasContactTorque) {
@@ -178,17 +188,19 @@ struct WallGeometry {
     const ContactBlock& block;
     const WallPointColumns& points;
     const Vector<double> wallSpin;  // rad/s
+    const HeldBits* held;           // as of PairGeometry
 
     Pack radius;
     Pack distance;  // m, from the centre to the wall
 
     WallGeometry(const TranslationRecord* t, const RotationRecord* r, const ContactBlock& b,
-                 const WallPointColumns& p, const Vector<double>& spin)
+                 const WallPointColumns& p, const Vector<double>& spin, const HeldBits* heldAxes = nullptr)
         : translation(t),
           rotation(r),
           block(b),
           points(p),
           wallSpin(spin),
+          held(heldAxes),
           distance(Pack::load(p.distance.lane.data())) {
         radius = loadRecords<4>(reinterpret_cast<const double*>(t), 8, b.first.data())[3];
     }
@@ -213,6 +225,13 @@ struct WallGeometry {
         g.velocity = Vector<Pack>{vx, vy, vz} - load(points.velocity);
         g.effectiveMass = Pack(1) / im;
         g.inverseMass = im;
+        if (held) [[unlikely]] {
+            const HeldMasses masses =
+                heldMasses(held, block.first, nullptr, copyOf(g.normal.x), copyOf(g.normal.y),
+                           copyOf(g.normal.z), im, Pack(0), copyOf(g.inverseMass), copyOf(g.effectiveMass));
+            g.inverseMass = masses.inverse;
+            g.effectiveMass = masses.effective;
+        }
         if constexpr (S::hasTorque) {
             g.lever = g.overlap;
             if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Sliding)

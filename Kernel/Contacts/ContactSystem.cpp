@@ -268,10 +268,12 @@ void ContactSystem::takeForceAway(Grains& grains, const Bucket& bucket, std::uin
             takeFromBody(body, place, sign);
         if (!grains.isFree(place)) return;
         const TranslationRecord& grain = grains.translation[place];
-        grains.acceleration[place] -= (sign * grain.inverseMass) * contacts.forceOf(contact);
+        const HeldBits held = grains.heldAt(place);
+        grains.acceleration[place] -= held.partAlong((sign * grain.inverseMass) * contacts.forceOf(contact));
         if (!memory.getLayout().hasTorque) return;
         const Vector<double> torque = torqueOn(grain, sign);
-        grains.rotation[place].angularAcceleration -= grains.rotation[place].inverseInertia * torque;
+        grains.rotation[place].angularAcceleration -=
+            held.partAbout(grains.rotation[place].inverseInertia * torque);
     };
     take(block.first[lane], 1);
     if (bucket.wall < 0) take(block.second[lane], -1);
@@ -428,6 +430,7 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
                            grains.translation.data(),
                            grains.rotation.data(),
                            grains.acceleration.data(),
+                           grains.held.empty() ? nullptr : grains.held.data(),
                            periodic,
                            number,
                            bucket.begin,

@@ -191,21 +191,22 @@ public:
         const TranslationRecord* const translation = task.translation;
         const RotationRecord* const rotation = task.rotation;
         const ContactBlock* const blocks = task.store.blocks.data();
+        const HeldBits* const held = task.held;
         if (task.store.buckets[task.bucket].wall >= 0) {
             const WallPointColumns* const points = task.store.wallPoints.data();
             const std::size_t first = task.store.firstWallBlock();
             const Vector<double> spin = task.wallSpin;
             return computeBlocks(task, [=](std::size_t b) {
-                return WallGeometry<S>(translation, rotation, blocks[b], points[b - first], spin);
+                return WallGeometry<S>(translation, rotation, blocks[b], points[b - first], spin, held);
             });
         }
         const PeriodicBox& box = task.box;
         if (box.any())
             return computeBlocks(task, [=, &box](std::size_t b) {
-                return PairGeometry<S, true>(translation, rotation, blocks[b], box);
+                return PairGeometry<S, true>(translation, rotation, blocks[b], box, held);
             });
         return computeBlocks(task, [=, &box](std::size_t b) {
-            return PairGeometry<S, false>(translation, rotation, blocks[b], box);
+            return PairGeometry<S, false>(translation, rotation, blocks[b], box, held);
         });
     }
 

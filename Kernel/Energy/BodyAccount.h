@@ -19,7 +19,7 @@ public:
         before.clear(), loads.clear();
         for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
             const RigidBody& body = grains.bodies[k];
-            before.push_back({body.velocity, body.rotationalEnergy()});
+            before.push_back({body.velocity, body.rotationalEnergy(), body.angularMomentum, body.torque});
             for (const BodyMember& member : grains.bodies.membersOf(k))
                 loads.push_back(sumOf(grains, contacts, member));
         }
@@ -34,12 +34,22 @@ public:
     }
 
     /// Called at the end of the step: what the bodies have gained (J), less the work of their contacts.
+    /// Bodies that are held altogether gain nothing.
     /// @param meanOf (place of a grain) gives its mean velocity and spin in the step
+    /// @param byHolders J, what holds bodies along and about axes gives them is added, and is not in the sum
     template <class MeanOf>
-    void addGainBesidesContacts(const ParticleStore& grains, const ContactStore& contacts, double step,
-                                ExactSum& sum, MeanOf&& meanOf) const {
+    void addGainBesidesContacts(const ParticleStore& grains, const ContactStore& contacts,
+                                const Vector<double>& gravity, double step, ExactSum& sum, double& byHolders,
+                                MeanOf&& meanOf) const {
         std::size_t number = 0;
         for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+            if (grains.bodies.isHeld(k)) {
+                number += grains.bodies.membersOf(k).size();
+                continue;
+            }
+            const double given = givenByHolders(grains, contacts, gravity, step, k, number);
+            byHolders += given;
+            sum.add(-given);
             const RigidBody& body = grains.bodies[k];
             const Vector<double>& then = before[k].velocity;
             sum.add(0.5 * body.mass * dot(body.velocity - then, body.velocity + then));
@@ -55,9 +65,35 @@ public:
 
 private:
     struct Before {
-        Vector<double> velocity;  // m/s
-        double turning;           // J
+        Vector<double> velocity;                 // m/s
+        double turning;                          // J
+        Vector<double> angularMomentum, torque;  // kg m^2/s, N m
     };
+
+    /// J: against the forces and torques of contacts, the weight, and what turns the axes of the body.
+    /// @param number of the body's first grain in `loads`
+    [[nodiscard]] double givenByHolders(const ParticleStore& grains, const ContactStore& contacts,
+                                        const Vector<double>& gravity, double step, std::size_t k,
+                                        std::size_t number) const {
+        const HeldBits held = grains.bodies.heldAxesOf(k);
+        if (!held.any()) return 0;
+        const RigidBody& body = grains.bodies[k];
+        const Vector<double> spin = grains.bodies.spinOf(k);
+        const Vector<double> velocity = body.velocity - held.partAlong(body.velocity),
+                             turning = spin - held.partAbout(spin);
+        // Of a sphere the body knows the torques that it follows only.
+        const Vector<double> torques =
+            grains.bodies.isSphere(grains, k)
+                ? loads[number].torque + sumOf(grains, contacts, grains.bodies.membersOf(k)[0]).torque
+                : before[k].torque + body.torque;
+        double given =
+            dot(turning, body.angularMomentum - before[k].angularMomentum - (0.5 * step) * torques);
+        if (squaredNorm(velocity) == 0) return given;
+        Vector<double> force = 2 * body.mass * gravity;
+        for (const BodyMember& member : grains.bodies.membersOf(k))
+            force += loads[number++].force + sumOf(grains, contacts, member).force;
+        return given - 0.5 * step * dot(force, velocity);
+    }
 
     static ContactSum sumOf(const ParticleStore& grains, const ContactStore& contacts,
                             const BodyMember& member) {

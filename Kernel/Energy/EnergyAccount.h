@@ -38,6 +38,7 @@ public:
                              (potential + ledger.carried - ledger.potential);
         before.clear();
         for (const std::uint32_t place : grains.place) before.push_back(motionOf(grains, place));
+        takeHeldLoads(grains, contacts);
         bodies.begin(grains, contacts);
     }
 
@@ -105,7 +106,9 @@ public:
         rank.resize(grains.size());
         std::uint32_t next = 0;
         for (const std::uint32_t place : grains.place) rank[place] = next++;
-        ledger.stepError -= workBesidesContacts(grains, contacts.store(), gravity, step, scheme);
+        double byHolders = givenByHolders(grains, contacts.store(), gravity, step);
+        ledger.stepError -= workBesidesContacts(grains, contacts.store(), gravity, step, scheme, byHolders);
+        ledger.walls += byHolders;
         const PeriodicBox& box = contacts.periodicBox();
         const std::vector<WornWall*> wornOf = wornWalls(walls);
         for (WornWall* const worn : wornOf)
@@ -189,7 +192,10 @@ private:
         const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
         if (number == RigidBodies::none) return 1 / grain.inverseMass;
         const RigidBody& body = grains.bodies[grains.bodies.find(number)];
-        return 1 / mobilityOf(body, box.nearest(grain.position - body.position) + arm, (1 / norm(arm)) * arm);
+        const double mobility =
+            mobilityOf(body, box.nearest(grain.position - body.position) + arm, (1 / norm(arm)) * arm,
+                       grains.bodies.heldAxesOf(grains.bodies.find(number)));
+        return 1 / std::max(mobility, 1e-9 / body.mass);
     }
 
     static double energyOfPistons(const WallHandler& walls) {
@@ -263,10 +269,49 @@ private:
                 grains.translation[k].radius, grains.translation[k].inverseMass == 0};
     }
 
+    /// The motion of a grain in the axes in which it is held, and the forces on it there.
+    struct HeldLoad {
+        std::uint32_t identity;
+        Vector<double> velocity, spin;  // m/s, rad/s
+        ContactSum contacts;
+    };
+    static ContactSum loadOf(const Grains& grains, const ContactStore& contacts, std::size_t place) {
+        if (place >= contacts.sides.grainCount()) return {{0, 0, 0}, {0, 0, 0}};  // it came after the list
+        return contactSum(contacts, place, grains.translation[place].radius);
+    }
+    /// Of grains that are held along or about some axes, and move in these.
+    void takeHeldLoads(const Grains& grains, const ContactStore& contacts) {
+        heldLoads.clear();
+        if (grains.held.empty()) return;
+        for (const std::uint32_t place : grains.place) {
+            const HeldBits held = grains.held[place];
+            const Motion now = motionOf(grains, place);
+            const Vector<double> velocity = now.velocity - held.partAlong(now.velocity),
+                                 spin = now.spin - held.partAbout(now.spin);
+            if (held.any() && grains.isFree(place) && squaredNorm(velocity) + squaredNorm(spin) > 0)
+                heldLoads.push_back(
+                    {grains.identity[place], velocity, spin, loadOf(grains, contacts, place)});
+        }
+    }
+    /// J: what keeps their motion there does against contacts and weight.
+    double givenByHolders(const Grains& grains, const ContactStore& contacts, const Vector<double>& gravity,
+                          double step) const {
+        double given = 0;
+        for (const HeldLoad& load : heldLoads) {
+            const std::uint32_t place = grains.place[load.identity];
+            const ContactSum now = loadOf(grains, contacts, place);
+            const Vector<double> weight = (1 / grains.translation[place].inverseMass) * gravity;
+            given -= step * (dot(0.5 * (load.contacts.force + now.force) + weight, load.velocity) +
+                             0.5 * dot(load.contacts.torque + now.torque, load.spin));
+        }
+        return given;
+    }
+
     /// The work (J) of the field of gravity, and of what an integrator other than velocity Verlet adds to the
     /// mean of the two accelerations.
     double workBesidesContacts(const Grains& grains, const ContactStore& contacts,
-                               const Vector<double>& gravity, double step, const Integrator& scheme) const {
+                               const Vector<double>& gravity, double step, const Integrator& scheme,
+                               double& byHolders) const {
         ExactSum sum;
         for (std::size_t k = 0; k < grains.size(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
@@ -285,10 +330,11 @@ private:
                 sum.add(dot(turned, mean.spin) / grains.rotation[k].inverseInertia);
             }
         }
-        bodies.addGainBesidesContacts(grains, contacts, step, sum, [&](std::uint32_t place) {
-            const BodyMotion mean = meanMotion(grains, place);
-            return std::pair(mean.velocity, mean.spin);
-        });
+        bodies.addGainBesidesContacts(grains, contacts, gravity, step, sum, byHolders,
+                                      [&](std::uint32_t place) {
+                                          const BodyMotion mean = meanMotion(grains, place);
+                                          return std::pair(mean.velocity, mean.spin);
+                                      });
         return sum.value();
     }
 
@@ -308,6 +354,7 @@ private:
 
     std::vector<Motion> before;       // in the order of identities
     std::vector<std::uint32_t> rank;  // of the grain at each place in that order
+    std::vector<HeldLoad> heldLoads;
     BodyAccount bodies;
     EnergyLedger atBegin;
     double ended = 0, endedAtBegin = 0;  // J

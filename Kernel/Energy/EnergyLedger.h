@@ -37,7 +37,7 @@ struct EnergyLedger {
     double stiffening = 0;
 
     // Energies that the scene has been given since the start:
-    double walls = 0;      // by walls that move, and by grains that are held and move
+    double walls = 0;      // by walls that move, and by what holds grains and bodies that move
     double loads = 0;      // by the loads and the weights of pistons
     double pressures = 0;  // by pressures on membranes, and their weight
     double driver = 0;     // where a driver changes velocities, places or the gravity

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "Kernel/Contacts/HeldMasses.h"
 #include "Kernel/Math/ElementaryFunctions.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/StabilityLimit.h"
@@ -133,11 +134,26 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
         addTo(grains, term, term.first, term.second);
         if (term.second != none) addTo(grains, term, term.second, term.first);
     }
+    for (std::size_t k = 0; k < grains.held.size(); ++k) holdBlock(grains.held[k], blocks[k]);
     for (std::size_t k = 0; k < blocks.size(); ++k)
         takeLeast(blocks[k], grains.identity[k], integrator, found);
     for (std::size_t k = 0; k < bodies.size(); ++k)
         takeLeast(bodies[k], grains.bodies.membersOf(k).front().grain, integrator, found);
     return found;
+}
+
+/// A grain does not move along and about axes in which it is held. (Those of bodies are left as if free,
+/// which bounds them, too.)
+void ContactBounds::holdBlock(HeldBits held, OfGrain& of) {
+    if (!held.any()) return;
+    const auto keepFree = [](std::array<double, 6>& m, const Vector<double>& f) {
+        const std::array<double, 6> factors{f.x, f.y, f.z, f.x * f.y, f.x * f.z, f.y * f.z};
+        for (std::size_t k = 0; k < 6; ++k) m[k] *= factors[k];
+    };
+    for (GrainBlock* const block : {&of.spring, &of.dashpot}) {
+        keepFree(block->shift, held.freeAlong());
+        keepFree(block->spin, held.freeAbout());
+    }
 }
 
 template <class One>
@@ -181,7 +197,8 @@ double ContactBounds::inverseInertia(const ParticleStore& grains, std::uint32_t 
 
 double ContactBounds::mobility(const ParticleStore& grains, const Term& term, std::uint32_t place) const {
     if (!isInBody(place)) return grains.translation[place].inverseMass;
-    return mobilityOf(grains.bodies[moverAt(place) - blocks.size()], armOf(grains, term, place), term.normal);
+    const std::size_t k = moverAt(place) - blocks.size();
+    return mobilityOf(grains.bodies[k], armOf(grains, term, place), term.normal, grains.bodies.heldAxesOf(k));
 }
 
 /// Finds the load of each grain, and the units of the sums.
@@ -256,6 +273,11 @@ void ContactBounds::takePair(const ContactSystem& contacts, const ParticleStore&
     term.smallerRadius = std::min(one.radius, two.radius);
     term.pair.bodies = {one.radius, two.radius};
     term.pair.effectiveMass = 1 / (one.inverseMass + two.inverseMass);
+    const HeldBits held1 = grains.heldAt(first), held2 = grains.heldAt(second);
+    term.isHeld = held1.areAlong() || held2.areAlong();
+    if (term.isHeld)
+        term.pair.effectiveMass =
+            heldMass(term.normal, one.inverseMass, held1, two.inverseMass, held2).effective;
     keep(contacts, bucket, contact, term, outlook);
 }
 
@@ -288,6 +310,10 @@ void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, 
         term.smallerRadius = grain.radius;
         term.pair.bodies = bodies;
         term.pair.effectiveMass = 1 / grain.inverseMass;
+        term.isHeld = grains.heldAt(first).areAlong();
+        if (term.isHeld)
+            term.pair.effectiveMass =
+                heldMass(term.normal, grain.inverseMass, grains.heldAt(first), 0, {}).effective;
         keep(contacts, bucket, begin + k, term, outlook);
     }
 }
@@ -371,7 +397,9 @@ template <class One>
 void ContactBounds::note(const Term& term, One& one) {
     ++one.contacts;
     one.overlap = std::max(one.overlap, term.pair.overlap / term.smallerRadius);
-    one.ownDashpot = std::min(one.ownDashpot, term.stiffness.normal.dashpot / term.pair.effectiveMass);
+    one.ownDashpot = term.isHeld
+                         ? 0  // less is implicit than its mass says
+                         : std::min(one.ownDashpot, term.stiffness.normal.dashpot / term.pair.effectiveMass);
 }
 
 void ContactBounds::addTo(const ParticleStore& grains, const Term& term, std::uint32_t place,

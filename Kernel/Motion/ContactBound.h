@@ -83,6 +83,7 @@ private:
         double approach = 0;       // m/s
         double smallerRadius = 0;  // m
         bool drags = false;        // a bridge
+        bool isHeld = false;       // one of the grains, along some axes
     };
     template <class Block>
     struct OfOne {
@@ -114,6 +115,7 @@ private:
                       const ContactOutlook& outlook, double mean);
     void summarise(ContactBound& found) const;
     void findBodies(const ParticleStore& grains);
+    static void holdBlock(HeldBits held, OfGrain& of);
     void chooseWeights(const ParticleStore& grains);
     /// Where the load of the grain at a place is, or of the body that it is part of.
     [[nodiscard]] std::uint32_t moverAt(std::uint32_t place) const {

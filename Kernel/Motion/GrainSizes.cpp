@@ -23,6 +23,19 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount)
                    std::max(highest.z, at.z + r)};
         if (grain.inverseMass > 0) free[grains.species[k]].add(grain.radius);
     }
+    countHeldAlong(grains);
+}
+
+/// A contact with one that is held along its normal has dashpots for the mass of the other one alone, or for
+/// twice the mass (HeldMasses.h), which act across the normal, too.
+void GrainSizes::countHeldAlong(const ParticleStore& grains) {
+    double least = infinity, largest = 0;  // m
+    for (std::size_t k = 0; k < grains.held.size(); ++k)
+        if (grains.held[k].areAlong()) least = std::min(least, grains.translation[k].radius);
+    if (!(least < infinity)) return;
+    for (const SizeRange& range : free) largest = std::max(largest, range.largest);
+    const double ratio = largest / least;
+    response.damping *= 1 + ratio * ratio * ratio;
 }
 
 double GrainSizes::smallest() const {

@@ -52,6 +52,9 @@ struct GrainSizes {
     [[nodiscard]] bool hold(std::size_t species, double radius, bool isFree) const {
         return species < all.size() && all[species].holds(radius) && (!isFree || free[species].holds(radius));
     }
+
+private:
+    void countHeldAlong(const ParticleStore& grains);
 };
 
 }  // namespace pendular

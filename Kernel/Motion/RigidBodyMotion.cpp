@@ -6,6 +6,7 @@
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ParticleSum.h"
+#include "Kernel/Motion/SingleBodyMotion.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {
@@ -131,19 +132,40 @@ public:
     double step(int threads, const Finish* finish, const double* beginStep) {
         const std::vector<std::uint32_t>& order = bodies.inSpace();
         std::vector<double> farthest(static_cast<std::size_t>(threads), 0);
-        inParts((order.size() + lanes - 1) / lanes, threads,
-                [&](int part, std::size_t first, std::size_t end) {
-                    double most = 0;
-                    for (std::size_t group = first; group < end; ++group)
-                        most = std::max(most, stepGroup(order, group * lanes, finish, beginStep));
-                    farthest[static_cast<std::size_t>(part)] = most;
-                },
-                groupsWorthAThread);
+        if (scheme.remembersEarlier() || scheme.contacts.springsInStep)
+            stepSingly(order, threads, finish, beginStep, farthest);
+        else
+            inParts((order.size() + lanes - 1) / lanes, threads,
+                    [&](int part, std::size_t first, std::size_t end) {
+                        double most = 0;
+                        for (std::size_t group = first; group < end; ++group)
+                            most = std::max(most, stepGroup(order, group * lanes, finish, beginStep));
+                        farthest[static_cast<std::size_t>(part)] = most;
+                    },
+                    groupsWorthAThread);
         for (const std::uint32_t k : bodies.spheres()) follow(k, beginStep);
+        stepSingly(bodies.heldOnes(), threads, finish, beginStep, farthest);
         return *std::ranges::max_element(farthest);
     }
 
 private:
+    /// @param farthest squared (m^2), of each thread
+    void stepSingly(const std::vector<std::uint32_t>& those, int threads, const Finish* finish,
+                    const double* beginStep, std::vector<double>& farthest) {
+        inParts(
+            those.size(), threads,
+            [&](int part, std::size_t first, std::size_t end) {
+                SingleBodyMotion one(grains, scheme, box);
+                double& most = farthest[static_cast<std::size_t>(part)];
+                for (std::size_t k = first; k < end; ++k) {
+                    if (finish != nullptr)
+                        one.finish(those[k], finish->contacts, finish->gravity, finish->step);
+                    if (beginStep != nullptr) most = std::max(most, one.begin(those[k], *beginStep));
+                }
+            },
+            lanes * groupsWorthAThread);
+    }
+
     double stepGroup(const std::vector<std::uint32_t>& order, std::size_t first, const Finish* finish,
                      const double* beginStep) {
         const std::size_t count = std::min(lanes, order.size() - first);
@@ -237,8 +259,10 @@ private:
         bodies.follow(grains, k);
         RigidBody& body = bodies[k];
         if (beginStep == nullptr) return;
-        const Vector<double> middle =
+        Vector<double> middle =
             body.angularMomentum + ((scheme.position0 - scheme.velocity0) * *beginStep) * body.torque;
+        if (scheme.remembersEarlier())
+            middle += ((scheme.position1 - scheme.velocity1) * *beginStep) * bodies.earlier[k].torque;
         body.orientation = turnedFreely(body.orientation, body.inertia, middle, *beginStep);
     }
 
@@ -253,6 +277,8 @@ double stepAll(ParticleStore& grains, bool hasContactTorque, int threads, const 
                const PeriodicBox& box, const ContactStore* contacts, const Vector<double>& gravity,
                double step, const double* beginStep) {
     grains.bodies.refresh(grains);
+    if (scheme.remembersEarlier() && grains.bodies.earlier.size() != grains.bodies.size())
+        grains.bodies.startEarlier(true);  // of the first bodies in a run
     const auto with = [&]<class L>() {
         if (contacts == nullptr) return L(grains, scheme, box).step(threads, nullptr, beginStep);
         const typename L::Finish finish{*contacts, gravity, step};
@@ -283,8 +309,15 @@ double RigidBodyMotion::finishAndBegin(ParticleStore& grains, const ContactStore
 
 void RigidBodyMotion::takeBack(ParticleStore& grains, double step, const Integrator& scheme) {
     RigidBodies& bodies = grains.bodies;
+    const bool isSingle = scheme.remembersEarlier() || scheme.contacts.springsInStep;
+    const PeriodicBox unused;
+    SingleBodyMotion one(grains, scheme, unused);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         RigidBody& body = bodies[k];
+        if ((isSingle || bodies.heldAxesOf(k).any()) && !bodies.isSphere(grains, k)) {
+            one.takeBack(k, step);
+            continue;
+        }
         const double position0 = scheme.position0 * step, velocity0 = scheme.velocity0 * step;
         body.velocity -= velocity0 * body.acceleration;
         body.position -= step * (body.velocity + position0 * body.acceleration);

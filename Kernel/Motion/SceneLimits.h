@@ -52,7 +52,7 @@ void forEachExtremePair(const ContactLaws& species, const GrainSizes& grains, co
 std::size_t mostContacts(std::size_t grains, const WallHandler& walls);
 
 /// The integrator as a scene uses it: springsInStep instead of the default where the friction of one of its
-/// pairs lacks dashpots. (Not with rigid bodies, whose grains keep no accelerations.) Others stay what they
+/// pairs lacks dashpots. (Not by itself with rigid bodies, which then move one by one.) Others stay what they
 /// are.
 Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                          const Integrator& integrator);

@@ -22,7 +22,7 @@ public:
     static double begin(Grains& grains, double step, int threads, const Integrator& scheme,
                         const PeriodicBox& box) {
         if (scheme.remembersEarlier()) grains.earlier.resize(grains.size());  // of the first grains in a run
-        return largestOfAll(grains, threads, scheme, [&]<bool remembers>(std::size_t k) {
+        return largestOfAll(grains, threads, scheme, [&]<bool remembers, bool isHeld>(std::size_t k) {
             Motion motion = load(grains, k);
             const double shift2 = move<remembers>(grains, step, scheme, k, box, motion);
             storeVelocity(grains, k, motion);
@@ -32,26 +32,28 @@ public:
     /// The new accelerations, and with them the velocities at the end of the step.
     static void finish(Grains& grains, const ContactStore& store, const Vector<double>& gravity, double step,
                        int threads, const Integrator& scheme) {
-        largestOfAll(grains, threads, scheme, [&, weight = fourOf(gravity)]<bool remembers>(std::size_t k) {
-            Motion motion = load(grains, k);
-            accelerate<remembers>(grains, store, weight, step, scheme, k, motion);
-            storeVelocity(grains, k, motion);
-            storeAcceleration(grains, k, motion);
-            return 0.0;
-        });
+        largestOfAll(grains, threads, scheme,
+                     [&, weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
+                         Motion motion = load(grains, k);
+                         accelerate<remembers, isHeld>(grains, store, weight, step, scheme, k, motion);
+                         storeVelocity(grains, k, motion);
+                         storeAcceleration(grains, k, motion);
+                         return 0.0;
+                     });
     }
     static double finishAndBegin(Grains& grains, const ContactStore& store, const Vector<double>& gravity,
                                  double step, double nextStep, int threads, const Integrator& scheme,
                                  const PeriodicBox& box) {
-        return largestOfAll(
-            grains, threads, scheme, [&, weight = fourOf(gravity)]<bool remembers>(std::size_t k) {
-                Motion motion = load(grains, k);
-                accelerate<remembers>(grains, store, weight, step, scheme, k, motion);
-                storeAcceleration(grains, k, motion);
-                const double shift2 = move<remembers>(grains, nextStep, scheme, k, box, motion);
-                storeVelocity(grains, k, motion);
-                return shift2;
-            });
+        return largestOfAll(grains, threads, scheme,
+                            [&, weight = fourOf(gravity)]<bool remembers, bool isHeld>(std::size_t k) {
+                                Motion motion = load(grains, k);
+                                accelerate<remembers, isHeld>(grains, store, weight, step, scheme, k, motion);
+                                storeAcceleration(grains, k, motion);
+                                const double shift2 =
+                                    move<remembers>(grains, nextStep, scheme, k, box, motion);
+                                storeVelocity(grains, k, motion);
+                                return shift2;
+                            });
     }
 
     /// Undoes begin, up to round-off.
@@ -86,15 +88,15 @@ private:
         return last;
     }
 
-    /// The largest of function.operator()<remembers>(k) over some grains, with the function inlined: by
-    /// itself g++ inlines none of this size that is called from two places.
-    template <bool remembers, class Function, class PlaceOf>
+    /// The largest of function.operator()<remembers, isHeld>(k) over some grains, with the function inlined:
+    /// by itself g++ inlines none of this size that is called from two places.
+    template <bool remembers, bool isHeld, class Function, class PlaceOf>
     [[gnu::flatten]] static double largestOf(const Function& function, std::size_t first, std::size_t end,
                                              const PlaceOf& placeOf) {
         const Function own = function;
         double most = 0;
         for (std::size_t k = first; k < end; ++k)
-            most = std::max(most, own.template operator()<remembers>(placeOf(k)));
+            most = std::max(most, own.template operator()<remembers, isHeld>(placeOf(k)));
         return most;
     }
 
@@ -106,20 +108,25 @@ private:
         // Grains of rigid bodies are moved with these.
         const bool hasBodies = !grains.bodies.empty();
         const std::vector<std::uint32_t>& own = grains.bodies.ownPlaces();
-        const auto ofAll = [&]<bool remembers>() {
+        const auto ofAll = [&]<bool remembers, bool isHeld>() {
             inParts(
                 hasBodies ? own.size() : grains.size(), threads,
                 [&](int part, std::size_t first, std::size_t end) {
                     const double most =
                         hasBodies
-                            ? largestOf<remembers>(function, first, end,
-                                                   [&](std::size_t k) -> std::size_t { return own[k]; })
-                            : largestOf<remembers>(function, first, end, [](std::size_t k) { return k; });
+                            ? largestOf<remembers, isHeld>(
+                                  function, first, end, [&](std::size_t k) -> std::size_t { return own[k]; })
+                            : largestOf<remembers, isHeld>(function, first, end,
+                                                           [](std::size_t k) { return k; });
                     largest[static_cast<std::size_t>(part)] = most;
                 },
                 grainsWorthAThread);
         };
-        scheme.remembersEarlier() ? ofAll.template operator()<true>() : ofAll.template operator()<false>();
+        const auto ofKind = [&]<bool isHeld>() {
+            scheme.remembersEarlier() ? ofAll.template operator()<true, isHeld>()
+                                      : ofAll.template operator()<false, isHeld>();
+        };
+        grains.held.empty() ? ofKind.template operator()<false>() : ofKind.template operator()<true>();
         return *std::max_element(largest.begin(), largest.end());
     }
 
@@ -150,6 +157,9 @@ private:
         }
     }
 
+    /// @param free 1 along an axis that is free, else 0
+    static Four freePart(Four v, const Vector<double>& free) { return v * fourOf(free); }
+
     /// Moves a grain, and its motion to the start of the forces; returns the squared displacement (m^2).
     template <bool remembers>
     [[gnu::always_inline]] static double move(Grains& grains, double step, const Integrator& scheme,
@@ -176,7 +186,8 @@ private:
         return std::isnan(shift2) ? infinity : shift2;
     }
 
-    template <bool remembers>
+    /// @tparam isHeld some grains are held along some axes
+    template <bool remembers, bool isHeld>
     [[gnu::always_inline]] static void accelerate(Grains& grains, const ContactStore& store, Four gravity,
                                                   double step, const Integrator& scheme, std::size_t k,
                                                   Motion& motion) {
@@ -184,7 +195,8 @@ private:
         const TranslationRecord& grain = grains.translation[k];
         const auto sum = sumContacts<hasSpin, hasContactTorque>(store, k, grain.radius);
         const Four weight = grain.inverseMass == 0 ? Four{} : gravity;
-        const Four acceleration = grain.inverseMass * sum.force + weight;
+        Four acceleration = grain.inverseMass * sum.force + weight;
+        if constexpr (isHeld) acceleration = freePart(acceleration, grains.held[k].freeAlong());
         const Earlier last = remembers ? lastOf(grains, k) : Earlier{};
         const double corrector = scheme.corrector * step;
         motion.velocity += corrector * (acceleration - scheme.now * motion.acceleration);
@@ -192,7 +204,8 @@ private:
             motion.velocity += (corrector * scheme.earlier) * fourOf(grains.earlier[k].acceleration);
         motion.acceleration = acceleration;
         if constexpr (hasSpin) {
-            const Four angular = grains.rotation[k].inverseInertia * sum.torque;
+            Four angular = grains.rotation[k].inverseInertia * sum.torque;
+            if constexpr (isHeld) angular = freePart(angular, grains.held[k].freeAbout());
             motion.spin += corrector * (angular - scheme.now * motion.angularAcceleration);
             if constexpr (remembers)
                 motion.spin += (corrector * scheme.earlier) * fourOf(grains.earlier[k].angularAcceleration);
@@ -246,12 +259,15 @@ void TimeIntegration::renewAccelerations(ParticleStore& grains, const ContactSto
         if (!grains.isFree(at)) continue;
         const TranslationRecord& grain = grains.translation[at];
         const ContactSum sum = contactSum(store, at, grain.radius);
-        grains.acceleration[at] = grain.inverseMass * sum.force + gravity;
+        const HeldBits held = grains.heldAt(at);
+        grains.acceleration[at] = held.partAlong(grain.inverseMass * sum.force + gravity);
         if (grains.hasSpin)
-            grains.rotation[at].angularAcceleration = grains.rotation[at].inverseInertia * sum.torque;
+            grains.rotation[at].angularAcceleration =
+                held.partAbout(grains.rotation[at].inverseInertia * sum.torque);
     }
 }
 void TimeIntegration::start(ParticleStore& grains, const Integrator& scheme) {
+    grains.bodies.startEarlier(scheme.remembersEarlier());
     withLoops(grains.hasSpin, false, false, [&]<class L>() { L::start(grains, scheme); });
 }
 

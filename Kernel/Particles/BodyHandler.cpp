@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
@@ -17,12 +18,15 @@ namespace {
 
 /// A grain that is to be joined.
 struct Sphere {
-    double mass, radius;                      // kg, m
+    double mass, radius, film;                // kg, m, kg
     Vec3D position, velocity, spin;           // m, m/s, rad/s; the image nearest to the first grain
     Vec3D acceleration, angularAcceleration;  // m/s^2, rad/s^2, of the last step
+    EarlierAcceleration earlier;              // of the step before
 
     /// kg m^2, about its own centre
-    [[nodiscard]] double inertia() const { return 0.4 * mass * radius * radius; }
+    [[nodiscard]] double inertia() const {
+        return 0.4 * (mass - film) * radius * radius + 2.0 / 3 * film * radius * radius;
+    }
 };
 
 std::vector<Sphere> spheresOf(ParticleHandler& particles, const PeriodicBox& periodic,
@@ -35,9 +39,13 @@ std::vector<Sphere> spheresOf(ParticleHandler& particles, const PeriodicBox& per
         const TranslationRecord& grain = grains.translation[place];
         const Vector<double> image = origin + periodic.nearest(grain.position - origin);
         const RotationRecord turning = grains.hasSpin ? grains.rotation[place] : RotationRecord{};
-        spheres.push_back({1 / grain.inverseMass, grain.radius, toEigen(image), toEigen(grain.velocity),
-                           toEigen(turning.spin), toEigen(grains.acceleration[place]),
-                           toEigen(turning.angularAcceleration)});
+        const double solid = particles.massOf(grain.radius, grains.species[place]),
+                     mass = grain.inverseMass > 0 ? 1 / grain.inverseMass : solid;
+        const bool isWet = ParticleHandler::Inside::filmMassAt(particles, place) > 0;
+        spheres.push_back({mass, grain.radius, isWet ? std::max(mass - solid, 0.0) : 0, toEigen(image),
+                           toEigen(grain.velocity), toEigen(turning.spin),
+                           toEigen(grains.acceleration[place]), toEigen(turning.angularAcceleration),
+                           grains.earlier.empty() ? EarlierAcceleration{} : grains.earlier[place]});
     }
     return spheres;
 }
@@ -76,19 +84,40 @@ SphereSums sumSpheres(const std::vector<Sphere>& spheres) {
     return sums;
 }
 
-void requireJoinable(ParticleHandler& particles, std::span<const std::uint32_t> identities) {
+/// Without their films.
+std::vector<Sphere> drySpheres(std::vector<Sphere> spheres) {
+    for (Sphere& sphere : spheres) sphere.mass -= std::exchange(sphere.film, 0);
+    return spheres;
+}
+/// With the motion of the step before.
+std::vector<Sphere> earlierSpheres(std::vector<Sphere> spheres) {
+    for (Sphere& sphere : spheres) {
+        sphere.acceleration = toEigen(sphere.earlier.acceleration);
+        sphere.angularAcceleration = toEigen(sphere.earlier.angularAcceleration);
+    }
+    return spheres;
+}
+
+/// What the forces on spheres are to a body that has the dry mass of them (kg) about another centre (m).
+EarlierBodyMotion forcesOn(const SphereSums& sums, double mass, const Vec3D& centre, const Vec3D& gravity) {
+    const Vec3D force = sums.mass * (sums.acceleration - gravity);
+    return {toVector(gravity + force / mass), toVector(sums.torque + (sums.centre - centre).cross(force))};
+}
+
+HeldBits requireJoinable(ParticleHandler& particles, std::span<const std::uint32_t> identities) {
     if (identities.empty()) throw InputError("A rigid body must have at least one grain.");
     for (std::size_t k = 0; k < identities.size(); ++k) {
         const GrainReference grain = particles.getObject(identities[k]);
-        if (grain.isFixed())
-            throw InputError(
-                fmt::format("particle {} is held in place and can be in no rigid body; let it go by "
-                            "fixParticle(false) first.",
-                            identities[k]));
         if (particles.store().bodies.contains(identities[k]) ||
             std::ranges::count(identities, identities[k]) > 1)
             throw InputError(fmt::format("particle {} is in a rigid body already.", identities[k]));
+        if (grain.getHeldAxes() != particles.getObject(identities[0]).getHeldAxes())
+            throw InputError(
+                fmt::format("particles {} and {} are not held alike, and can be in no rigid body; "
+                            "hold all or none by fixParticle() or setHeldAxes() first.",
+                            identities[0], identities[k]));
     }
+    return HeldBits(particles.getObject(identities[0]).getHeldAxes());
 }
 
 void refuseOverlaps(const std::vector<Sphere>& spheres, std::span<const std::uint32_t> identities) {
@@ -139,9 +168,26 @@ void BodyReference::setAngularVelocity(const Vec3D& spin) {
     requireFinite("angular velocity", spin, "rad/s");
     ParticleStore& grains = handler->store();
     const std::size_t k = at();
-    grains.bodies[k].setSpin(toVector(spin));
+    grains.bodies.setSpin(k, toVector(spin));
     if (!grains.bodies.isSphere(grains, k)) return grains.bodies.place(grains, k);
     if (grains.hasSpin) grains.rotation[handler->placeOf(getGrains()[0])].spin = toVector(spin);
+}
+
+void BodyReference::setHeldAxes(const HeldAxes& axes) {
+    ParticleStore& grains = handler->store();
+    const std::size_t k = at();
+    const bool wasHeld = grains.bodies.isHeld(k);
+    const HeldBits held(axes);
+    if (held.byte() == grains.bodies.heldAxesOf(k).byte()) return;
+    if (grains.bodies.isSphere(grains,
+                               k)) {  // it moves as its grain, whose forces are not kept where it is held
+        grains.bodies.follow(grains, k);
+        const HeldBits before = grains.bodies.heldAxesOf(k);
+        const Vector<double>& gravity = ParticleHandler::Inside::gravityOf(*handler);
+        grains.bodies[k].acceleration += gravity - before.partAlong(gravity);
+    }
+    grains.bodies.hold(grains, k, held);
+    for (const std::uint32_t grain : getGrains()) ParticleHandler::Inside::noteHeld(*handler, grain, wasHeld);
 }
 
 BodyHandler::Solid BodyHandler::solidOf(const std::vector<Ball>& spheres) {
@@ -150,11 +196,11 @@ BodyHandler::Solid BodyHandler::solidOf(const std::vector<Ball>& spheres) {
 
 BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
                                 const std::optional<BodyMass>& mass, const Solid* known) {
-    requireJoinable(particles, identities);
-    const std::vector<Sphere> spheres = spheresOf(particles, periodic, identities);
-    const SphereSums sums = sumSpheres(spheres);
+    const HeldBits held = requireJoinable(particles, identities);
+    const std::vector<Sphere> wet = spheresOf(particles, periodic, identities), spheres = drySpheres(wet);
+    const SphereSums sums = sumSpheres(wet), solid = sumSpheres(spheres);
     if (!mass) refuseOverlaps(spheres, identities);
-    const BodyMass own = mass.value_or(BodyMass{sums.mass, sums.centre, sums.inertia});
+    const BodyMass own = mass.value_or(BodyMass{solid.mass, solid.centre, solid.inertia});
     checkValue("rigid body", "mass", own.mass, "kg", positive);
     requireResolved("rigid body", "centre", toVector(own.centre),
                     std::ranges::min(spheres, {}, &Sphere::radius).radius);
@@ -171,11 +217,35 @@ BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
                    .acceleration = toVector(sums.acceleration),
                    .torque = toVector(sums.torque),
                    .orientation = {principal.axes.w(), toVector(principal.axes.vec())},
-                   .largestFreeMass = sums.largest};
+                   .largestFreeMass = solid.largest};
     body.setSpin(toVector(spin));
+    const Vec3D gravity = toEigen(ParticleHandler::Inside::gravityOf(particles));
+    if (!mass && sums.mass > solid.mass) {
+        const EarlierBodyMotion now = forcesOn(sums, solid.mass, solid.centre, gravity);
+        body.acceleration = now.acceleration, body.torque = now.torque;
+    }
     std::vector<Ball> balls;
     for (const Sphere& sphere : spheres) balls.push_back({sphere.position, sphere.radius});
-    return add(body, identities, balls, known, isSphere);
+    const BodyReference added = add(body, identities, balls, known, isSphere);
+    RigidBodies& bodies = particles.store().bodies;
+    if (!particles.store().earlier.empty()) {
+        if (bodies.earlier.size() != bodies.size()) bodies.startEarlier(true);
+        bodies.earlier.back() = forcesOn(sumSpheres(earlierSpheres(wet)), own.mass, own.centre, gravity);
+    }
+    if (held.any()) holdAsJoined(held);
+    if (sums.mass > solid.mass) ParticleHandler::Inside::weighFilmsOf(particles, bodies.size() - 1);
+    return added;
+}
+
+/// The last body keeps the motion that it has in the axes in which its grains are held.
+void BodyHandler::holdAsJoined(HeldBits held) {
+    ParticleStore& grains = particles.store();
+    const std::size_t k = grains.bodies.size() - 1;
+    const Vector<double> velocity = grains.bodies[k].velocity, spin = grains.bodies[k].spin();
+    grains.bodies.hold(grains, k, held);
+    grains.bodies[k].velocity = velocity;
+    grains.bodies.setSpin(k, spin);
+    grains.bodies.place(grains, k);
 }
 
 /// A single sphere is left as it is.

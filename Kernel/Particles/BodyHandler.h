@@ -17,17 +17,20 @@ public:
     BodyReference(ParticleHandler& particles, std::uint32_t body) : handler(&particles), number(body) {}
 
     [[nodiscard]] std::uint32_t getId() const { return number; }
-    [[nodiscard]] double getMass() const { return body().mass; }  // kg
+    [[nodiscard]] double getMass() const { return body().mass; }  // kg; with films that have a mass
     /// m^3; overlaps of its grains are counted once
     [[nodiscard]] double getVolume() const { return handler->store().bodies.volumeOf(at()); }
-    [[nodiscard]] Vec3D getInertia() const { return toEigen(body().inertia); }         // kg m^2, principal
-    [[nodiscard]] Vec3D getPosition() const { return toEigen(body().position); }       // m, centre of mass
-    [[nodiscard]] Vec3D getVelocity() const { return toEigen(body().velocity); }       // m/s
-    [[nodiscard]] Vec3D getAngularVelocity() const { return toEigen(body().spin()); }  // rad/s
-    [[nodiscard]] Vec3D getAngularMomentum() const {                                   // kg m^2/s
+    [[nodiscard]] Vec3D getInertia() const { return toEigen(body().inertia); }    // kg m^2, principal
+    [[nodiscard]] Vec3D getPosition() const { return toEigen(body().position); }  // m, centre of mass
+    [[nodiscard]] Vec3D getVelocity() const { return toEigen(body().velocity); }  // m/s
+    [[nodiscard]] Vec3D getAngularVelocity() const {                              // rad/s
+        return toEigen(handler->store().bodies.spinOf(at()));
+    }
+    [[nodiscard]] Vec3D getAngularMomentum() const {  // kg m^2/s
         return toEigen(body().angularMomentum);
     }
-    /// The force (N) of all contacts and of its weight, in the last step.
+    /// The force (N) of all contacts and of its weight, in the last step; also along axes along which it is
+    /// held (but not for a body of one sphere). A body that is held altogether does not touch walls.
     [[nodiscard]] Vec3D getForce() const { return body().mass * toEigen(body().acceleration); }
     /// N m, of all contacts about the centre of mass, in the last step.
     [[nodiscard]] Vec3D getTorque() const { return toEigen(body().torque); }
@@ -38,6 +41,14 @@ public:
 
     void setVelocity(const Vec3D& velocity);
     void setAngularVelocity(const Vec3D& spin);
+    /// Holds the body, or lets it go. A body that is held feels no force, and moves with the velocity and the
+    /// angular velocity that are set from then on; at first it has none.
+    void fixBody(bool fix = true) { setHeldAxes(fix ? HeldAxes::all() : HeldAxes{}); }
+    [[nodiscard]] bool isFixed() const { return handler->store().bodies.isHeld(at()); }
+    /// Holds the body along and about these axes of space (rotations are about its centre of mass), and lets
+    /// it go along and about all others: as GrainReference::setHeldAxes().
+    void setHeldAxes(const HeldAxes& axes);
+    [[nodiscard]] HeldAxes getHeldAxes() const { return handler->store().bodies.heldAxesOf(at()).axes(); }
 
 private:
     [[nodiscard]] std::size_t at() const;
@@ -57,8 +68,9 @@ public:
 
     /// Joins grains to a body, which takes over the motion of their spheres: momentum and angular momentum,
     /// if it has their mass. That is so if none is given. In a periodic scene the nearest images are joined.
-    /// Throws InputError for grains that are held, or in a body already; that overlap without a given mass;
-    /// or for a mass or an inertia that no body can have.
+    /// Grains that are all held alike make a body that is held so. Throws InputError for grains that are held
+    /// otherwise than the others, or in a body already; that overlap without a given mass; or for a mass or
+    /// an inertia that no body can have.
     /// @param mass its centre is in space, as the grains are now
     BodyReference join(std::span<const std::uint32_t> identities, const std::optional<BodyMass>& mass = {}) {
         return join(identities, mass, nullptr);
@@ -97,6 +109,8 @@ private:
                                  const BodyMass& mass);
     BodyReference add(RigidBody body, std::span<const std::uint32_t> identities,
                       const std::vector<Ball>& spheres, const Solid* known, bool isSphere);
+
+    void holdAsJoined(HeldBits held);
 
     ParticleHandler& particles;
     const PeriodicBox& periodic;

@@ -12,7 +12,8 @@ void addRotation(const ParticleStore& grains, ExactSum& sum) {
         for (std::size_t k = 0; k < grains.size(); ++k)
             if (grains.isFree(k))
                 sum.add(0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin));
-    for (std::size_t k = 0; k < grains.bodies.size(); ++k) sum.add(grains.bodies[k].rotationalEnergy());
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k)
+        if (!grains.bodies.isHeld(k)) sum.add(grains.bodies[k].rotationalEnergy());
 }
 void addTranslation(const ParticleStore& grains, ExactSum& sum) {
     forEachMovingBody(grains, [&](double mass, const Vector<double>&, const Vector<double>& velocity) {

@@ -12,8 +12,18 @@ namespace {
 /// N s, that makes the velocities of a free mass (kg) and of a point of a body, at an arm (m) from its
 /// centre, the same: J = (1/m + K)^-1 (v_m - v_p), with K = 1/M - [a] I^-1 [a], the body's response at the
 /// point.
-Vector<double> plasticImpulse(const RigidBody& body, const Vector<double>& arm, double mass,
+Vector<double> plasticImpulse(const RigidBody& body, HeldBits held, const Vector<double>& arm, double mass,
                               const Vector<double>& approach) {
+    if (held.any()) {
+        Eigen::Matrix3d response = 1 / mass * Eigen::Matrix3d::Identity();
+        for (int axis = 0; axis < 3; ++axis) {
+            const Vector<double> unit = toVector(Eigen::Vector3d::Unit(axis));
+            const Vector<double> spin =
+                spinOfHeld(body.inertia, body.orientation, held, cross(arm, unit), {0, 0, 0});
+            response.col(axis) += toEigen((1 / body.mass) * held.partAlong(unit) + cross(spin, arm));
+        }
+        return toVector(Eigen::Vector3d(response.ldlt().solve(toEigen(approach))));
+    }
     const Axes axes(body.orientation);
     Eigen::Matrix3d turn;
     turn << toEigen(axes.x), toEigen(axes.y), toEigen(axes.z);
@@ -43,7 +53,13 @@ double volumeOfBodies(const ParticleStore& grains) {
     return volume;
 }
 
-double mobilityOf(const RigidBody& body, const Vector<double>& arm, const Vector<double>& direction) {
+double mobilityOf(const RigidBody& body, const Vector<double>& arm, const Vector<double>& direction,
+                  HeldBits held) {
+    if (held.any()) {
+        const Vector<double> lever = cross(arm, direction);
+        return squaredNorm(held.partAlong(direction)) / body.mass +
+               dot(lever, spinOfHeld(body.inertia, body.orientation, held, lever, {0, 0, 0}));
+    }
     const Vector<double> lever = body.orientation.turnBack(cross(arm, direction));
     return 1 / body.mass + lever.x * lever.x / body.inertia.x + lever.y * lever.y / body.inertia.y +
            lever.z * lever.z / body.inertia.z;
@@ -56,17 +72,19 @@ void catchMomentum(ParticleStore& grains, std::uint32_t place, const PeriodicBox
     const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
     const std::uint32_t k = number == RigidBodies::none ? number : grains.bodies.find(number);
     if (number == RigidBodies::none || grains.bodies.isSphere(grains, k)) {
-        grain.velocity +=
-            (mass * grain.inverseMass / (1 + mass * grain.inverseMass)) * (velocity - grain.velocity);
+        const double share = mass * grain.inverseMass / (1 + mass * grain.inverseMass);
+        grain.velocity += grains.heldAt(place).partAlong(share * (velocity - grain.velocity));
         if (number != RigidBodies::none) grains.bodies.follow(grains, k);
         return;
     }
     RigidBody& body = grains.bodies[k];
     const Vector<double> arm = periodic.nearest(point - body.position);
     const Vector<double> impulse =
-        plasticImpulse(body, arm, mass, velocity - (body.velocity + cross(body.spin(), arm)));
-    body.velocity += (1 / body.mass) * impulse;
+        plasticImpulse(body, grains.bodies.heldAxesOf(k), arm, mass,
+                       velocity - (body.velocity + cross(grains.bodies.spinOf(k), arm)));
+    body.velocity += grains.bodies.heldAxesOf(k).partAlong((1 / body.mass) * impulse);
     body.angularMomentum += cross(arm, impulse);
+    grains.bodies.constrain(k);
     grains.bodies.place(grains, k);
 }
 

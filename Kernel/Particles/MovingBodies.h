@@ -8,10 +8,11 @@ namespace pendular {
 // What moves in a scene: single grains, and rigid bodies, each with one mass. A grain of a body has the mass
 // of the body in its record, so whoever adds up grains would count a body once for each of them.
 
-/// Calls use(mass, position, velocity) for each rigid body.
+/// Calls use(mass, position, velocity) for each rigid body that is not held altogether.
 template <class Use>
 void forEachRigidBody(const ParticleStore& grains, Use&& use) {
     for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
+        if (grains.bodies.isHeld(k)) continue;
         const RigidBody& body = grains.bodies[k];
         use(body.mass, body.position, body.velocity);
     }
@@ -45,15 +46,16 @@ void forEachMovingBodyInOrder(const ParticleStore& grains, Use&& use) {
 [[nodiscard]] double volumeOfBodies(const ParticleStore& grains);
 
 /// By how much (1/kg) a unit impulse along a direction (unit) at a point of a body changes the velocity of
-/// that point along it: 1/M and what the body's turning adds. @param arm m, from the centre of mass to the
-/// point
+/// that point along it: 1/M and what the body's turning adds, where it is not held. @param arm m, from the
+/// centre of mass to the point
 [[nodiscard]] double mobilityOf(const RigidBody& body, const Vector<double>& arm,
-                                const Vector<double>& direction);
+                                const Vector<double>& direction, HeldBits held = {});
 
 /// A mass (kg) that flies at a velocity (m/s) hits the grain at a place, at a point (m, the image nearest to
 /// it), and its momentum stays there: a plastic impact. Momentum is conserved; of a rigid body, the angular
 /// momentum about any point as well, and the point and the mass have one velocity afterwards. A single grain
-/// does not turn by it: liquid spreads over it. A grain that is held stays. The mass itself is not added.
+/// does not turn by it: liquid spreads over it. What is held stays along and about the axes of that. The mass
+/// itself is not added.
 void catchMomentum(ParticleStore& grains, std::uint32_t place, const PeriodicBox& periodic, double mass,
                    const Vector<double>& point, const Vector<double>& velocity);
 

@@ -31,6 +31,18 @@ GrainInertia ofSolidSphere(double mass, double radius) {
     return {1 / mass, 2.5 * (1 / mass) / (radius * radius)};
 }
 
+/// What a grain follows of the accelerations that were set.
+void followFreely(ParticleStore& grains, std::uint32_t at) {
+    const HeldBits held = grains.heldAt(at);
+    if (!held.any()) return;
+    grains.acceleration[at] = held.partAlong(grains.acceleration[at]);
+    if (grains.hasSpin)
+        grains.rotation[at].angularAcceleration = held.partAbout(grains.rotation[at].angularAcceleration);
+    if (grains.earlier.empty()) return;
+    EarlierAcceleration& earlier = grains.earlier[at];
+    earlier = {held.partAlong(earlier.acceleration), held.partAbout(earlier.angularAcceleration)};
+}
+
 void setInertia(ParticleStore& grains, std::uint32_t at, const GrainInertia& inertia) {
     grains.translation[at].inverseMass = inertia.inverseMass;
     if (grains.hasSpin) grains.rotation[at].inverseInertia = inertia.inverseMoment;
@@ -47,6 +59,7 @@ void changeInertia(ParticleStore& grains, std::uint32_t at, const GrainInertia& 
     };
     scale(grains.acceleration[at]);
     if (!grains.earlier.empty()) scale(grains.earlier[at].acceleration);
+    followFreely(grains, at);
     if (!grains.hasSpin) return;
     const double turning = grains.rotation[at].inverseInertia / turningBefore;
     grains.rotation[at].angularAcceleration *= turning;
@@ -80,7 +93,11 @@ void GrainReference::setLiquidVolume(double volume) {
     checkValue(fmt::format("particle {}", number), "liquid volume", volume, "m^3", notNegative);
     handler->finishStep();  // with the mass that the grain had
     handler->liquidFilms.set(handler->grains, place(), volume);
-    if (handler->liquidDensity > 0) handler->renewMass(place());
+    if (!(handler->liquidDensity > 0)) return;
+    const ParticleStore& grains = handler->grains;
+    if (const std::uint32_t body = grains.bodies.bodyOf(number); body != RigidBodies::none)
+        handler->weighFilmsOf(grains.bodies.find(body));
+    else handler->renewMass(place());
 }
 
 void GrainReference::requireOwnBody(std::string_view what) const {
@@ -125,8 +142,10 @@ void GrainReference::setSpeciesIndex(int index) {
 void GrainReference::fixParticle(bool fix) {
     requireOwnBody("being held");
     const std::uint32_t at = place();
+    if (!fix && handler->store().heldAt(at).any()) return setHeldAxes({});
     const bool isLetGo = isFixed() && !fix;
     ParticleStore& grains = handler->store();
+    grains.setHeldAt(at, {});
     setInertia(grains, at, fix ? GrainInertia{0, 0} : handler->inertiaAt(at));
     if (fix) {  // it keeps no motion, and no force of its own
         grains.translation[at].velocity = grains.acceleration[at] = {0, 0, 0};
@@ -135,6 +154,31 @@ void GrainReference::fixParticle(bool fix) {
     }
     if (isLetGo) setAcceleration(grains, at, handler->gravity);
     (isLetGo ? handler->changes.placed : handler->changes.altered).push_back(number);
+}
+
+void GrainReference::setHeldAxes(const HeldAxes& axes) {
+    requireOwnBody("held axes");
+    if (axes == HeldAxes::all() || (axes == HeldAxes{} && isFixed()))
+        return fixParticle(axes == HeldAxes::all());
+    if (isFixed()) fixParticle(false);
+    const std::uint32_t at = place();
+    ParticleStore& grains = handler->store();
+    const HeldBits held(axes), before = grains.heldAt(at);
+    // Along axes along which it was held it begins to fall.
+    setAcceleration(
+        grains, at,
+        before.partAlong(grains.acceleration[at]) + (handler->gravity - before.partAlong(handler->gravity)));
+    grains.setHeldAt(at, held);
+    followFreely(grains, at);
+    grains.translation[at].velocity = held.partAlong(grains.translation[at].velocity);
+    if (grains.hasSpin) grains.rotation[at].spin = held.partAbout(grains.rotation[at].spin);
+    handler->changes.altered.push_back(number);
+}
+HeldAxes GrainReference::getHeldAxes() const {
+    const ParticleStore& grains = handler->store();
+    const std::uint32_t body = grains.bodies.bodyOf(number);
+    if (body != RigidBodies::none) return grains.bodies.heldAxesOf(grains.bodies.find(body)).axes();
+    return isFixed() ? HeldAxes::all() : grains.heldAt(place()).axes();
 }
 
 double& GrainColumnReference::operator[](std::uint32_t identity) const {
@@ -189,7 +233,11 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
                                    toVector(grain.getVelocity()), grain.isFixed() ? 0 : 1 / mass};
     const std::uint32_t identity = grains.add(record, toVector(grain.getAngularVelocity()),
                                               static_cast<std::uint16_t>(grain.getSpeciesIndex()));
-    if (!grain.isFixed()) setAcceleration(grains, grains.place[identity], gravity);
+    if (!grain.isFixed()) {
+        grains.setHeldAt(grains.place[identity], HeldBits(grain.getHeldAxes()));
+        setAcceleration(grains, grains.place[identity], gravity);
+        followFreely(grains, grains.place[identity]);
+    }
     if (grain.getLiquidVolume() > 0) {
         liquidFilms.set(grains, grains.place[identity], grain.getLiquidVolume());
         if (liquidDensity > 0) renewMass(grains.place[identity]);
@@ -271,6 +319,15 @@ void ParticleHandler::renewMasses() {
 
 void ParticleHandler::weighFilms() {
     for (const std::uint32_t at : grains.place) renewMass(at);
+    if (liquidDensity > 0)
+        for (std::size_t k = 0; k < grains.bodies.size(); ++k) weighFilmsOf(k);
+}
+
+void ParticleHandler::weighFilmsOf(std::size_t body) {
+    std::vector<double> masses;
+    for (const BodyMember& member : grains.bodies.membersOf(body))
+        masses.push_back(liquidDensity * liquidFilms.of(grains, grains.place[member.grain]));
+    grains.bodies.weigh(grains, body, masses, gravity);
 }
 
 void ParticleHandler::setGravity(const Vector<double>& acceleration) {
@@ -281,8 +338,10 @@ void ParticleHandler::setGravity(const Vector<double>& acceleration) {
         if (!grains.isFree(at)) continue;
         grains.acceleration[at] += change;
         if (!grains.earlier.empty()) grains.earlier[at].acceleration += change;
+        followFreely(grains, at);
     }
     for (std::size_t k = 0; k < grains.bodies.size(); ++k) grains.bodies[k].acceleration += change;
+    for (EarlierBodyMotion& body : grains.bodies.earlier) body.acceleration += change;
 }
 
 void ParticleHandler::noteDensityOfJoined(std::uint32_t identity) {

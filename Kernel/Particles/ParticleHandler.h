@@ -32,7 +32,8 @@ public:
     [[nodiscard]] int getSpeciesIndex() const;
     /// Zero in scenes without friction.
     [[nodiscard]] Vec3D getAngularVelocity() const;
-    /// The sum of all forces (N) of the last step, weight included; not kept for a grain held in place: zero.
+    /// The sum of all forces (N) of the last step, weight included; not kept for a grain held in place, and
+    /// along axes along which it is held: zero.
     /// For a grain of a rigid body it is its mass times its acceleration, so it includes what holds it in the
     /// body.
     [[nodiscard]] Vec3D getForce() const;
@@ -57,6 +58,11 @@ public:
     /// Holds the grain, or lets it go. A grain that is held feels no force, and moves with the velocity and
     /// the spin that are set from then on; at first it has none.
     void fixParticle(bool fix = true);
+    /// Holds the grain along and about these axes of space, and lets it go along and about all others. In
+    /// those it feels no force and no torque, and keeps the velocity and the spin that are set from then on;
+    /// at first it has none. With all axes it is fixParticle().
+    void setHeldAxes(const HeldAxes& axes);
+    [[nodiscard]] HeldAxes getHeldAxes() const;
 
 private:
     void setSpeciesIndex(int index);
@@ -201,6 +207,8 @@ private:
     void renewMass(std::uint32_t place);
     /// The inertia of a grain that moves by itself.
     [[nodiscard]] GrainInertia inertiaAt(std::uint32_t place) const;
+    /// The body at a place has the mass of its grains' films.
+    void weighFilmsOf(std::size_t body);
     void noteJoined(std::span<const std::uint32_t> identities);
     void noteDensityOfJoined(std::uint32_t identity);
 

@@ -40,6 +40,18 @@ public:
     /// Gives all grains that move by themselves the mass of their species' density, and of their films where
     /// these are weighed. Forces and velocities stay.
     static void renewMasses(ParticleHandler& of) { of.renewMasses(); }
+    /// kg, of the film of the grain at a place; 0 where films have no mass.
+    [[nodiscard]] static double filmMassAt(const ParticleHandler& of, std::uint32_t place) {
+        return of.liquidDensity > 0 ? of.liquidDensity * of.liquidFilms.of(of.grains, place) : 0;
+    }
+    /// m/s^2
+    [[nodiscard]] static const Vector<double>& gravityOf(const ParticleHandler& of) { return of.gravity; }
+    /// The body at a place has the mass of its grains' films.
+    static void weighFilmsOf(ParticleHandler& of, std::size_t body) { of.weighFilmsOf(body); }
+    /// The grain's body has been held or let go.
+    static void noteHeld(ParticleHandler& of, std::uint32_t grain, bool mayOverlap) {
+        (mayOverlap ? of.changes.placed : of.changes.altered).push_back(grain);
+    }
     /// The same where only films have changed.
     static void weighFilms(ParticleHandler& of) { of.weighFilms(); }
 

@@ -43,6 +43,7 @@ std::uint32_t ParticleStore::add(const TranslationRecord& grain, const Vector<do
     species[at] = speciesIndex;
     identity[at] = number;
     if (!earlier.empty()) earlier[at] = {};
+    if (!held.empty()) held[at] = {};
     if (hasSpin) rotation[at] = {spin, 2.5 * grain.inverseMass / (grain.radius * grain.radius), {0, 0, 0}};
     for (GrainColumn& column : columns) column.values[at] = column.initial;
     return number;
@@ -57,6 +58,7 @@ std::uint32_t ParticleStore::freePlace() {
     const std::size_t count = size() + 1;
     translation.resize(count), acceleration.resize(count), species.resize(count), identity.resize(count);
     if (!earlier.empty()) earlier.resize(count);
+    if (!held.empty()) held.resize(count);
     if (hasSpin) rotation.resize(count);
     for (GrainColumn& column : columns) column.values.resize(count);
     return static_cast<std::uint32_t>(count - 1);
@@ -70,6 +72,7 @@ void ParticleStore::remove(std::uint32_t at) {
     acceleration[at] = {0, 0, 0};
     if (hasSpin) rotation[at] = {};
     if (!earlier.empty()) earlier[at] = {};
+    if (!held.empty()) held[at] = {};
 }
 
 void ParticleStore::reorder(const std::vector<std::uint32_t>& order, int threads) {
@@ -80,6 +83,7 @@ void ParticleStore::reorder(const std::vector<std::uint32_t>& order, int threads
     permute(identity, order, threads);
     if (hasSpin) permute(rotation, order, threads);
     if (!earlier.empty()) permute(earlier, order, threads);
+    if (!held.empty()) permute(held, order, threads);
     for (GrainColumn& column : columns) permute(column.values, order, threads);
     for (std::size_t k = 0; k < identity.size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
     bodies.forgetPlaces();
@@ -98,11 +102,13 @@ void ParticleStore::visitState(StateArchive& archive) {
 
 void ParticleStore::visitColumns(StateArchive& archive) {
     // A member that is added has to be added here.
-    auto& [spins, t, r, a, e, s, i, p, named, joined, n, free] = *this;
+    auto& [spins, t, r, a, e, h, s, i, p, named, joined, n, free] = *this;
     archive.column<double>("translation", t);
     archive.column<double>("rotation", r);
     archive.column<double>("acceleration", a);
     archive.column<double>("earlier", e);
+    if (archive.isReading()) h.clear();
+    if (archive.isWriting() ? !h.empty() : archive.holds("held")) archive.column<std::uint8_t>("held", h);
     archive.column<std::uint16_t>("species", s);
     archive.column<std::uint32_t>("identity", i);
     archive.value("nextIdentity", n);
@@ -129,6 +135,9 @@ void ParticleStore::requireWhole(const StateArchive& archive) const {
     archive.require(rotation.size() == (hasSpin ? grains : 0), "rotation", rows);
     archive.require(acceleration.size() == grains, "acceleration", rows);
     archive.require(earlier.empty() || earlier.size() == grains, "earlier", rows);
+    archive.require(held.empty() || held.size() == grains, "held", rows);
+    for (const HeldBits axes : held)
+        archive.require(axes.byte() < HeldBits::all, "held", "has axes that there are not");
     archive.require(species.size() == grains, "species", rows);
     archive.require(identity.size() == grains, "identity", rows);
     for (const GrainColumn& column : columns)

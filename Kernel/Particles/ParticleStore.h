@@ -10,6 +10,7 @@
 #include "Kernel/Base/LargePages.h"
 #include "Kernel/Math/Vector.h"
 #include "Kernel/Particles/GrainColumn.h"
+#include "Kernel/Particles/HeldAxes.h"
 #include "Kernel/Particles/PlaceIndex.h"
 #include "Kernel/Particles/RigidBodies.h"
 #include "Kernel/State/StateArchive.h"
@@ -59,6 +60,7 @@ public:
     std::vector<RotationRecord> rotation;      // empty without spin
     std::vector<Vector<double>> acceleration;  // m/s^2, of the last step
     std::vector<EarlierAcceleration> earlier;  // empty unless the integrator needs it
+    std::vector<HeldBits> held;                // empty unless something is held along some axes only
     std::vector<std::uint16_t> species;
     std::vector<std::uint32_t> identity;  // of the grain at a place
     PlaceIndex place;                     // of the grain with an identity
@@ -76,6 +78,12 @@ public:
     [[nodiscard]] bool isFree(std::size_t at) const {
         return translation[at].inverseMass > 0 && !bodies.contains(identity[at]);
     }
+    /// The axes of a grain that is held along or about some of them only, by itself or with its body.
+    [[nodiscard]] HeldBits heldAt(std::size_t at) const { return held.empty() ? HeldBits() : held[at]; }
+    void setHeldAt(std::size_t at, HeldBits axes) {
+        if (held.empty() && axes.any()) held.resize(size());
+        if (!held.empty()) held[at] = axes;
+    }
     [[nodiscard]] bool isGap(std::size_t at) const { return translation[at].radius == 0; }
     /// The identity of the grain that is added next: no identity is given twice.
     [[nodiscard]] std::uint32_t nextIdentity() const { return next; }
@@ -83,7 +91,7 @@ public:
     /// The memory (bytes) that the grains take.
     [[nodiscard]] std::size_t bytes() const {
         std::size_t sum =
-            bytesOf(translation, rotation, acceleration, earlier, species, identity) + place.bytes();
+            bytesOf(translation, rotation, acceleration, earlier, held, species, identity) + place.bytes();
         for (const GrainColumn& column : columns) sum += bytesOf(column.values);
         return sum;
     }

@@ -42,6 +42,13 @@ std::uint32_t RigidBodies::add(const RigidBody& body, std::span<const BodyMember
     forgetPlaces();
     begins.push_back(static_cast<std::uint32_t>(members.size()));
     for (const BodyMember& member : grains) bodyOfGrain[member.grain] = next;
+    if (!held.empty()) held.emplace_back();
+    if (!earlier.empty()) earlier.push_back({body.acceleration, body.torque});
+    if (!dry.empty()) {
+        dry.push_back({body.mass, body.inertia, {0, 0, 0}, {}});
+        for (const BodyMember& member : grains) dryArms.push_back(member.arm);
+        films.resize(members.size());
+    }
     return next++;
 }
 
@@ -49,7 +56,15 @@ void RigidBodies::remove(std::size_t at) {
     const auto first = members.begin() + begins[at], end = members.begin() + begins[at + 1];
     const auto count = static_cast<std::uint32_t>(end - first);
     for (auto member = first; member != end; ++member) bodyOfGrain.erase(member->grain);
+    if (!dry.empty()) {
+        const auto begin = static_cast<std::ptrdiff_t>(begins[at]);
+        dryArms.erase(dryArms.begin() + begin, dryArms.begin() + begin + count);
+        films.erase(films.begin() + begin, films.begin() + begin + count);
+        dry.erase(dry.begin() + static_cast<std::ptrdiff_t>(at));
+    }
     members.erase(first, end);
+    if (!held.empty()) held.erase(held.begin() + static_cast<std::ptrdiff_t>(at));
+    if (!earlier.empty()) earlier.erase(earlier.begin() + static_cast<std::ptrdiff_t>(at));
     forgetPlaces();
     begins.erase(begins.begin() + static_cast<std::ptrdiff_t>(at));
     for (std::size_t k = at; k < begins.size(); ++k) begins[k] -= count;
@@ -64,22 +79,24 @@ void RigidBodies::placeAll(ParticleStore& grains) {
 }
 void RigidBodies::place(ParticleStore& grains, std::size_t at) {
     const RigidBody& body = bodies[at];
-    const Vector<double> spin = body.spin();
+    const Vector<double> spin = spinOf(at);
     const Axes axes(body.orientation);
+    const double share = isHeld(at) ? 0 : 1;  // of it that can move
     for (const BodyMember& member : membersOf(at)) {
         const std::uint32_t place = grains.place[member.grain];
         const Vector<double> arm = axes.turn(member.arm);
         TranslationRecord& grain = grains.translation[place];
-        grain.inverseMass = 1 / body.mass;
+        grain.inverseMass = share / body.mass;
         grain.position = body.position + arm;
         grain.velocity = body.velocity + vectorOf(crossFour(fourOf(spin), fourOf(arm)));
-        grains.acceleration[place] = body.acceleration;
+        grains.acceleration[place] = heldAxesOf(at).partAlong(body.acceleration);
         if (!grains.hasSpin) continue;
         RotationRecord& turning = grains.rotation[place];
         turning.spin = spin;
         turning.angularAcceleration = {0, 0, 0};
-        turning.inverseInertia = 2.5 / (body.mass * grain.radius * grain.radius);
-        if (isSphere(grains, at)) turning.angularAcceleration = turning.inverseInertia * body.torque;
+        turning.inverseInertia = share * (2.5 / (body.mass * grain.radius * grain.radius));
+        if (isSphere(grains, at))
+            turning.angularAcceleration = heldAxesOf(at).partAbout(turning.inverseInertia * body.torque);
     }
 }
 
@@ -88,10 +105,14 @@ void RigidBodies::follow(const ParticleStore& grains, std::size_t at) {
     const std::uint32_t place = grains.place[members[begins[at]].grain];
     body.position = grains.translation[place].position, body.velocity = grains.translation[place].velocity;
     body.acceleration = grains.acceleration[place];
+    if (!earlier.empty() && !grains.earlier.empty())
+        earlier[at] = {grains.earlier[place].acceleration,
+                       body.inertia.x * grains.earlier[place].angularAcceleration};
     if (!grains.hasSpin) return;
     const RotationRecord& turning = grains.rotation[place];
     body.angularMomentum = body.inertia.x * turning.spin;
     body.torque = body.inertia.x * turning.angularAcceleration;
+    if (!held.empty()) held[at].spin = turning.spin - held[at].axes.partAbout(turning.spin);
 }
 
 bool RigidBodies::isSphere(const ParticleStore& grains, std::size_t at) const {
@@ -129,8 +150,9 @@ void RigidBodies::keepTogether(const ParticleStore& grains, std::vector<std::uin
 void RigidBodies::refresh(const ParticleStore& grains) {
     if (placesAreKnown || (empty() && bodyAt.empty())) return;
     bodyAt = bodiesAt(grains);
-    order.clear(), firsts.clear(), inOrder.clear(), spheresOnly.clear(), own.clear();
-    for (std::uint32_t k = 0; k < size(); ++k) (isSphere(grains, k) ? spheresOnly : order).push_back(k);
+    order.clear(), firsts.clear(), inOrder.clear(), spheresOnly.clear(), heldOnly.clear(), own.clear();
+    for (std::uint32_t k = 0; k < size(); ++k)
+        (isSphere(grains, k) ? spheresOnly : heldAxesOf(k).any() ? heldOnly : order).push_back(k);
     std::ranges::sort(order, {}, [&](std::uint32_t k) { return grains.place[membersOf(k).front().grain]; });
     for (const std::uint32_t k : order) {
         firsts.push_back(static_cast<std::uint32_t>(inOrder.size()));
@@ -173,6 +195,7 @@ double RigidBodies::massAtContacts(const ParticleStore& grains, std::size_t at) 
 BodyResponse RigidBodies::response(const ParticleStore& grains) const {
     BodyResponse most;
     for (std::size_t k = 0; k < size(); ++k) {
+        if (isHeld(k)) continue;
         const RigidBody& body = bodies[k];
         double largest = 0, smallest = infinity;  // m
         for (const BodyMember& member : membersOf(k)) {
@@ -218,6 +241,14 @@ void RigidBodies::visitState(StateArchive& archive, const ParticleStore& grains)
         archive.column<double>("volumes", volumes);
         archive.column<double>("exposed", exposed);
     }
+    if (archive.isReading()) earlier.clear();
+    if (archive.isWriting() ? !earlier.empty() : archive.holds("earlier")) {
+        archive.column<double>("earlier", earlier);
+        archive.require(earlier.size() == size(), "earlier", "does not have one row for each body");
+        archive.requireFinite("earlier", earlier);
+    }
+    visitHeld(archive);
+    visitDry(archive);
     if (!archive.isReading()) return;
     archive.require(grainsOf.size() == arms.size(), "arms", "has another number of rows than bodies/grains");
     archive.requireFinite("arms", arms);
@@ -264,12 +295,14 @@ void RigidBodies::requireWhole(const StateArchive& archive, const ParticleStore&
     for (const BodyMember& member : members)
         archive.require(member.exposed >= 0 && member.exposed <= 1, "exposed", "has a share beyond 0 to 1");
     for (const BodyMember& member : members)
-        archive.require(grains.place.contains(member.grain) &&
-                            grains.translation[grains.place[member.grain]].inverseMass > 0,
-                        "grains", "has a grain that is not in the scene or is held");
+        archive.require(grains.place.contains(member.grain), "grains",
+                        "has a grain that is not in the scene");
     for (std::size_t k = 0; k < size(); ++k)
         for (const BodyMember& member : membersOf(k)) {
-            const double radius = grains.translation[grains.place[member.grain]].radius;
+            const auto& [position, radius, velocity, inverseMass] =
+                grains.translation[grains.place[member.grain]];
+            archive.require((inverseMass == 0) == isHeld(k), "grains",
+                            "has a grain that is held while its body is not, or the other way round");
             archive.require(isResolved(bodies[k].position, radius) && isResolved(member.arm, radius),
                             "motion", "or its arms have a place that is too far away for the grains there");
         }

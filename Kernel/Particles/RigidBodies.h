@@ -7,6 +7,7 @@
 
 #include "Kernel/Math/Four.h"
 #include "Kernel/Math/Quaternion.h"
+#include "Kernel/Particles/HeldAxes.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -20,9 +21,9 @@ struct alignas(64) RigidBody {
     Vector<double> inertia{0, 0, 0};          // kg m^2, about the principal axes
     Vector<double> position{0, 0, 0};         // m, of the centre of mass
     Vector<double> velocity{0, 0, 0};         // m/s, of it
-    Vector<double> acceleration{0, 0, 0};     // m/s^2, of the last step
+    Vector<double> acceleration{0, 0, 0};     // m/s^2, of the last step, by all forces: see heldAxesOf()
     Vector<double> angularMomentum{0, 0, 0};  // kg m^2/s, about the centre of mass
-    Vector<double> torque{0, 0, 0};           // N m, of the last step
+    Vector<double> torque{0, 0, 0};           // N m, of the last step, by all contacts
     Quaternion orientation{};                 // turns the principal axes into space
     double largestFreeMass = 0;               // kg, of its largest grain, were that a free sphere
 
@@ -41,6 +42,32 @@ struct alignas(64) RigidBody {
     [[nodiscard]] double rotationalEnergy() const { return 0.5 * dot(spin(), angularMomentum); }
 };
 static_assert(sizeof(RigidBody) == 24 * sizeof(double));
+
+/// rad/s: what an angular momentum about the axes about which a body is free and a spin about the others make
+/// of its spin: I_ff w_f = L_f - I_fh w_h. @param heldSpin rad/s, zero about free axes
+[[nodiscard]] Vector<double> spinOfHeld(const Vector<double>& inertia, const Quaternion& orientation,
+                                        HeldBits axes, const Vector<double>& momentum,
+                                        const Vector<double>& heldSpin);
+
+/// What moved a body in the step before the last, for integrators that remember it.
+struct EarlierBodyMotion {
+    Vector<double> acceleration{0, 0, 0};  // m/s^2
+    Vector<double> torque{0, 0, 0};        // N m
+};
+
+/// The axes along and about which a body is held, and its spin about these.
+struct HeldBody {
+    HeldBits axes;
+    Vector<double> spin{0, 0, 0};  // rad/s; zero about axes about which it is free
+};
+
+/// A body without the films of its grains, where these have a mass.
+struct DryBody {
+    double mass = 0;                  // kg
+    Vector<double> inertia{0, 0, 0};  // kg m^2, about its own principal axes
+    Vector<double> centre{0, 0, 0};   // m, of the body with films, from its own, in its own axes
+    Quaternion axes{};                // turns the principal axes of the body with films into its own
+};
 
 /// A grain of a rigid body.
 struct BodyMember {
@@ -108,6 +135,41 @@ public:
     /// The share of a grain's surface that is in no other grain of its body; 1 of a grain in none.
     [[nodiscard]] double exposedShareOf(std::uint32_t grain) const;
 
+    /// Along and about which axes a body is held.
+    [[nodiscard]] HeldBits heldAxesOf(std::size_t at) const {
+        return held.empty() ? HeldBits() : held[at].axes;
+    }
+    [[nodiscard]] bool areSomeHeld() const { return !held.empty(); }
+    /// Whether it is held altogether: then its grains are held, too.
+    [[nodiscard]] bool isHeld(std::size_t at) const { return heldAxesOf(at).areAll(); }
+    /// Holds a body along and about these axes. It keeps its motion about and along the others, and has none
+    /// in these.
+    void hold(ParticleStore& grains, std::size_t at, HeldBits axes);
+    /// rad/s; exactly what was given about axes about which it is held
+    [[nodiscard]] Vector<double> spinOf(std::size_t at) const;
+    /// Turns the body at a spin (rad/s) from now on, also about axes about which it is held.
+    void setSpin(std::size_t at, const Vector<double>& spin);
+    /// rad/s: the spin that a body has in an orientation by the angular momentum about its free axes and the
+    /// spin about the others.
+    [[nodiscard]] Vector<double> spinIn(std::size_t at, const Quaternion& orientation,
+                                        const Vector<double>& momentum) const;
+    /// The angular momentum about axes about which a body is held follows from its spin; returns this.
+    Vector<double> constrain(std::size_t at);
+    /// What a body keeps of the step before the last; empty unless the integrator needs it.
+    std::vector<EarlierBodyMotion> earlier;
+    /// At the start of a run there is no step before the first.
+    void startEarlier(bool remembers);
+
+    /// kg, without films
+    [[nodiscard]] double dryMassOf(std::size_t at) const {
+        return dry.empty() ? bodies[at].mass : dry[at].mass;
+    }
+    /// The films of a body's grains, each a thin shell about the centre of its sphere, have a mass: mass,
+    /// centre and moments follow. Each point keeps its velocity, and forces stay.
+    /// @param films kg, of each grain of the body; @param gravity m/s^2, part of the acceleration
+    void weigh(ParticleStore& grains, std::size_t at, std::span<const double> films,
+               const Vector<double>& gravity);
+
     /// Returns the number of the new body: in the order of adding; no number is given twice.
     /// @param volume m^3, as of volumeOf()
     std::uint32_t add(const RigidBody& body, std::span<const BodyMember> grains, double volume);
@@ -149,7 +211,7 @@ public:
     void refresh(const ParticleStore& grains);
     void forgetPlaces() { placesAreKnown = false; }
     /// The places of bodies, in the order of their first grains in the store; without bodies that move as
-    /// their only grain.
+    /// their only grain, and those that are held.
     [[nodiscard]] const std::vector<std::uint32_t>& inSpace() const { return order; }
     /// The grains of the bodies of inSpace(), body by body.
     [[nodiscard]] const std::vector<MemberInSpace>& membersInSpace() const { return inOrder; }
@@ -158,12 +220,16 @@ public:
     [[nodiscard]] std::uint32_t firstInSpace(std::size_t k) const { return firsts[k]; }
     /// The bodies that isSphere() is true of: they move as their grain does, bit for bit.
     [[nodiscard]] const std::vector<std::uint32_t>& spheres() const { return spheresOnly; }
+    /// All others that are held along or about some axis.
+    [[nodiscard]] const std::vector<std::uint32_t>& heldOnes() const { return heldOnly; }
     /// The places of all grains that move by themselves, or are held, or are the sphere of a body.
     [[nodiscard]] const std::vector<std::uint32_t>& ownPlaces() const { return own; }
 
     void visitState(StateArchive& archive, const ParticleStore& grains);
 
 private:
+    void visitHeld(StateArchive& archive);
+    void visitDry(StateArchive& archive);
     void requireWhole(const StateArchive& archive, const ParticleStore& grains) const;
     void measureAll(const ParticleStore& grains);
     /// The body of the grain at each place; `none` for one in no body.
@@ -172,14 +238,18 @@ private:
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
     std::vector<RigidBody> bodies;
-    std::vector<double> volumes;         // m^3, of each
-    std::vector<std::uint32_t> numbers;  // of each; they grow
+    std::vector<double> volumes;          // m^3, of each
+    std::vector<HeldBody> held;           // of each; empty while none is held
+    std::vector<DryBody> dry;             // of each; empty while films have no mass
+    std::vector<Vector<double>> dryArms;  // m, of each of `members`, in its dry body; empty as `dry`
+    std::vector<double> films;            // kg, of each of `members`; empty as `dry`
+    std::vector<std::uint32_t> numbers;   // of each; they grow
     std::vector<std::uint32_t> begins{0};
     std::vector<BodyMember> members;
     std::vector<MemberInSpace> inOrder;  // of the bodies in `order`, body by body
     bool placesAreKnown = false;
     std::vector<std::uint32_t> firsts;  // of each body in `order`, and one more
-    std::vector<std::uint32_t> bodyAt, order, spheresOnly, own;
+    std::vector<std::uint32_t> bodyAt, order, spheresOnly, heldOnly, own;
     std::unordered_map<std::uint32_t, std::uint32_t> bodyOfGrain;
     std::uint32_t next = 0;
 };

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Particles/HeldAxes.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Species/Field.h"
 
@@ -46,6 +47,15 @@ public:
         velocityValue = spinValue = Vec3D::Zero();
     }
 
+    /// Holds the grain along and about these axes of space: no motion in these but what is set from then on.
+    void setHeldAxes(const HeldAxes& axes) {
+        heldAxes = axes;
+        fixed = axes == HeldAxes::all();
+        const HeldBits held(axes);
+        velocityValue = toEigen(held.partAlong(toVector(velocityValue)));
+        spinValue = toEigen(held.partAbout(toVector(spinValue)));
+    }
+
     [[nodiscard]] double getRadius() const { return radiusValue; }
     [[nodiscard]] const Vec3D& getPosition() const { return positionValue; }
     [[nodiscard]] const Vec3D& getVelocity() const { return velocityValue; }
@@ -53,6 +63,7 @@ public:
     [[nodiscard]] double getLiquidVolume() const { return liquidVolume; }
     [[nodiscard]] int getSpeciesIndex() const { return speciesIndex; }
     [[nodiscard]] bool isFixed() const { return fixed; }
+    [[nodiscard]] HeldAxes getHeldAxes() const { return fixed ? HeldAxes::all() : heldAxes; }
 
 private:
     static Vec3D finite(const char* field, const Vec3D& value, const char* unit) {
@@ -68,6 +79,7 @@ private:
     double liquidVolume = 0;
     int speciesIndex = -1;
     bool fixed = false;
+    HeldAxes heldAxes;
 };
 
 }  // namespace pendular

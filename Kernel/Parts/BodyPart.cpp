@@ -11,6 +11,7 @@
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Shapes/SphereGroups.h"
@@ -27,11 +28,12 @@ void BodyPart::begin(StepContext& scene, bool /*isRestarted*/) { warnOfGaps(scen
 
 void BodyPart::moveGrains(StepContext& step) {
     ParticleStore& grains = step.grains();
+    const Integrator scheme = contactScheme(step);
     const double farthest =  // m^2
         step.finishesLast
             ? RigidBodyMotion::finishAndBegin(grains, step.contacts.store(), step.gravity, step.unfinished,
-                                              step.length, step.threads, *step.scheme, step.box)
-            : RigidBodyMotion::begin(grains, step.length, step.threads, *step.scheme, step.box);
+                                              step.length, step.threads, scheme, step.box)
+            : RigidBodyMotion::begin(grains, step.length, step.threads, scheme, step.box);
     step.shifts.grains = std::max(step.shifts.grains, std::sqrt(farthest));
     step.shifts.approach = 2 * step.shifts.grains;
 }
@@ -46,7 +48,7 @@ void BodyPart::afterMotion(StepContext& step) {
 }
 
 void BodyPart::takeBack(StepContext& step) {
-    if (step.grainsHaveMoved) RigidBodyMotion::takeBack(step.grains(), step.length, *step.scheme);
+    if (step.grainsHaveMoved) RigidBodyMotion::takeBack(step.grains(), step.length, contactScheme(step));
 }
 
 void BodyPart::warnOfGaps(const StepContext& scene, std::size_t first) {

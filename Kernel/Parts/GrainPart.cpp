@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Particles/ParticleHandler.h"
@@ -16,7 +17,7 @@ Features GrainPart::features(const StepContext& scene) const {
     Features found{Feature::Grains};
     const ParticleStore& grains = scene.grains();
     for (const std::uint32_t place : grains.place)
-        if (grains.translation[place].inverseMass == 0) {
+        if (grains.translation[place].inverseMass == 0 || grains.heldAt(place).areAlong()) {
             found.add(Feature::HeldGrains, fmt::format("particle {}", grains.identity[place]));
             break;
         }
@@ -49,7 +50,7 @@ void GrainPart::finishLeftStep(const StepContext& step) {
                             *step.scheme);
     if (!grains.bodies.empty())
         RigidBodyMotion::finish(grains, step.contacts.store(), step.gravity, step.unfinished, step.threads,
-                                *step.scheme);
+                                contactScheme(step));
 }
 
 }  // namespace pendular

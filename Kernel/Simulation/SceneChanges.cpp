@@ -126,6 +126,7 @@ bool Scene::Inside::isNewToChecks(std::span<const std::uint32_t> added) const {
         const std::uint32_t place = grains.place[identity];
         const TranslationRecord& grain = grains.translation[place];
         if (box.imagesMove && grain.inverseMass == 0) return true;
+        if (grains.heldAt(place).any()) return true;
         return !checkedSizes.hold(grains.species[place], grain.radius, grain.inverseMass > 0);
     });
 }

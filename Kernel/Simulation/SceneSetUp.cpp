@@ -185,11 +185,8 @@ void Scene::Inside::warnOfEnergyGainOfSprings() const {
         fewestStepsToDouble(laws(), checkedSizes, scene.wallHandler, contactScheme(context), stepLength());
     if (fewest > 1e7) return;
     const std::string time = fewest < 1 ? "less than one step" : fmt::format("some {:.0f} steps", fewest);
-    const std::string_view advice =
-        checkedSizes.hasBodies
-            ? "give it a larger dissipation, or take a smaller step, or integrators::velocityVerlet"
-            : "give it a larger dissipation, or take a smaller step, integrators::springsInStep or "
-              "velocityVerlet";
+    constexpr std::string_view advice =
+        "give it a larger dissipation, or take a smaller step, integrators::springsInStep or velocityVerlet";
     scene.logger(LogLevel::Warn,
                  "{}: its springs have too weak dashpots for a time step of {:.3g} s, at which motions of "
                  "grains at rest may double in {}; {}.",

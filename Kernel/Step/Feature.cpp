@@ -14,7 +14,7 @@ std::string_view nameOf(Feature feature) {
         "walls that keep their wear (keepWear())",
         "wear by impacts (WearLaw::finnie())",
         "grains",
-        "grains that are held in place (fixParticle())",
+        "grains that are held (fixParticle(), setHeldAxes())",
         "rigid bodies",
         "superquadrics",
         "periodic faces (setPeriodic())",

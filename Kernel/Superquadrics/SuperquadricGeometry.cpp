@@ -21,7 +21,21 @@ Vector<Pack> load(const LaneColumn* from) {
 
 }  // namespace
 
+ContactAcceleration<Pack> SuperquadricGeometry::accelerations(const Vector<double>* acceleration,
+                                                              Pack /*lever*/) const {
+    const auto ofSurface = [&](const std::array<std::uint32_t, Pack::lanes>& grains,
+                               const Vector<Pack>& arm) {
+        auto [x, y, z] = loadRecords<3>(reinterpret_cast<const double*>(rotation) + 4, 8, grains.data());
+        return gatherVectors(acceleration, grains.data()) + cross(Vector<Pack>{x, y, z}, arm);
+    };
+    Vector<Pack> own = ofSurface(contacts->first, arm1);
+    if (!isAtWall) own = own - ofSurface(contacts->second, arm2);
+    return {own, zero(), zero()};
+}
+
 void SuperquadricGeometry::takeLast(const ContactTask& task, std::size_t block) {
+    rotation = task.rotation;
+    contacts = &task.store.blocks[block];
     touched = Mask(false);
     normalBefore = zero();
     const std::uint32_t slot = task.store.slots[block];

@@ -51,12 +51,9 @@ public:
     [[nodiscard]] Mask isWithin(double gap) const { return depth > Pack(-gap); }
     [[nodiscard]] ContactGeometry<Pack> complete() const;
     void completeSpins(ContactGeometry<Pack>& /*g*/) const {}
-    /// Asked only by integrators that do not move rigid bodies.
-    [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* /*acceleration*/,
-                                                          Pack /*lever*/) const {
-        const Vector<Pack> zero{Pack(0), Pack(0), Pack(0)};
-        return {zero, zero, zero};
-    }
+    /// Of the surfaces where they touch; those of turning axes, of second order in the spin, are left out.
+    [[nodiscard]] ContactAcceleration<Pack> accelerations(const Vector<double>* acceleration,
+                                                          Pack lever) const;
 
     /// The response (1/kg) of the tangential velocity to a tangential force: the mean over all directions.
     [[nodiscard]] const Pack& slidingResponse() const { return response; }
@@ -81,6 +78,8 @@ private:
     void takeLast(const ContactTask& task, std::size_t block);
     void setRadius(const Pack& gauss, const Pack& around);
 
+    const RotationRecord* rotation = nullptr;  // of all grains
+    const ContactBlock* contacts = nullptr;
     bool isAtWall;
     Mask touched, fellBack;
     Vector<Pack> normalBefore, normal;

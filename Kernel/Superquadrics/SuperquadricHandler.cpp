@@ -222,10 +222,19 @@ SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, st
             loadRecords<8>(reinterpret_cast<const double*>(task.translation), 8, places.data());
         const auto [wx, wy, wz] =
             loadRecords<3>(reinterpret_cast<const double*>(task.rotation), 8, places.data());
+        Pack inverseMass = Pack(1) / own[0];
+        Vector<Pack> inertia = packsOf(own, 1);
+        if (bodies.areSomeHeld()) {  // one that is held altogether has an infinite mass
+            LaneColumn moves;
+            for (std::size_t k = 0; k < Pack::lanes; ++k) moves.lane[k] = bodies.isHeld(at[k]) ? 0 : 1;
+            const Pack share = Pack::load(moves.lane.data());
+            inverseMass = inverseMass * share;
+            inertia = {inertia.x / share, inertia.y / share, inertia.z / share};
+        }
         return EightSuperquadrics{{column(0), column(1), column(2), column(3), column(4), areEllipsoids},
                                   Axes<Pack>(QuaternionOf<Pack>{turning[3], packsOf(turning, 4)}),
-                                  Pack(1) / own[0],
-                                  packsOf(own, 1),
+                                  inverseMass,
+                                  inertia,
                                   packsOf(grain, 0),
                                   packsOf(grain, 4),
                                   {wx, wy, wz},

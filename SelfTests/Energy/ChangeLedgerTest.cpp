@@ -112,6 +112,13 @@ std::vector<Change<S>> changesOf(const Integrator& scheme) {
          }},
         {"held", [=](Scene& s) { grain(s, 1).fixParticle(); }},
         {"let go", [=](Scene& s) { grain(s, 3).fixParticle(false); }},
+        {"held along an axis",
+         [=](Scene& s) {
+             grain(s, 1).setHeldAxes({.x = true, .aboutY = true});
+             grain(s, 1).setVelocity({0.1, -0.1, 0}), grain(s, 1).setAngularVelocity({0, 40, 0});
+         }},
+        {"held about axes", [=](Scene& s) { grain(s, 1).setHeldAxes({.aboutX = true, .aboutZ = true}); }},
+        {"let go along axes", [=](Scene& s) { grain(s, 3).setHeldAxes({.y = true}); }},
         {"gravity", otherGravity},
         {"gravity and radius", [=](Scene& s) { otherGravity(s), scaleRadius(s, 1, 1.0005); }},
         {"gravity and a new grain",
@@ -126,10 +133,16 @@ std::vector<Change<S>> changesOf(const Integrator& scheme) {
         {"the floor moves", [](Scene& s) {
              dynamic_cast<InfiniteWall&>(s.wallHandler.getObject(0)).setVelocity({0.2, 0, 0});
          }}};
+    const auto joined = [](Scene& s) { return s.bodyHandler.join(std::vector<std::uint32_t>{1, 4}); };
+    all.push_back({"a body", [=](Scene& s) { joined(s); }});
+    all.push_back({"a body that is held", [=](Scene& s) { joined(s).fixBody(); }});
+    all.push_back({"a body that is driven along held axes", [=](Scene& s) {
+                       BodyReference body = joined(s);
+                       body.setHeldAxes({.y = true, .aboutX = true, .aboutY = true});
+                       body.setVelocity({0, 0.1, 0}), body.setAngularVelocity({2, 1, 0});
+                   }});
     if (!scheme.remembersEarlier()) {
         all.push_back({"time step", [](Scene& s) { s.setTimeStep(0.6 * dt); }});
-        if (!scheme.contacts.springsInStep && !Scene::isWet)  // whose films would weigh
-            all.push_back({"a body", [](Scene& s) { s.bodyHandler.join(std::vector<std::uint32_t>{1, 4}); }});
     }
     if constexpr (Scene::isWet) {
         all.push_back({"film", [=](Scene& s) { grain(s, 1).setLiquidVolume(3e-11); }});

@@ -9,6 +9,7 @@
 #include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Species/Laws.h"
 #include "SelfTests/Liquid/WetScenes.h"
+#include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -195,13 +196,112 @@ TEST(ClumpLiquid, isOverTheVolumeOfTheUnion) {
     EXPECT_EQ(state.thickFilms, 0u);
 }
 
-TEST(ClumpLiquid, weightOfFilmsIsRefused) {
-    WetClump scene(bent());
-    scene.setLiquidDensity(1000);
-    const std::string text = support::refusal([&] { scene.initialise(); });
-    EXPECT_TRUE(support::contains(
-        text, "rigid bodies and the mass of films (setLiquidDensity()) cannot be combined"));
-    EXPECT_TRUE(support::isOneSentence(text));
+/// kg m^2, of a mass (kg) at a place (m) about the origin.
+Eigen::Matrix3d inertiaAt(double mass, const Vec3D& place) {
+    return mass * (place.squaredNorm() * Eigen::Matrix3d::Identity() - place * place.transpose());
+}
+
+// Films are shells about the centres of their spheres. Mass, centre and inertia are summed here in space;
+// each point of the body goes on as it was.
+TEST(ClumpLiquid, filmsArePartOfTheMassOfABody) {
+    const std::vector<double> films{2e-10, 5e-10, 0};  // m^3, some per cent of the solid
+    WetClump dry(bent()), wet(bent());
+    wet.setLiquidDensity(1000);
+    dry.initialise(), wet.initialise();
+    const double mass = dry.body().getMass();
+    EXPECT_EQ(wet.body().getMass(), mass);
+    for (std::uint32_t n = 0; n < 3; ++n) wet.particleHandler.getObject(n).setLiquidVolume(films[n]);
+    const BodyReference body = wet.body();
+
+    const RigidBody& solid = dry.particleHandler.store().bodies[0];
+    Eigen::Matrix3d axes;
+    axes << toEigen(Axes<double>(solid.orientation).x), toEigen(Axes<double>(solid.orientation).y),
+        toEigen(Axes<double>(solid.orientation).z);
+    double all = mass;
+    Vec3D moment = mass * dry.body().getPosition();
+    Eigen::Matrix3d inertia = axes * toEigen(solid.inertia).asDiagonal() * axes.transpose() +
+                              inertiaAt(mass, dry.body().getPosition());
+    for (std::uint32_t n = 0; n < 3; ++n) {
+        const GrainReference grain = dry.particleHandler.getObject(n);
+        const double film = 1000 * wet.particleHandler.getObject(n).getLiquidVolume();
+        all += film, moment += film * grain.getPosition();
+        inertia += inertiaAt(film, grain.getPosition()) +
+                   2.0 / 3 * film * grain.getRadius() * grain.getRadius() * Eigen::Matrix3d::Identity();
+    }
+    const Vec3D centre = moment / all;
+    inertia -= inertiaAt(all, centre);
+    EXPECT_NEAR(body.getMass(), all, 1e-14 * all);
+    EXPECT_LT((body.getPosition() - centre).norm(), 1e-14 * r);
+    EXPECT_GT((centre - dry.body().getPosition()).norm(), 1e-3 * r);
+    const Vec3D spin = body.getAngularVelocity();
+    EXPECT_LT((spin - Vec3D(0, 3, 0)).norm(), 1e-13);
+    EXPECT_LT((body.getAngularMomentum() - inertia * spin).norm(), 1e-13 * (inertia * spin).norm());
+    for (std::uint32_t n = 0; n < 3; ++n) {
+        const auto a = wet.particleHandler.getObject(n), b = dry.particleHandler.getObject(n);
+        EXPECT_LT((a.getPosition() - b.getPosition()).norm(), 1e-14 * r);
+        EXPECT_LT((a.getVelocity() - b.getVelocity()).norm(), 1e-14 * 0.02);
+    }
+    // It flies on with its momentum and angular momentum, and is the dry body again without films.
+    const Vec3D momentum = wet.getTotalMomentum(), turning = body.getAngularMomentum();
+    for (int n = 0; n < 2000; ++n) wet.step();
+    EXPECT_LT((wet.getTotalMomentum() - momentum).norm(), 2000 * 0x1p-53 * momentum.norm());
+    EXPECT_LT((body.getAngularMomentum() - turning).norm(), 2000 * 0x1p-53 * turning.norm());
+    for (std::uint32_t n = 0; n < 3; ++n) wet.particleHandler.getObject(n).setLiquidVolume(0);
+    EXPECT_EQ(body.getMass(), mass);
+    EXPECT_EQ(body.getInertia(), dry.body().getInertia());
+}
+
+// Grains with films that are joined keep their momentum and angular momentum; a grain and a body give liquid
+// to each other and come to the same state through a restart.
+TEST(ClumpLiquid, wetGrainsThatAreJoinedKeepTheirMomentum) {
+    struct Joined : scenes::FewGrains<Wet> {
+        Joined()
+            : FewGrains(material(),
+                        {{.radius = r, .position = {0, 0, 0}, .velocity = {0.1, 0, 0.02}, .spin = {5, 0, 30}},
+                         {.radius = 0.8 * r, .position = {2.2 * r, 0, 0}, .velocity = {0.1, 0.05, 0}},
+                         {.radius = r, .position = {2.2 * r, 1.79 * r, 0}, .velocity = {0.1, 0.03, 0}}},
+                        1e-5) {
+            setLiquidDensity(1000);
+            keepEnergyLedger();
+            setQuiet();
+            setTimeMax(1);
+            acceptUnstableTimeStep();
+        }
+        void setupInitialConditions() override {
+            const double films[] = {2e-10, 1e-10, 4e-10};
+            for (std::uint32_t n = 0; n < 3; ++n) particleHandler.getObject(n).setLiquidVolume(films[n]);
+        }
+    };
+    Joined scene;
+    scene.initialise();
+    for (int n = 0; n < 50; ++n) scene.step();
+    const Vec3D momentum = scene.getTotalMomentum();
+    const double mass = scene.getTotalMass();
+    const BodyReference body = scene.bodyHandler.join({0, 1});
+    EXPECT_NEAR(scene.getTotalMass(), mass, 1e-14 * mass);
+    EXPECT_LT((scene.getTotalMomentum() - momentum).norm(), 1e-14 * momentum.norm());
+    const EnergyLedger& ledger = scene.energyLedger();
+    const double closed = ledger.closed();
+    const support::TestFolder folder;
+    for (int n = 0; n < 200; ++n) scene.step();
+    scene.writeRestart(folder.path() / "half.h5");
+    for (int n = 0; n < 300; ++n) scene.step();
+    EXPECT_NEAR(ledger.closed(), closed,
+                500 * 200 * 0x1p-53 * (std::abs(ledger.kinetic) + std::abs(ledger.driver)));
+    EXPECT_EQ(scene.liquidLedger().unaccounted(), 0);
+    double films = 0;
+    for (const GrainReference grain : scene.particleHandler) films += 1000 * grain.getLiquidVolume();
+    const double solid = 4.0 / 3 * pi * r * r * r * 2500 * (2 + 0.8 * 0.8 * 0.8);
+    EXPECT_NEAR(scene.getTotalMass(), solid + films, 1e-13 * solid);
+    EXPECT_LT(films, 1000 * 7e-10);  // some of it is in bridges
+    scene.writeRestart(folder.path() / "whole.h5");
+    Joined resumed;
+    resumed.restartFrom(folder.path() / "half.h5");
+    resumed.initialise();
+    for (int n = 0; n < 300; ++n) resumed.step();
+    resumed.writeRestart(folder.path() / "resumed.h5");
+    support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
+    EXPECT_EQ(resumed.bodyHandler.getObject(0).getMass(), body.getMass());
 }
 
 // A clump of four spheres at one place weighs as one: counted once for each, the overlap was four times too

@@ -26,6 +26,25 @@ void addHeldGrains(Making& making) {
     }
 }
 
+HeldAxes anyAxes(Making& making) {
+    const auto one = [&] { return making.draw.oneIn(3); };
+    return {one(), one(), one(), one(), one(), one()};
+}
+double anySpeed(Making& making) { return 0.3 * making.scales.speed; }
+
+/// Grains that are held along and about some axes, and some that are driven along these.
+void addHeldAxes(Making& making) {
+    const int count = std::min(making.draw.whole(1, 5), making.recipe.grains);
+    for (int k = 0; k < count; ++k) {
+        auto grain = making.newGrain();
+        if (!grain) return;
+        GrainReference held = making.scene.particleHandler.copyAndAddObject(*grain);
+        held.setHeldAxes(anyAxes(making));
+        const Vec3D velocity = anySpeed(making) * making.draw.inCube(1);
+        if (making.draw.oneIn(2)) held.setVelocity(making.draw.give("velocity", velocity));
+    }
+}
+
 /// Ellipsoids and rounded blocks.
 void addSuperquadrics(Making& making) {
     if (!making.shapes) return;
@@ -119,6 +138,21 @@ void addJoinInRun(Making& making) {
     });
 }
 
+/// Bodies that are held altogether, or along and about some axes.
+void addHeldBodies(Making& making) {
+    for (int k = making.draw.whole(1, 3); k > 0; --k) {
+        const auto two = addTwo(making);
+        if (!two) return;
+        BodyReference body = making.scene.bodyHandler.join(*two);
+        body.setHeldAxes(making.draw.oneIn(3) ? HeldAxes::all() : anyAxes(making));
+        const Vec3D velocity = anySpeed(making) * making.draw.inCube(1),
+                    spin = making.draw.inCube(anySpeed(making) / making.scales.radius);
+        if (making.draw.oneIn(2)) continue;
+        body.setVelocity(making.draw.give("velocity", velocity));
+        body.setAngularVelocity(making.draw.give("spin", spin));
+    }
+}
+
 void addBodyChange(Making& making) {
     const Vec3D velocity = making.draw.give("velocity", Vec3D(making.scales.speed * making.draw.inCube(1)));
     const Vec3D spin =
@@ -146,6 +180,12 @@ std::vector<Feature> bodyFeatures() {
          .add = addHeldGrains,
          .loses = both | places,
          .kinds = {"held"}},
+        {.name = "HeldAxes", .share = 0.08, .add = addHeldAxes, .loses = both | places, .kinds = {"held"}},
+        {.name = "HeldBodies",
+         .share = 0.08,
+         .add = addHeldBodies,
+         .loses = both | places,
+         .kinds = {"body", "held"}},
         // A scene has them only by name, as it can have no other grains.
         {.name = "Superquadrics", .share = 0, .add = addSuperquadrics, .kinds = {"body"}},
         {.name = "Clumps", .share = 0.2, .add = addClumps, .kinds = {"body"}},

@@ -16,7 +16,7 @@ namespace {
 
 using support::contains;
 
-constexpr std::array<std::string_view, 56> composed{
+constexpr std::array<std::string_view, 58> composed{
     // materials
     "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticMindlinLiquidBridgeWillett",
     "HertzianViscoelasticMindlinViscousLiquidBridgeWillett",
@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 56> composed{
     // space
     "Periods", "Shear", "ShearServo", "Strain", "StressServo", "Gravity", "GravityChange", "Domain",
     // bodies
-    "HeldGrains", "Clumps", "Superquadrics", "JoinInRun", "BodyChange",
+    "HeldGrains", "HeldAxes", "HeldBodies", "Clumps", "Superquadrics", "JoinInRun", "BodyChange",
     // walls
     "Planes", "Cylinder", "Rod", "Tube", "Funnel", "MovingPlane", "VibratingPlane", "Belt", "WallThatComes",
     "Mesh", "MovingMesh", "Wear", "WornVertices", "Membrane", "Piston", "ForceServo",

@@ -36,7 +36,8 @@ void Watch::begin() {
     firstAngularMomentum = angularMomentumNow();
     largest = sizesNow();
     for (const GrainReference grain : making.scene.particleHandler)
-        if (grain.isFixed() && grain.getVelocity() == Vec3D::Zero())
+        if (grain.isFixed() && grain.getVelocity() == Vec3D::Zero() &&
+            !making.scene.bodyHandler.bodyOf(grain.getId()))
             heldAt.emplace(grain.getId(), grain.getPosition());
 }
 
