@@ -77,8 +77,9 @@ std::size_t countOf(const Amount& amount, double meanMass, double full) {
         number = std::floor(whole / meanMass * (1 + 1e-12));
     constexpr double most = ParticleStore::largestIdentity;
     if (number < 1 || number > most)
-        throw InputError(fmt::format("{}: the amount is {:.3g} mean bodies of the mixture; it must be 1 to {}.",
-                                     owner, whole / meanMass, most));
+        throw InputError(
+            fmt::format("{}: the amount is {:.3g} mean bodies of the mixture; it must be 1 to {}.", owner,
+                        whole / meanMass, most));
     return static_cast<std::size_t>(number);
 }
 

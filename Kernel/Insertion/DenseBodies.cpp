@@ -35,7 +35,8 @@ public:
         excess = std::cbrt(std::max(std::min(1.1 * fraction, 0.62), fraction * 1.01) / fraction);
         firstScale = std::min(0.9, std::cbrt(0.05 / fraction));
         addSpheres();
-        for (const TranslationRecord& grain : ParticleHandler::Inside::grainsInStep(scene.particles).translation)
+        for (const TranslationRecord& grain :
+             ParticleHandler::Inside::grainsInStep(scene.particles).translation)
             if (grain.radius > 0) spheres.push_back({grain.position, grain.radius, none});
         skin = smallestSphere();
     }
@@ -69,15 +70,15 @@ private:
     struct Body {
         Point place;  // m
         Eigen::Quaterniond turn;
-        double radius;                // m, of the sphere of its volume
-        double lever;                 // m, of its farthest sphere
-        std::uint32_t first, end;     // of its spheres
+        double radius;                              // m, of the sphere of its volume
+        double lever;                               // m, of its farthest sphere
+        std::uint32_t first, end;                   // of its spheres
         Point way{0, 0, 0}, spin{0, 0, 0};          // m, rad: of the last iteration
         Point nextWay{0, 0, 0}, nextSpin{0, 0, 0};  // of this one
     };
     struct Sphere {
-        Point place;   // m
-        double size;   // m, the wanted radius
+        Point place;  // m
+        double size;  // m, the wanted radius
         std::uint32_t body;
     };
     struct Pair {
@@ -101,8 +102,9 @@ private:
                 body.place = region.candidate(even, hasMargin ? body.radius : 0);
                 if (region.contains(body.place, 0)) break;
             }
-            body.turn = evenTurn(random.uniform(number, purposeOfTurns), random.uniform(number, purposeOfTurns + 1),
-                                 random.uniform(number, purposeOfTurns + 2));
+            body.turn =
+                evenTurn(random.uniform(number, purposeOfTurns), random.uniform(number, purposeOfTurns + 1),
+                         random.uniform(number, purposeOfTurns + 2));
             ++number;
         }
     }
@@ -120,7 +122,8 @@ private:
             const PlacedBody& one = placed[k];
             const auto first = static_cast<std::uint32_t>(spheres.size());
             double lever = 0;
-            for (const Ball& ball : one.kind->spheres(one.radius, {0, 0, 0}, Eigen::Quaterniond::Identity())) {
+            for (const Ball& ball :
+                 one.kind->spheres(one.radius, {0, 0, 0}, Eigen::Quaterniond::Identity())) {
                 arms.push_back(ball.centre);
                 lever = std::max(lever, ball.centre.norm());
                 spheres.push_back({one.place, ball.radius, static_cast<std::uint32_t>(bodies.size())});
@@ -222,7 +225,8 @@ private:
         const double size = sizeOf(sphere) + skin;
         if (touchesWall(scene.walls, scene.periodic, sphere.place, size)) return true;
         if (hasMargin) return !region.contains(sphere.place, size);
-        return !region.contains(bodies[sphere.body].place, skin + norm(bodies[sphere.body].place - sphere.place));
+        return !region.contains(bodies[sphere.body].place,
+                                skin + norm(bodies[sphere.body].place - sphere.place));
     }
 
     /// The push of all that a body overlaps.
@@ -259,17 +263,20 @@ private:
     void addBorderOn(const Sphere& self, const Point& arm, Push& push) const {
         const double size = sizeOf(self), wanted = scale * self.size;
         if (hasMargin) {
-            if (const Point inwards = region.inwards(self.place, size); norm(inwards) > 0) push.add(2 * inwards, arm);
+            if (const Point inwards = region.inwards(self.place, size); norm(inwards) > 0)
+                push.add(2 * inwards, arm);
             push.isFree &= region.contains(self.place, apart * wanted);
         } else {
             const Point centre = self.place - arm;
-            if (const Point inwards = region.inwards(centre, 0); norm(inwards) > 0) push.add(inwards, {0, 0, 0});
+            if (const Point inwards = region.inwards(centre, 0); norm(inwards) > 0)
+                push.add(inwards, {0, 0, 0});
             push.isFree &= region.contains(centre, 0);
         }
-        forEachWallNear(scene.walls, scene.periodic, self.place, size, [&](const WallPoint& point, std::size_t) {
-            push.isFree &= point.distance >= apart * wanted;
-            push.add(-2 * (size - point.distance) * point.normal, arm);
-        });
+        forEachWallNear(scene.walls, scene.periodic, self.place, size,
+                        [&](const WallPoint& point, std::size_t) {
+                            push.isFree &= point.distance >= apart * wanted;
+                            push.add(-2 * (size - point.distance) * point.normal, arm);
+                        });
     }
 
     /// Each body's step, from the overlaps of all; returns whether the bodies of the wanted sizes are free.
@@ -337,10 +344,10 @@ private:
     const InsertionScene& scene;
     const Region& region;
     bool hasMargin;
-    double excess = 1;                // of the radii with which spheres push, over the wanted ones
+    double excess = 1;                 // of the radii with which spheres push, over the wanted ones
     double firstScale = 1, scale = 1;  // of all lengths of bodies
-    double listedScale = 0;           // when the list was made
-    double skin = 0;                  // m
+    double listedScale = 0;            // when the list was made
+    double skin = 0;                   // m
     std::vector<Body> bodies;
     std::vector<std::uint32_t> order;  // of the bodies as they were given
     std::vector<Sphere> spheres;

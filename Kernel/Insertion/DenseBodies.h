@@ -11,8 +11,8 @@ namespace pendular {
 /// A body that is to find room: its kind, its size and, when it has found some, its place.
 struct PlacedBody {
     const BodyKind* kind;
-    double radius;                    // m, of the sphere of its volume
-    Vector<double> place{0, 0, 0};    // m, of the centre of mass
+    double radius;                  // m, of the sphere of its volume
+    Vector<double> place{0, 0, 0};  // m, of the centre of mass
     Eigen::Quaterniond turn{1, 0, 0, 0};
 };
 

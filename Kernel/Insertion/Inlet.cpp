@@ -263,7 +263,8 @@ void InletHandler::checkStream(const InsertionScene& scene, std::size_t number) 
         const double speed = norm(kind.velocity()),
                      volume = flow / mean * bodies.shareOf(k) * std::numbers::pi / 6 * kind.sizes.moment(3);
         slowest = std::min(slowest, speed);
-        if (speed > 0) fraction += volume / (speed * inlets[number].region->areaAcross(1 / speed * kind.velocity()));
+        if (speed > 0)
+            fraction += volume / (speed * inlets[number].region->areaAcross(1 / speed * kind.velocity()));
     }
     if (!(slowest > 0) || fraction <= Inlet::densestStream * (1 + roundOffOfLimits)) return;
     const auto [wanted, allowed] = apartTexts(flow, flow * Inlet::densestStream / fraction, 6);
@@ -321,8 +322,8 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
                     fmt::format("inlet {}: at {:.6g} s there was no room for a {} of radius {:.3g} m; {} "
                                 "grains, {:.6g} kg, "
                                 "had come; the flow of such times is {}.",
-                                number, time, kind.clump() ? "clump" : "grain", radius, count.number, count.mass,
-                                inlet.noRoom == NoRoom::Later ? "made up for later" : "lost"));
+                                number, time, kind.clump() ? "clump" : "grain", radius, count.number,
+                                count.mass, inlet.noRoom == NoRoom::Later ? "made up for later" : "lost"));
             if (inlet.noRoom == NoRoom::Lost) count.lost += due - whole;
             return;
         }
@@ -358,7 +359,7 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
         const auto even = [&](std::uint32_t which) {
             return random.uniform(kept.count.number, purposeOfTurns + 3 * number + which, attempt);
         };
-        const Eigen::Quaterniond turn = !kind.clump()         ? Eigen::Quaterniond::Identity()
+        const Eigen::Quaterniond turn = !kind.clump()       ? Eigen::Quaterniond::Identity()
                                         : inlet.randomTurns ? evenTurn(even(0), even(1), even(2))
                                                             : kind.clump()->getOrientation();
         if (std::ranges::all_of(kind.spheres(kept.nextRadius, place, turn), isFree))

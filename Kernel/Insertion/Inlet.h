@@ -21,10 +21,10 @@ enum class NoRoom {
 };
 
 /// Grains and clumps that come into a region of a scene at a rate. What has come by a time t is the largest
-/// sum of whole ones that is not above the integral of the rate (less what was lost): the error never exceeds one grain,
-/// for any time step. Grain k of an inlet has a size that is a counted random number of (seed, k), and comes
-/// at a random place that is free. One that finds no room is kept and tried again in the next step; it is not
-/// drawn again, because that would favour small ones.
+/// sum of whole ones that is not above the integral of the rate (less what was lost): the error never exceeds
+/// one grain, for any time step. Grain k of an inlet has a size that is a counted random number of (seed, k),
+/// and comes at a random place that is free. One that finds no room is kept and tried again in the next step;
+/// it is not drawn again, because that would favour small ones.
 class Inlet {
 public:
     template <std::derived_from<Region> R>
@@ -88,10 +88,10 @@ private:
 /// What has come through an inlet.
 struct InletCount {
     std::uint64_t number = 0;  // of grains and clumps
-    double mass = 0;     // kg
-    double lost = 0;     // of the flow, kg or grains: what would have come if there had been room
-    bool waits = false;  // the next grain finds no room
-    double risen = 0;    // m, by which the region has followed the fill
+    double mass = 0;           // kg
+    double lost = 0;           // of the flow, kg or grains: what would have come if there had been room
+    bool waits = false;        // the next grain finds no room
+    double risen = 0;          // m, by which the region has followed the fill
 };
 
 /// The inlets of a scene.

@@ -27,8 +27,8 @@ OrientationOrder orientationOrder(const RigidBodies& bodies, std::size_t first) 
     std::vector<Vec3D> axes;
     for (std::size_t k = first; k < bodies.size(); ++k)
         if (const auto axis = axisOf(bodies[k].inertia))
-            axes.push_back(
-                toEigen(bodies[k].orientation.turn(*axis == 0 ? Vector<double>{1, 0, 0} : Vector<double>{0, 0, 1})));
+            axes.push_back(toEigen(
+                bodies[k].orientation.turn(*axis == 0 ? Vector<double>{1, 0, 0} : Vector<double>{0, 0, 1})));
     return orientationOrder(axes);
 }
 

@@ -14,9 +14,9 @@ namespace pendular {
 /// have a mean square of S below 1 / N, for N of them. Source: de Gennes and Prost, The Physics of Liquid
 /// Crystals (1993), 2.1.
 struct OrientationOrder {
-    double value = 0;                     // S; 0 where there are no axes
-    Vec3D direction = Vec3D::Zero();      // unit, its eigenvector
-    std::size_t count = 0;                // of axes
+    double value = 0;                 // S; 0 where there are no axes
+    Vec3D direction = Vec3D::Zero();  // unit, its eigenvector
+    std::size_t count = 0;            // of axes
 };
 OrientationOrder orientationOrder(std::span<const Vec3D> axes);
 

@@ -176,7 +176,8 @@ Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const A
         insertBodies(InletPart::placesOf(inside->context), mixture, region, amount, options);
     if (hasBegun()) BodyPart::warnOfGaps(inside->context, before);
     else if (mixture.hasClumps())
-        logger(LogLevel::Info, "insert(): {} grains and clumps, a solid fraction of {:.4g}; orientation order {:.3g}.",
+        logger(LogLevel::Info,
+               "insert(): {} grains and clumps, a solid fraction of {:.4g}; orientation order {:.3g}.",
                made.number, made.solidFraction, made.orientationOrder);
     return inside->reportShortfall(made);
 }

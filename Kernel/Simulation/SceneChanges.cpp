@@ -45,8 +45,8 @@ void Scene::Inside::takeOverChanges() {
                    changedWalls = walls.hasChanges();
         const auto firstNewWall = static_cast<int>(walls.firstNewWall());
         // Springs may work in the step again, as they do after a restart without bodies.
-        const bool lastBodyWent = checkedSizes.hasBodies && context.grains().bodies.empty() &&
-                                  !scene.inletHandler.bringClumps();
+        const bool lastBodyWent =
+            checkedSizes.hasBodies && context.grains().bodies.empty() && !scene.inletHandler.bringClumps();
         if (!newLaws && !changedWalls && !newStep && !lastBodyWent &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
