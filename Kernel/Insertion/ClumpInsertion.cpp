@@ -172,9 +172,8 @@ void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, 
     }
     refuseWithoutRoom(owner, region, scene.walls, scene.periodic, smallest, largest, options.wholeGrains);
     const DenseBodies found = denseBodies(bodies, scene, region, options);
-    if (found.shrink < 1) {
-        const auto [wanted, reached] =
-            apartTexts(fraction, fraction * std::pow(std::max(found.shrink, 0.0), 3));
+    if (found.scale < 1) {
+        const auto [wanted, reached] = apartTexts(fraction, fraction * std::pow(found.scale, 3));
         throw InputError(fmt::format(
             "{}: a solid fraction of {} of the region was not reached among its walls and grains, only {} "
             "after {} iterations; take a smaller amount, or a larger region.",

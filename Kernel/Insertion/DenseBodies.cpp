@@ -19,7 +19,7 @@ using Point = Vector<double>;
 
 constexpr std::uint32_t purposeOfPlaces = 0x1257200, purposeOfTurns = 0x1257210;
 constexpr std::size_t worthAThread = 1024;
-constexpr int mostIterations = 6000, patience = 300;
+constexpr int mostIterations = 3000, patience = 200;
 
 /// Bodies that push and turn each other. Spheres behind those of bodies are grains of the scene, which stay.
 class Relaxation {
@@ -43,21 +43,19 @@ public:
 
     DenseBodies run() {
         DenseBodies made;
-        for (; made.iterations < mostIterations; ++made.iterations) {
+        while (made.iterations < mostIterations) {
             scale = std::min(1.0, firstScale + (1 - firstScale) * made.iterations / stepsOfGrowth);
-            placeSpheres();
-            list();
-            const bool isFree = push();
-            if (isFree && scale == 1) break;
-            if (made.iterations % patience == patience - 1) excess = 1 + 0.5 * (excess - 1);
-            move();
+            ++made.iterations;
+            if (relax() && scale == 1) return finish(made);
+            // Borders and grains may leave less room than the region's volume says.
+            if (made.iterations % patience == 0) excess = 1 + 0.5 * (excess - 1);
         }
-        if (made.iterations == mostIterations) made.shrink = shrinkNow();
-        for (std::size_t k = 0; k < bodies.size(); ++k) {
-            placed[order[k]].place = scene.periodic.wrap(bodies[k].place);
-            placed[order[k]].turn = bodies[k].turn;
+        while (scale > 0.1) {
+            scale *= 0.99;
+            for (int k = 0; k < patience; ++k, ++made.iterations)
+                if (relax()) return finish(made);
         }
-        return made;
+        return finish(made);
     }
 
 private:
@@ -137,6 +135,24 @@ private:
         double least = infinity;
         for (const Sphere& sphere : spheres) least = std::min(least, sphere.size);
         return least;
+    }
+
+    /// Where bodies are not free, all of them step; returns whether they are.
+    bool relax() {
+        placeSpheres();
+        list();
+        if (push()) return true;
+        move();
+        return false;
+    }
+
+    DenseBodies finish(DenseBodies made) {
+        made.scale = scale;
+        for (std::size_t k = 0; k < bodies.size(); ++k) {
+            placed[order[k]].place = scene.periodic.wrap(bodies[k].place);
+            placed[order[k]].turn = bodies[k].turn;
+        }
+        return made;
     }
 
     void placeSpheres() {
@@ -312,32 +328,6 @@ private:
                     (Eigen::Quaterniond(Eigen::AngleAxisd(angle, toEigen(1 / angle * body.spin))) * body.turn)
                         .normalized();
         });
-    }
-
-    /// The scale of all bodies, where they are, at which the first two of them touch, or one and a border.
-    [[nodiscard]] double shrinkNow() const {
-        double least = 1;
-        for (std::uint32_t k = 0; k < arms.size(); ++k) {
-            const Sphere& self = spheres[k];
-            const Point own = self.place - bodies[self.body].place;
-            for (std::uint32_t n = begins[k]; n < begins[k + 1]; ++n) {
-                const Sphere& other = spheres[partners[n]];
-                if (other.body == none) continue;
-                const Point from = scene.periodic.nearest(other.place - self.place),
-                            arm = other.place - bodies[other.body].place - own, centres = from - arm;
-                // |centres + s arm| = s (r1 + r2)
-                const double touch = self.size + other.size, a = squaredNorm(arm) - touch * touch,
-                             b = dot(centres, arm), c = squaredNorm(centres);
-                if (squaredNorm(from) < touch * touch)
-                    least = std::min(least, c / (std::sqrt(std::max(b * b - a * c, 0.0)) - b));
-            }
-            if (border[k])
-                forEachWallNear(scene.walls, scene.periodic, self.place, self.size,
-                                [&](const WallPoint& point, std::size_t) {
-                                    least = std::min(least, std::max(point.distance, 0.0) / self.size);
-                                });
-        }
-        return least;
     }
 
     std::vector<PlacedBody>& placed;

@@ -19,9 +19,9 @@ struct PlacedBody {
 /// How a dense start of bodies was found.
 struct DenseBodies {
     int iterations = 0;
-    /// The factor by which all bodies had to be multiplied, where they are, for no two of them to overlap,
-    /// and none to go through a border: 1 where nothing overlaps.
-    double shrink = 1;
+    /// The factor of the wanted lengths at which bodies overlap nothing: 1 where they have found room; less
+    /// where they had to be made smaller again, to say what can be reached.
+    double scale = 1;
 };
 
 /// Finds room for clumps and grains at random in a region, among its walls and grains. They begin at places
