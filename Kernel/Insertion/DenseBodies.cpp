@@ -60,7 +60,7 @@ public:
 
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
-    static constexpr int stepsOfGrowth = 100;
+    static constexpr int stepsOfGrowth = 60;
     static constexpr double stepShare = 0.3, usualContacts = 8, inertia = 0.85;
     /// Wanted spheres are apart by so much of their radii, so that round-off of adding them makes no overlap.
     static constexpr double apart = 1 + 1e-10;
