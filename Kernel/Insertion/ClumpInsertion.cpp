@@ -125,7 +125,10 @@ std::vector<PlacedBody> bodiesOf(const InsertionScene& scene, const BodyMixture&
                 for (const double radius : exactRadii(mixture[k].sizes, counts[k]))
                     bodies.push_back({&mixture[k], radius});
     }
-    std::ranges::stable_sort(bodies, std::ranges::greater(), &PlacedBody::radius);
+    // Bodies of one kind and one size are alike. (stable_sort() does not align quaternions.)
+    std::ranges::sort(bodies, [](const PlacedBody& a, const PlacedBody& b) {
+        return a.radius != b.radius ? a.radius > b.radius : a.kind < b.kind;
+    });
     return bodies;
 }
 

@@ -19,7 +19,7 @@ using Point = Vector<double>;
 
 constexpr std::uint32_t purposeOfPlaces = 0x1257200, purposeOfTurns = 0x1257210;
 constexpr std::size_t worthAThread = 1024;
-constexpr int mostIterations = 3000, patience = 200;
+constexpr int mostIterations = 2000, patience = 200;
 
 /// Bodies that push and turn each other. Spheres behind those of bodies are grains of the scene, which stay.
 class Relaxation {
@@ -51,8 +51,8 @@ public:
             if (made.iterations % patience == 0) excess = 1 + 0.5 * (excess - 1);
         }
         while (scale > 0.1) {
-            scale *= 0.99;
-            for (int k = 0; k < patience; ++k, ++made.iterations)
+            scale *= 0.98;
+            for (int k = 0; k < patience / 2; ++k, ++made.iterations)
                 if (relax()) return finish(made);
         }
         return finish(made);

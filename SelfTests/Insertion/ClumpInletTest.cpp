@@ -40,7 +40,7 @@ Inlet streamOf(const ClumpScene& scene, double aspect = 1.6) {
 /// Clumps fall through a box without walls, and leave it below. On a plane in between they collide.
 class Falling : public ClumpScene {
 public:
-    explicit Falling(int threads = 1, double step = 4e-6, bool withPlane = false) : ClumpScene(threads) {
+    explicit Falling(int threads = 1, double step = 2e-6, bool withPlane = false) : ClumpScene(threads) {
         setGravity({0, 0, -9.81});
         setTimeStep(step);
         inletHandler.copyAndAddObject(streamOf(*this));
@@ -49,7 +49,7 @@ public:
         outletHandler.copyAndAddObject(outlet);
         fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 10 * d}});
         if (!withPlane) return;
-        addWall({0.5, 0, -1}, {5 * d, 5 * d, 8 * d});
+        addWall({1.5, 0, -1}, {5 * d, 5 * d, 8 * d});
         keepEnergyLedger();
     }
     /// kg
@@ -63,10 +63,10 @@ public:
 };
 
 TEST(ClumpInlet, bringsTheLargestSumOfWholeClumpsForAnyStep) {
-    for (const double step : {4e-6, 2.3e-6}) {
+    for (const double step : {2e-6, 1.3e-6}) {
         Falling scene(1, step);
         scene.initialise();
-        for (int k = 0; k < 3000; ++k) {
+        for (int k = 0; k < 6000; ++k) {
             scene.step();
             const InletCount& count = scene.inletHandler.countOf(0);
             const double due = flow * scene.getTime();
@@ -84,13 +84,14 @@ TEST(ClumpInlet, bringsANumberASecond) {
     inlet.setNumberFlow(5000);
     inlet.setTimes(1e-3, 4e-3);
     scene.inletHandler.copyAndAddObject(inlet);
-    scene.setTimeStep(4e-6);
+    scene.setTimeStep(2e-6);
     scene.initialise();
-    for (int k = 0; k < 1500; ++k) {
+    for (int k = 0; k < 3000; ++k) {
         scene.step();
         const double lasted = std::clamp(scene.getTime() - 1e-3, 0.0, 3e-3);
-        ASSERT_NEAR(static_cast<double>(scene.inletHandler.countOf(0).number),
-                    std::floor(5000 * lasted + 1e-9), 0);
+        const auto come = static_cast<double>(scene.inletHandler.countOf(0).number);
+        ASSERT_LE(come, 5000 * lasted + 1e-9);
+        ASSERT_GT(come + 1, 5000 * lasted - 1e-9);
         ASSERT_EQ(scene.bodyHandler.getSize(), scene.inletHandler.countOf(0).number);
     }
     EXPECT_EQ(scene.bodyHandler.getSize(), 15u);
@@ -100,7 +101,7 @@ TEST(ClumpInlet, bringsANumberASecond) {
 TEST(ClumpInlet, isBalancedByAnOutlet) {
     Falling scene;
     scene.initialise();
-    for (int k = 0; k < 15000; ++k) {
+    for (int k = 0; k < 30000; ++k) {
         scene.step();
         const InletCount& come = scene.inletHandler.countOf(0);
         ASSERT_EQ(come.number, scene.bodyHandler.getSize() + scene.outletHandler.removedNumber());
@@ -124,18 +125,18 @@ TEST(ClumpInlet, isBalancedByAnOutlet) {
 
 TEST(ClumpInlet, givesTheSameBitsForAnyThreadsAndThroughRestarts) {
     const TestFolder folder;
-    Falling whole(1, 4e-6, true);
+    Falling whole(1, 2e-6, true);
     whole.initialise();
-    whole.steps(6000);
+    whole.steps(8000);
     whole.writeRestart(folder.path() / "half.h5");
     EXPECT_GT(whole.bodyHandler.getSize(), 50u);
-    whole.steps(6000);
+    whole.steps(8000);
     whole.writeRestart(folder.path() / "whole.h5");
     for (const int threads : {1, 3}) {
-        Falling restarted(threads, 4e-6, true);
+        Falling restarted(threads, 2e-6, true);
         restarted.restartFrom(folder.path() / "half.h5");
         restarted.initialise();
-        restarted.steps(6000);
+        restarted.steps(8000);
         restarted.writeRestart(folder.path() / "again.h5");
         support::expectSameState(folder.path() / "whole.h5", folder.path() / "again.h5");
     }
@@ -149,45 +150,47 @@ TEST(ClumpInlet, givesTheSameBitsForAnyThreadsAndThroughRestarts) {
         outlet.setPlane({0, 0, -1}, {0, 0, 0});
         other.outletHandler.copyAndAddObject(outlet);
         other.fluxPlaneHandler.copyAndAddObject(FluxPlane{{0, 0, -1}, {0, 0, 10 * d}});
-        other.addWall({0.5, 0, -1}, {5 * d, 5 * d, 8 * d});
+        other.addWall({1.5, 0, -1}, {5 * d, 5 * d, 8 * d});
         other.keepEnergyLedger();
         other.setGravity({0, 0, -9.81});
-        other.setTimeStep(4e-6);
+        other.setTimeStep(2e-6);
         other.restartFrom(folder.path() / "half.h5");
         const std::string text = refusal([&] { other.initialise(); });
-        EXPECT_TRUE(isOneSentence(text) && contains(text, isGrain ? "kinds" : "reach")) << text;
+        EXPECT_TRUE(isOneSentence(text) &&
+                    contains(text, isGrain ? "inlets/0/kinds" : "inlets/0/kind0/volume"))
+            << text;
     }
 }
 
-// What came is there, has gone, or was dissipated, to the round-off of each step: 12 000 times 2^-53, of some
+// What came is there, has gone, or was dissipated, to the round-off of each step: 16 000 times 2^-53, of some
 // ten sums.
 TEST(ClumpInlet, keepsTheEnergyLedgerClosed) {
-    Falling scene(1, 4e-6, true);
+    Falling scene(1, 2e-6, true);
     scene.initialise();
     const double before = scene.energyLedger().closed();
-    scene.steps(12000);
+    scene.steps(16000);
     // J, an upper bound of what came
     const double come = scene.inletHandler.countOf(0).mass * (0.5 + 9.81 * 24 * d);
-    EXPECT_GT(scene.outletHandler.removedNumber(), 50u);
+    EXPECT_GT(scene.outletHandler.removedNumber(), 10u);
     EXPECT_GT(scene.energyLedger().normalDashpots, 1e-3 * come);
-    EXPECT_LT(std::abs(scene.energyLedger().closed() - before), 1.3e-11 * come);
+    EXPECT_LT(std::abs(scene.energyLedger().closed() - before), 1.8e-11 * come);
 }
 
 // At the step in which a clump comes it overlaps nothing; it moves as it is told to.
 TEST(ClumpInlet, putsNothingOntoWhatIsThere) {
     ClumpScene scene;
     scene.addWall({0, 0, 1}, {0, 0, 23 * d});
-    scene.repeat(24 * d);
+    for (const int axis : {0, 1}) scene.setPeriodic(axis, 0, 10 * d);
     Inlet inlet = streamOf(scene);
     Clump clump = scene.clump(dimer(1.8), {0, 0, -2});
     clump.setAngularVelocity({0, 30, 0});
     inlet.setClump(clump);
     inlet.setMassFlow(0.06);
     scene.inletHandler.copyAndAddObject(inlet);
-    scene.setTimeStep(4e-6);
+    scene.setTimeStep(2e-6);
     scene.initialise();
     std::uint32_t known = 0;
-    for (int k = 0; k < 3000; ++k) {
+    for (int k = 0; k < 6000; ++k) {
         scene.step();
         const ParticleStore& grains = scene.particleHandler.store();
         if (grains.nextIdentity() == known) continue;
@@ -198,7 +201,7 @@ TEST(ClumpInlet, putsNothingOntoWhatIsThere) {
         for (; known < grains.nextIdentity(); ++known) {
             const TranslationRecord& grain = grains.translation[grains.place[known]];
             ASSERT_LE(grain.position.z + grain.radius, 23 * d * (1 + 1e-12));
-            ASSERT_TRUE(above().contains(grain.position, grain.radius * (1 - 1e-9)));
+            ASSERT_GE(grain.position.z - grain.radius, 20 * d * (1 - 1e-12));
         }
     }
     EXPECT_GT(known, 300u);
@@ -215,9 +218,9 @@ TEST(ClumpInlet, turnsThemEvenlyOrAsGiven) {
         inlet.setMassFlow(0.1);
         inlet.setRandomTurns(isRandom);
         scene.inletHandler.copyAndAddObject(inlet);
-        scene.setTimeStep(4e-6);
+        scene.setTimeStep(2e-6);
         scene.initialise();
-        scene.steps(2000);
+        scene.steps(4000);
         const OrientationOrder order = orientationOrder(scene.particleHandler.store().bodies);
         EXPECT_GT(order.count, 300u);
         if (isRandom) {
@@ -240,9 +243,9 @@ TEST(ClumpInlet, bringsMixturesByTheirShares) {
     inlet.setBodies(mixture);
     inlet.setMassFlow(0.1);
     scene.inletHandler.copyAndAddObject(inlet);
-    scene.setTimeStep(4e-6);
+    scene.setTimeStep(2e-6);
     scene.initialise();
-    scene.steps(3000);
+    scene.steps(6000);
     const ParticleStore& grains = scene.particleHandler.store();
     const InletCount& count = scene.inletHandler.countOf(0);
     const std::size_t clumps = grains.bodies.size(), single = grains.count() - 2 * clumps;
@@ -297,7 +300,7 @@ TEST(ClumpInlet, refusesWhatCannotBe) {
         mixture.add(scene.grain(), equalSizes(d));
         inlet.setBodies(mixture);
     });
-    expect("its species", [](ClumpScene&, Inlet& inlet) { inlet.setClump(Clump(dimer(1.5))); });
+    expect("the species of its grains", [](ClumpScene&, Inlet& inlet) { inlet.setClump(Clump(dimer(1.5))); });
     expect("share = 0", [](ClumpScene& scene, Inlet& inlet) {
         BodyMixture mixture;
         mixture.add(scene.grain(), equalSizes(d), 0);
