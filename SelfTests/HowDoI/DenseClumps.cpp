@@ -1,3 +1,4 @@
+#include "Kernel/Particles/OrientationOrder.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "SelfTests/HowDoI/HowDoI.h"
 
