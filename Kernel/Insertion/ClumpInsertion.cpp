@@ -2,13 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Insertion/DenseBodies.h"
+#include "Kernel/Insertion/DenseStart.h"
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/ApartTexts.h"
+#include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/Particles/OrientationOrder.h"
+#include "Kernel/Sizes/SizeSample.h"
 
 namespace pendular {
 
@@ -26,19 +33,17 @@ public:
           isWhole(wholeGrains),
           grid(of.particles.store(), of.periodic, in.bounds(), largest) {}
 
-    [[nodiscard]] bool has(const Clump& clump) const {
-        for (const SphericalParticle& sphere : clump.getSpheres()) {
-            const Vector<double> centre = toVector(sphere.getPosition());
-            const double radius = sphere.getRadius();
+    [[nodiscard]] bool has(const std::vector<Ball>& spheres) const {
+        for (const auto& [place, radius] : spheres) {
+            const Vector<double> centre = toVector(place);
             if ((isWhole && !region.contains(centre, radius)) ||
                 touchesWall(scene.walls, scene.periodic, centre, radius) || !grid.isFree(centre, radius))
                 return false;
         }
         return true;
     }
-    void take(const Clump& clump) {
-        for (const SphericalParticle& sphere : clump.getSpheres())
-            grid.add(toVector(sphere.getPosition()), sphere.getRadius());
+    void take(const std::vector<Ball>& spheres) {
+        for (const Ball& sphere : spheres) grid.add(toVector(sphere.centre), sphere.radius);
     }
 
 private:
@@ -48,67 +53,184 @@ private:
     SphereGrid grid;
 };
 
-}  // namespace
-
-Eigen::Quaterniond evenTurn(double a, double b, double c) {
-    const double low = std::sqrt(1 - a), high = std::sqrt(a);
-    const double first = 2 * std::numbers::pi * b, second = 2 * std::numbers::pi * c;
-    return {high * std::cos(second), low * std::sin(first), low * std::cos(first), high * std::sin(second)};
+/// kg/m^3
+double densityOf(const InsertionScene& scene, const BodyKind& kind) {
+    return kind.density(pendular::densityOf(scene.particles, kind.species()));
+}
+double massOf(const InsertionScene& scene, const PlacedBody& body) {
+    return sphereMass(body.radius, densityOf(scene, *body.kind));
 }
 
-Inserted insertClumps(const InsertionScene& scene, BodyHandler& bodies, const SizeDistribution& sizes,
-                      const Region& given, const Amount& amount, const Clump& like,
-                      const InsertOptions& options) {
-    if (like.getSpeciesIndex() < 0)
+void refuseWithoutSpecies(const BodyMixture& mixture) {
+    if (mixture.empty()) throw InputError("insert(): the mixture has no bodies; call add().");
+    for (const BodyKind& kind : mixture)
+        if (kind.species() < 0)
+            throw InputError(
+                fmt::format("{}: the {} has no species; call setSpecies() with one of this scene.", owner,
+                            kind.clump() ? "clump" : "grain"));
+}
+
+/// How many bodies have the mass of the amount on average.
+std::size_t countOf(const Amount& amount, double meanMass, double full) {
+    if (amount.kind() == Amount::Kind::Grains) return static_cast<std::size_t>(amount.value());
+    const double whole = amount.value() * (amount.kind() == Amount::Kind::Mass ? 1 : full),  // kg
+        number = std::floor(whole / meanMass * (1 + 1e-12));
+    constexpr double most = ParticleStore::largestIdentity;
+    if (number < 1 || number > most)
         throw InputError(
-            fmt::format("{}: the clump has no species; call setSpecies() with one of this scene.", owner));
-    const auto region = given.in(scene.periodic);
-    const ClumpTemplate& shape = like.getTemplate();
-    // Sizes are those of spheres of the same volume, and of the same mean density.
-    const double own = scene.particles.massOf(1, like.getSpeciesIndex()) / sphereMass(1, 1);
-    const double density = shape.massOf(own, 1).mass / shape.getVolume();
-    const std::vector<double> radii = radiiOf(amount, sizes, density, region->volume(), options);
-    Inserted result;
-    result.wanted = radii.size();
-    for (const double radius : radii) result.wantedMass += sphereMass(radius, density);
-    if (radii.empty()) return result;
-    const double full = density * region->volume();
-    if (amount.kind() == Amount::Kind::SolidFraction &&
-        amount.value() > looseFraction * (1 + roundOffOfLimits)) {
-        const auto [wanted, most] = apartTexts(amount.value(), looseFraction);
-        throw InputError(fmt::format(
-            "{}: clumps at a solid fraction of {} of the region are asked for; a random start of clumps "
-            "reaches {}; insert fewer, and let them fall or compress them.",
-            owner, wanted, most));
+            fmt::format("{}: the amount is {:.3g} mean bodies of the mixture; it must be 1 to {}.", owner,
+                        whole / meanMass, most));
+    return static_cast<std::size_t>(number);
+}
+
+/// Draws bodies of a mixture one by one, up to the amount.
+std::vector<PlacedBody> drawBodies(const InsertionScene& scene, const BodyMixture& mixture,
+                                   const Amount& amount, double full, const InsertOptions& options) {
+    const std::size_t mean = countOf(amount, mixture.meanMass(scene.particles), full);
+    const bool byNumber = amount.kind() == Amount::Kind::Grains;
+    const double whole = amount.value() * (amount.kind() == Amount::Kind::Mass ? 1 : full);  // kg
+    const CountedRandom random(options.seed);
+    std::vector<PlacedBody> bodies;
+    for (double sum = 0; !byNumber || bodies.size() < mean;) {
+        const BodyKind& kind = mixture[mixture.draw(random, bodies.size())];
+        const PlacedBody next{&kind, kind.sizes.drawRadius(random, bodies.size())};
+        if ((sum += massOf(scene, next)) > whole && !byNumber) break;
+        bodies.push_back(next);
     }
-    const double scaleOfRadius = 2 / shape.getDiameter();
-    Room room(scene, *region, options.wholeGrains, scaleOfRadius * radii.front() * shape.getReach());
+    return bodies;
+}
+
+/// The bodies of an amount, the largest first.
+std::vector<PlacedBody> bodiesOf(const InsertionScene& scene, const BodyMixture& mixture,
+                                 const Amount& amount, const Region& region, const InsertOptions& options) {
+    const double full = region.volume();  // m^3
+    std::vector<PlacedBody> bodies;
+    if (mixture.size() == 1) {
+        for (const double radius :
+             radiiOf(amount, mixture[0].sizes, densityOf(scene, mixture[0]), full, options))
+            bodies.push_back({&mixture[0], radius});
+        return bodies;
+    }
+    // A fraction of volume is one of mass, at the mean density.
+    double meanVolume = 0;
+    for (std::size_t k = 0; k < mixture.size(); ++k)
+        meanVolume += mixture.shareOf(k) * std::numbers::pi / 6 * mixture[k].sizes.moment(3);
+    const double fullMass = mixture.meanMass(scene.particles) / meanVolume * full;  // kg
+    if (options.sample == Sample::Random) bodies = drawBodies(scene, mixture, amount, fullMass, options);
+    else {
+        const std::vector<std::size_t> counts =
+            mixture.counts(countOf(amount, mixture.meanMass(scene.particles), fullMass));
+        for (std::size_t k = 0; k < counts.size(); ++k)
+            if (counts[k] > 0)
+                for (const double radius : exactRadii(mixture[k].sizes, counts[k]))
+                    bodies.push_back({&mixture[k], radius});
+    }
+    // Bodies of one kind and one size are alike. (stable_sort() does not align quaternions.)
+    std::ranges::sort(bodies, [](const PlacedBody& a, const PlacedBody& b) {
+        return a.radius != b.radius ? a.radius > b.radius : a.kind < b.kind;
+    });
+    return bodies;
+}
+
+/// Places bodies one after the other; returns those that found room.
+std::vector<PlacedBody> placeOneByOne(const InsertionScene& scene, const std::vector<PlacedBody>& bodies,
+                                      const Region& region, const InsertOptions& options,
+                                      double& firstLeftOut) {
+    double reach = 0;  // m
+    for (const PlacedBody& body : bodies) reach = std::max(reach, body.kind->reach(body.radius));
+    Room room(scene, region, options.wholeGrains, reach);
     const CountedRandom random(options.seed);
     const std::uint64_t first = scene.particles.store().nextIdentity();
-    Clump clump = like;
-    for (std::size_t k = 0; k < radii.size(); ++k) {
-        clump.setScale(scaleOfRadius * radii[k]);
+    std::vector<PlacedBody> placed;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        PlacedBody body = bodies[k];
+        std::vector<Ball> spheres;
         bool isPlaced = false;
         for (std::uint32_t attempt = 0; attempt < options.tries && !isPlaced; ++attempt) {
             const auto even = [&](std::uint32_t number) {
                 return random.uniform(first + k, purposeOfTurns + number, attempt);
             };
-            const Vector<double> place = candidateOf(*region, random, first + k, purposeOfPlaces, attempt, 0);
-            if (!region->contains(place, 0)) continue;
-            clump.setPosition(toEigen(place));
-            clump.setOrientation(evenTurn(even(0), even(1), even(2)));
-            isPlaced = room.has(clump);
+            body.place = candidateOf(region, random, first + k, purposeOfPlaces, attempt, 0);
+            if (!region.contains(body.place, 0)) continue;
+            body.turn = evenTurn(even(0), even(1), even(2));
+            spheres = body.kind->spheres(body.radius, body.place, body.turn);
+            isPlaced = room.has(spheres);
         }
         if (!isPlaced) {
-            if (result.firstLeftOut == 0) result.firstLeftOut = radii[k];
+            if (firstLeftOut == 0) firstLeftOut = body.radius;
             continue;
         }
-        room.take(clump);
-        bodies.copyAndAddObject(clump);
-        ++result.number;
-        result.mass += sphereMass(radii[k], density);
+        room.take(spheres);
+        placed.push_back(body);
     }
-    result.solidFraction = result.mass / full;
+    return placed;
+}
+
+void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, const Region& region,
+                  const InsertOptions& options, double fraction) {
+    double smallest = infinity, largest = 0;  // m, of spheres
+    for (const PlacedBody& body : bodies) {
+        smallest = std::min(smallest, body.kind->smallestSphere(body.radius));
+        largest = std::max(largest, body.kind->largestSphere(body.radius));
+    }
+    refuseWithoutRoom(owner, region, scene.walls, scene.periodic, smallest, largest, options.wholeGrains);
+    const DenseBodies found = denseBodies(bodies, scene, region, options);
+    if (found.scale < 1) {
+        const auto [wanted, reached] = apartTexts(fraction, fraction * std::pow(found.scale, 3));
+        throw InputError(fmt::format(
+            "{}: a solid fraction of {} of the region was not reached among its walls and grains, only {} "
+            "after {} iterations; take a smaller amount, or a larger region.",
+            owner, wanted, reached, found.iterations));
+    }
+    for (const PlacedBody& body : bodies)
+        for (const auto& [place, radius] : body.kind->spheres(body.radius, body.place, body.turn))
+            if (!region.contains(options.wholeGrains ? toVector(place) : body.place,
+                                 options.wholeGrains ? radius * (1 - 1e-9) : 0))
+                throw InputError(fmt::format(
+                    "{}: a clump of the size {:.6g} m was pushed out of the region; take a smaller amount.",
+                    owner, 2 * body.radius));
+}
+
+void refuseTooDense(const Amount& amount, double ofSample) {
+    const double fraction =
+        amount.kind() == Amount::Kind::SolidFraction ? std::min(amount.value(), ofSample) : ofSample;
+    if (fraction <= densestRandomStart * (1 + roundOffOfLimits)) return;
+    const auto [wanted, most] = apartTexts(fraction, densestRandomStart);
+    throw InputError(fmt::format(
+        "{}: the clumps would have a solid fraction of {} of the region; a random start reaches {}.", owner,
+        wanted, most));
+}
+
+}  // namespace
+
+Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, const Region& given,
+                      const Amount& amount, const InsertOptions& options) {
+    refuseWithoutSpecies(mixture);
+    const auto region = given.in(scene.periodic);
+    std::vector<PlacedBody> bodies = bodiesOf(scene, mixture, amount, *region, options);
+    Inserted result;
+    result.wanted = bodies.size();
+    double volume = 0;  // m^3
+    for (const PlacedBody& body : bodies) {
+        result.wantedMass += massOf(scene, body);
+        volume += sphereMass(body.radius, 1);
+    }
+    if (bodies.empty()) return result;
+    const double fraction = volume / region->volume();
+    if (fraction <= looseFraction * (1 + roundOffOfLimits))
+        bodies = placeOneByOne(scene, bodies, *region, options, result.firstLeftOut);
+    else {
+        refuseTooDense(amount, fraction);
+        placeDensely(scene, bodies, *region, options, fraction);
+    }
+    const std::size_t before = scene.bodies.getSize();
+    for (const PlacedBody& body : bodies) {
+        body.kind->addTo(scene.particles, scene.bodies, body.radius, body.place, body.turn);
+        ++result.number;
+        result.mass += massOf(scene, body);
+        result.solidFraction += sphereMass(body.radius, 1) / region->volume();
+    }
+    result.orientationOrder = orientationOrder(scene.particles.store().bodies, before).value;
     return result;
 }
 

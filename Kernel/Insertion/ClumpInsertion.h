@@ -1,21 +1,16 @@
 #pragma once
 
+#include "Kernel/Insertion/BodyMixture.h"
 #include "Kernel/Insertion/Insertion.h"
-#include "Kernel/Particles/BodyHandler.h"
 
 namespace pendular {
 
-/// Inserts clumps that overlap nothing, one after the other, the largest first: at random places of the
-/// region, turned evenly at random; no sphere of them meets a grain, a wall, or an image of these.
+/// Inserts clumps, or a mixture of grains and clumps, that overlap nothing; no sphere of them meets a grain,
+/// a wall, or an image of these. Up to looseFraction one after the other, the largest first, at random places
+/// of the region, turned evenly at random; above it by denseBodies().
 ///
-/// Throws InputError as insertGrains() does, and where a solid fraction above 0.2 is asked for.
-/// @param like template, species, velocity and spin of all of them
-Inserted insertClumps(const InsertionScene& scene, BodyHandler& bodies, const SizeDistribution& sizes,
-                      const Region& region, const Amount& amount, const Clump& like,
-                      const InsertOptions& options);
-
-/// Evenly among all turns, from three numbers even in [0, 1). Source: Shoemake, "Uniform random rotations",
-/// Graphics Gems III (1992) 124.
-Eigen::Quaterniond evenTurn(double a, double b, double c);
+/// Throws InputError as insertGrains() does.
+Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, const Region& region,
+                      const Amount& amount, const InsertOptions& options);
 
 }  // namespace pendular

@@ -10,6 +10,7 @@
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/ApartTexts.h"
+#include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/WallHandler.h"
@@ -22,13 +23,42 @@ constexpr std::string_view owner = "Inlet";
 /// The purpose of the random numbers of places; three for each inlet.
 constexpr std::uint32_t purposeOfPlaces = 0x1258000;
 
-/// kg/m^3
-double densityOf(const ParticleHandler& particles, const SphericalParticle& grain) {
-    return particles.massOf(1, grain.getSpeciesIndex()) / sphereMass(1, 1);
+/// The purpose of the random numbers of turns; three for each inlet.
+constexpr std::uint32_t purposeOfTurns = 0x1259000;
+
+/// kg
+double massOf(const ParticleHandler& particles, const BodyKind& kind, double radius) {
+    if (kind.grain()) return particles.massOf(radius, kind.species());
+    const double density = densityOf(particles, kind.species());
+    return kind.clump()->getTemplate().massOf(density, kind.scale(radius)).mass;
 }
-/// kg, of one grain
-double meanMass(const SizeDistribution& sizes, double density) {
-    return density * std::numbers::pi / 6 * sizes.moment(3);
+
+/// m
+double largestReach(const BodyMixture& bodies) {
+    double reach = 0;
+    for (const BodyKind& kind : bodies) reach = std::max(reach, kind.reach(0.5 * kind.sizes.largest()));
+    return reach;
+}
+
+/// What the stability limit counts with for all clumps of a kind, whatever their sizes.
+/// @param density kg/m^3
+BodyResponse responseOf(const BodyKind& kind, double density) {
+    const ClumpTemplate& shape = kind.clump()->getTemplate();
+    const BodyMass mass = shape.massOf(density, 1);
+    const PrincipalAxes principal = principalAxes(mass.inertia);
+    ParticleStore one;
+    std::vector<BodyMember> members;
+    double largest = 0;  // kg
+    for (const Ball& ball : shape.getSpheres()) {
+        const double own = sphereMass(ball.radius, density);
+        largest = std::max(largest, own);
+        const std::uint32_t identity =
+            one.add({toVector(ball.centre), ball.radius, {0, 0, 0}, 1 / own}, {0, 0, 0}, 0);
+        members.push_back({identity, toVector(principal.axes.conjugate() * ball.centre)});
+    }
+    one.bodies.add({.mass = mass.mass, .inertia = toVector(principal.moments), .largestFreeMass = largest},
+                   members, shape.getVolume());
+    return one.bodies.response(one);
 }
 
 }  // namespace
@@ -72,10 +102,23 @@ std::size_t InletHandler::copyAndAddObject(const Inlet& inlet) {
                                          inlets.size(), what, call));
     };
     require(inlet.region != nullptr, "its region", "setRegion()");
-    require(inlet.sizes.has_value(), "the sizes of its grains", "setSizes()");
-    require(inlet.like.getSpeciesIndex() >= 0, "the species of its grains", "setGrain()");
+    if (inlet.mixture && inlet.sizes)
+        throw InputError(fmt::format(
+            "inlet {}: sizes are given twice; call setSizes(), or give them to the mixture of setBodies().",
+            inlets.size()));
+    BodyMixture bodies;
+    if (inlet.mixture) {
+        require(!inlet.mixture->empty(), "what it brings", "add() of the mixture");
+        bodies = *inlet.mixture;
+    } else {
+        require(inlet.sizes.has_value(), "the sizes of its grains", "setSizes()");
+        std::visit([&](const auto& like) { bodies.add(like, *inlet.sizes); }, inlet.like);
+    }
+    for (const BodyKind& kind : bodies)
+        require(kind.species() >= 0, "the species of its grains",
+                inlet.mixture ? "setSpecies() of all in the mixture" : "setGrain()");
     require(isSet(inlet.massFlow) || isSet(inlet.numberFlow), "its flow", "setMassFlow() or setNumberFlow()");
-    inlets.push_back({.inlet = inlet, .region = inlet.region, .count = {}});
+    inlets.push_back({.inlet = inlet, .bodies = std::move(bodies), .region = inlet.region, .count = {}});
     return inlets.size() - 1;
 }
 
@@ -86,12 +129,38 @@ const InletCount& InletHandler::countOf(std::size_t number) const {
     return inlets[number].count;
 }
 
-std::vector<InletHandler::Sizes> InletHandler::sizes() const {
+std::vector<InletHandler::Sizes> InletHandler::sizes(const GrainSpecies& species) const {
     std::vector<Sizes> all;
     for (const Kept& kept : inlets)
-        all.push_back({0.5 * kept.inlet.sizes->smallest(), 0.5 * kept.inlet.sizes->largest(),
-                       kept.inlet.like.getSpeciesIndex()});
+        for (const BodyKind& kind : kept.bodies) {
+            Sizes sizes{kind.smallestSphere(0.5 * kind.sizes.smallest()),
+                        kind.largestSphere(0.5 * kind.sizes.largest()), kind.species(), std::nullopt};
+            if (kind.clump())
+                sizes.response = responseOf(kind, species.density(static_cast<std::size_t>(kind.species())));
+            all.push_back(sizes);
+        }
     return all;
+}
+
+bool InletHandler::bringClumps() const {
+    return std::ranges::any_of(inlets, [](const Kept& kept) { return kept.bodies.hasClumps(); });
+}
+
+double InletHandler::widestClump() const {
+    double widest = 0;
+    for (const Kept& kept : inlets)
+        for (const BodyKind& kind : kept.bodies)
+            if (kind.clump()) widest = std::max(widest, 2 * kind.reach(0.5 * kind.sizes.largest()));
+    return widest;
+}
+
+void InletHandler::refuseTooWide(const PeriodicBox& periodic) const {
+    const double shortest = periodic.shortestLength(), widest = widestClump();
+    if (widest > 0.5 * shortest)
+        throw InputError(fmt::format(
+            "Inlet: the largest clump to come is {:.6g} m wide when it turns; in a scene that repeats itself "
+            "after {:.6g} m a body must not be wider than half of that.",
+            widest, shortest));
 }
 
 double InletHandler::liquidBy(const ParticleHandler& particles, double time) const {
@@ -100,16 +169,19 @@ double InletHandler::liquidBy(const ParticleHandler& particles, double time) con
         const Inlet& inlet = kept.inlet;
         const double lasts = std::max(std::min(time, inlet.last) - inlet.first, 0.0);  // s
         const double rate =                                                            // grains/s
-            isSet(inlet.massFlow) ? inlet.massFlow / meanMass(*inlet.sizes, densityOf(particles, inlet.like))
-                                  : inlet.numberFlow;
-        sum += rate * lasts * inlet.like.getLiquidVolume();
+            isSet(inlet.massFlow) ? inlet.massFlow / kept.bodies.meanMass(particles) : inlet.numberFlow;
+        double film = 0;  // m^3, of a mean grain
+        for (std::size_t k = 0; k < kept.bodies.size(); ++k)
+            film += kept.bodies.shareOf(k) * kept.bodies[k].film();
+        sum += rate * lasts * film;
     }
     return sum;
 }
 
 void InletHandler::requireLiquid(const ParticleHandler& particles, double time) const {
     for (const Kept& kept : inlets) {
-        const double film = kept.inlet.like.getLiquidVolume();
+        double film = 0;  // m^3
+        for (const BodyKind& kind : kept.bodies) film = std::max(film, kind.film());
         if (film == 0 || time <= kept.inlet.first || time > kept.inlet.last) continue;
         if (const auto objection = particles.films().objectionToMore(film)) throw InputError(*objection);
     }
@@ -156,9 +228,10 @@ void InletHandler::begin(const InsertionScene& scene, bool isRestarted) {
 void InletHandler::checkRoom(const InsertionScene& scene, std::size_t number) const {
     const Inlet& inlet = inlets[number].inlet;
     const auto checkAt = [&](const std::string& who, const Vector<double>& way) {
-        refuseWithoutRoom(who, *inlets[number].region, scene.walls, scene.periodic,
-                          0.5 * inlet.sizes->smallest(), 0.5 * inlet.sizes->largest(), inlet.wholeGrains,
-                          way);
+        for (const BodyKind& kind : inlets[number].bodies)
+            refuseWithoutRoom(who, *inlets[number].region, scene.walls, scene.periodic,
+                              kind.smallestSphere(0.5 * kind.sizes.smallest()),
+                              kind.largestSphere(0.5 * kind.sizes.largest()), inlet.wholeGrains, way);
     };
     checkAt(fmt::format("inlet {}", number), {0, 0, 0});
     if (inlet.mostRises == 0) return;
@@ -168,28 +241,37 @@ void InletHandler::checkRoom(const InsertionScene& scene, std::size_t number) co
 }
 
 void InletHandler::check(const InsertionScene& scene, std::size_t number) const {
+    for (const BodyKind& kind : inlets[number].bodies)
+        if (kind.film() > 0 && !scene.particles.films().areKept())
+            throw InputError(fmt::format(
+                "inlet {}: the liquid volume of its grains = {:.6g} m^3, but no species of this scene "
+                "moves liquid; take an adhesion law whose name begins with LiquidMigration, or leave "
+                "it out.",
+                number, kind.film()));
+    checkStream(scene, number);
+}
+
+/// Each kind takes its part of the stream's solid fraction, at its own velocity.
+void InletHandler::checkStream(const InsertionScene& scene, std::size_t number) const {
     const Inlet& inlet = inlets[number].inlet;
-    const Region& region = *inlets[number].region;
-    if (inlet.like.getLiquidVolume() > 0 && !scene.particles.films().areKept())
-        throw InputError(fmt::format(
-            "inlet {}: the liquid volume of its grains = {:.6g} m^3, but no species of this scene "
-            "moves liquid; take an adhesion law whose name begins with LiquidMigration, or leave "
-            "it out.",
-            number, inlet.like.getLiquidVolume()));
-    const Vector<double> velocity = toVector(inlet.like.getVelocity());
-    const double speed = norm(velocity);
-    if (speed == 0) return;
-    const double density = densityOf(scene.particles, inlet.like);
-    const double flow =
-        isSet(inlet.massFlow) ? inlet.massFlow : inlet.numberFlow * meanMass(*inlet.sizes, density);
-    const double most = Inlet::densestStream * density * speed * region.areaAcross((1 / speed) * velocity);
-    if (flow > most * (1 + roundOffOfLimits)) {
-        const auto [wanted, allowed] = apartTexts(flow, most, 6);
-        throw InputError(fmt::format(
-            "inlet {}: a flow of {} kg/s is more than its region can let in at {:.6g} m/s; it must be at "
-            "most {} kg/s, a solid fraction of {:g}.",
-            number, wanted, speed, allowed, Inlet::densestStream));
+    const BodyMixture& bodies = inlets[number].bodies;
+    const double mean = bodies.meanMass(scene.particles),
+                 flow = isSet(inlet.massFlow) ? inlet.massFlow : inlet.numberFlow * mean;
+    double fraction = 0, slowest = infinity;  // m/s
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const BodyKind& kind = bodies[k];
+        const double speed = norm(kind.velocity()),
+                     volume = flow / mean * bodies.shareOf(k) * std::numbers::pi / 6 * kind.sizes.moment(3);
+        slowest = std::min(slowest, speed);
+        if (speed > 0)
+            fraction += volume / (speed * inlets[number].region->areaAcross(1 / speed * kind.velocity()));
     }
+    if (!(slowest > 0) || fraction <= Inlet::densestStream * (1 + roundOffOfLimits)) return;
+    const auto [wanted, allowed] = apartTexts(flow, flow * Inlet::densestStream / fraction, 6);
+    throw InputError(fmt::format(
+        "inlet {}: a flow of {} kg/s is more than its region can let in at {:.6g} m/s; it must be at "
+        "most {} kg/s, a solid fraction of {:g}.",
+        number, wanted, slowest, allowed, Inlet::densestStream));
 }
 
 void InletHandler::letIn(const InsertionScene& scene, double time,
@@ -208,45 +290,46 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
     const double due = (byMass ? inlet.massFlow : inlet.numberFlow) * lasted;
     std::optional<SphereGrid> grid;
     for (;;) {
-        if (!isSet(kept.nextRadius))
-            kept.nextRadius = inlet.sizes->drawRadius(CountedRandom(inlet.seed), count.number);
-        const double radius = kept.nextRadius;
-        const double mass = scene.particles.massOf(radius, inlet.like.getSpeciesIndex());
+        if (!isSet(kept.nextRadius)) {
+            const CountedRandom random(inlet.seed);
+            kept.nextKind = kept.bodies.draw(random, count.number);
+            kept.nextRadius = kept.bodies[kept.nextKind].sizes.drawRadius(random, count.number);
+        }
+        const BodyKind& kind = kept.bodies[kept.nextKind];
+        const double radius = kept.nextRadius, mass = massOf(scene.particles, kind, radius);
         const double come = (byMass ? count.mass : static_cast<double>(count.number)) + count.lost;
         const double whole = come + (byMass ? mass : 1);
         if (whole > due) return;
         // The run ends with a sentence before its next step: requireLiquid().
-        const double film = inlet.like.getLiquidVolume();
+        const double film = kind.film();
         if (film > 0 && scene.particles.films().objectionToMore(film)) return;
         if (!grid) {
             const Vector<double> shift = shiftOf(scene, kept, number);
             const Box bounds = kept.region->bounds();
             grid.emplace(ParticleHandler::Inside::grainsInStep(scene.particles), scene.periodic,
-                         Box{bounds.lowest + shift, bounds.highest + shift}, 0.5 * inlet.sizes->largest());
+                         Box{bounds.lowest + shift, bounds.highest + shift}, largestReach(kept.bodies));
         }
-        const auto centre = findRoom(scene, kept, *grid, radius, static_cast<std::uint32_t>(number));
-        if (!centre && kept.rises < inlet.mostRises) {
+        const auto room = findRoom(scene, kept, *grid, static_cast<std::uint32_t>(number));
+        if (!room && kept.rises < inlet.mostRises) {
             count.risen = ++kept.rises * norm(inlet.rise);
             grid.reset();
             continue;
         }
-        count.waits = !centre;
-        if (!centre) {
+        count.waits = !room;
+        if (!room) {
             if (!std::exchange(kept.wasTold, true))
                 tell(
-                    fmt::format("inlet {}: at {:.6g} s there was no room for a grain of radius {:.3g} m; {} "
+                    fmt::format("inlet {}: at {:.6g} s there was no room for a {} of radius {:.3g} m; {} "
                                 "grains, {:.6g} kg, "
                                 "had come; the flow of such times is {}.",
-                                number, time, radius, count.number, count.mass,
-                                inlet.noRoom == NoRoom::Later ? "made up for later" : "lost"));
+                                number, time, kind.clump() ? "clump" : "grain", radius, count.number,
+                                count.mass, inlet.noRoom == NoRoom::Later ? "made up for later" : "lost"));
             if (inlet.noRoom == NoRoom::Lost) count.lost += due - whole;
             return;
         }
-        SphericalParticle grain = inlet.like;
-        grain.setRadius(radius);
-        grain.setPosition(toEigen(*centre));
-        scene.particles.copyAndAddObject(grain);
-        grid->add(*centre, radius);
+        kind.addTo(scene.particles, scene.bodies, radius, room->place, room->turn);
+        for (const auto& [place, size] : kind.spheres(radius, room->place, room->turn))
+            grid->add(toVector(place), size);
         ++count.number;
         count.mass += mass;
         kept.attempts = 0;
@@ -254,22 +337,65 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
     }
 }
 
-std::optional<Vector<double>> InletHandler::findRoom(const InsertionScene& scene, Kept& kept,
-                                                     const SphereGrid& grid, double radius,
-                                                     std::uint32_t number) {
+/// A grain is placed among the centres that keep it in the region, a clump tried with each of its spheres.
+std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& scene, Kept& kept,
+                                                         const SphereGrid& grid, std::uint32_t number) {
     const Inlet& inlet = kept.inlet;
+    const BodyKind& kind = kept.bodies[kept.nextKind];
     const CountedRandom random(inlet.seed);
-    const double margin = inlet.wholeGrains ? radius : 0;
+    const double margin = inlet.wholeGrains && kind.grain() ? kept.nextRadius : 0;
     const Vector<double> shift = shiftOf(scene, kept, number);
+    const auto isFree = [&](const Ball& ball) {
+        const Vector<double> inRegion = toVector(ball.centre), centre = inRegion + shift;
+        return (!inlet.wholeGrains || kept.region->contains(inRegion, ball.radius)) &&
+               !touchesWall(scene.walls, scene.periodic, centre, ball.radius) &&
+               grid.isFree(centre, ball.radius);
+    };
     for (std::uint32_t k = 0; k < inlet.tries; ++k) {
-        const Vector<double> inRegion = candidateOf(*kept.region, random, kept.count.number,
-                                                    purposeOfPlaces + 3 * number, kept.attempts++, margin);
-        const Vector<double> centre = inRegion + shift;
-        if (kept.region->contains(inRegion, margin) &&
-            !touchesWall(scene.walls, scene.periodic, centre, radius) && grid.isFree(centre, radius))
-            return scene.periodic.wrap(centre);
+        const std::uint32_t attempt = kept.attempts++;
+        const Vector<double> place = candidateOf(*kept.region, random, kept.count.number,
+                                                 purposeOfPlaces + 3 * number, attempt, margin);
+        if (!kept.region->contains(place, margin)) continue;
+        const auto even = [&](std::uint32_t which) {
+            return random.uniform(kept.count.number, purposeOfTurns + 3 * number + which, attempt);
+        };
+        const Eigen::Quaterniond turn = !kind.clump()       ? Eigen::Quaterniond::Identity()
+                                        : inlet.randomTurns ? evenTurn(even(0), even(1), even(2))
+                                                            : kind.clump()->getOrientation();
+        if (std::ranges::all_of(kind.spheres(kept.nextRadius, place, turn), isFree))
+            return Room{scene.periodic.wrap(place + shift), turn};
     }
     return std::nullopt;
+}
+
+/// A restart refuses another mixture; one of grains of one kind is written as files without clumps have it.
+void InletHandler::visitKinds(StateArchive& archive, const BodyMixture& bodies) {
+    const auto& first = bodies[0];
+    archive.same("smallest", first.sizes.smallest(), "m");
+    archive.same("largest", first.sizes.largest(), "m");
+    archive.same("meanVolume", first.sizes.moment(3), "m^3");
+    archive.same("species", first.species());
+    archive.sameRecord<double>("velocity", first.velocity());
+    if (bodies.size() == 1 && first.grain()) {
+        archive.require(archive.isWriting() || !archive.holds("kinds"), "kinds",
+                        "is kept, but the inlet brings grains of one kind");
+        return;
+    }
+    archive.same("kinds", static_cast<std::int32_t>(bodies.size()));
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+        archive.group(fmt::format("kind{}", k), [&] {
+            const BodyKind& kind = bodies[k];
+            archive.same("smallest", kind.sizes.smallest(), "m");
+            archive.same("largest", kind.sizes.largest(), "m");
+            archive.same("meanVolume", kind.sizes.moment(3), "m^3");
+            archive.same("species", kind.species());
+            archive.sameRecord<double>("velocity", kind.velocity());
+            archive.same("share", bodies.shareOf(k));
+            const ClumpTemplate* const shape = kind.clump() ? &kind.clump()->getTemplate() : nullptr;
+            archive.same("spheres", static_cast<std::int32_t>(shape ? shape->getSpheres().size() : 0));
+            archive.same("volume", shape ? shape->getVolume() : 0, "m^3");
+            archive.same("reach", shape ? shape->getReach() : 0, "m");
+        });
 }
 
 void InletHandler::visitState(StateArchive& archive) {
@@ -279,11 +405,7 @@ void InletHandler::visitState(StateArchive& archive) {
             Kept& kept = inlets[k];
             const Inlet& inlet = kept.inlet;
             archive.group("region", [&] { inlet.region->visitState(archive); });
-            archive.same("smallest", inlet.sizes->smallest(), "m");
-            archive.same("largest", inlet.sizes->largest(), "m");
-            archive.same("meanVolume", inlet.sizes->moment(3), "m^3");
-            archive.same("species", inlet.like.getSpeciesIndex());
-            archive.sameRecord<double>("velocity", toVector(inlet.like.getVelocity()));
+            visitKinds(archive, kept.bodies);
             archive.same("massFlow", inlet.massFlow, "kg/s");
             archive.same("numberFlow", inlet.numberFlow, "1/s");
             archive.same("firstTime", inlet.first, "s");

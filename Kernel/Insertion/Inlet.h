@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "Kernel/Insertion/BodyMixture.h"
 #include "Kernel/Insertion/Insertion.h"
 
 namespace pendular {
@@ -19,11 +20,11 @@ enum class NoRoom {
     Lost    ///< it is lost; from then on the flow is as before
 };
 
-/// Grains that come into a region of a scene at a rate. What has come by a time t is the largest sum of whole
-/// grains that is not above the integral of the rate (less what was lost): the error never exceeds one grain,
-/// for any time step. Grain k of an inlet has a size that is a counted random number of (seed, k), and comes
-/// at a random place that is free. One that finds no room is kept and tried again in the next step; it is not
-/// drawn again, because that would favour small ones.
+/// Grains and clumps that come into a region of a scene at a rate. What has come by a time t is the largest
+/// sum of whole ones that is not above the integral of the rate (less what was lost): the error never exceeds
+/// one grain, for any time step. Grain k of an inlet has a size that is a counted random number of (seed, k),
+/// and comes at a random place that is free. One that finds no room is kept and tried again in the next step;
+/// it is not drawn again, because that would favour small ones.
 class Inlet {
 public:
     template <std::derived_from<Region> R>
@@ -34,6 +35,14 @@ public:
     /// Species, velocity, spin and film of the grains. With a velocity the inlet is a stream: what passes the
     /// region's area at that velocity may be dense up to a solid fraction of 0.25.
     void setGrain(const SphericalParticle& grain) { like = grain; }
+    /// Clumps come instead of grains: template, species, velocity and spin of them. setSizes() are the
+    /// diameters of spheres of their volume.
+    void setClump(const Clump& clump) { like = clump; }
+    /// A mixture of grains and clumps comes, with the sizes that are in it. Each body has a kind that is a
+    /// counted random number of (seed, k).
+    void setBodies(const BodyMixture& bodies) { mixture = bodies; }
+    /// Clumps come turned evenly at random, if this is not called; else as their Clump is turned.
+    void setRandomTurns(bool random) { randomTurns = random; }
     /// kg/s
     void setMassFlow(double rate);
     /// Grains a second.
@@ -62,7 +71,9 @@ private:
 
     std::shared_ptr<const Region> region;
     std::optional<SizeDistribution> sizes;
-    SphericalParticle like;
+    std::variant<SphericalParticle, Clump> like;
+    std::optional<BodyMixture> mixture;
+    bool randomTurns = true;
     double massFlow = unset, numberFlow = unset;  // kg/s, 1/s
     double first = 0, last = infinity;            // s
     NoRoom noRoom = NoRoom::Later;
@@ -76,11 +87,11 @@ private:
 
 /// What has come through an inlet.
 struct InletCount {
-    std::uint64_t number = 0;
-    double mass = 0;     // kg
-    double lost = 0;     // of the flow, kg or grains: what would have come if there had been room
-    bool waits = false;  // the next grain finds no room
-    double risen = 0;    // m, by which the region has followed the fill
+    std::uint64_t number = 0;  // of grains and clumps
+    double mass = 0;           // kg
+    double lost = 0;           // of the flow, kg or grains: what would have come if there had been room
+    bool waits = false;        // the next grain finds no room
+    double risen = 0;          // m, by which the region has followed the fill
 };
 
 /// The inlets of a scene.
@@ -95,12 +106,21 @@ public:
 
     // Called by the scene, not by drivers.
 
-    /// Smallest and largest radius (m) of the grains to come, and their species.
+    /// Smallest and largest radius (m) of the spheres to come of one kind, and their species.
     struct Sizes {
         double smallest, largest;
         int species;
+        std::optional<BodyResponse> response;  // of clumps
     };
-    [[nodiscard]] std::vector<Sizes> sizes() const;
+    [[nodiscard]] std::vector<Sizes> sizes(const GrainSpecies& species) const;
+    /// Whether clumps are to come.
+    [[nodiscard]] bool bringClumps() const;
+    /// m, the largest width of the clumps to come as they turn; 0 without any.
+    [[nodiscard]] double widestClump() const;
+    /// Throws InputError if a clump to come is wider than half the shortest period, as BodyHandler does.
+    void refuseTooWide(const PeriodicBox& periodic) const;
+    /// The mixture that an inlet brings.
+    [[nodiscard]] const BodyMixture& bodiesOf(std::size_t inlet) const { return inlets[inlet].bodies; }
     /// The liquid (m^3) of the films of all grains that come until a time (s), by the mean of their sizes.
     [[nodiscard]] double liquidBy(const ParticleHandler& particles, double time) const;
     /// Throws InputError if wet grains are to come by a time (s), and no liquid can be counted any more:
@@ -116,11 +136,13 @@ public:
 private:
     struct Kept {
         Inlet inlet;
+        BodyMixture bodies;
         std::shared_ptr<const Region> region;  // in this scene
         InletCount count;
         std::uint32_t attempts = 0;  // of places for the next grain
         bool wasTold = false;        // that there was no room
         double nextRadius = unset;   // m
+        std::size_t nextKind = 0;
         std::uint32_t rises = 0;
         Vector<double> onWall{0, 0, 0};  // m, the middle of the region in the frame of the wall
     };
@@ -131,11 +153,16 @@ private:
 
     void checkRoom(const InsertionScene& scene, std::size_t number) const;
     void check(const InsertionScene& scene, std::size_t number) const;
+    void checkStream(const InsertionScene& scene, std::size_t number) const;
     void letInOf(const InsertionScene& scene, std::size_t number, double time,
                  const std::function<void(std::string)>& tell);
-    static std::optional<Vector<double>> findRoom(const InsertionScene& scene, Kept& kept,
-                                                  const class SphereGrid& grid, double radius,
-                                                  std::uint32_t number);
+    struct Room {
+        Vector<double> place;  // m
+        Eigen::Quaterniond turn;
+    };
+    static std::optional<Room> findRoom(const InsertionScene& scene, Kept& kept, const class SphereGrid& grid,
+                                        std::uint32_t number);
+    static void visitKinds(StateArchive& archive, const BodyMixture& bodies);
 
     std::vector<Kept> inlets;
     bool hasBegun = false;

@@ -9,6 +9,7 @@
 
 namespace pendular {
 
+class BodyHandler;
 class WallHandler;
 
 /// How much is to be inserted.
@@ -48,6 +49,7 @@ struct Inserted {
     double mass = 0, wantedMass = 0;  // kg; wanted: the amount asked for
     double solidFraction = 0;         // of the region
     double firstLeftOut = 0;          // m, radius of the first grain that found no room; 0: all did
+    double orientationOrder = 0;      // S of the clumps that were inserted (Particles/OrientationOrder.h)
 };
 
 /// Up to this solid fraction grains are placed one after the other, at random points that are free, the
@@ -58,6 +60,7 @@ inline constexpr double looseFraction = 0.2;
 /// The scene into which grains come.
 struct InsertionScene {
     ParticleHandler& particles;
+    BodyHandler& bodies;
     const WallHandler& walls;
     const PeriodicBox& periodic;
     int threads = 1;

@@ -11,6 +11,7 @@
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Insertion/Inlet.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Particles/BodyHandler.h"
@@ -19,10 +20,14 @@
 namespace pendular {
 
 Features BodyPart::features(const StepContext& scene) const {
-    return scene.grains().bodies.empty() ? Features{} : Features{Feature::RigidBodies};
+    return scene.grains().bodies.empty() && !inlets.bringClumps() ? Features{}
+                                                                  : Features{Feature::RigidBodies};
 }
 
-void BodyPart::check(const StepContext& scene) { width = scene.bodies.refuseTooWide(); }
+void BodyPart::check(const StepContext& scene) {
+    inlets.refuseTooWide(scene.box);
+    width = std::max(scene.bodies.refuseTooWide(), inlets.widestClump());
+}
 
 void BodyPart::begin(StepContext& scene, bool /*isRestarted*/) { warnOfGaps(scene, 0); }
 

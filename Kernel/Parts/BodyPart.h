@@ -4,9 +4,13 @@
 
 namespace pendular {
 
+class InletHandler;
+
 /// The motion of rigid bodies, and of their grains with them.
 class BodyPart : public StepPart {
 public:
+    explicit BodyPart(const InletHandler& inletsOfScene) : inlets(inletsOfScene) {}
+
     [[nodiscard]] std::string_view name() const override { return "bodies"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
@@ -17,13 +21,14 @@ public:
     void afterMotion(StepContext& step) override;
     void takeBack(StepContext& step) override;
 
-    /// m, of the widest body as it turns; 0 without bodies
+    /// m, of the widest body that is there or to come, as it turns; 0 without any
     [[nodiscard]] double widest() const { return width; }
     /// Tells the user of bodies whose spheres do not hang together.
     /// @param first of the bodies that are looked at
     static void warnOfGaps(const StepContext& scene, std::size_t first);
 
 private:
+    const InletHandler& inlets;
     double width = 0;  // m
 };
 

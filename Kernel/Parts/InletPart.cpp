@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Shapes/SphereGroups.h"
 #include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
@@ -14,10 +17,17 @@ Features InletPart::features(const StepContext& /*scene*/) const {
 }
 
 InsertionScene InletPart::placesOf(const StepContext& scene) {
-    return {scene.particles, scene.walls, scene.box, scene.threads};
+    return {scene.particles, scene.bodies, scene.walls, scene.box, scene.threads};
 }
 
-void InletPart::begin(StepContext& scene, bool isRestarted) { inlets.begin(placesOf(scene), isRestarted); }
+void InletPart::begin(StepContext& scene, bool isRestarted) {
+    inlets.begin(placesOf(scene), isRestarted);
+    for (std::size_t k = 0; k < inlets.getSize(); ++k)
+        for (const BodyKind& kind : inlets.bodiesOf(k))
+            if (kind.clump())
+                if (const auto gap = gapInClump(kind.clump()->getTemplate().getSpheres()))
+                    scene.logger(LogLevel::Warn, "inlet {}: clumps: {}.", k, *gap);
+}
 
 void InletPart::prepare(StepContext& step) { inlets.requireLiquid(step.particles, step.time + step.length); }
 
@@ -30,12 +40,16 @@ void InletPart::visitState(StateArchive& archive, StepContext& /*scene*/) { inle
 
 GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, const InletHandler& inlets) {
     GrainSizes sizes(grains, laws.speciesCount());
-    for (const InletHandler::Sizes& toCome : inlets.sizes()) {
+    for (const InletHandler::Sizes& toCome : inlets.sizes(laws)) {
         // Twice, so that of all sizes between them any number may come; the count is that of a dense bed.
         const auto species = static_cast<std::size_t>(toCome.species);
         for (const double radius : {toCome.smallest, toCome.smallest, toCome.largest, toCome.largest})
             for (auto* ranges : {&sizes.all, &sizes.free}) ranges->at(species).add(radius);
         sizes.count += contactsInDensestBed + 1;
+        if (!toCome.response) continue;
+        sizes.hasBodies = true;
+        sizes.response.inertia = std::min(sizes.response.inertia, toCome.response->inertia);
+        sizes.response.damping = std::max(sizes.response.damping, toCome.response->damping);
     }
     return sizes;
 }
@@ -43,7 +57,9 @@ GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, co
 void InletPart::addTo(SummaryRows& rows) const {
     for (std::size_t k = 0; k < inlets.getSize(); ++k) {
         const InletCount& count = inlets.countOf(k);
-        rows.add(fmt::format("inlet {}: grains that have come", k), count.number);
+        rows.add(fmt::format("inlet {}: {} that have come", k,
+                             inlets.bodiesOf(k).hasClumps() ? "grains and bodies" : "grains"),
+                 count.number);
         rows.addNumber(fmt::format("inlet {}: mass that has come", k), count.mass, "kg");
     }
 }

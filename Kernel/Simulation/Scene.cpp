@@ -163,11 +163,22 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
 
 Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                        const Clump& like, const InsertOptions& options) {
-    requireImagesAtRest("clumps");
+    BodyMixture mixture;
+    mixture.add(like, sizes);
+    return insert(mixture, region, amount, options);
+}
+
+Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const Amount& amount,
+                       const InsertOptions& options) {
+    requireImagesAtRest(mixture.hasClumps() ? "clumps" : "grains");
     const std::size_t before = bodyHandler.getSize();
     const Inserted made =
-        insertClumps(InletPart::placesOf(inside->context), bodyHandler, sizes, region, amount, like, options);
+        insertBodies(InletPart::placesOf(inside->context), mixture, region, amount, options);
     if (hasBegun()) BodyPart::warnOfGaps(inside->context, before);
+    else if (mixture.hasClumps())
+        logger(LogLevel::Info,
+               "insert(): {} grains and clumps, a solid fraction of {:.4g}; orientation order {:.3g}.",
+               made.number, made.solidFraction, made.orientationOrder);
     return inside->reportShortfall(made);
 }
 

@@ -61,10 +61,14 @@ public:
                     const SphericalParticle& like, const InsertOptions& options = {});
 
     /// Inserts clumps, each turned at random: a size is the diameter of a sphere of a clump's volume, so that
-    /// the template is scaled to it. This is for loose starts, up to a solid fraction of 0.2 or as far as
-    /// clumps find room. A clump of one sphere is one too.
+    /// the template is scaled to it. Above a solid fraction of 0.2 they grow, push and turn each other. The
+    /// orientation order of what was inserted is returned, and told at set-up. A clump of one sphere is one
+    /// too.
     Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                     const Clump& like, const InsertOptions& options = {});
+    /// Inserts a mixture of grains and clumps, as exactly in its shares as their number allows.
+    Inserted insert(const BodyMixture& mixture, const Region& region, const Amount& amount,
+                    const InsertOptions& options = {});
 
     /// From now on output.write(*this) is called before each writeOutput(): addOutput(ParaViewOutput()). If
     /// it has a function prepare(*this), that is called at once, and again when the scene is set up;

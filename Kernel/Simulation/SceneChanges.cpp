@@ -35,6 +35,31 @@ void Scene::Inside::refuseOtherMemory() const {
             "no others have; add it before the run begins.");
 }
 
+/// Whether grains were joined only to bodies that are new themselves, and within what the checks know because
+/// an inlet brings such: then they are new grains, and nothing that was there has changed.
+static bool areKnownNewBodies(const GrainChanges& changes, const ParticleStore& grains,
+                              const GrainSizes& known, double widest) {
+    if (!changes.placed.empty() || changes.altered.empty()) return false;
+    ParticleStore toCheck;
+    std::uint32_t last = RigidBodies::none;
+    for (const std::uint32_t identity : changes.altered) {
+        const std::uint32_t number = grains.bodies.bodyOf(identity);
+        if (number == RigidBodies::none || !std::ranges::binary_search(changes.added, identity)) return false;
+        if (std::exchange(last, number) == number) continue;
+        const std::uint32_t at = grains.bodies.find(number);
+        std::vector<BodyMember> members;
+        for (const BodyMember& member : grains.bodies.membersOf(at)) {
+            const TranslationRecord& grain = grains.translation[grains.place[member.grain]];
+            if (2 * (norm(member.arm) + grain.radius) > widest * (1 + 1e-9)) return false;
+            members.push_back({toCheck.add(grain, {0, 0, 0}, 0), member.arm});
+        }
+        toCheck.bodies.add(grains.bodies[at], members, grains.bodies.volumeOf(at));
+    }
+    const BodyResponse response = toCheck.bodies.response(toCheck);
+    return response.inertia >= known.response.inertia * (1 - 1e-9) &&
+           response.damping <= known.response.damping * (1 + 1e-9);
+}
+
 void Scene::Inside::takeOverChanges() {
     ParticleHandler& particles = scene.particleHandler;
     WallHandler& walls = scene.wallHandler;
@@ -45,12 +70,15 @@ void Scene::Inside::takeOverChanges() {
                    changedWalls = walls.hasChanges();
         const auto firstNewWall = static_cast<int>(walls.firstNewWall());
         // Springs may work in the step again, as they do after a restart without bodies.
-        const bool lastBodyWent = checkedSizes.hasBodies && context.grains().bodies.empty();
+        const bool lastBodyWent =
+            checkedSizes.hasBodies && context.grains().bodies.empty() && !scene.inletHandler.bringClumps();
         if (!newLaws && !changedWalls && !newStep && !lastBodyWent &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
         const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
-        const bool changedGrains = !changes.placed.empty() || !changes.altered.empty(),
+        const bool bodiesCame = scene.inletHandler.bringClumps() &&
+                                areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest()),
+                   changedGrains = !changes.placed.empty() || (!changes.altered.empty() && !bodiesCame),
                    newBodies = changedWalls || changedGrains;
         if (newLaws) {
             refuseOtherMemory();

@@ -23,6 +23,7 @@ Scene::Inside::Inside(Scene& of)
       context{of.particleHandler, of.bodyHandler, of.wallHandler, contacts, box, of.logger, of.stepTimer()},
       adaptive(of.inletHandler, flow),
       fluxPlanes(of.fluxPlaneHandler),
+      bodies(of.inletHandler),
       liquid(of.sprayHandler, of.inletHandler),
       outlets(of.outletHandler),
       inlets(of.inletHandler),

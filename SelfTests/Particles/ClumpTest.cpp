@@ -283,11 +283,6 @@ TEST(Clump, isInsertedWithoutOverlapInTheSizesOfADistribution) {
         EXPECT_GE(scene.motion(k).position.z(), scene.motion(k).radius * (1 - 1e-9));
         EXPECT_LE(scene.motion(k).position.z(), edge - scene.motion(k).radius * (1 - 1e-9));
     }
-    EXPECT_TRUE(contains(support::refusal([&] {
-                             scene.insert(evenSizes(1.6e-3, 2.4e-3), BoxRegion({0, 0, 0}, {edge, edge, edge}),
-                                          Amount::solidFraction(0.3), clump);
-                         }),
-                         "clumps at a solid fraction of 0.3"));
 }
 
 // Each component of an axis that is turned evenly has the mean 0 and the mean square 1/3, and no two are

@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 58> composed{
     // liquid
     "Films", "LiquidDensity", "Evaporation", "Spray", "JoinAtStart",
     // grains that come and go
-    "Insert", "InsertedClumps", "InsertInRun", "Inlet", "Outlet", "FluxPlane",
+    "Insert", "InsertedClumps", "DenseClumps", "InsertInRun", "Inlet", "ClumpInlet", "Outlet", "FluxPlane",
     // changes in the run
     "TimeStepChange", "MaterialChange", "Remove",
     // outputs

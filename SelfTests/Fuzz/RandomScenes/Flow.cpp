@@ -61,6 +61,27 @@ void addInsertedClumps(Making& making) {
         roomOf(making), Amount::grains(static_cast<std::size_t>(making.draw.whole(1, 3))), rod);
 }
 
+/// One in three times a mixture with grains, and one in two times so dense that they grow.
+void addDenseClumps(Making& making) {
+    const double size = making.scales.radius;
+    Clump rod(ClumpTemplate({{{0, 0, -0.4}, 1}, {{0, 0, 0.4}, 1}}));
+    rod.setSpecies(making.anyMaterial());
+    BodyMixture mixture;
+    mixture.add(rod, evenSizes(making.draw.give("smallest", 0.8 * size), making.draw.give("largest", size)));
+    if (making.draw.oneIn(3))
+        mixture.add(anyLike(making), evenSizes(0.8 * size, size), making.draw.give("share", 0.5));
+    // A part of the room, for a few.
+    const Vec3D middle = 0.5 * (making.lowest + making.highest);
+    const double top = making.top + 0.02 * making.scales.cell;
+    const Vec3D half =
+        0.9 * Vec3D::Constant(std::min({size * 2, 0.5 * (making.highest.z() - top),
+                                        middle.x() - making.lowest.x(), middle.y() - making.lowest.y()}));
+    const Vec3D centre(middle.x(), middle.y(), top + half.z());
+    making.scene.insert(
+        mixture, BoxRegion(centre - half, centre + half),
+        Amount::solidFraction(making.draw.give("fraction", making.draw.oneIn(2) ? 0.15 : 0.25)));
+}
+
 void addInsertInRun(Making& making) {
     const SizeDistribution sizes = anySizes(making);
     const SphericalParticle like = anyLike(making);
@@ -71,17 +92,17 @@ void addInsertInRun(Making& making) {
     });
 }
 
-void addInlet(Making& making) {
-    Inlet inlet;
-    inlet.setRegion(roomOf(making));
-    inlet.setSizes(anySizes(making));
-    inlet.setGrain(anyLike(making));
-    // 1/s; a stream has at most a quarter of the solid fraction.
+/// 1/s; a stream has at most a quarter of the solid fraction.
+double anyFlow(Making& making) {
     const Vec3D width = making.highest - making.lowest;
     const double densest = 0.25 * 0.9 * width.x() * 0.9 * width.y() * 0.4 * making.scales.speed /
-                           (making.scales.mass() / making.scales.density),
-                 number = std::min(making.draw.even(1, 8) / making.scales.duration,
-                                   making.draw.even(0.2, 1) * 0.5 * densest);
+                           (making.scales.mass() / making.scales.density);
+    return std::min(making.draw.even(1, 8) / making.scales.duration,
+                    making.draw.even(0.2, 1) * 0.5 * densest);
+}
+
+/// The rest of an inlet of these bodies.
+void addInletOf(Making& making, Inlet& inlet, double number) {
     if (making.draw.oneIn(2)) inlet.setNumberFlow(making.draw.give("flow", number));
     else inlet.setMassFlow(making.draw.give("flow", number * making.scales.mass()));
     if (making.draw.oneIn(2)) inlet.setNoRoom(NoRoom::Lost);
@@ -91,6 +112,40 @@ void addInlet(Making& making) {
                        making.draw.give("last", 0.8 * making.scales.duration));
     inlet.setSeed(static_cast<std::uint64_t>(making.draw.whole(0, 1000)));
     making.scene.inletHandler.copyAndAddObject(inlet);
+}
+
+void addInlet(Making& making) {
+    Inlet inlet;
+    inlet.setRegion(roomOf(making));
+    inlet.setSizes(anySizes(making));
+    inlet.setGrain(anyLike(making));
+    addInletOf(making, inlet, anyFlow(making));
+}
+
+/// Clumps, or a mixture of them with grains.
+void addClumpInlet(Making& making) {
+    Inlet inlet;
+    inlet.setRegion(roomOf(making));
+    const double size = 1.2 * making.scales.radius;
+    const SphericalParticle grain = anyLike(making);
+    Clump rod(ClumpTemplate({{{0, 0, -0.5}, 1}, {{0, 0, 0.5}, 1}}));
+    rod.setSpecies(making.anyMaterial());
+    rod.setVelocity(grain.getVelocity());
+    rod.setAngularVelocity(making.draw.give(
+        "spin", Vec3D(making.scales.speed / making.scales.radius * making.draw.inCube(0.3))));
+    const SizeDistribution sizes =
+        evenSizes(making.draw.give("smallest", 0.8 * size), making.draw.give("largest", size));
+    if (making.draw.oneIn(2)) {
+        BodyMixture mixture;
+        mixture.add(rod, sizes);
+        mixture.add(grain, anySizes(making), making.draw.give("share", making.draw.even(0.1, 2)));
+        inlet.setBodies(mixture);
+    } else {
+        inlet.setClump(rod);
+        inlet.setSizes(sizes);
+    }
+    inlet.setRandomTurns(!making.draw.oneIn(4));
+    addInletOf(making, inlet, anyFlow(making));
 }
 
 void addOutlet(Making& making) {
@@ -129,6 +184,7 @@ std::vector<Feature> flowFeatures() {
     return {
         {.name = "Insert", .share = 0.12, .add = addInsert, .kinds = {"room"}},
         {.name = "InsertedClumps", .share = 0.05, .add = addInsertedClumps, .kinds = {"room", "body"}},
+        {.name = "DenseClumps", .share = 0.05, .add = addDenseClumps, .kinds = {"room", "body"}},
         {.name = "InsertInRun",
          .share = 0.08,
          .add = addInsertInRun,
@@ -139,6 +195,11 @@ std::vector<Feature> flowFeatures() {
          .add = addInlet,
          .loses = both,
          .kinds = {"room", "inlet", "comes in the run"}},
+        {.name = "ClumpInlet",
+         .share = 0.05,
+         .add = addClumpInlet,
+         .loses = both,
+         .kinds = {"room", "inlet", "body", "comes in the run"}},
         {.name = "Outlet", .share = 0.08, .add = addOutlet, .loses = both, .kinds = {"outlet"}},
         {.name = "FluxPlane", .share = 0.1, .add = addFluxPlane},
     };

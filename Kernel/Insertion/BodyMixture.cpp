@@ -1,0 +1,157 @@
+#include "Kernel/Insertion/BodyMixture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Particles/BodyHandler.h"
+
+namespace pendular {
+
+namespace {
+
+constexpr std::uint32_t purposeOfKinds = 0x125A000;
+
+/// m, of the spheres of a template.
+double leastRadius(const ClumpTemplate& shape) {
+    return std::ranges::min(shape.getSpheres(), {}, &Ball::radius).radius;
+}
+double mostRadius(const ClumpTemplate& shape) {
+    return std::ranges::max(shape.getSpheres(), {}, &Ball::radius).radius;
+}
+
+}  // namespace
+
+double densityOf(const ParticleHandler& particles, int species) {
+    return particles.massOf(1, species) / sphereMass(1, 1);
+}
+
+Eigen::Quaterniond evenTurn(double a, double b, double c) {
+    const double low = std::sqrt(1 - a), high = std::sqrt(a);
+    const double first = 2 * std::numbers::pi * b, second = 2 * std::numbers::pi * c;
+    return {high * std::cos(second), low * std::sin(first), low * std::cos(first), high * std::sin(second)};
+}
+
+int BodyKind::species() const {
+    return std::visit([](const auto& one) { return one.getSpeciesIndex(); }, like);
+}
+Vector<double> BodyKind::velocity() const {
+    return std::visit([](const auto& one) { return toVector(one.getVelocity()); }, like);
+}
+double BodyKind::film() const { return grain() ? grain()->getLiquidVolume() : 0; }
+
+double BodyKind::density(double ofSpecies) const {
+    if (grain()) return ofSpecies;
+    const ClumpTemplate& shape = clump()->getTemplate();
+    return shape.massOf(ofSpecies, 1).mass / shape.getVolume();
+}
+
+double BodyKind::scale(double radius) const { return 2 / clump()->getTemplate().getDiameter() * radius; }
+double BodyKind::smallestSphere(double radius) const {
+    return grain() ? radius : scale(radius) * leastRadius(clump()->getTemplate());
+}
+double BodyKind::largestSphere(double radius) const {
+    return grain() ? radius : scale(radius) * mostRadius(clump()->getTemplate());
+}
+double BodyKind::reach(double radius) const {
+    return grain() ? radius : scale(radius) * clump()->getTemplate().getReach();
+}
+
+std::vector<Ball> BodyKind::spheres(double radius, const Vector<double>& place,
+                                    const Eigen::Quaterniond& turn) const {
+    const Vec3D centre = toEigen(place);
+    if (grain()) return {{centre, radius}};
+    const Eigen::Matrix3d matrix = turn.normalized().toRotationMatrix();
+    const double factor = scale(radius);
+    std::vector<Ball> all;
+    for (const Ball& ball : clump()->getTemplate().getSpheres())
+        all.push_back({centre + factor * (matrix * ball.centre), factor * ball.radius});
+    return all;
+}
+
+void BodyKind::addTo(ParticleHandler& particles, BodyHandler& bodies, double radius,
+                     const Vector<double>& place, const Eigen::Quaterniond& turn) const {
+    if (const SphericalParticle* const one = grain()) {
+        SphericalParticle copy = *one;
+        copy.setRadius(radius);
+        copy.setPosition(toEigen(place));
+        particles.copyAndAddObject(copy);
+        return;
+    }
+    Clump copy = *clump();
+    copy.setScale(scale(radius));
+    copy.setPosition(toEigen(place));
+    copy.setOrientation(turn);
+    bodies.copyAndAddObject(copy);
+}
+
+BodyMixture::BodyMixture(SizeBasis what) : basis(what) {
+    if (basis != SizeBasis::Number && basis != SizeBasis::Volume)
+        throw InputError(fmt::format(
+            "BodyMixture: shares of the {} are asked for; take SizeBasis::Number or SizeBasis::Volume.",
+            nameOf(basis)));
+}
+
+void BodyMixture::add(const SphericalParticle& like, const SizeDistribution& sizes, double share) {
+    add(BodyKind{like, sizes, share});
+}
+void BodyMixture::add(const Clump& like, const SizeDistribution& sizes, double share) {
+    add(BodyKind{like, sizes, share});
+}
+void BodyMixture::add(BodyKind kind) {
+    checkValue("BodyMixture", "share", kind.share, "", positive);
+    if (basis == SizeBasis::Volume) kind.share /= kind.sizes.moment(3);
+    kinds.push_back(std::move(kind));
+}
+
+bool BodyMixture::hasClumps() const {
+    return std::ranges::any_of(kinds, [](const BodyKind& kind) { return kind.clump() != nullptr; });
+}
+
+double BodyMixture::shareOf(std::size_t number) const {
+    double sum = 0;
+    for (const BodyKind& kind : kinds) sum += kind.share;
+    return kinds[number].share / sum;
+}
+
+std::size_t BodyMixture::draw(const CountedRandom& random, std::uint64_t identity) const {
+    if (kinds.size() == 1) return 0;
+    double left = random.uniform(identity, purposeOfKinds);
+    for (std::size_t k = 0; k + 1 < kinds.size(); ++k)
+        if ((left -= shareOf(k)) < 0) return k;
+    return kinds.size() - 1;
+}
+
+double BodyMixture::meanMass(const ParticleHandler& particles) const {
+    if (kinds.size() == 1)
+        return kinds[0].density(densityOf(particles, kinds[0].species())) * std::numbers::pi / 6 *
+               kinds[0].sizes.moment(3);
+    double sum = 0;
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+        sum += shareOf(k) * kinds[k].density(densityOf(particles, kinds[k].species())) * std::numbers::pi /
+               6 * kinds[k].sizes.moment(3);
+    return sum;
+}
+
+std::vector<std::size_t> BodyMixture::counts(std::size_t bodies) const {
+    std::vector<std::size_t> numbers;
+    std::vector<double> rests;
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        const double own = shareOf(k) * static_cast<double>(bodies);
+        numbers.push_back(static_cast<std::size_t>(own * (1 + 1e-12)));
+        rests.push_back(own - static_cast<double>(numbers.back()));
+    }
+    const auto missing = [&] { return std::reduce(numbers.begin(), numbers.end()) < bodies; };
+    while (missing()) {
+        const auto most = static_cast<std::size_t>(std::ranges::max_element(rests) - rests.begin());
+        ++numbers[most];
+        rests[most] -= 1;
+    }
+    return numbers;
+}
+
+}  // namespace pendular
