@@ -50,6 +50,19 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// Its velocity is that at its place inside the periodic box.
+void bringIntoFlow(Clump& clump, const PeriodicBox& periodic, const Vector<double>& place,
+                   const Vector<double>& velocity, const InsertOptions& options) {
+    if (!periodic.imagesMove) return;
+    const Vector<double> inside = periodic.wrap(place);
+    clump.setPosition(toEigen(inside));
+    if (options.withFlow) clump.setVelocity(toEigen(velocity + periodic.flowAt(inside)));
+}
+
+}  // namespace
+
 Eigen::Quaterniond evenTurn(double a, double b, double c) {
     const double low = std::sqrt(1 - a), high = std::sqrt(a);
     const double first = 2 * std::numbers::pi * b, second = 2 * std::numbers::pi * c;
@@ -98,6 +111,7 @@ Inserted insertClumps(const InsertionScene& scene, BodyHandler& bodies, const Si
             clump.setPosition(toEigen(place));
             clump.setOrientation(evenTurn(even(0), even(1), even(2)));
             isPlaced = room.has(clump);
+            if (isPlaced) bringIntoFlow(clump, scene.periodic, place, toVector(like.getVelocity()), options);
         }
         if (!isPlaced) {
             if (result.firstLeftOut == 0) result.firstLeftOut = radii[k];

@@ -139,11 +139,12 @@ Vector<double> InletHandler::shiftOf(const InsertionScene& scene, const Kept& ke
     return shift;
 }
 
-void InletHandler::begin(const InsertionScene& scene, bool isRestarted) {
+void InletHandler::begin(const InsertionScene& scene, const PeriodicBox& atSetUp, bool isRestarted) {
     hasBegun = true;
     for (std::size_t k = 0; k < inlets.size(); ++k) {
         Kept& kept = inlets[k];
-        kept.region = kept.inlet.region->in(scene.periodic);
+        kept.region = kept.inlet.region->in(atSetUp);
+        kept.inFlow = RegionInFlow(kept.region, atSetUp);
         // On a restart walls and regions have moved, and the region's way is not known yet.
         if (!isRestarted) checkRoom(scene, k);
         check(scene, k);
@@ -219,6 +220,7 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
         const double film = inlet.like.getLiquidVolume();
         if (film > 0 && scene.particles.films().objectionToMore(film)) return;
         if (!grid) {
+            kept.inFlow.requireRoom(fmt::format("At time {:.6g} s inlet {}", time, number), scene.periodic);
             const Vector<double> shift = shiftOf(scene, kept, number);
             const Box bounds = kept.region->bounds();
             grid.emplace(ParticleHandler::Inside::grainsInStep(scene.particles), scene.periodic,
@@ -245,6 +247,8 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
         SphericalParticle grain = inlet.like;
         grain.setRadius(radius);
         grain.setPosition(toEigen(*centre));
+        if (scene.periodic.imagesMove)
+            grain.setVelocity(inlet.like.getVelocity() + toEigen(scene.periodic.flowAt(*centre)));
         scene.particles.copyAndAddObject(grain);
         grid->add(*centre, radius);
         ++count.number;
@@ -264,7 +268,7 @@ std::optional<Vector<double>> InletHandler::findRoom(const InsertionScene& scene
     for (std::uint32_t k = 0; k < inlet.tries; ++k) {
         const Vector<double> inRegion = candidateOf(*kept.region, random, kept.count.number,
                                                     purposeOfPlaces + 3 * number, kept.attempts++, margin);
-        const Vector<double> centre = inRegion + shift;
+        const Vector<double> centre = kept.inFlow.placeNow(inRegion, scene.periodic) + shift;
         if (kept.region->contains(inRegion, margin) &&
             !touchesWall(scene.walls, scene.periodic, centre, radius) && grid.isFree(centre, radius))
             return scene.periodic.wrap(centre);

@@ -17,7 +17,9 @@ InsertionScene InletPart::placesOf(const StepContext& scene) {
     return {scene.particles, scene.walls, scene.box, scene.threads};
 }
 
-void InletPart::begin(StepContext& scene, bool isRestarted) { inlets.begin(placesOf(scene), isRestarted); }
+void InletPart::begin(StepContext& scene, bool isRestarted) {
+    inlets.begin(placesOf(scene), scene.boxAtSetUp, isRestarted);
+}
 
 void InletPart::prepare(StepContext& step) { inlets.requireLiquid(step.particles, step.time + step.length); }
 
