@@ -19,13 +19,34 @@ double shareAtReach(const Vector<double>& start, const Vector<double>& way, doub
     return c / (std::sqrt(root) - b);  // the smaller root of a x^2 + 2 b x + c, without cancellation
 }
 
+/// m/s, how much faster than each other images are that follow each other, at most.
+double speedOfImages(const PeriodicBox& box) {
+    if (!box.imagesMove) return 0;
+    const Vector<double> apart{box.strainRate.x * box.length.x, box.strainRate.y * box.length.y,
+                               box.strainRate.z * box.length.z};
+    return norm(box.imageVelocity) + norm(apart);
+}
+
 }  // namespace
+
+Approach approachTo(const TranslationRecord& grain, const Sweep& sweep, const PeriodicBox& box) {
+    if (!box.imagesMove) {
+        const Vector<double> before = grain.position - sweep.time * grain.velocity;
+        return {box.nearest(sweep.from - before), (sweep.to - sweep.from) - sweep.time * grain.velocity};
+    }
+    // Where images are is known at the end of the step.
+    const Vector<double> apart = sweep.to - grain.position, end = box.nearest(apart);
+    const Vector<double> imageVelocity = box.velocityBetweenImages(apart, end);
+    const Vector<double> way = (sweep.to - sweep.from) - sweep.time * (grain.velocity + imageVelocity);
+    return {end - way, way, imageVelocity};
+}
 
 void SweptSearch::update(const ParticleStore& grains, const PeriodicBox& box, std::size_t lists, double shift,
                          double smallestRadius) {
     stepShift = shift;
     moved += shift;
-    if (cells && lists == listsThen && grains.nextIdentity() == nextThen && moved < 0.5 * smallestRadius)
+    if (cells && !box.imagesMove && lists == listsThen && grains.nextIdentity() == nextThen &&
+        moved < 0.5 * smallestRadius)
         return;
     cells.emplace(grains.translation, 0, box);
     moved = 0;
@@ -46,13 +67,12 @@ void SweptSearch::meetGrains(const Sweep& sweep, const ParticleStore& grains, co
                              SweepHit& hit) const {
     const Vector<double> middle = 0.5 * (sweep.from + sweep.to);
     const double half = 0.5 * norm(sweep.to - sweep.from);
-    cells->forEachNear(middle, half + sweep.radius, moved + stepShift, [&](std::uint32_t place) {
+    const double farther = moved + stepShift + sweep.time * speedOfImages(box);
+    cells->forEachNear(middle, half + sweep.radius, farther, [&](std::uint32_t place) {
         if (grains.isGap(place)) return;
         const TranslationRecord& grain = grains.translation[place];
-        const Vector<double> before = grain.position - sweep.time * grain.velocity;
-        const Vector<double> start = box.nearest(sweep.from - before);
-        const Vector<double> way = (sweep.to - sweep.from) - sweep.time * grain.velocity;
-        const double share = shareAtReach(start, way, grain.radius + sweep.radius);
+        const Approach approach = approachTo(grain, sweep, box);
+        const double share = shareAtReach(approach.start, approach.way, grain.radius + sweep.radius);
         if (share > 1 || share > hit.share) return;
         const bool isFirst = share < hit.share || hit.grain == SweepHit::none ||
                              grains.identity[place] < grains.identity[hit.grain];

@@ -37,6 +37,13 @@ struct SweepHit {
     [[nodiscard]] bool isHit() const { return share <= 1; }
 };
 
+/// The way of a sphere through a step as a grain sees it that moves straight, too.
+struct Approach {
+    Vector<double> start, way;           // m, of the sphere's centre against the grain's
+    Vector<double> imageVelocity{0, 0, 0};  // m/s, by which the sphere is faster than its image that the grain meets
+};
+[[nodiscard]] Approach approachTo(const TranslationRecord& grain, const Sweep& sweep, const PeriodicBox& box);
+
 /// Finds the first grain or wall that a sphere meets on its way through a step. Grains move straight, too,
 /// with the velocity that they have at its end; walls are where they are then. If several are met at the same
 /// point of the way, the grain with the lowest identity is the first, then the wall with the lowest number.

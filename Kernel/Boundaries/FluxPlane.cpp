@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Boundaries/FluxInFlow.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/RigidWall.h"
@@ -43,11 +44,13 @@ void FluxPlaneHandler::begin(const PeriodicBox& periodic) {
                                 "itself; it must be along it or across it.",
                                 p, "xyz"[k]));
             plane.period = periods[k];
+            plane.axis = static_cast<int>(k);
         }
     }
 }
 
-void FluxPlaneHandler::beforeMotion(const ParticleStore& grains) {
+void FluxPlaneHandler::beforeMotion(const ParticleStore& grains, const PeriodicBox& periodic) {
+    boxFrom = periodic;
     for (Plane& plane : planes) plane.before = plane.count;
     from.resize(grains.size());
     for (std::size_t k = 0; k < grains.size(); ++k) from[k] = grains.translation[k].position;
@@ -55,8 +58,33 @@ void FluxPlaneHandler::beforeMotion(const ParticleStore& grains) {
     for (std::size_t k = 0; k < grains.bodies.size(); ++k) bodiesFrom[k] = grains.bodies[k].position;
 }
 
-void FluxPlaneHandler::findCrossings(const Plane& plane, const ParticleStore& grains) {
+void FluxPlaneHandler::findCrossings(const Plane& plane, const ParticleStore& grains,
+                                     const PeriodicBox& periodic, double step) {
     crossings.clear();
+    if (!periodic.imagesMove) {
+        findCrossingsAtRest(plane, grains);
+    } else if (step > 0) {
+        const FluxInFlow flow(boxFrom, periodic, step, {plane.normal, plane.offset, plane.axis});
+        for (std::uint32_t k = 0; k < grains.size(); ++k) {
+            const TranslationRecord& grain = grains.translation[k];
+            if (!(grain.radius > 0) || grains.bodies.contains(grains.identity[k])) continue;
+            flow.forEachPassage(from[k], grain.position, [&](double times, const Vector<double>& way) {
+                crossings.push_back({grains.identity[k], k, RigidBodies::none, times, way});
+            });
+        }
+        for (std::uint32_t k = 0; k < grains.bodies.size(); ++k) {
+            const std::uint32_t first = grains.bodies.membersOf(k).front().grain;
+            flow.forEachPassage(bodiesFrom[k], grains.bodies[k].position,
+                                [&](double times, const Vector<double>& way) {
+                                    crossings.push_back({first, grains.place[first], k, times, way});
+                                });
+        }
+    }
+    // Places depend on the list of contacts, sums must not. A grain may pass twice in a step.
+    std::ranges::stable_sort(crossings, {}, &Crossing::identity);
+}
+
+void FluxPlaneHandler::findCrossingsAtRest(const Plane& plane, const ParticleStore& grains) {
     const Vector<double> normal = plane.normal;
     const double offset = plane.offset, period = plane.period;
     // The number of images of the plane, or of the one plane, that lie behind a body changes by 1 at each.
@@ -80,8 +108,6 @@ void FluxPlaneHandler::findCrossings(const Plane& plane, const ParticleStore& gr
     };
     if (period > 0) collect([=](double distance) { return std::floor(distance / period); });
     else collect([](double distance) { return distance >= 0 ? 1.0 : 0.0; });
-    // Places depend on the list of contacts, sums must not.
-    std::ranges::sort(crossings, {}, &Crossing::identity);
 }
 
 /// The velocity is the way over the step: that of the grain is the one that contacts are to see, with most
@@ -97,11 +123,11 @@ void FluxPlaneHandler::add(FluxCount& count, const Crossing& crossing, double ma
     (forwards ? count.liquidForwards : count.liquidBackwards) += times * liquid;
 }
 
-void FluxPlaneHandler::afterMotion(ParticleHandler& particles, double step,
+void FluxPlaneHandler::afterMotion(ParticleHandler& particles, const PeriodicBox& periodic, double step,
                                    const std::function<double(std::uint32_t)>& liquidOf) {
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     for (Plane& plane : planes) {
-        findCrossings(plane, grains);
+        findCrossings(plane, grains, periodic, step);
         for (const Crossing& crossing : crossings) {
             if (crossing.body == RigidBodies::none) {
                 add(plane.count, crossing, particles.massAt(crossing.place), liquidOf(crossing.place), step);

@@ -38,6 +38,9 @@ struct FluxPlane {
 /// and -1 the other way; one that goes to and fro nets 0 or 1. In a scene that repeats itself along the
 /// normal, the plane's images count, too; that a grain is brought back into the period is no crossing, nor is
 /// that a hook puts it elsewhere.
+/// In shear and strain the plane stays where it is in space, and what the flow carries through it counts. Of
+/// the images of a grain that one counts which goes through the plane itself, at its velocity; of those
+/// beside each other along the plane, that which is inside the periodic box then.
 class FluxPlaneHandler {
 public:
     /// At set-up only. Returns the plane's number.
@@ -52,10 +55,11 @@ public:
     /// The run begins. Throws InputError for a plane that is inclined to a direction in which the scene
     /// repeats itself: its images would be other planes.
     void begin(const PeriodicBox& periodic);
-    /// beforeMotion() is called before the grains of a step move, afterMotion() when they have.
-    void beforeMotion(const ParticleStore& grains);
+    /// beforeMotion() is called before the grains of a step and their images move, afterMotion() when they
+    /// have.
+    void beforeMotion(const ParticleStore& grains, const PeriodicBox& periodic);
     /// @param step s; @param liquidOf the grain at a place, m^3
-    void afterMotion(ParticleHandler& particles, double step,
+    void afterMotion(ParticleHandler& particles, const PeriodicBox& periodic, double step,
                      const std::function<double(std::uint32_t)>& liquidOf);
     /// The step has failed: what it counted is taken back.
     void takeBack();
@@ -66,6 +70,7 @@ private:
         Vector<double> normal{0, 0, 0};  // unit
         double offset = 0;               // m
         double period = 0;               // m; 0: the plane has no images
+        int axis = -1;                   // along which it has them
         FluxCount count, before;         // and that before the motion
     };
     struct Crossing {
@@ -76,13 +81,16 @@ private:
         Vector<double> way;      // m, in the step
     };
     /// Grains in no rigid body that have gone through a plane, and bodies.
-    void findCrossings(const Plane& plane, const ParticleStore& grains);
+    void findCrossings(const Plane& plane, const ParticleStore& grains, const PeriodicBox& periodic,
+                       double step);
+    void findCrossingsAtRest(const Plane& plane, const ParticleStore& grains);
     /// @param mass kg and @param liquid m^3, of what has gone through the plane
     static void add(FluxCount& count, const Crossing& crossing, double mass, double liquid, double step);
 
     std::vector<Plane> planes;
     std::vector<Vector<double>> from,
         bodiesFrom;  // m, of the grain at each place and of each body, before the motion
+    PeriodicBox boxFrom;  // before the motion
     std::vector<Crossing> crossings;
     bool hasBegun = false;
 };

@@ -43,18 +43,18 @@ std::size_t OutletHandler::copyAndAddObject(const Outlet& outlet) {
     return outlets.size() - 1;
 }
 
-void OutletHandler::begin(const PeriodicBox& periodic, const ParticleStore& grains, double time) {
+void OutletHandler::begin(const PeriodicBox& atSetUp, const ParticleStore& grains, double time) {
     hasBegun = true;
     for (const Outlet& outlet : outlets) longestAge = std::max(longestAge, outlet.leastAge);
     arrivals = {{time, grains.nextIdentity()}};
     last = time;
-    const std::array<double, 3> periods{periodic.length.x, periodic.length.y, periodic.length.z};
+    const std::array<double, 3> periods{atSetUp.length.x, atSetUp.length.y, atSetUp.length.z};
     for (std::size_t o = 0; o < outlets.size(); ++o) {
         Outlet& outlet = outlets[o];
         if (outlet.region) {
-            outlet.region = outlet.region->in(periodic);
-            outlet.fromRegion = periodic;
-            outlet.fromRegion.lowest = outlet.region->bounds().lowest;
+            outlet.region = outlet.region->in(atSetUp);
+            outlet.inFlow = RegionInFlow(outlet.region, atSetUp);
+            outlet.fromRegion = outlet.inFlow.boxNow(atSetUp);
             continue;
         }
         const std::array<double, 3> normal{outlet.normal.x, outlet.normal.y, outlet.normal.z};
@@ -107,7 +107,19 @@ std::uint32_t OutletHandler::firstTooYoung(const Outlet& outlet, double time) co
     return young == arrivals.begin() ? 0 : (young - 1)->next;
 }
 
-void OutletHandler::letOut(ParticleHandler& particles, BodyHandler& bodies, double time, int threads) {
+void OutletHandler::follow(const PeriodicBox& periodic, double time) {
+    if (!periodic.imagesMove) return;
+    for (std::size_t o = 0; o < outlets.size(); ++o) {
+        Outlet& outlet = outlets[o];
+        if (!outlet.region) continue;
+        outlet.inFlow.requireRoom(fmt::format("At time {:.6g} s outlet {}", time, o), periodic);
+        outlet.fromRegion = outlet.inFlow.boxNow(periodic);
+    }
+}
+
+void OutletHandler::letOut(ParticleHandler& particles, BodyHandler& bodies, const PeriodicBox& periodic,
+                           double time, int threads) {
+    follow(periodic, time);
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     if (longestAge > 0) noteArrivals(grains.nextIdentity(), time);
     std::vector<std::uint32_t> tooYoung;

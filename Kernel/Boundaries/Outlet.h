@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "Kernel/Boundaries/GrainTally.h"
-#include "Kernel/Insertion/Region.h"
+#include "Kernel/Insertion/RegionInFlow.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Particles/ParticleHandler.h"
 
@@ -46,6 +46,7 @@ private:
 
     std::shared_ptr<const Region> region;  // none: a plane
     PeriodicBox fromRegion;                // the scene's, from the lowest corner of the region
+    RegionInFlow inFlow;
     bool hasPlane = false;
     Vector<double> normal{0, 0, 0};  // unit
     double offset = 0;               // m
@@ -71,9 +72,12 @@ public:
 
     /// The run begins. Throws InputError for a region that is longer than the period, and for a plane across
     /// which the scene repeats itself: all grains have images beyond it.
-    void begin(const PeriodicBox& periodic, const ParticleStore& grains, double time);
-    /// Lets grains out at the end of a step, at a time (s), in the order of identities.
-    void letOut(ParticleHandler& particles, BodyHandler& bodies, double time, int threads);
+    /// @param atSetUp the periodic box then, which strain changes
+    void begin(const PeriodicBox& atSetUp, const ParticleStore& grains, double time);
+    /// Lets grains out at the end of a step, at a time (s), in the order of identities. Throws RunError where
+    /// the scene has become shorter than a region.
+    void letOut(ParticleHandler& particles, BodyHandler& bodies, const PeriodicBox& periodic, double time,
+                int threads);
     void visitState(StateArchive& archive);
 
 private:
@@ -89,6 +93,8 @@ private:
         std::uint32_t next;
     };
 
+    /// Regions know where the images are now.
+    void follow(const PeriodicBox& periodic, double time);
     void noteArrivals(std::uint32_t next, double time);
     /// The first arrival that is not so old (s) yet at a time (s).
     [[nodiscard]] std::vector<Arrival>::const_iterator firstYoung(double age, double time) const;

@@ -35,7 +35,7 @@ public:
     /// Volumes of droplets are even in V_d (1 - sqrt(3) s) to V_d (1 + sqrt(3) s): of mean V_d, and of the
     /// relative standard deviation s, at most 0.5.
     void setVolumeSpread(double value);
-    /// The speed (m/s) of a droplet as it starts.
+    /// The speed (m/s) of a droplet as it starts; in shear and strain against the flow at its place.
     void setSpeed(double value);
     /// s: droplets come out between these times; 0 and the end of the run, if this is not called.
     void setTimes(double first, double last);

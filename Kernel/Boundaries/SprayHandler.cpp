@@ -8,6 +8,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/LiquidLedger.h"
 #include "Kernel/Particles/GrainFilms.h"
+#include "Kernel/Particles/HomogeneousStrain.h"
 #include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/WallHandler.h"
@@ -17,6 +18,17 @@ namespace pendular {
 namespace {
 
 constexpr double leastQuanta = 1024;  // of a droplet: its volume is then right to 0.05 %
+
+/// m/s, that of the flow at a place a time (s) before the end of a step.
+Vector<double> flowBefore(const PeriodicBox& end, const Vector<double>& place, double time) {
+    PeriodicBox box = end;
+    HomogeneousStrain::move(box, -time);
+    const auto widen = [time](double& across, double rate) { across /= 1 - time * rate; };
+    widen(box.across.x, end.strainRate.x);
+    widen(box.across.y, end.strainRate.y);
+    widen(box.across.z, end.strainRate.z);
+    return box.flowAt(place);
+}
 
 InputError noSprayError(std::size_t number, std::size_t count) {
     return InputError(fmt::format("There is no spray {}; the scene has {} (counted from 0).", number, count));
@@ -65,7 +77,7 @@ double SprayHandler::wholeVolume(double radius) const {
     return std::nearbyint(sphereMass(radius, 1) / unit) * unit;
 }
 
-void SprayHandler::emit(GrainFilms& films, double time) {
+void SprayHandler::emit(GrainFilms& films, const PeriodicBox& periodic, double time) {
     newOnes = 0;
     for (std::size_t s = 0; s < sprays.size(); ++s) {
         const std::uint64_t count = std::max(sprays[s].countAt(time), counts[s]);
@@ -79,8 +91,10 @@ void SprayHandler::emit(GrainFilms& films, double time) {
             const double volume = wholeVolume(made.radius);
             films.emit(volume);
             // Time before the step's end, which the flight is for.
-            inFlight.push_back({made.position, made.velocity, made.radius, volume,
-                                sprays[s].timeOf(counts[s]), static_cast<double>(s)});
+            const Vector<double> velocity =
+                periodic.imagesMove ? made.velocity + periodic.flowAt(made.position) : made.velocity;
+            inFlight.push_back({made.position, velocity, made.radius, volume, sprays[s].timeOf(counts[s]),
+                                static_cast<double>(s)});
         }
     }
 }
@@ -112,7 +126,13 @@ void SprayHandler::fly(const SprayStep& step) {
         Droplet& droplet = inFlight[k];
         const double time =
             k < old ? step.length : std::clamp(step.time - std::exchange(droplet.flown, 0), 0.0, step.length);
-        const Vector<double> from = step.periodic.wrap(droplet.position);
+        if (step.periodic.imagesMove) {
+            const Vector<double> flow = k < old ? step.imagesNow.flowAt(droplet.position)
+                                                : flowBefore(step.periodic, droplet.position, time);
+            droplet.velocity += flow - step.imagesBefore.flowAt(droplet.position);
+        }
+        const Vector<double> from =
+            step.periodic.imagesMove ? droplet.position : step.periodic.wrap(droplet.position);
         const Vector<double> way = time * droplet.velocity + (0.5 * time * time) * step.gravity;
         flights.push_back({{from, from + way, droplet.radius, time}, droplet.velocity, {}});
         droplet.position = from + way;
@@ -136,7 +156,13 @@ bool SprayHandler::finish(const SprayStep& step, Droplet& droplet, const Flight&
     if (droplet.volume == 0) return false;  // it has dried
     const auto spray = static_cast<std::size_t>(droplet.spray);
     const SweepHit& hit = flight.hit;
-    if (!hit.isHit() && droplet.flown < sprays[spray].longestFlight()) return true;
+    if (!hit.isHit() && droplet.flown < sprays[spray].longestFlight()) {
+        if (step.periodic.imagesMove) {
+            droplet.velocity += step.periodic.velocityOfWrap(droplet.position);
+            droplet.position = step.periodic.wrap(droplet.position);
+        }
+        return true;
+    }
     const Vector<double> way = flight.sweep.to - flight.sweep.from;
     CaughtDroplet end{spray, CaughtDroplet::none, hit.wall,
                       flight.sweep.from + std::min(hit.share, 1.0) * way, droplet.volume};
@@ -158,9 +184,15 @@ void SprayHandler::hitGrain(const SprayStep& step, const Droplet& droplet, const
     const double density = sprays[static_cast<std::size_t>(droplet.spray)].liquidDensity();
     if (density == 0) return;
     const double share = flight.hit.share;
-    const Vector<double> at = flight.sweep.from + share * (flight.sweep.to - flight.sweep.from);
-    catchMomentum(step.grains, place, step.periodic, density * droplet.volume, at,
-                  flight.velocity + (share * flight.sweep.time) * step.gravity);
+    Vector<double> at = flight.sweep.from + share * (flight.sweep.to - flight.sweep.from);
+    Vector<double> velocity = flight.velocity + (share * flight.sweep.time) * step.gravity;
+    if (step.periodic.imagesMove) {  // of its image that the grain meets
+        const TranslationRecord& grain = step.grains.translation[place];
+        const Approach approach = approachTo(grain, flight.sweep, step.periodic);
+        at = grain.position + approach.start + share * approach.way;
+        velocity -= approach.imageVelocity;
+    }
+    catchMomentum(step.grains, place, step.periodic, density * droplet.volume, at, velocity);
 }
 
 void SprayHandler::addTo(LiquidLedger& ledger) const {

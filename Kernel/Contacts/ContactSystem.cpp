@@ -496,9 +496,26 @@ void ContactSystem::wake(std::size_t block, const Bucket& bucket, const Grains& 
     }
 }
 
+/// The surface of a wall goes along with the flow of the images: at a grain and at its image it has the same
+/// velocity against each.
+static void stretchWall(ContactStore& contacts, const ParticleStore& grains, const Bucket& bucket,
+                        const PeriodicBox& periodic) {
+    for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
+        const std::size_t block = c / Pack::lanes, lane = c % Pack::lanes;
+        if (!ContactStore::bitOf(contacts.states[block].listed, c)) continue;
+        WallPointColumns& points = contacts.wallPoints[block - contacts.firstWallBlock()];
+        const Vector<double> flow =
+            periodic.flowAt(grains.translation[contacts.blocks[block].first[lane]].position);
+        points.velocity[0].lane[lane] += flow.x;
+        points.velocity[1].lane[lane] += flow.y;
+        points.velocity[2].lane[lane] += flow.z;
+    }
+}
+
 void ContactSystem::findWallPoints(const Grains& grains, const Bucket& bucket, double step) {
     wallPoints.find(contacts, grains, bucket, wallOf(bucket), *species, step, threads,
                     [&](std::size_t block) { wake(block, bucket, grains); });
+    if (periodic.imagesMove) stretchWall(contacts, grains, bucket, periodic);
 }
 void ContactSystem::findWallPoints(const Grains& grains, double step) {
     for (const Bucket& bucket : contacts.buckets)

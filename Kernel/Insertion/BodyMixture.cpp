@@ -74,11 +74,13 @@ std::vector<Ball> BodyKind::spheres(double radius, const Vector<double>& place,
 }
 
 void BodyKind::addTo(ParticleHandler& particles, BodyHandler& bodies, double radius,
-                     const Vector<double>& place, const Eigen::Quaterniond& turn) const {
+                     const Vector<double>& place, const Eigen::Quaterniond& turn,
+                     const Vector<double>& flow) const {
     if (const SphericalParticle* const one = grain()) {
         SphericalParticle copy = *one;
         copy.setRadius(radius);
         copy.setPosition(toEigen(place));
+        copy.setVelocity(toEigen(velocity() + flow));
         particles.copyAndAddObject(copy);
         return;
     }
@@ -86,6 +88,7 @@ void BodyKind::addTo(ParticleHandler& particles, BodyHandler& bodies, double rad
     copy.setScale(scale(radius));
     copy.setPosition(toEigen(place));
     copy.setOrientation(turn);
+    copy.setVelocity(toEigen(velocity() + flow));
     bodies.copyAndAddObject(copy);
 }
 

@@ -36,9 +36,9 @@ struct BodyKind {
     /// The spheres of a body of a size (m), which is turned from its template to a place (m).
     [[nodiscard]] std::vector<Ball> spheres(double radius, const Vector<double>& place,
                                             const Eigen::Quaterniond& turn) const;
-    /// Adds such a body to a scene.
+    /// Adds such a body to a scene. @param flow m/s, that its velocity gets besides its own
     void addTo(ParticleHandler& particles, BodyHandler& bodies, double radius, const Vector<double>& place,
-               const Eigen::Quaterniond& turn) const;
+               const Eigen::Quaterniond& turn, const Vector<double>& flow) const;
 };
 
 /// Grains and clumps of several kinds, each with its share, its sizes, its species and its velocity: for

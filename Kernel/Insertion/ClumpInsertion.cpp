@@ -182,9 +182,11 @@ void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, 
             "after {} iterations; take a smaller amount, or a larger region.",
             owner, wanted, reached, found.iterations));
     }
+    PeriodicBox fromRegion = scene.periodic;  // a region may go across a face
+    fromRegion.lowest = region.bounds().lowest;
     for (const PlacedBody& body : bodies)
         for (const auto& [place, radius] : body.kind->spheres(body.radius, body.place, body.turn))
-            if (!region.contains(options.wholeGrains ? toVector(place) : body.place,
+            if (!region.contains(fromRegion.wrap(options.wholeGrains ? toVector(place) : body.place),
                                  options.wholeGrains ? radius * (1 - 1e-9) : 0))
                 throw InputError(fmt::format(
                     "{}: a clump of the size {:.6g} m was pushed out of the region; take a smaller amount.",
@@ -225,7 +227,9 @@ Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, c
     }
     const std::size_t before = scene.bodies.getSize();
     for (const PlacedBody& body : bodies) {
-        body.kind->addTo(scene.particles, scene.bodies, body.radius, body.place, body.turn);
+        const Vector<double> inside = scene.periodic.imagesMove ? scene.periodic.wrap(body.place) : body.place;
+        const Vector<double> flow = options.withFlow ? scene.periodic.flowAt(inside) : Vector<double>{0, 0, 0};
+        body.kind->addTo(scene.particles, scene.bodies, body.radius, inside, body.turn, flow);
         ++result.number;
         result.mass += massOf(scene, body);
         result.solidFraction += sphereMass(body.radius, 1) / region->volume();

@@ -211,11 +211,12 @@ Vector<double> InletHandler::shiftOf(const InsertionScene& scene, const Kept& ke
     return shift;
 }
 
-void InletHandler::begin(const InsertionScene& scene, bool isRestarted) {
+void InletHandler::begin(const InsertionScene& scene, const PeriodicBox& atSetUp, bool isRestarted) {
     hasBegun = true;
     for (std::size_t k = 0; k < inlets.size(); ++k) {
         Kept& kept = inlets[k];
-        kept.region = kept.inlet.region->in(scene.periodic);
+        kept.region = kept.inlet.region->in(atSetUp);
+        kept.inFlow = RegionInFlow(kept.region, atSetUp);
         // On a restart walls and regions have moved, and the region's way is not known yet.
         if (!isRestarted) checkRoom(scene, k);
         check(scene, k);
@@ -304,6 +305,7 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
         const double film = kind.film();
         if (film > 0 && scene.particles.films().objectionToMore(film)) return;
         if (!grid) {
+            kept.inFlow.requireRoom(fmt::format("At time {:.6g} s inlet {}", time, number), scene.periodic);
             const Vector<double> shift = shiftOf(scene, kept, number);
             const Box bounds = kept.region->bounds();
             grid.emplace(ParticleHandler::Inside::grainsInStep(scene.particles), scene.periodic,
@@ -327,7 +329,9 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
             if (inlet.noRoom == NoRoom::Lost) count.lost += due - whole;
             return;
         }
-        kind.addTo(scene.particles, scene.bodies, radius, room->place, room->turn);
+        const Vector<double> flow =
+            scene.periodic.imagesMove ? scene.periodic.flowAt(room->place) : Vector<double>{0, 0, 0};
+        kind.addTo(scene.particles, scene.bodies, radius, room->place, room->turn, flow);
         for (const auto& [place, size] : kind.spheres(radius, room->place, room->turn))
             grid->add(toVector(place), size);
         ++count.number;
@@ -345,25 +349,26 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
     const CountedRandom random(inlet.seed);
     const double margin = inlet.wholeGrains && kind.grain() ? kept.nextRadius : 0;
     const Vector<double> shift = shiftOf(scene, kept, number);
-    const auto isFree = [&](const Ball& ball) {
-        const Vector<double> inRegion = toVector(ball.centre), centre = inRegion + shift;
-        return (!inlet.wholeGrains || kept.region->contains(inRegion, ball.radius)) &&
-               !touchesWall(scene.walls, scene.periodic, centre, ball.radius) &&
-               grid.isFree(centre, ball.radius);
-    };
     for (std::uint32_t k = 0; k < inlet.tries; ++k) {
         const std::uint32_t attempt = kept.attempts++;
         const Vector<double> place = candidateOf(*kept.region, random, kept.count.number,
                                                  purposeOfPlaces + 3 * number, attempt, margin);
         if (!kept.region->contains(place, margin)) continue;
+        const Vector<double> way = kept.inFlow.placeNow(place, scene.periodic) - place + shift;
         const auto even = [&](std::uint32_t which) {
             return random.uniform(kept.count.number, purposeOfTurns + 3 * number + which, attempt);
         };
         const Eigen::Quaterniond turn = !kind.clump()       ? Eigen::Quaterniond::Identity()
                                         : inlet.randomTurns ? evenTurn(even(0), even(1), even(2))
                                                             : kind.clump()->getOrientation();
+        const auto isFree = [&](const Ball& ball) {
+            const Vector<double> inRegion = toVector(ball.centre), centre = inRegion + way;
+            return (!inlet.wholeGrains || kept.region->contains(inRegion, ball.radius)) &&
+                   !touchesWall(scene.walls, scene.periodic, centre, ball.radius) &&
+                   grid.isFree(centre, ball.radius);
+        };
         if (std::ranges::all_of(kind.spheres(kept.nextRadius, place, turn), isFree))
-            return Room{scene.periodic.wrap(place + shift), turn};
+            return Room{scene.periodic.wrap(place + way), turn};
     }
     return std::nullopt;
 }

@@ -9,6 +9,7 @@
 
 #include "Kernel/Insertion/BodyMixture.h"
 #include "Kernel/Insertion/Insertion.h"
+#include "Kernel/Insertion/RegionInFlow.h"
 
 namespace pendular {
 
@@ -32,7 +33,8 @@ public:
         region = std::make_shared<const R>(where);
     }
     void setSizes(const SizeDistribution& distribution) { sizes = distribution; }
-    /// Species, velocity, spin and film of the grains. With a velocity the inlet is a stream: what passes the
+    /// Species, velocity, spin and film of the grains. In shear and strain each velocity gets that of the
+    /// flow at its place (shearFlowAt()) as well. With a velocity the inlet is a stream: what passes the
     /// region's area at that velocity may be dense up to a solid fraction of 0.25.
     void setGrain(const SphericalParticle& grain) { like = grain; }
     /// Clumps come instead of grains: template, species, velocity and spin of them. setSizes() are the
@@ -128,7 +130,8 @@ public:
     void requireLiquid(const ParticleHandler& particles, double time) const;
     /// The run begins, or goes on. Throws InputError for what cannot work; room is looked for only where it
     /// begins, because walls move.
-    void begin(const InsertionScene& scene, bool isRestarted);
+    /// @param atSetUp the periodic box then, which strain changes
+    void begin(const InsertionScene& scene, const PeriodicBox& atSetUp, bool isRestarted);
     /// Grains that are due at a time (s) come. @param tell of what is to be said once
     void letIn(const InsertionScene& scene, double time, const std::function<void(std::string)>& tell);
     void visitState(StateArchive& archive);
@@ -145,6 +148,7 @@ private:
         std::size_t nextKind = 0;
         std::uint32_t rises = 0;
         Vector<double> onWall{0, 0, 0};  // m, the middle of the region in the frame of the wall
+        RegionInFlow inFlow = {};
     };
 
     /// The shift (m) by which the region of an inlet has moved.

@@ -186,8 +186,11 @@ std::vector<Vector<double>> placeDensely(const InsertionScene& scene, std::span<
             "after {} iterations; take a smaller amount, or a larger region.",
             owner, wanted, reached, found.iterations));
     }
+    PeriodicBox fromRegion = scene.periodic;  // a region may go across a face
+    fromRegion.lowest = region.bounds().lowest;
     for (std::size_t k = 0; k < radii.size(); ++k)
-        if (!region.contains(found.centres[k], options.wholeGrains ? radii[k] * (1 - 1e-9) : 0))
+        if (!region.contains(fromRegion.wrap(found.centres[k]),
+                             options.wholeGrains ? radii[k] * (1 - 1e-9) : 0))
             throw InputError(fmt::format(
                 "{}: a grain of radius {:.6g} m was pushed out of the region; take a smaller amount.", owner,
                 radii[k]));
@@ -227,6 +230,8 @@ Inserted insertGrains(const InsertionScene& scene, const SizeDistribution& sizes
         if (!isSet(centres[k].x)) continue;
         grain.setRadius(radii[k]);
         grain.setPosition(toEigen(centres[k]));
+        if (options.withFlow)
+            grain.setVelocity(like.getVelocity() + toEigen(scene.periodic.flowAt(centres[k])));
         scene.particles.copyAndAddObject(grain);
         ++result.number;
         result.mass += sphereMass(radii[k], density);

@@ -203,6 +203,10 @@ std::shared_ptr<const Region> CylinderRegion::in(const PeriodicBox& periodic) co
     return made;
 }
 
+std::array<bool, 3> CylinderRegion::openAxes() const {
+    return {open && std::abs(axis.x) == 1, open && std::abs(axis.y) == 1, open && std::abs(axis.z) == 1};
+}
+
 void CylinderRegion::visitState(StateArchive& archive) const {
     archive.same("shape", cylinderName);
     archive.sameRecord<double>("from", begin);

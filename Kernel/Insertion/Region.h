@@ -45,6 +45,8 @@ public:
     /// The region of a scene that repeats itself: where it reaches from a face of the period to the other
     /// one, that is no border. Throws InputError if it is longer than the period.
     [[nodiscard]] virtual std::shared_ptr<const Region> in(const PeriodicBox& periodic) const = 0;
+    /// The axes along which it has no border, after in().
+    [[nodiscard]] virtual std::array<bool, 3> openAxes() const { return {}; }
     /// Visits the numbers of the region by StateArchive::same().
     virtual void visitState(StateArchive& archive) const = 0;
 
@@ -75,6 +77,7 @@ public:
     [[nodiscard]] Vector<double> inwards(const Vector<double>& centre, double radius) const override;
     [[nodiscard]] Vector<double> candidate(const std::array<double, 3>& even, double margin) const override;
     [[nodiscard]] std::shared_ptr<const Region> in(const PeriodicBox& periodic) const override;
+    [[nodiscard]] std::array<bool, 3> openAxes() const override { return open; }
     void visitState(StateArchive& archive) const override;
 
 private:
@@ -97,6 +100,7 @@ public:
     [[nodiscard]] Vector<double> inwards(const Vector<double>& centre, double radius) const override;
     [[nodiscard]] Vector<double> candidate(const std::array<double, 3>& even, double margin) const override;
     [[nodiscard]] std::shared_ptr<const Region> in(const PeriodicBox& periodic) const override;
+    [[nodiscard]] std::array<bool, 3> openAxes() const override;
     void visitState(StateArchive& archive) const override;
 
 private:
@@ -144,6 +148,7 @@ public:
     [[nodiscard]] Vector<double> inwards(const Vector<double>& centre, double radius) const override;
     [[nodiscard]] Vector<double> candidate(const std::array<double, 3>& even, double margin) const override;
     [[nodiscard]] std::shared_ptr<const Region> in(const PeriodicBox& periodic) const override;
+    [[nodiscard]] std::array<bool, 3> openAxes() const override { return box->openAxes(); }
     void visitState(StateArchive& archive) const override;
 
 private:

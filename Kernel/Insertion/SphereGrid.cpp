@@ -30,8 +30,9 @@ SphereGrid::SphereGrid(const ParticleStore& grains, const PeriodicBox& box, cons
         if (grain.radius == 0) continue;  // a gap
         const Vector<double> from = periodic.nearest(grain.position - middle);
         const double reach = grain.radius + radius;
-        if (std::abs(from.x) < half.x + reach && std::abs(from.y) < half.y + reach &&
-            std::abs(from.z) < half.z + reach)
+        // Of images that have slid or moved apart, another one may be near a corner of the box.
+        if (box.imagesMove || (std::abs(from.x) < half.x + reach && std::abs(from.y) < half.y + reach &&
+                               std::abs(from.z) < half.z + reach))
             add(grain.position, grain.radius);
     }
 }
@@ -84,6 +85,26 @@ bool SphereGrid::isFreeOfLevel(int level, const Vector<double>& image, double ra
     return true;
 }
 
+bool SphereGrid::isFreeAtImages(int level, const Vector<double>& at, double radius) const {
+    const double reach = radius + 0.5 * cellSize(level);
+    // Along the gradient of a shear, images have their places from isFree().
+    const auto along = [&](double place, double lowest, double length, double across) {
+        return imagesOf(place, lowest, across > 0 ? 0 : length, reach);
+    };
+    const PeriodicBox& box = periodic;
+    const Images x = along(at.x, box.lowest.x, box.length.x, box.across.x),
+                 y = along(at.y, box.lowest.y, box.length.y, box.across.y),
+                 z = along(at.z, box.lowest.z, box.length.z, box.across.z);
+    for (double c = z.first; c <= z.last; ++c)
+        for (double b = y.first; b <= y.last; ++b)
+            for (double a = x.first; a <= x.last; ++a)
+                if (!isFreeOfLevel(level,
+                                   at + Vector<double>{a * box.length.x, b * box.length.y, c * box.length.z},
+                                   radius))
+                    return false;
+    return true;
+}
+
 bool SphereGrid::isFree(const Vector<double>& centre, double radius) const {
     const Vector<double> at = periodic.wrap(centre);
     for (const int level : levels) {
@@ -94,17 +115,14 @@ bool SphereGrid::isFree(const Vector<double>& centre, double radius) const {
                 return false;
             continue;
         }
-        const Images x = imagesOf(at.x, periodic.lowest.x, periodic.length.x, reach),
-                     y = imagesOf(at.y, periodic.lowest.y, periodic.length.y, reach),
-                     z = imagesOf(at.z, periodic.lowest.z, periodic.length.z, reach);
-        for (double c = z.first; c <= z.last; ++c)
-            for (double b = y.first; b <= y.last; ++b)
-                for (double a = x.first; a <= x.last; ++a)
-                    if (!isFreeOfLevel(level,
-                                       at + Vector<double>{a * periodic.length.x, b * periodic.length.y,
-                                                           c * periodic.length.z},
-                                       radius))
-                        return false;
+        if (!isFreeAtImages(level, at, radius)) return false;
+        if (!periodic.isSheared()) continue;
+        const double place = dot(periodic.across, at - periodic.lowest),
+                     share = reach * norm(periodic.across);
+        for (const double image : {-1.0, 1.0})
+            if (place - image + share >= 0 && place - image - share <= 1 &&
+                !isFreeAtImages(level, periodic.wrapAlongAxes(at - image * periodic.imageShift), radius))
+                return false;
     }
     return true;
 }

@@ -42,6 +42,8 @@ private:
     [[nodiscard]] bool overlaps(const Sphere& sphere, const Vector<double>& centre, double radius) const;
     [[nodiscard]] bool isFreeOfLevel(int level, const Vector<double>& image, double radius) const;
 
+    [[nodiscard]] bool isFreeAtImages(int level, const Vector<double>& at, double radius) const;
+
     PeriodicBox periodic;
     std::vector<Sphere> spheres;
     std::vector<std::uint32_t> heads;  // of the table: a power of two

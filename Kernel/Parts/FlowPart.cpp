@@ -16,10 +16,27 @@
 #include "Kernel/Parts/StressServo.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/Step/StepTimes.h"
+#include "Kernel/Walls/InfiniteWall.h"
+#include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 
 namespace {
+
+/// The first wall that is no plane, or one across which the scene repeats itself: the flow would carry images
+/// through it.
+std::optional<std::size_t> wallInFlow(const WallHandler& walls, const PeriodicBox& box) {
+    constexpr double roundOff = 1e-12;
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        if (walls.isRemoved(w)) continue;
+        const auto* const plane = dynamic_cast<const InfiniteWall*>(&walls.getObject(w));
+        if (!plane) return w;
+        const Vector<double> normal = plane->drivenNormal();
+        for (const auto axis : LeesEdwards::axes)
+            if (box.length.*axis > 0 && std::abs(normal.*axis) > roundOff) return w;
+    }
+    return {};
+}
 
 /// Grains whose images move otherwise from now on get another velocity; the account knows it.
 /// @param changeAt (place, m): by how much, m/s
@@ -54,6 +71,9 @@ Features FlowPart::features(const StepContext& scene) const {
     Features found;
     if (shear.isSet) found.add(Feature::Shear);
     if (strain.isSet) found.add(Feature::Strain);
+    if (strain.isSet)
+        if (const auto wall = wallInFlow(scene.walls, scene.box))
+            found.add(Feature::WallsInStrain, fmt::format("wall {}", *wall));
     const auto isControlled = [](const AxisStrain& axis) { return axis.isControlled; };
     if (shear.isControlled || std::ranges::any_of(strain.axes, isControlled)) found.add(Feature::StressServo);
     if (shear.isSet && scene.gravity.*LeesEdwards::axes[shear.gradient] != 0)
@@ -155,6 +175,15 @@ void FlowPart::moveSurroundings(StepContext& step) {
     step.shifts.grains +=
         0.5 * rate * step.length * (step.largestReach + step.contacts.filmReach() + step.smallestRadius);
     step.shifts.approach += rate * step.length * step.largestReach;
+}
+
+void FlowPart::afterMotion(StepContext& step) {
+    if (!strain.isSet) return;
+    if (const auto wall = wallInFlow(step.walls, step.box))
+        throw RunError(fmt::format(
+            "At time {:.6g} s wall {} has turned: in strain its normal must stay along an axis that is not "
+            "periodic, because the flow would carry images of grains through it.",
+            step.time, *wall));
 }
 
 /// The grains are where they were before the step.

@@ -41,6 +41,8 @@ public:
     /// The grains go along with the flow of the step to come.
     void beforeMotion(StepContext& step) override;
     void moveSurroundings(StepContext& step) override;
+    /// Throws RunError where a wall has turned so that the flow would carry images through it.
+    void afterMotion(StepContext& step) override;
     void takeBack(StepContext& step) override;
     void visitSetting(StateArchive& archive, StepContext& scene) override;
 

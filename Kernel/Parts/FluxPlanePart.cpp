@@ -13,10 +13,10 @@ Features FluxPlanePart::features(const StepContext& /*scene*/) const {
 
 void FluxPlanePart::begin(StepContext& scene, bool /*isRestarted*/) { planes.begin(scene.box); }
 
-void FluxPlanePart::beforeMotion(StepContext& step) { planes.beforeMotion(step.grains()); }
+void FluxPlanePart::beforeMotion(StepContext& step) { planes.beforeMotion(step.grains(), step.box); }
 
-void FluxPlanePart::moveSurroundings(StepContext& step) {
-    planes.afterMotion(step.particles, step.length, [&](std::uint32_t place) {
+void FluxPlanePart::afterMotion(StepContext& step) {
+    planes.afterMotion(step.particles, step.box, step.length, [&](std::uint32_t place) {
         return step.particles.films().of(step.grains(), place) + step.contacts.liquidAt(step.grains(), place);
     });
 }

@@ -15,7 +15,7 @@ public:
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     void begin(StepContext& scene, bool isRestarted) override;
     void beforeMotion(StepContext& step) override;
-    void moveSurroundings(StepContext& step) override;
+    void afterMotion(StepContext& step) override;
     void takeBack(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;

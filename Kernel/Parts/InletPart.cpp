@@ -21,7 +21,7 @@ InsertionScene InletPart::placesOf(const StepContext& scene) {
 }
 
 void InletPart::begin(StepContext& scene, bool isRestarted) {
-    inlets.begin(placesOf(scene), isRestarted);
+    inlets.begin(placesOf(scene), scene.boxAtSetUp, isRestarted);
     for (std::size_t k = 0; k < inlets.getSize(); ++k)
         for (const BodyKind& kind : inlets.bodiesOf(k))
             if (kind.clump())

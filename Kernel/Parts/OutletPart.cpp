@@ -12,11 +12,11 @@ Features OutletPart::features(const StepContext& /*scene*/) const {
 }
 
 void OutletPart::begin(StepContext& scene, bool /*isRestarted*/) {
-    outlets.begin(scene.box, scene.particles.store(), scene.time);
+    outlets.begin(scene.boxAtSetUp, scene.particles.store(), scene.time);
 }
 
 void OutletPart::atEnd(StepContext& step) {
-    outlets.letOut(step.particles, step.bodies, step.time + step.length, step.threads);
+    outlets.letOut(step.particles, step.bodies, step.box, step.time + step.length, step.threads);
     step.contacts.sumLostForces(step.grains());
 }
 

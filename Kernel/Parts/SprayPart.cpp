@@ -10,12 +10,19 @@ Features SprayPart::features(const StepContext& /*scene*/) const {
     return sprays.isEmpty() ? Features{} : Features{Feature::Sprays};
 }
 
-void SprayPart::prepare(StepContext& step) { sprays.emit(step.particles.films(), step.time + step.length); }
+void SprayPart::begin(StepContext& scene, bool /*isRestarted*/) { imagesBefore = imagesNow = scene.box; }
+
+void SprayPart::prepare(StepContext& step) {
+    imagesBefore = step.box;
+    sprays.emit(step.particles.films(), step.box, step.time + step.length);
+}
+
+void SprayPart::beforeMotion(StepContext& step) { imagesNow = step.box; }
 
 void SprayPart::finish(StepContext& step) {
     const StepTimes::Within liquid(step.times, StepTimes::Part::Liquid);
-    sprays.advance({step.grains(), step.particles.films(), step.contacts, step.walls, step.box, step.gravity,
-                    step.time + step.length, step.length, step.shifts.grains, step.smallestRadius,
+    sprays.advance({step.grains(), step.particles.films(), step.contacts, step.walls, step.box, imagesBefore,
+                    imagesNow, step.gravity, step.time + step.length, step.length, step.shifts.grains, step.smallestRadius,
                     step.threads});
 }
 

@@ -12,13 +12,17 @@ public:
 
     [[nodiscard]] std::string_view name() const override { return "sprays"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
+    void begin(StepContext& scene, bool isRestarted) override;
     void prepare(StepContext& step) override;
+    /// Called when the flow of the step is known.
+    void beforeMotion(StepContext& step) override;
     void finish(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
 
 private:
     SprayHandler& sprays;
+    PeriodicBox imagesBefore, imagesNow;  // as images moved in the last step, and move in this one
 };
 
 }  // namespace pendular

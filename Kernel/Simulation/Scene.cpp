@@ -1,6 +1,5 @@
 #include "Kernel/Simulation/Scene.h"
 
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/LastState.h"
@@ -69,6 +68,7 @@ void Scene::setPeriodic(int axis, double lowest, double highest) {
     inside->flow.setPeriodic(inside->box, axis, lowest, highest, getTime());
     inside->lowestAtSetUp = inside->box.lowest;
     inside->lengthAtSetUp = inside->box.length;
+    inside->context.boxAtSetUp = {inside->box.lowest, inside->box.length};
 }
 
 void Scene::setLeesEdwards(int flow, int gradient, double rate) {
@@ -156,7 +156,6 @@ void Scene::addOwnPart(std::unique_ptr<StepPart> part) {
 
 Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                        const SphericalParticle& like, const InsertOptions& options) {
-    requireImagesAtRest("grains");
     return inside->reportShortfall(
         insertGrains(InletPart::placesOf(inside->context), sizes, region, amount, like, options));
 }
@@ -170,7 +169,6 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
 
 Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const Amount& amount,
                        const InsertOptions& options) {
-    requireImagesAtRest(mixture.hasClumps() ? "clumps" : "grains");
     const std::size_t before = bodyHandler.getSize();
     const Inserted made =
         insertBodies(InletPart::placesOf(inside->context), mixture, region, amount, options);
@@ -180,12 +178,6 @@ Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const A
                "insert(): {} grains and clumps, a solid fraction of {:.4g}; orientation order {:.3g}.",
                made.number, made.solidFraction, made.orientationOrder);
     return inside->reportShortfall(made);
-}
-
-void Scene::requireImagesAtRest(std::string_view what) const {
-    if (hasBegun() && getPeriodicBox().imagesMove)
-        throw InputError(fmt::format(
-            "insert(): in a run in shear or strain {} cannot be inserted; insert them at set-up.", what));
 }
 
 // Functions that say what the scene has:

@@ -102,8 +102,9 @@ public:
     /// and no gravity along the gradient. Grains begin with the velocities that they are given: those of
     /// shearFlowAt(), or momentum must first spread from the faces.
     void setLeesEdwards(int flow, int gradient, double rate);
-    /// Strains a periodic scene without walls and gravity: the logarithm of its length along an axis grows by
-    /// the rate (1/s), about its middle. Dashpots feel the flow, in which grains that are at rest go along:
+    /// Strains a periodic scene without gravity: the logarithm of its length along an axis grows by the rate
+    /// (1/s), about its middle. Walls can be planes whose normal is along an axis that is not periodic, as in
+    /// an oedometer; their surface stretches along with the flow. Dashpots feel the flow, in which grains that are at rest go along:
     /// when a rate is set or changed, all grains get the change of their velocity that it makes where they
     /// are. In a run it holds from the next step on; the scene must have been set up with a rate (0 will do)
     /// or a stress along one of its axes.
@@ -127,7 +128,7 @@ public:
     [[nodiscard]] double getShearRate() const;
     /// The rate (1/s) of the logarithm of the length along an axis, in the last step.
     [[nodiscard]] double getStrainRate(int axis) const;
-    /// The velocity (m/s) of the flow of setLeesEdwards() at a place (m); the flow is at rest in the middle
+    /// The velocity (m/s) of the flow of shear and strain at a place (m); the flow is at rest in the middle
     /// of the box.
     [[nodiscard]] Vec3D shearFlowAt(const Vec3D& place) const;
     [[nodiscard]] const PeriodicBox& getPeriodicBox() const;
@@ -263,7 +264,6 @@ private:
                         const std::string& remark) override;
     void addOwnPart(std::unique_ptr<StepPart> part);
     void requireSpheres(std::string_view call) const;
-    void requireImagesAtRest(std::string_view what) const;
     /// A function that refuses a change which does not go together with moving images; empty at set-up.
     std::function<void()> refusalInRun();
 

@@ -18,15 +18,16 @@ constexpr std::string_view noImagesOfWalls = "walls have no images, and those of
                            leaveWallsOut =
                                "leave the walls out, or leave the images at rest and move walls instead "
                                "(setMotion(), setPiston())",
-                           comeInFlow =
-                               "what comes or is counted does not know the flow in which the images move",
                            singleGrains = "its bound of the step counts with grains that move by themselves",
                            leaveAdaptiveOut = "leave setAdaptiveTimeStep() out",
                            stepsOfOneLength = "they need steps of one length";
 
 constexpr std::array table{
     Conflict{Shear, Walls, noImagesOfWalls, leaveWallsOut},
-    Conflict{Strain, Walls, noImagesOfWalls, leaveWallsOut},
+    Conflict{
+        Strain, WallsInStrain, noImagesOfWalls,
+        "take planes across an axis that is not periodic, or leave the images at rest and move walls instead "
+        "(setMotion(), setPiston())"},
     Conflict{Shear, HeldGrains, "a grain that is held would not go with the flow as its images do",
              "let it go by setHeldAxes({}), or make it heavy"},
     Conflict{Strain, HeldGrains, "a grain that is held would not go with the flow as its images do",
@@ -35,14 +36,6 @@ constexpr std::array table{
              "let gravity act along another axis, or set it to zero"},
     Conflict{Strain, Gravity, "a scene that falls has no state that is strained homogeneously",
              "set gravity to zero"},
-    Conflict{Shear, Sprays, comeInFlow, "leave the sprays out"},
-    Conflict{Strain, Sprays, comeInFlow, "leave the sprays out"},
-    Conflict{Shear, Inlets, comeInFlow, "leave the inlets out, and insert grains at set-up"},
-    Conflict{Strain, Inlets, comeInFlow, "leave the inlets out, and insert grains at set-up"},
-    Conflict{Shear, Outlets, comeInFlow, "leave the outlets out, and remove grains in a hook"},
-    Conflict{Strain, Outlets, comeInFlow, "leave the outlets out, and remove grains in a hook"},
-    Conflict{Shear, FluxPlanes, comeInFlow, "leave the flux planes out"},
-    Conflict{Strain, FluxPlanes, comeInFlow, "leave the flux planes out"},
     Conflict{Superquadrics, StressServo, "its servo knows the stiffness of contacts of spheres only",
              "give the scene a rate instead (setStrainRate(), setShearRate())"},
     Conflict{Superquadrics, Inlets, "inlets bring spheres and clumps",

@@ -9,6 +9,7 @@ namespace pendular {
 std::string_view nameOf(Feature feature) {
     static constexpr std::array<std::string_view, static_cast<std::size_t>(Feature::Count)> names{
         "walls",
+        "walls other than planes across an axis that is not periodic",
         "membranes",
         "walls that forces move (setPiston(), setTargetForce())",
         "walls that keep their wear (keepWear())",

@@ -11,6 +11,7 @@ namespace pendular {
 /// A thing that a scene can have, and that something else may not go together with (Conflicts.h).
 enum class Feature : std::uint8_t {
     Walls,
+    WallsInStrain,
     Membranes,
     DrivenWalls,
     WornWalls,

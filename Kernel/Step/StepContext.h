@@ -38,6 +38,7 @@ struct StepContext {
     StepTimes& times;
 
     ContactLaws* laws = nullptr;
+    PeriodicBox boxAtSetUp = {};         // only its lowest corner and its lengths
     const Integrator* scheme = nullptr;  // as the driver has chosen it
     bool springsInStep = false;          // contacts move springs as integrators::springsInStep does
     Vector<double> gravity{0, 0, 0};     // m/s^2

@@ -388,12 +388,6 @@ TEST(Outlet, isRefusedWhereTheSceneCannotHaveIt) {
             o.setRegion(SphereRegion({0, 0, 0}, 5 * d));
         },
         "longer than the period");
-    refused(
-        [](FilledScene& s, Outlet&) {
-            for (int axis = 0; axis < 2; ++axis) s.setPeriodic(axis, 0, 9 * d);
-            s.setLeesEdwards(0, 1, 10);
-        },
-        "shear (setLeesEdwards()) and outlets cannot be combined");
 }
 
 using WetScene = Simulation<LinearViscoelasticSlidingFrictionLiquidMigrationWilletSpecies>;

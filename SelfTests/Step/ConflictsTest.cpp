@@ -118,6 +118,11 @@ void give(PlainScene<S>& scene, Feature feature) {
     switch (feature) {
         case Feature::Walls:
             return addFloor(scene, false);
+        case Feature::WallsInStrain: {
+            InfiniteWall side;
+            side.set({-1, 0, 0}, {-0.05, 0, 0});
+            return static_cast<void>(addWall(scene, side));
+        }
         case Feature::DrivenWalls:
             return addFloor(scene, true);
         case Feature::Membranes: {
@@ -257,6 +262,7 @@ TEST(Conflicts, standInTheTableOnce) {
 
 TEST(Conflicts, tellWhichWallOrGrainItIs) {
     EXPECT_TRUE(support::contains(refusalOf<Wet>({Feature::HeldGrains, Feature::Shear}), "(particle 0)"));
+    EXPECT_TRUE(support::contains(refusalOf<Wet>({Feature::WallsInStrain, Feature::Strain}), "(wall 0)"));
     EXPECT_TRUE(support::contains(refusalOf<Wet>({Feature::DrivenWalls, Feature::AdaptiveStep}), "(wall 0)"));
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using support::contains;
 
-constexpr std::array<std::string_view, 58> composed{
+constexpr std::array<std::string_view, 59> composed{
     // materials
     "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticMindlinLiquidBridgeWillett",
     "HertzianViscoelasticMindlinViscousLiquidBridgeWillett",
@@ -24,7 +24,8 @@ constexpr std::array<std::string_view, 58> composed{
     // methods
     "VelocityVerlet", "SpringsInStep", "AdamsMoulton", "AdaptiveStep", "Ledger", "Events", "ContactColumn",
     // space
-    "Periods", "Shear", "ShearServo", "Strain", "StressServo", "Gravity", "GravityChange", "Domain",
+    "Periods", "Shear", "ShearServo", "Strain", "StressServo", "Oedometer", "Gravity", "GravityChange",
+    "Domain",
     // bodies
     "HeldGrains", "HeldAxes", "HeldBodies", "Clumps", "Superquadrics", "JoinInRun", "BodyChange",
     // walls
@@ -51,7 +52,6 @@ constexpr std::array refusedElsewhere{
     RefusedElsewhere{"along this axis stays; strain", "a matter of axes: others can be strained"},
     RefusedElsewhere{"is above the stability limit", "a matter of the numbers of a scene"},
     RefusedElsewhere{"only meshes are repeated", "a shape that is no mesh has no images"},
-    RefusedElsewhere{"in shear or strain grains cannot be inserted", "not built: insert() in a flow"},
     RefusedElsewhere{"superquadrics touch InfiniteWall only", "not built: shapes at other walls"},
     RefusedElsewhere{"is no superquadric", "not built: spheres beside shapes"},
     RefusedElsewhere{"fields take grains for spheres", "not built: fields of shapes"},

@@ -47,6 +47,14 @@ void addStrain(Making& making) {
             making.scene.setStrainRate(axis, making.draw.give("rate", rateOf(making)));
 }
 
+/// Along x and y, between planes across z if there are any.
+void addOedometer(Making& making) {
+    for (const int axis : {0, 1}) {
+        making.makePeriodic(axis);
+        making.scene.setStrainRate(axis, making.draw.give("rate", 0.3 * rateOf(making)));
+    }
+}
+
 void addStressServo(Making& making) {
     makeAllPeriodic(making);
     const double stress = making.draw.decades(1e-5, 1e-3) * making.scales.modulus;
@@ -62,7 +70,7 @@ void addShearRateChange(Making& making) {
 }
 
 void addStrainRateChange(Making& making) {
-    const int axis = making.draw.whole(0, 2);
+    const int axis = making.draw.whole(0, making.has("Oedometer") ? 1 : 2);
     const double rate = making.draw.give("rate", rateOf(making));
     making.before(making.someStep(),
                   [&scene = making.scene, axis, rate] { scene.setStrainRate(axis, rate); });
@@ -89,9 +97,7 @@ void addDomain(Making& making) {
 
 std::vector<Feature> spaceFeatures() {
     constexpr unsigned both = momentum | angularMomentum;
-    const std::vector<std::string_view> imagesExclude{"wall",        "gravity",  "spray",
-                                                      "inlet",       "outlet",   "FluxPlane",
-                                                      "InsertInRun", "membrane", "moving images"};
+    const std::vector<std::string_view> imagesExclude{"wall", "gravity", "membrane", "moving images"};
     const auto movesImages = [&](std::string name, double share, auto add,
                                  std::vector<std::string_view> kinds, std::string_view alsoExcluded) {
         kinds.push_back("moving images"), kinds.push_back("periodic");
@@ -115,6 +121,12 @@ std::vector<Feature> spaceFeatures() {
         movesImages("ShearServo", 0.03, addShearServo, {"shear"}, "body"),
         movesImages("Strain", 0.06, addStrain, {"strain"}, "membrane"),
         movesImages("StressServo", 0.04, addStressServo, {"strain"}, "body"),
+        {.name = "Oedometer",
+         .share = 0.06,
+         .add = addOedometer,
+         .loses = both,
+         .kinds = {"strain", "moving images", "periodic"},
+         .excludes = {"Cylinder", "Rod", "parts", "membrane", "gravity", "held", "moving images"}},
         {.name = "ShearRateChange",
          .share = 0.5,
          .add = addShearRateChange,

@@ -1,0 +1,50 @@
+#include "Kernel/Insertion/RegionInFlow.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "Kernel/Base/RunError.h"
+
+namespace pendular {
+
+namespace {
+
+constexpr std::array axes{&Vector<double>::x, &Vector<double>::y, &Vector<double>::z};
+
+}  // namespace
+
+RegionInFlow::RegionInFlow(std::shared_ptr<const Region> of, const PeriodicBox& atSetUp)
+    : region(std::move(of)), then(atSetUp), open(region->openAxes()) {}
+
+Vector<double> RegionInFlow::placeNow(const Vector<double>& place, const PeriodicBox& now) const {
+    if (!now.imagesMove) return place;
+    const Vector<double> middle = now.middle(), middleThen = then.middle();
+    Vector<double> moved = place;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (open[k] && now.length.*axes[k] != then.length.*axes[k])
+            moved.*axes[k] = middle.*axes[k] + (place.*axes[k] - middleThen.*axes[k]) *
+                                                   (now.length.*axes[k] / then.length.*axes[k]);
+    return moved;
+}
+
+PeriodicBox RegionInFlow::boxNow(const PeriodicBox& now) const {
+    PeriodicBox box = now;
+    box.lowest = placeNow(region->bounds().lowest, now);
+    return box;
+}
+
+void RegionInFlow::requireRoom(const std::string& owner, const PeriodicBox& now) const {
+    if (!now.imagesMove) return;
+    const Box bounds = region->bounds();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double length = bounds.highest.*axes[k] - bounds.lowest.*axes[k], period = now.length.*axes[k];
+        if (open[k] || period == 0 || length <= period * (1 + 1e-12)) continue;
+        throw RunError(fmt::format(
+            "{}: the scene has been strained to a period of {:.6g} m along {}, and its region, of {:.6g} m, "
+            "is longer; take a smaller one, or one from face to face.",
+            owner, period, "xyz"[k], length));
+    }
+}
+
+}  // namespace pendular
