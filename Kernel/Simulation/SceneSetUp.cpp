@@ -24,6 +24,7 @@ Scene::Inside::Inside(Scene& of)
       adaptive(of.inletHandler, flow),
       fluxPlanes(of.fluxPlaneHandler),
       liquid(of.sprayHandler, of.inletHandler),
+      drives(of.wallHandler),
       outlets(of.outletHandler),
       inlets(of.inletHandler),
       sprays(of.sprayHandler) {

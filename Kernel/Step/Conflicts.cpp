@@ -47,6 +47,8 @@ constexpr std::array table{
     Conflict{Superquadrics, StressServo, "its servo knows the stiffness of contacts of spheres only",
              "give the scene a rate instead (setStrainRate(), setShearRate())"},
     Conflict{Superquadrics, Inlets, "inlets bring spheres", "leave the inlets out, and add all at set-up"},
+    Conflict{Superquadrics, TurnedWalls, "the torque on a wall counts with contacts of spheres",
+             "let the wall slide (setSlider()), or give it a motion"},
     Conflict{RigidBodies, EarlierAccelerations, "the motion of bodies keeps no acceleration of the last step",
              otherIntegrator},
     Conflict{RigidBodies, SpringsInStep, "grains of a body keep no accelerations of their own",

@@ -10,7 +10,8 @@ std::string_view nameOf(Feature feature) {
     static constexpr std::array<std::string_view, static_cast<std::size_t>(Feature::Count)> names{
         "walls",
         "membranes",
-        "walls that forces move (setPiston(), setTargetForce())",
+        "walls that forces move (setPiston(), setTargetForce(), setSlider(), setRotor(), setFreeBody())",
+        "walls that forces turn (setRotor(), setFreeBody())",
         "walls that keep their wear (keepWear())",
         "wear by impacts (WearLaw::finnie())",
         "grains",

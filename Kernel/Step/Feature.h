@@ -13,6 +13,7 @@ enum class Feature : std::uint8_t {
     Walls,
     Membranes,
     DrivenWalls,
+    TurnedWalls,
     WornWalls,
     ImpactWear,
     Grains,
