@@ -131,9 +131,8 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
         return half * (last.*force * before.approach + now.*force * after.approach);
     };
     account.walls +=
-        half *
-        (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall) -
-         givenByPiston(last, kind.lastPiston) - givenByPiston(now, kind.piston));
+        half * (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall) -
+                givenByPiston(last, kind.lastPiston) - givenByPiston(now, kind.piston));
 
     // An image that moves is moved by the shear or strain.
     if (!second.isHeld) account.images += half * dot(forceOnFirst(last) + forceOnFirst(now), second.slide);

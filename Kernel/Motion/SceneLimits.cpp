@@ -53,10 +53,10 @@ static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes&
     for (std::size_t s = 0; s < grains.free.size(); ++s) {
         if (grains.free[s].empty()) continue;
         for (const double radius : {grains.free[s].smallest, grains.free[s].largest})
-            stiffest = larger(stiffest, of(species.stiffness(static_cast<int>(s), wall.getSpeciesIndex(),
-                                                             {radius, infinity},
-                                                             sphereMass(radius, species.density(s))),
-                                           Bodies{radius, infinity}));
+            stiffest = larger(
+                stiffest, of(species.stiffness(static_cast<int>(s), wall.getSpeciesIndex(),
+                                               {radius, infinity}, sphereMass(radius, species.density(s))),
+                             Bodies{radius, infinity}));
     }
     return stiffest;
 }
@@ -222,8 +222,7 @@ void checkPistons(const ContactLaws& species, const GrainSizes& grains, const Wa
     if (timeStep <= limitOf(all) || timeStep > limitOf({})) return;
     std::vector<std::size_t> pistons;
     for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const Wall& wall = walls.getObject(w);
-            wall.body() || (wall.drive() && wall.drive()->isPiston()))
+        if (const Wall& wall = walls.getObject(w); wall.body() || (wall.drive() && wall.drive()->isPiston()))
             pistons.push_back(w);
     const auto rowOf = [&](std::size_t w) { return pistonRow(species, grains, walls.getObject(w)); };
     const std::size_t lightest =

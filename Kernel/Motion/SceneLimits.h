@@ -65,9 +65,9 @@ double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains,
 double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                            const Integrator& integrator = integrators::predictedVelocityVerlet);
 
-/// Throws InputError if a piston, or a wall that is a body, is so light that the time step (s), which the grains bear, is above the
-/// stability limit: the lightest one, for its contacts, or all of them if the step does not bear the others
-/// either.
+/// Throws InputError if a piston, or a wall that is a body, is so light that the time step (s), which the
+/// grains bear, is above the stability limit: the lightest one, for its contacts, or all of them if the step
+/// does not bear the others either.
 void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                   double timeStep, const Integrator& integrator);
 

@@ -106,8 +106,8 @@ bool lacksDashpots(const Mixed& laws, const Bodies& bodies, double effectiveMass
     return squared > 0 && lacksDashpots(squared, contact.shortestRelaxation());
 }
 
-/// The springs and dashpots that walls which forces move add to those of a grain, over the masses of the walls:
-/// to its shifts, and to its turns.
+/// The springs and dashpots that walls which forces move add to those of a grain, over the masses of the
+/// walls: to its shifts, and to its turns.
 struct WallResponse {
     SpringAndDashpot shift{}, spin{};
 
@@ -133,9 +133,9 @@ struct WallResponse {
 /// their arms: as if they had a share of the mass. Their dashpots follow from the mass of the body, which is
 /// more than a free sphere's, and are not those of a pair alone: none of them is taken as implicit.
 /// @param effectiveMass kg, m1 m2 / (m1 + m2)
-/// @param ofWalls n contacts of a piston, the mass M, share it, so that by the same inequality each counts for
-/// its grain with k (1/m + n/M), n k / M more than at a wall that is held; a wall that turns has its mobility
-/// where it is touched in place of 1/M
+/// @param ofWalls n contacts of a piston, the mass M, share it, so that by the same inequality each counts
+/// for its grain with k (1/m + n/M), n k / M more than at a wall that is held; a wall that turns has its
+/// mobility where it is touched in place of 1/M
 template <class Mixed>
 double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveMass,
                       const Integrator& integrator = integrators::predictedVelocityVerlet,
@@ -144,7 +144,8 @@ double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveM
     const Neighbours met(contacts);
     const ContactStiffness contact = contactStiffness(laws, bodies, response.damping * effectiveMass);
     const double moved = response.inertia * effectiveMass, centre = 1 / moved;  // kg, 1/kg
-    SpringAndDashpot shift = centre * (met.along * contact.normal + met.across * contact.sliding) + ofWalls.shift;
+    SpringAndDashpot shift =
+        centre * (met.along * contact.normal + met.across * contact.sliding) + ofWalls.shift;
     const SpringAndDashpot spin = turningAmong(met, contact, bodies, moved) + ofWalls.spin;
 
     const SignChange signChange(integrator);

@@ -98,8 +98,7 @@ void beginFreely(const RigidWall& wall, WallBody& body, const Step& step) {
     const auto sum = [&](double ofNow, const Vector<double>& now, double ofEarlier,
                          const Vector<double>& earlier) { return h * (ofNow * now + ofEarlier * earlier); };
     const Vector<double>&a = free.acceleration, &t = free.torque;
-    free.position +=
-        h * (free.velocity + sum(s.position0, a, s.position1, body.earlierAcceleration));
+    free.position += h * (free.velocity + sum(s.position0, a, s.position1, body.earlierAcceleration));
     free.velocity += sum(s.velocity0, a, s.velocity1, body.earlierAcceleration);
     free.orientation =
         turnedFreely(free.orientation, free.inertia,
@@ -127,11 +126,10 @@ void finishFreely(const RigidWall& wall, WallBody& body, const Step& step) {
     const RigidVelocity& mean = body.mean;
     const double byLoads = h * (dot(mean.linear, body.asked.force + free.mass * step.gravity) +
                                 dot(mean.spin, body.asked.torque));
-    const double byGrains =
-        0.5 * h * (dot(mean.linear, body.startForce + toVector(wall.getForce())) +
-                   dot(mean.spin, body.startTorque + torqueOn(wall, body)));
-    body.work = {.byLoads = byLoads,
-                 .missing = body.kineticEnergy() - body.startEnergy - byLoads - byGrains};
+    const double byGrains = 0.5 * h *
+                            (dot(mean.linear, body.startForce + toVector(wall.getForce())) +
+                             dot(mean.spin, body.startTorque + torqueOn(wall, body)));
+    body.work = {.byLoads = byLoads, .missing = body.kineticEnergy() - body.startEnergy - byLoads - byGrains};
 }
 
 }  // namespace

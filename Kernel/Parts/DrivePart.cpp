@@ -27,9 +27,8 @@ Features DrivePart::features(const StepContext& scene) const {
 
 static void checkPlane(const StepContext& scene, std::size_t number, const PlaneDrive& drive) {
     if (!PlaneMotion::canMove(scene.walls.getObject(number)))
-        throw InputError(
-            fmt::format("wall {}: only a plane (InfiniteWall) can be moved by forces; give this wall no drive.",
-                        number));
+        throw InputError(fmt::format(
+            "wall {}: only a plane (InfiniteWall) can be moved by forces; give this wall no drive.", number));
     if (drive.isServo() && scene.length >= 2 * drive.asked.time)
         throw InputError(fmt::format(
             "wall {}: time of the target force = {:.6g} s; it must be more than half a time step of "

@@ -132,6 +132,7 @@ private:
 
     void setVelocitiesOfBody(const RigidVelocity& before);
     void visitBody(StateArchive& archive);
+    [[nodiscard]] double reachFromAxis(const Vector<double>& axis, const Vector<double>& point) const;
 
     std::optional<WallBody> bodily;
     WallBodySettings bodyAtSetUp;

@@ -24,20 +24,16 @@ Quaternion turnOf(const Pose& pose) {
     return toQuaternion(Eigen::Quaterniond(matrix).normalized());
 }
 
-/// m, of the surface from the axis (unit) of a rotor through a point (m). Throws InputError where it has no
-/// bound.
-double reachFromAxis(const SurfaceExtent& surface, const Vector<double>& axis, const Vector<double>& point) {
-    if (surface.radius < infinity && surface.symmetry != SurfaceExtent::Symmetry::Cylinder)
-        return norm(cross(axis, surface.centre - point)) + surface.radius;
-    // A cylinder without ends turns into itself about its own axis only.
-    const bool isOwn = surface.symmetry == SurfaceExtent::Symmetry::Cylinder &&
-                       norm(cross(axis, surface.axis)) < 1e-9 &&
-                       norm(cross(axis, surface.centre - point)) < 1e-9 * surface.radius;
-    if (!isOwn)
-        throw InputError(
-            "Wall: an endless surface can be a rotor only where it turns into itself, a cylinder about its own "
-            "axis; take that axis, or a surface with ends (TriangleWall, AxisymmetricWall).");
-    return surface.radius;
+/// Throws InputError unless an endless surface turns into itself about an axis (unit) through a point (m).
+void refuseUnlessOwnAxis(const SurfaceExtent& surface, const Vector<double>& axis,
+                         const Vector<double>& point) {
+    const Vector<double> apart = point - surface.centre;
+    if (surface.symmetry == SurfaceExtent::Symmetry::Cylinder && norm(cross(axis, surface.axis)) < 1e-9 &&
+        norm(cross(axis, apart)) <= 1e-9 * (norm(point) + norm(surface.centre)))
+        return;
+    throw InputError(
+        "Wall: an endless surface can be a rotor only where it turns into itself, a cylinder about its own "
+        "axis; take that axis, or a surface with ends (TriangleWall, AxisymmetricWall).");
 }
 
 }  // namespace
@@ -46,6 +42,18 @@ void RigidWall::requireShape(std::string_view function) const {
     if (!given)
         throw InputError(
             fmt::format("Wall: there is no shape that forces could move; call set() before {}().", function));
+}
+
+/// m, of the surface from the axis (unit) of a rotor through a point (m), in the wall's own frame.
+double RigidWall::reachFromAxis(const Vector<double>& axis, const Vector<double>& point) const {
+    const SurfaceExtent own = extent();
+    if (own.radius < infinity) return norm(cross(axis, own.centre - point)) + own.radius;
+    refuseUnlessOwnAxis(own, axis, point);
+    // On its axis the distance of a cylinder is its radius.
+    const std::uint32_t part = 0;
+    WallPoint nearest{};
+    findInBody(own.centre, infinity, {&part, 1}, {&nearest, 1});
+    return std::abs(nearest.distance);
 }
 
 void RigidWall::setSlider(const Vec3D& direction, const SliderSettings& settings) {
@@ -77,7 +85,7 @@ void RigidWall::setRotor(const Vec3D& axis, const Vec3D& point, const RotorSetti
                .largestSpeed = settings.largestSpin,
                .inertia = settings.inertia,
                .centre = through,
-               .reach = reachFromAxis(extent(), pose.turnBack(about), pose.placeBack(through))});
+               .reach = reachFromAxis(pose.turnBack(about), pose.placeBack(through))});
 }
 
 void RigidWall::setFreeBody(const FreeBodySettings& settings) {
@@ -85,15 +93,15 @@ void RigidWall::setFreeBody(const FreeBodySettings& settings) {
     Eigen::Matrix3d turn;
     for (int k = 0; k < 3; ++k) turn.col(k) = toEigen(pose.column[k]);
     const Vector<double> centre = checkedVector("Wall", "centre of mass", settings.centre, "m");
-    beginFreeBody(settings.mass, toEigen(pose.placeBack(centre)),
-                  turn.transpose() * settings.inertia * turn, settings);
+    beginFreeBody(settings.mass, toEigen(pose.placeBack(centre)), turn.transpose() * settings.inertia * turn,
+                  settings);
 }
 
 void RigidWall::beginFreeBody(double mass, const Vec3D& centre, const Eigen::Matrix3d& inertia,
                               const FreeBodySettings& forces) {
     checkValue("Wall", "mass of the free body", mass, "kg", positive);
     const SurfaceExtent own = extent();
-    if (!(own.radius < infinity) || own.symmetry == SurfaceExtent::Symmetry::Cylinder)
+    if (!(own.radius < infinity))
         throw InputError(
             "Wall: an endless surface cannot move freely in space; take one with ends (TriangleWall, "
             "AxisymmetricWall), or setSlider() or setRotor().");

@@ -37,8 +37,8 @@ public:
     /// where it is not closed.
     [[nodiscard]] MassProperties massProperties() const;
     using RigidWall::setFreeBody;
-    /// It moves freely as a solid of this density (kg/m^3). A mesh that is not closed is given mass and inertia
-    /// by the other function. Wear leaves both as they are.
+    /// It moves freely as a solid of this density (kg/m^3). A mesh that is not closed is given mass and
+    /// inertia by the other function. Wear leaves both as they are.
     void setFreeBody(double density);
 
     /// Counts from the start of the run what grains do to each triangle, and what they wear off it by the

@@ -10,8 +10,8 @@ using Kind = WallBodySettings::Kind;
 
 bool WallBodySettings::movesAs(const WallBodySettings& other) const {
     return kind == other.kind && axis == other.axis && centre == other.centre &&
-           (kind != Kind::Free || (isAsHeavyAs(other) && axes.real == other.axes.real &&
-                                   axes.imaginary == other.axes.imaginary));
+           (kind != Kind::Free ||
+            (isAsHeavyAs(other) && axes.real == other.axes.real && axes.imaginary == other.axes.imaginary));
 }
 
 bool WallBodySettings::isAsHeavyAs(const WallBodySettings& other) const {
@@ -76,8 +76,8 @@ void WallBody::visitState(StateArchive& archive) {
     archive.finite("centre", asked.centre);
     archive.finite("reach", asked.reach);
     archive.finite("moments", asked.moments);
-    archive.require(!isFree() || std::min({asked.moments.x, asked.moments.y, asked.moments.z}) > 0,
-                    "moments", "are not positive");
+    archive.require(!isFree() || std::min({asked.moments.x, asked.moments.y, asked.moments.z}) > 0, "moments",
+                    "are not positive");
     archive.finite("axes", asked.axes);
     archive.finite("force", asked.force);
     archive.finite("torque", asked.torque);

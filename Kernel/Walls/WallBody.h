@@ -10,9 +10,9 @@ namespace pendular {
 
 /// A wall that slides freely along a direction.
 struct SliderSettings {
-    double mass = 0;      // kg
-    double force = 0;     // N, along the direction; the weight comes on top of it
-    double friction = 0;  // N, of its guide, dry: against its motion, or as much as holds it
+    double mass = 0;                 // kg
+    double force = 0;                // N, along the direction; the weight comes on top of it
+    double friction = 0;             // N, of its guide, dry: against its motion, or as much as holds it
     double largestSpeed = infinity;  // m/s
 };
 
@@ -26,7 +26,7 @@ struct RotorSettings {
 
 /// A wall that moves freely in space.
 struct FreeBodySettings {
-    double mass = 0;  // kg
+    double mass = 0;                                    // kg
     Vec3D centre = Vec3D::Zero();                       // m, of mass, in the scene, where the wall is now
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // kg m^2, about the centre, along the scene's axes
     Vec3D force = Vec3D::Zero();                        // N, at the centre; the weight comes on top of it
@@ -38,17 +38,17 @@ struct WallBodySettings {
     enum class Kind : std::uint32_t { None, Slider, Rotor, Free };
     Kind kind = Kind::None;
     // Of a slider and a rotor:
-    Vector<double> axis{0, 0, 0};  // unit: the direction, or the axis
-    double load = 0;               // N or N m
-    double friction = 0;           // N or N m
+    Vector<double> axis{0, 0, 0};    // unit: the direction, or the axis
+    double load = 0;                 // N or N m
+    double friction = 0;             // N or N m
     double largestSpeed = infinity;  // m/s or rad/s
     // Of all:
     double inertia = 0;              // kg; of a rotor kg m^2
     Vector<double> centre{0, 0, 0};  // m: on the axis of a rotor; of mass, in the wall's own frame
     double reach = 0;                // m, of the surface from the axis, or from the centre of mass
     // Of a free body:
-    Vector<double> moments{0, 0, 0};  // kg m^2, principal
-    Quaternion axes{};                // turns the principal axes into the wall's own frame
+    Vector<double> moments{0, 0, 0};                 // kg m^2, principal
+    Quaternion axes{};                               // turns the principal axes into the wall's own frame
     Vector<double> force{0, 0, 0}, torque{0, 0, 0};  // N, N m
 
     /// Whether it moves in the same way, by whatever forces.
@@ -77,12 +77,12 @@ struct WallBody {
     bool forcesAreOld = false;      // contacts have ended since they were summed
 
     // The last step; nothing of it goes into the next one.
-    double acceleration = 0;                                         // of a slider and a rotor, at its start
-    double startSpeed = 0;                                           // of these
-    Vector<double> startVelocity{0, 0, 0}, startSpin{0, 0, 0};       // of a free body
-    Vector<double> startForce{0, 0, 0}, startTorque{0, 0, 0};        // N, N m, of its contacts
-    double startEnergy = 0;                                          // J
-    RigidVelocity seen, mean;                                        // by contacts; for their work
+    double acceleration = 0;                                    // of a slider and a rotor, at its start
+    double startSpeed = 0;                                      // of these
+    Vector<double> startVelocity{0, 0, 0}, startSpin{0, 0, 0};  // of a free body
+    Vector<double> startForce{0, 0, 0}, startTorque{0, 0, 0};   // N, N m, of its contacts
+    double startEnergy = 0;                                     // J
+    RigidVelocity seen, mean;                                   // by contacts; for their work
     /// J, what was done on it in the step besides the work of its contacts.
     struct Work {
         double byLoads = 0;     // with the weight

@@ -16,22 +16,28 @@ public:
 
     explicit StirredBox(const Integrator& scheme = integrators::predictedVelocityVerlet)
         : scenes::SettlingBox<Rough>(4) {
-        stirrer = add(closedBox({0.00625, 0.00625, 0.015}, {0.012, 0.001, 0.001}));
-        stirrer->setRotor({0, 0, 1}, {0.00625, 0.00625, 0}, stirring);
+        // Between two rows of the grains: a sheet from below them to above.
+        const Vector<double> a{0.002, between, 0.001}, b{0.0105, between, 0.001}, c{0.0105, between, 0.012},
+            d{0.002, between, 0.012};
+        stirrer = add({{a, b, c}, {a, c, d}});
+        stirrer->setRotor({0, 0, 1}, axis, stirring);
         slab = add(closedBox({0.00625, 0.00625, 0.016}, {0.011, 0.011, 0.0002}));
-        slab->setSlider({0.1, 0, 1}, {.mass = 2e-4, .force = -1e-3, .friction = 1e-4});
+        slab->setSlider({0.1, 0, 1}, {.mass = 2e-4, .force = -0.02, .friction = 1e-4});
         box = add(closedBox({0.00625, 0.00625, 0.0135}, {0.003, 0.002, 0.001}));
+        box->setVelocity({0, 0, -0.8});
         box->setAngularVelocity({30, 20, 10}, {0.00625, 0.00625, 0.0135});
         box->setSurfaceVelocity({0.05, 0, 0});
         box->setFreeBody(4000);
         this->setIntegrator(scheme);
         this->setQuiet();
     }
+    static constexpr double between = 0x1.9p-9 * 2.05;  // m
+    const Vec3D axis{0.00625, between, 0};
     RotorSettings stirring{.inertia = 2e-9, .torque = 2e-6, .friction = 1e-7, .largestSpin = 200};
 
     void stirMore() {
         stirring.torque = -3e-6;
-        stirrer->setRotor({0, 0, 1}, {0.00625, 0.00625, 0}, stirring);
+        stirrer->setRotor({0, 0, 1}, axis, stirring);
     }
     [[nodiscard]] std::uint64_t hash() { return stateHash(this->particleHandler.store()); }
 
@@ -51,10 +57,18 @@ TEST(WallBody, theLedgerCloses) {
         scene.initialise();
         const EnergyLedger& ledger = scene.energyLedger();
         const double start = ledger.closed();
-        scene.step(3000);
+        std::array<std::uint64_t, 3> touches{};
+        const auto go = [&] {
+            for (int n = 0; n < 30; ++n) {
+                scene.step(100);
+                touches[0] += scene.stirrer->body()->touches, touches[1] += scene.slab->body()->touches;
+                touches[2] += scene.box->body()->touches;
+            }
+        };
+        go();
         scene.stirMore();
         scene.setGravity({0, 0, -5});
-        scene.step(3000);
+        go();
         double all = 0;
         for (const auto& entry : EnergyLedger::entries()) all += std::abs(ledger.*entry.member);
         EXPECT_LT(std::abs(ledger.closed() - start), 5 * std::sqrt(6000) * 0x1p-53 * all) << scheme.name;
@@ -64,16 +78,17 @@ TEST(WallBody, theLedgerCloses) {
         EXPECT_GT(ledger.sliding, 0);
         // What is not closed by construction: the error of the steps is a small share.
         EXPECT_LT(std::abs(ledger.stepError), 0.02 * ledger.lost()) << scheme.name;
-        EXPECT_GT(scene.stirrer->body()->touches + scene.box->body()->touches + scene.slab->body()->touches, 3u);
+        for (const std::uint64_t count : touches) EXPECT_GT(count, 5u);
     }
 }
 
-/// The change of a stirrer's angular momentum is the sum of its torques, each with half a step on either side.
+/// The change of a stirrer's angular momentum is the sum of its torques, each with half a step on either
+/// side.
 TEST(WallBody, theTorquesOfAStirrerBalance) {
     StirredBox scene;
     scene.stirring.friction = 0, scene.stirring.largestSpin = infinity;
-    scene.stirrer->setRotor({0, 0, 1}, {0.00625, 0.00625, 0}, scene.stirring);
-    scene.stirrer->keepForces(true, {0.00625, 0.00625, 0.01});
+    scene.stirrer->setRotor({0, 0, 1}, scene.axis, scene.stirring);
+    scene.stirrer->keepForces(true, scene.axis + Vec3D(0, 0, 0.01));
     scene.initialise();
     double sum = 0, turned = 0, work = 0, last = 0;
     for (int n = 0; n < 4000; ++n) {
@@ -119,9 +134,10 @@ TEST(WallBody, momentumIsKeptInSpace) {
         const auto change = (momentum() - before).eval();
         const double ofGrain = 4e-9 * std::numbers::pi / 3 * 2500 * 0.5;  // kg m/s
         EXPECT_LT(change.head<3>().norm(), 1e-11 * ofGrain) << scheme.name;
-        // The arms change by the way of half a step between position and velocity: none for central forces,
-        // and of torques what the friction of a touch makes of it.
-        EXPECT_LT(change.tail<3>().norm(), 1e-11 * ofGrain * 0.01) << scheme.name;
+        // The positions of the third order scheme keep no angular momentum, of grains either.
+        if (!scheme.remembersEarlier()) {
+            EXPECT_LT(change.tail<3>().norm(), 1e-11 * ofGrain * 0.01) << scheme.name;
+        }
         EXPECT_GT(norm(box->body()->free.velocity), 0.01);
         EXPECT_GT(norm(box->body()->free.spin()), 1);
     }
@@ -159,7 +175,7 @@ TEST(WallBody, hasTheSameBitsForAnyThreadsAndThroughRestarts) {
     }
     StirredBox different;
     different.stirring.torque = 1e-6;
-    different.stirrer->setRotor({0, 0, 1}, {0.00625, 0.00625, 0}, different.stirring);
+    different.stirrer->setRotor({0, 0, 1}, different.axis, different.stirring);
     different.restartFrom(file);
     EXPECT_TRUE(support::contains(support::refusal([&] { different.initialise(); }), "firstLoad"));
 }

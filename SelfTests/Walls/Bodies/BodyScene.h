@@ -20,7 +20,7 @@ using scenes::GrainMotion;
 using Linear = Species<LinearViscoelastic>;
 using Rough = Species<LinearViscoelastic, SlidingFriction>;
 
-constexpr double g = 9.81;             // m/s^2
+constexpr double g = 9.81;         // m/s^2
 constexpr double asIfHeld = 1e20;  // kg/m^3, of grains that no force moves (held ones touch no walls)
 
 template <class S>

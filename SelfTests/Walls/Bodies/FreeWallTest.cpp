@@ -29,10 +29,11 @@ TEST(WallBody, aRotorSpinsUpByItsTorque) {
         wall->setAngularVelocity({0, 0, 4}, {0, 0, 0});
         wall->setRotor({0, 0, 2}, {0, 0, 0}, {.inertia = 2e-6, .torque = 5e-6});
         scene.run(1000);
-        EXPECT_NEAR(wall->getBodySpeed(), 4 + 2.5, 1e-13) << scheme.name;
-        EXPECT_NEAR(wall->getBodyWay(), 4 + 1.25, 1e-13) << scheme.name;
-        EXPECT_NEAR(wall->getPose().column[0].x, std::cos(5.25), 1e-13);
-        EXPECT_NEAR(wall->getVelocityAt({0.005, 0, 0}).y(), 6.5 * 0.005, 1e-15);
+        constexpr double rounding = 1000 * 0x1p-53 * 8;  // of 1000 sums of numbers below 8
+        EXPECT_NEAR(wall->getBodySpeed(), 4 + 2.5, rounding) << scheme.name;
+        EXPECT_NEAR(wall->getBodyWay(), 4 + 1.25, rounding) << scheme.name;
+        EXPECT_NEAR(wall->getPose().column[0].x, std::cos(5.25), rounding);
+        EXPECT_NEAR(wall->getVelocityAt({0.005, 0, 0}).y(), 6.5 * 0.005, 0.005 * rounding);
     }
 }
 
@@ -88,7 +89,7 @@ TEST(WallBody, theLargestSpeedIsKept) {
     EXPECT_NEAR(wall->getBodyWay(), 2.4, 1e-12);
     EXPECT_NEAR(scene.energyLedger().loads, 1e-5 * 2.4, 1e-17);
     EXPECT_NEAR(scene.energyLedger().bearings, 1e-5 * 2, 1e-17);
-    EXPECT_NEAR(scene.energyLedger().closed(), 0, 1e-19);
+    EXPECT_NEAR(scene.energyLedger().closed(), 0, 1400 * 0x1p-53 * 2.4e-5);  // rounded, of all work
 }
 
 /// A plate of 2 x 1 x 0.1 m and 1 kg in free space. Angular velocities (body axes) and orientations: by an
@@ -125,17 +126,20 @@ Top topAfter(double step, double time, double& worstMomentum) {
 TEST(WallBody, aFreeMeshTurnsAsATop) {
     double momentum = 0;
     const Vec3D spinAt10(2.93879160717203, -0.639529350035248, -0.165805785417491);
-    const double coarse = (topAfter(1. / 512, 10, momentum).spin - spinAt10).norm(),
-                 fine = (topAfter(1. / 1024, 10, momentum).spin - spinAt10).norm();
-    EXPECT_NEAR(coarse / fine, 4, 0.05);  // of second order
-    const Top end = topAfter(1. / 4096, 30, momentum);
     const Vec3D spinAt30(3.00655970716717, -0.00179638750599038, 0.523563133577617);
     const Eigen::Quaterniond orientationAt30(-0.643881819700727, -0.536885117368972, -0.0828423952610125,
                                              -0.538802107043026);
-    EXPECT_LT((end.spin - spinAt30).norm(), 3 * fine / 16 * 1.1);  // the phase grows with the time
-    EXPECT_LT(end.orientation.angularDistance(orientationAt30), 1e-4);
+    for (const auto& [time, exact] : {std::pair(10., spinAt10), std::pair(30., spinAt30)}) {
+        const Top coarse = topAfter(1. / 1024, time, momentum), fine = topAfter(1. / 2048, time, momentum);
+        EXPECT_NEAR((coarse.spin - exact).norm() / (fine.spin - exact).norm(), 4, 0.01);  // of second order
+        // So the error that is left of both is of fourth order: as the square of that of one, with the time.
+        const double left = ((4 * fine.spin - coarse.spin) / 3 - exact).norm();
+        EXPECT_LT(left, 1e-9);
+        if (time > 20) {
+            EXPECT_LT(fine.orientation.angularDistance(orientationAt30), 1e-5);
+        }
+    }
     EXPECT_LT(momentum, 1e-12);
-    RecordProperty("momentum", std::to_string(momentum * 1e15));
 }
 
 /// A solid box has the mass and moments of the closed form, however its faces look; it falls as its centre
@@ -169,20 +173,27 @@ std::string refusalOf(auto&& change) {
 
 TEST(WallBody, whatCannotBeIsRefused) {
     for (const double bad : {0., -1., std::nan(""), infinity}) {
-        EXPECT_TRUE(contains(refusalOf([&] { wheel().setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = bad}); }),
+        EXPECT_TRUE(contains(refusalOf([&] {
+                                 wheel().setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = bad});
+                             }),
                              "inertia of the rotor"));
         EXPECT_TRUE(contains(refusalOf([&] { wheel().setSlider({0, 0, 1}, {.mass = bad}); }), "mass"));
-        EXPECT_TRUE(contains(refusalOf([&] { mesh(closedBox({0, 0, 0}, {1, 1, 1})).setFreeBody(bad); }),
+        EXPECT_TRUE(contains(refusalOf([&] {
+                                 mesh(closedBox({0, 0, 0}, {1, 1, 1})).setFreeBody(bad);
+                             }),
                              "density"));
         FreeBodySettings body{.mass = bad, .inertia = Eigen::Matrix3d::Identity()};
         EXPECT_TRUE(contains(refusalOf([&] { wheel().setFreeBody(body); }), "mass"));
     }
     EXPECT_TRUE(contains(refusalOf([] { wheel().setRotor({0, 0, 0}, {0, 0, 0}, {.inertia = 1}); }), "axis"));
-    EXPECT_TRUE(contains(
-        refusalOf([] { wheel().setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 1, .friction = -1}); }), "friction"));
-    EXPECT_TRUE(contains(
-        refusalOf([] { wheel().setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 1, .largestSpin = 0}); }),
-        "largest spin"));
+    EXPECT_TRUE(contains(refusalOf([] {
+                             wheel().setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 1, .friction = -1});
+                         }),
+                         "friction"));
+    EXPECT_TRUE(contains(refusalOf([] {
+                             wheel().setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 1, .largestSpin = 0});
+                         }),
+                         "largest spin"));
     FreeBodySettings flat{.mass = 1, .inertia = Eigen::Vector3d(1, 1, 3).asDiagonal()};
     EXPECT_TRUE(contains(refusalOf([&] { wheel().setFreeBody(flat); }), "sum of the others"));
     EXPECT_TRUE(contains(refusalOf([] { mesh(sheet(0, 1, 1)).setFreeBody(1000); }), "must be given"));
@@ -196,12 +207,18 @@ TEST(WallBody, whatCannotBeIsRefused) {
     InfiniteWall plane;
     plane.set({0, 0, 1}, {0, 0, 0});
     FreeBodySettings one{.mass = 1, .inertia = Eigen::Matrix3d::Identity()};
-    EXPECT_TRUE(contains(refusalOf([&] { plane.setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 1}); }), "endless"));
+    EXPECT_TRUE(contains(refusalOf([&] {
+                             plane.setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 1});
+                         }),
+                         "endless"));
     EXPECT_TRUE(contains(refusalOf([&] { plane.setFreeBody(one); }), "endless"));
     EXPECT_EQ(refusalOf([&] { plane.setSlider({1, 0, 0}, {.mass = 1}); }), "");
     InfiniteCylinder tube;
     tube.set({0, 1, 0}, {0.1, 0, 0}, 0.05, CylinderSide::Inside);
-    EXPECT_TRUE(contains(refusalOf([&] { tube.setRotor({0, 1, 0}, {0, 0, 0}, {.inertia = 1}); }), "own axis"));
+    EXPECT_TRUE(contains(refusalOf([&] {
+                             tube.setRotor({0, 1, 0}, {0, 0, 0}, {.inertia = 1});
+                         }),
+                         "own axis"));
     EXPECT_EQ(refusalOf([&] { tube.setRotor({0, -1, 0}, {0.1, 3, 0}, {.inertia = 1}); }), "");
     EXPECT_TRUE(contains(refusalOf([] {
                              TriangleWall wall = mesh(closedBox({0, 0, 0}, {1, 1, 1}));
@@ -229,6 +246,7 @@ public:
 
 TEST(WallBody, aStepThatFailsIsTakenBack) {
     Scene scene(plain(), {{.position = {0, 0, 0.1}}}, 1e-3);
+    scene.acceptUnstableTimeStep();  // nothing touches
     scene.addPart<Failing>();
     AxisymmetricWall* const rotor = scene.add(wheel());
     rotor->setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 2e-6, .torque = 5e-6});

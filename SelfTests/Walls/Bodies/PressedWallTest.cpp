@@ -62,8 +62,10 @@ const std::vector<Vec3D> four{
 const std::vector<Vec3D> three{{-0.008, -0.012, -1e-3}, {0.008, -0.012, -1e-3}, {0, 0.012, -1e-3}};
 
 TEST(WallBody, aPlateOnThreeAndFourGrainsTilts) {
+    // 20 ms are 13 damping times 2 M / (4 c), and more for tilts; in them a tilt of 3e-5 lets it slide by
+    // 0.06 um, 5e-6 of the arms.
     Plate onFour(four, 0, 2, 1e-5), onThree(three, 0, 2, 1e-5);
-    onFour.run(40000), onThree.run(40000);
+    onFour.run(2000), onThree.run(2000);
     EXPECT_NEAR(onFour.height(), -7.3575e-7, 1e-4 * 7.3575e-7);
     EXPECT_NEAR(onFour.turnX(), 0, 1e-12);
     EXPECT_NEAR(onThree.height(), -1.103625e-6, 1e-4 * 1.1e-6);
@@ -107,8 +109,8 @@ TEST(WallBody, aPlateOnFourGrainsHasItsFrequencies) {
 }
 
 /// A roller of radius R on a row of grains that no force moves: after each grain it goes on with
-/// eta = (cos 2 beta + kappa) / (1 + kappa) of its speed, sin beta = s / (2 (R + r)), and so comes to a steady
-/// speed on a slope (roller_grains.csv: 0.1709 m/s at 5 degrees for R 5, r 1, s 2 mm and rough plastic
+/// eta = (cos 2 beta + kappa) / (1 + kappa) of its speed, sin beta = s / (2 (R + r)), and so comes to a
+/// steady speed on a slope (roller_grains.csv: 0.1709 m/s at 5 degrees for R 5, r 1, s 2 mm and rough plastic
 /// contacts). Springs give back a little: some per cent.
 TEST(WallBody, aRollerOnGrainsHasASteadySpeed) {
     constexpr double R = 5e-3, r = 1e-3, s = 2e-3, mass = 2e-3, slope = 5 * std::numbers::pi / 180;
@@ -123,11 +125,12 @@ TEST(WallBody, aRollerOnGrainsHasASteadySpeed) {
     AxisymmetricWall roller;
     const double height = std::sqrt((R + r) * (R + r) - s * s / 4) - r;  // m, between two grains
     roller.set({0, 1, 0}, {s / 2, 0, height}, {{R, -8e-3}, {R, 8e-3}});
-    FreeBodySettings body{.mass = mass, .centre = {s / 2, 0, height},
+    FreeBodySettings body{.mass = mass,
+                          .centre = {s / 2, 0, height},
                           .force = mass * g * Vec3D(std::sin(slope), 0, -std::cos(slope))};
-    body.inertia = Vec3D(mass / 4 * R * R + mass / 12 * 256e-6, mass / 2 * R * R,
-                         mass / 4 * R * R + mass / 12 * 256e-6)
-                       .asDiagonal();
+    body.inertia =
+        Vec3D(mass / 4 * R * R + mass / 12 * 256e-6, mass / 2 * R * R, mass / 4 * R * R + mass / 12 * 256e-6)
+            .asDiagonal();
     roller.setVelocity({0.17, 0, 0});
     roller.setAngularVelocity({0, 0.17 / R, 0}, {s / 2, 0, height});
     AxisymmetricWall* const wall = scene.add(roller);
@@ -149,21 +152,26 @@ TEST(WallBody, aRollerOnGrainsHasASteadySpeed) {
 /// A wheel on its axis under a heavy grain that slides over it, pressed on with N: w' = mu N R / I until the
 /// surface is as fast as the grain, at t = (v / R) I / (mu N R - brake).
 TEST(WallBody, aWheelSpinsUpByFriction) {
-    constexpr double R = 5e-3, r = 1e-3, v = 0.05, inertia = 2e-7, mu = 0.5, overlap = 1e-5, k = 1e4, brake = 5e-5;
+    constexpr double R = 5e-3, r = 1e-3, v = 0.5, inertia = 2e-7, mu = 0.5, overlap = 1e-5, k = 1e4,
+                     brake = 5e-5;
     BodyScene<Rough> scene(material<Rough>(k, 0, asIfHeld, mu),
                            {{.radius = r, .position = {0, 0, 0}, .spin = {0, -v / r, 0}}}, 1e-6);
+    // The spring is stretched for slip in 0.035 ms of 0.1 s, and damped when the wheel sticks.
+    scene.speciesHandler.getObject(0)->setSlidingDissipation(4);
     InfiniteCylinder wheel;
     wheel.set({0, 1, 0}, {0, 0, R + r - overlap}, R, CylinderSide::Outside);
     InfiniteCylinder* const wall = scene.add(wheel);
     wall->setRotor({0, 1, 0}, {0, 0, R + r - overlap}, {.inertia = inertia, .friction = brake});
+    wall->keepForces(true, {0, 0, R + r - overlap});
     scene.initialise();
     const double normal = k * overlap, arm = R - overlap / 2, surface = v * (r - overlap / 2) / r;
     const double time = surface / R * inertia / (mu * normal * arm - brake);  // s
     scene.step(static_cast<std::size_t>(0.5 * time / 1e-6));
-    EXPECT_NEAR(std::abs(wall->getBodySpeed()), 0.5 * surface / R, 5e-3 * surface / R);
-    EXPECT_NEAR(wall->getTorque().norm(), (R + r - overlap) * mu * normal, 0.2 * R * mu * normal);
+    EXPECT_NEAR(std::abs(wall->getBodySpeed()), 0.5 * surface / R, 2e-3 * surface / R);
+    EXPECT_NEAR(wall->getTorque().norm(), arm * mu * normal, 1e-6 * arm * mu * normal);
     scene.step(static_cast<std::size_t>(1.5 * time / 1e-6));
-    EXPECT_NEAR(std::abs(wall->getBodySpeed()), surface / R, 2e-2 * surface / R);
+    EXPECT_NEAR(std::abs(wall->getBodySpeed()), surface / R, 2e-3 * surface / R);
+    EXPECT_NEAR(wall->getTorque().norm(), brake, 1e-2 * brake);  // sticking, the grain overcomes the bearing
 }
 
 /// A seesaw, a plate that turns about its middle, on springs at the arm a: 2 k a^2 / I is its squared
@@ -172,7 +180,8 @@ TEST(WallBody, itsInertiaEntersTheStabilityLimit) {
     const double k = 1e4, arm = 0.012;
     BodyScene<Linear> scene(
         material<Linear>(k, 0, asIfHeld),
-        {{.radius = 1e-3, .position = {0, -arm, -1e-3}}, {.radius = 1e-3, .position = {0, arm, -1e-3}}}, 1e-7);
+        {{.radius = 1e-3, .position = {0, -arm, -1e-3}}, {.radius = 1e-3, .position = {0, arm, -1e-3}}},
+        1e-7);
     scene.setIntegrator(integrators::velocityVerlet);
     TriangleWall* const seesaw = scene.add(mesh(sheet(0, 0.001, 0.0125)));
     for (const double inertia : {1e-7, 1e-9}) {
@@ -186,7 +195,8 @@ TEST(WallBody, itsInertiaEntersTheStabilityLimit) {
 /// Too light a wheel is refused with the inertia that is enough.
 TEST(WallBody, tooLightIsRefused) {
     const auto refusal = [](double inertia) {
-        BodyScene<Linear> scene(material<Linear>(1000, 0, 2500), {{.radius = 1e-3, .position = {0, 0, 0}}}, 1e-5);
+        BodyScene<Linear> scene(material<Linear>(1000, 0, 2500), {{.radius = 1e-3, .position = {0, 0, 0}}},
+                                1e-5);
         scene.add(mesh(closedBox({0, 0, 0.01}, {0.01, 0.01, 0.01})))
             ->setRotor({1, 0, 0}, {0, 0, 0.01}, {.inertia = inertia});
         return support::refusal([&] { scene.initialise(); });
