@@ -540,9 +540,40 @@ void ContactSystem::sumWallForces(const Grains& grains) {
 }
 
 void ContactSystem::sumLostForces(const Grains& grains) {
+    const auto areOld = [](const auto* moved) { return moved != nullptr && moved->forcesAreOld; };
     for (std::size_t w = 0; w < walls->getSize(); ++w)
-        if (const PlaneDrive* const drive = walls->getObject(w).drive(); drive && drive->forcesAreOld)
+        if (const Wall& wall = walls->getObject(w); areOld(wall.drive()) || areOld(wall.body()))
             sumForcesOn(grains, w);
+}
+
+/// A wall that forces move was seen by the contact with a velocity of the step, and work is done at the mean
+/// one: of a body, at the point where the wall has its torque (addWallForces), then and now.
+void ContactSystem::showWallMotion(const Grains& grains, const Bucket& bucket, std::uint32_t contact,
+                                   EnergyRecord& record) const {
+    const std::size_t b = contact / Pack::lanes, lane = contact % Pack::lanes;
+    const Wall& wall = wallOf(bucket);
+    const WallPointColumns& points = contacts.wallPoints[b - contacts.firstWallBlock()];
+    ContactSample &now = record.now, &last = record.last;
+    now.wallVelocity = points.velocityAt(lane);
+    now.wallSpin = wall.angularVelocity();
+    if (const PlaneDrive* const driven = wall.drive()) {
+        now.wallVelocity += (driven->meanVelocity - driven->seenVelocity) * wall.drivenNormal();
+        last.wallVelocity = now.wallVelocity;
+    }
+    const WallBody* const body = wall.body();
+    if (!body) return;
+    const TranslationRecord& grain = grains.translation[contacts.firstOf(contact)];
+    const Vector<double> place =
+        grain.position - wall.imageShift(contacts.secondOf(contact), grain.position);
+    const double distance = points.distance.lane[lane];
+    const Vector<double> normal{points.normal[0].lane[lane], points.normal[1].lane[lane],
+                                points.normal[2].lane[lane]};
+    const Vector<double> seenAt = place + (std::isfinite(distance) ? distance : 0) * normal;
+    const Vector<double> belt = now.wallVelocity - body->seen.at(seenAt);
+    now.wallArm = place + (grain.radius - now.halfOverlap) * normal - body->centre();
+    now.wallVelocity = belt + body->meanVelocityAt(now.wallArm);
+    last.wallVelocity = belt + body->meanVelocityAt(last.wallArm);
+    now.wallSpin = last.wallSpin = body->mean.spin;
 }
 
 void ContactSystem::sumForcesOn(const Grains& grains, std::size_t number) {

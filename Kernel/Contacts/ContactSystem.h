@@ -177,16 +177,7 @@ public:
             const std::uint32_t contact = contacts.contactAt(slot);
             const std::size_t b = contact / Pack::lanes, lane = contact % Pack::lanes;
             const Bucket& bucket = contacts.bucketOf(b);
-            if (bucket.wall >= 0) {
-                record.now.wallVelocity = contacts.wallPoints[b - contacts.firstWallBlock()].velocityAt(lane);
-                record.now.wallSpin = wallOf(bucket).angularVelocity();
-                if (const PlaneDrive* const driven = wallOf(bucket).drive()) {
-                    // The contact has seen a velocity of the step; work is done at the mean one.
-                    record.now.wallVelocity +=
-                        (driven->meanVelocity - driven->seenVelocity) * wallOf(bucket).drivenNormal();
-                    record.last.wallVelocity = record.now.wallVelocity;
-                }
-            }
+            if (bucket.wall >= 0) showWallMotion(grains, bucket, contact, record);
             function(bucket, contacts.blocks[b], lane, record);
         });
     }
@@ -214,6 +205,9 @@ private:
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }
+    /// The motion of a wall in the step, for the account of the energy.
+    void showWallMotion(const Grains& grains, const Bucket& bucket, std::uint32_t contact,
+                        EnergyRecord& record) const;
     static constexpr std::size_t blocksWorthAThread = 32;
     [[nodiscard]] std::size_t slotOf(const ObservedContact& seen) const;
     /// None of a grain that came after the list.

@@ -45,12 +45,22 @@ Vector<double> forceOnFirst(const ContactSample& s) {
            tangentialForce(s);
 }
 
+/// N m, besides that of the force
+Vector<double> coupleOnFirst(const ContactSample& s) {
+    return s.effectiveRadius *
+           (s.rolling.spring + s.rolling.rest + s.torsion.spring + s.torsion.rest + s.bridge.torque);
+}
+
+/// W, that a wall gets from the contact where its kinetic energy is in the ledger, reversed.
+double givenByPiston(const ContactSample& s, const RigidVelocity& piston) {
+    return dot(forceOnFirst(s), piston.linear) + dot(coupleOnFirst(s), piston.spin);
+}
+
 /// W, that bodies which are held give to the contact: the force on each times its velocity, reversed.
 double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMotion& second, bool isWall) {
     const Vector<double> tangential = tangentialForce(s), force = forceOnFirst(s);
     const Vector<double> leverless = cross(s.normal, tangential);
-    const Vector<double> own = s.effectiveRadius * (s.rolling.spring + s.rolling.rest + s.torsion.spring +
-                                                    s.torsion.rest + s.bridge.torque);
+    const Vector<double> own = coupleOnFirst(s);
     if (isWall) return dot(force, wallVelocityAt(s)) + dot(own, s.wallSpin);
     double given = 0;
     if (first.isHeld)
@@ -121,9 +131,8 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
         return half * (last.*force * before.approach + now.*force * after.approach);
     };
     account.walls +=
-        half *
-        (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall) -
-         dot(forceOnFirst(last), kind.lastPistonVelocity) - dot(forceOnFirst(now), kind.pistonVelocity));
+        half * (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall) -
+                givenByPiston(last, kind.lastPiston) - givenByPiston(now, kind.piston));
 
     // An image that moves is moved by the shear or strain.
     if (!second.isHeld) account.images += half * dot(forceOnFirst(last) + forceOnFirst(now), second.slide);

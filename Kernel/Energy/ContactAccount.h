@@ -2,6 +2,7 @@
 
 #include "Kernel/Contacts/ContactSample.h"
 #include "Kernel/Energy/EnergyLedger.h"
+#include "Kernel/Walls/Pose.h"
 #include "Kernel/Walls/WearLaw.h"
 
 namespace pendular {
@@ -20,9 +21,9 @@ struct ContactKind {
     bool isWall = false;
     bool isPlastic = false;       // the normal law has a history
     bool adhesionBreaks = false;  // else it is a function of the separation, which loses nothing
-    // m/s, of a wall whose kinetic energy is in the ledger, in the step; and of the wall that was touched
-    // before, if a contact has gone on with another one.
-    Vector<double> pistonVelocity{0, 0, 0}, lastPistonVelocity{0, 0, 0};
+    // Of a wall whose kinetic energy is in the ledger, where it is touched, in the step; and of the wall that
+    // was touched before, if a contact has gone on with another one.
+    RigidVelocity piston{}, lastPiston{};
 };
 
 /// The wear of a wall by a contact with it in a step, from a record to which addContact() still has to come.

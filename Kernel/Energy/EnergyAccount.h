@@ -120,8 +120,8 @@ public:
             ContactKind kind{
                 .isWall = bucket.wall >= 0, .isPlastic = laws.isPlastic, .adhesionBreaks = laws.breaks};
             if (kind.isWall) {
-                kind.lastPistonVelocity = pistonVelocity(walls, static_cast<int>(record.lastWall));
-                kind.pistonVelocity = pistonVelocity(walls, bucket.wall);
+                kind.lastPiston = pistonMotion(walls, static_cast<int>(record.lastWall), record.last);
+                kind.piston = pistonMotion(walls, bucket.wall, record.now);
                 record.lastWall = bucket.wall;
             }
             const std::uint32_t first = block.first[lane], second = block.second[lane];
@@ -156,6 +156,7 @@ public:
         account.evaporation = byLiquid.evaporation;
         takeOver(account, step > 0, ledger);  // overlaps at the start are there without work
         takeInPistons(walls, gravity, step, scheme, ledger);
+        takeInBodies(walls, step, ledger);
         takeInMembranes(walls, step, ledger);
         ledger.kinetic = kineticEnergy(grains);
         ledger.potential = ledger.carried + potentialEnergy(grains, gravity);
@@ -200,9 +201,11 @@ private:
 
     static double energyOfPistons(const WallHandler& walls) {
         double sum = 0;  // J
-        for (std::size_t w = 0; w < walls.getSize(); ++w)
-            if (const PlaneDrive* const drive = std::as_const(walls.getObject(w)).drive())
-                sum += drive->kineticEnergy();
+        for (std::size_t w = 0; w < walls.getSize(); ++w) {
+            const Wall& wall = walls.getObject(w);
+            if (const PlaneDrive* const drive = wall.drive()) sum += drive->kineticEnergy();
+            if (const WallBody* const body = wall.body()) sum += body->kineticEnergy();
+        }
         return sum;
     }
     static double energyOfMembranes(const WallHandler& walls) {
@@ -232,13 +235,25 @@ private:
         }
         ledger.membranes = energyOfMembranes(walls);
     }
-    /// The mean velocity (m/s) of a piston in the step; zero for other walls.
-    static Vector<double> pistonVelocity(const WallHandler& walls, int number) {
-        if (number < 0) return {0, 0, 0};
+    /// The mean motion in the step of a piston, or a wall that is a body, where a contact is; zero for other
+    /// walls.
+    static RigidVelocity pistonMotion(const WallHandler& walls, int number, const ContactSample& contact) {
+        if (number < 0) return {};
         const Wall& wall = walls.getObject(static_cast<std::size_t>(number));
+        if (const WallBody* const body = wall.body())
+            return {.linear = body->meanVelocityAt(contact.wallArm), .spin = body->mean.spin};
         const PlaneDrive* const drive = wall.drive();
-        return drive && drive->isPiston() ? drive->meanVelocity * wall.drivenNormal()
-                                          : Vector<double>{0, 0, 0};
+        return drive && drive->isPiston() ? RigidVelocity{.linear = drive->meanVelocity * wall.drivenNormal()}
+                                          : RigidVelocity{};
+    }
+    static void takeInBodies(const WallHandler& walls, double step, EnergyLedger& ledger) {
+        for (std::size_t w = 0; w < walls.getSize(); ++w) {
+            const WallBody* const body = std::as_const(walls.getObject(w)).body();
+            if (!body || step == 0) continue;
+            ledger.loads += body->work.byLoads;
+            ledger.bearings += body->work.inFriction;
+            ledger.stepError -= body->work.missing;
+        }
     }
     /// The kinetic energy of a piston changes as that of a grain; load and weight are the same at both ends
     /// of a step.

@@ -32,6 +32,7 @@ struct EnergyLedger {
     double brokenAdhesion = 0;  // net work done against adhesions and bridges that have broken
     double viscousBridges = 0;  // by bridges that resist motion
     double membraneDamping = 0;
+    double bearings = 0;  // in the friction of sliders and rotors, and at their largest speeds
     /// The energy of tangential springs whose stiffness follows the overlap while they are stretched, for
     /// which the laws have no force: lost as contacts open, negative as they close.
     double stiffening = 0;
@@ -62,7 +63,7 @@ struct EnergyLedger {
     [[nodiscard]] double stored() const { return springs() + adhesive; }
     [[nodiscard]] double lost() const {
         return normalDashpots + plastic + tangentialDashpots + sliding + rolling + torsion + brokenAdhesion +
-               viscousBridges + stiffening + membraneDamping;
+               viscousBridges + stiffening + membraneDamping + bearings;
     }
     /// Constant except for the error of the time steps.
     [[nodiscard]] double total() const {
@@ -102,6 +103,7 @@ struct EnergyLedger {
                                      {"lost_in_viscous_bridges", &L::viscousBridges},
                                      {"lost_in_stiffening", &L::stiffening},
                                      {"lost_in_membranes", &L::membraneDamping},
+                                     {"lost_in_bearings", &L::bearings},
                                      {"given_by_walls", &L::walls},
                                      {"given_by_loads", &L::loads},
                                      {"given_by_pressures", &L::pressures},

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Shapes/ClosedMesh.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -63,30 +63,8 @@ MeshRegion::MeshRegion(std::span<const Triangle> given) {
 }
 
 void MeshRegion::refuseUnlessClosed(const WeldedMesh& mesh) {
-    struct Uses {
-        int count = 0, balance = 0;  // along an edge; forwards minus backwards
-    };
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Uses> edges;
-    for (const auto& corners : mesh.corners)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t from = corners[k], to = corners[(k + 1) % 3];
-            Uses& uses = edges[std::minmax(from, to)];
-            ++uses.count;
-            uses.balance += from < to ? 1 : -1;
-        }
-    for (const auto& [edge, uses] : edges) {
-        const auto [count, balance] = uses;
-        if (count == 2 && balance == 0) continue;
-        const Point &a = mesh.vertices[edge.first], &b = mesh.vertices[edge.second];
-        const std::string place = fmt::format("the edge from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m", a.x,
-                                              a.y, a.z, b.x, b.y, b.z);
-        if (count == 2)
-            throw InputError(fmt::format(
-                "MeshRegion: the triangles at {} show different sides; turn one of them.", place));
-        throw InputError(
-            fmt::format("MeshRegion: the mesh is not closed, as {} belongs to {} {}; it must belong to two.",
-                        place, count, count == 1 ? "triangle" : "triangles"));
-    }
+    if (const auto objection = objectionToClosed(mesh.vertices, mesh.corners))
+        throw InputError(fmt::format("MeshRegion: {}", *objection));
 }
 
 void MeshRegion::makeColumns() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -12,6 +13,7 @@
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/PlaneDrive.h"
+#include "Kernel/Walls/WallBody.h"
 
 namespace pendular {
 
@@ -27,33 +29,63 @@ std::size_t mostContacts(std::size_t grains, const WallHandler& walls) {
 
 /// The contacts for which the mass of a piston is checked: before its first step a guess, a full layer; then
 /// the most that there have been, so that a run that goes on is checked as one that was not stopped.
-static double touchesOfPiston(const GrainSizes& grains, const Wall& wall) {
-    const PlaneDrive& drive = *wall.drive();
-    const double now = static_cast<double>(std::max(drive.touches, drive.mostTouches));
-    return drive.steps > 0 ? now : std::max(grains.fullLayer(wall.drivenNormal()), now);
+static double touchesOf(const GrainSizes& grains, const Wall& wall) {
+    const auto most = [](const auto& moved, double guess) {
+        const double now = static_cast<double>(std::max(moved.touches, moved.mostTouches));
+        return moved.steps > 0 ? now : std::max(guess, now);
+    };
+    if (const PlaneDrive* const drive = wall.drive())
+        return most(*drive, grains.fullLayer(wall.drivenNormal()));
+    const WallBody& body = *wall.body();
+    const double layer =
+        std::max({grains.fullLayer({1, 0, 0}), grains.fullLayer({0, 1, 0}), grains.fullLayer({0, 0, 1})});
+    if (!(body.asked.reach > 0)) return most(body, layer);
+    // No more than a layer on the sphere around the surface has room for.
+    const double wide = (body.asked.reach + grains.smallest()) / grains.smallest();
+    return most(body, std::min(layer, 1 + 4 * std::numbers::pi / (2 * std::numbers::sqrt3) * wide * wide));
 }
 
-/// N/m, of the contacts of a wall with the grains.
-static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+/// N/m, of the contacts of a wall with the grains, by a function of (ContactStiffness, Bodies).
+template <class Of>
+static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes& grains, const Wall& wall,
+                                   Of&& of) {
     SpringAndDashpot stiffest;
     for (std::size_t s = 0; s < grains.free.size(); ++s) {
         if (grains.free[s].empty()) continue;
         for (const double radius : {grains.free[s].smallest, grains.free[s].largest})
-            stiffest =
-                larger(stiffest, species
-                                     .stiffness(static_cast<int>(s), wall.getSpeciesIndex(),
-                                                {radius, infinity}, sphereMass(radius, species.density(s)))
-                                     .normal);
+            stiffest = larger(
+                stiffest, of(species.stiffness(static_cast<int>(s), wall.getSpeciesIndex(),
+                                               {radius, infinity}, sphereMass(radius, species.density(s))),
+                             Bodies{radius, infinity}));
     }
     return stiffest;
+}
+static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    return stiffestAt(species, grains, wall,
+                      [](const ContactStiffness& contact, const Bodies&) { return contact.normal; });
+}
+
+/// The same of a wall that is a body, for all springs of a contact: by its mobility where it is touched, and
+/// the couples of rolling and torsion by how they turn it.
+static WallResponse bodyRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    const WallBody& body = *wall.body();
+    const SpringAndDashpot one =
+        stiffestAt(species, grains, wall, [&](const ContactStiffness& contact, const Bodies& bodies) {
+            return body.mobility() * larger(contact.normal, contact.sliding) +
+                   body.turningMobility() * squaredLeverOfRotation(bodies) *
+                       larger(contact.rolling, contact.torsion);
+        });
+    const SpringAndDashpot all = touchesOf(grains, wall) * one;
+    return {.shift = all, .spin = all};
 }
 
 /// The springs and dashpots of a piston over its mass: n (k, c) / M for the n contacts that it can have, or
 /// has; zero for other walls.
-static SpringAndDashpot pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+static WallResponse pistonRow(const ContactLaws& species, const GrainSizes& grains, const Wall& wall) {
+    if (wall.body()) return bodyRow(species, grains, wall);
     const PlaneDrive* const drive = wall.drive();
     if (!drive || !drive->isPiston()) return {};
-    return (touchesOfPiston(grains, wall) / drive->asked.mass) * stiffestAt(species, grains, wall);
+    return {.shift = (touchesOf(grains, wall) / drive->asked.mass) * stiffestAt(species, grains, wall)};
 }
 
 /// 1/m^2, the grains that may touch a membrane: a hexagonal layer of the smallest on each of its sides.
@@ -106,9 +138,9 @@ static void checkMembranes(const ContactLaws& species, const GrainSizes& grains,
 }
 
 /// The sum of these rows of all walls: a grain may touch several.
-static SpringAndDashpot pistonRows(const ContactLaws& species, const GrainSizes& grains,
-                                   const WallHandler& walls) {
-    SpringAndDashpot sum;
+static WallResponse pistonRows(const ContactLaws& species, const GrainSizes& grains,
+                               const WallHandler& walls) {
+    WallResponse sum;
     for (std::size_t w = 0; w < walls.getSize(); ++w)
         sum = sum + pistonRow(species, grains, walls.getObject(w));
     return sum;
@@ -127,18 +159,18 @@ Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, c
 }
 
 double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
-                           const Integrator& asked, const SpringAndDashpot& ofPistons) {
+                           const Integrator& asked, const WallResponse& ofWalls) {
     const Integrator integrator = schemeOfScene(species, grains, walls, asked);
     const std::size_t contacts = mostContacts(grains.count, walls);
     double limit = infinity;
-    SpringAndDashpot ofWalls = ofPistons;
+    WallResponse response = ofWalls;
     for (std::size_t w = 0; w < walls.getSize(); ++w) {
         limit = std::min(limit, membraneLimit(species, grains, walls.getObject(w), integrator));
-        ofWalls = ofWalls + membraneRow(species, grains, walls.getObject(w));
+        response.shift = response.shift + membraneRow(species, grains, walls.getObject(w));
     }
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double mass) {
         limit = std::min(limit,
-                         stabilityLimit(laws, bodies, mass, integrator, contacts, grains.response, ofWalls));
+                         stabilityLimit(laws, bodies, mass, integrator, contacts, grains.response, response));
     });
     return limit;
 }
@@ -161,21 +193,41 @@ static double shareThatIsBorne(double timeStep, Limit&& limitOf) {
     return share;
 }
 
+namespace {
+
+/// What is too light of a wall that forces move.
+struct InertiaOfWall {
+    std::string_view name;
+    double value;
+    std::string_view unit;
+};
+InertiaOfWall inertiaOf(const Wall& wall) {
+    using Kind = WallBodySettings::Kind;
+    const WallBody* const body = wall.body();
+    if (!body) return {"mass of the piston", wall.drive()->asked.mass, "kg"};
+    const double inertia = body->asked.inertia;
+    if (body->asked.kind == Kind::Rotor) return {"inertia of the rotor", inertia, "kg m^2"};
+    if (body->asked.kind == Kind::Slider) return {"mass of the slider", inertia, "kg"};
+    return {"mass of the free body (with its inertia)", inertia, "kg"};
+}
+
+}  // namespace
+
 void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                   double timeStep, const Integrator& integrator) {
-    const auto limitOf = [&](const SpringAndDashpot& rows) {
+    const auto limitOf = [&](const WallResponse& rows) {
         return sceneStabilityLimit(species, grains, walls, integrator, rows);
     };
-    const SpringAndDashpot all = pistonRows(species, grains, walls);
+    const WallResponse all = pistonRows(species, grains, walls);
     if (timeStep <= limitOf(all) || timeStep > limitOf({})) return;
     std::vector<std::size_t> pistons;
     for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const Wall& wall = walls.getObject(w); wall.drive() && wall.drive()->isPiston())
+        if (const Wall& wall = walls.getObject(w); wall.body() || (wall.drive() && wall.drive()->isPiston()))
             pistons.push_back(w);
     const auto rowOf = [&](std::size_t w) { return pistonRow(species, grains, walls.getObject(w)); };
     const std::size_t lightest =
         *std::ranges::min_element(pistons, {}, [&](std::size_t w) { return limitOf(rowOf(w)); });
-    SpringAndDashpot others;
+    WallResponse others;
     for (const std::size_t w : pistons)
         if (w != lightest) others = others + rowOf(w);
     const bool isOne = timeStep <= limitOf(others);
@@ -185,10 +237,10 @@ void checkPistons(const ContactLaws& species, const GrainSizes& grains, const Wa
     std::vector<std::string> masses, least;
     double touches = 0;
     for (const std::size_t w : pistons) {
-        const double mass = walls.getObject(w).drive()->asked.mass;
-        masses.push_back(fmt::format("wall {}: mass of the piston = {:.6g} kg", w, mass));
-        least.push_back(fmt::format("{:.6g} kg", 1.001 * mass / share));
-        touches = std::max(touches, touchesOfPiston(grains, walls.getObject(w)));
+        const InertiaOfWall own = inertiaOf(walls.getObject(w));
+        masses.push_back(fmt::format("wall {}: {} = {:.6g} {}", w, own.name, own.value, own.unit));
+        least.push_back(fmt::format("{:.6g} {}", 1.001 * own.value / share, own.unit));
+        touches = std::max(touches, touchesOf(grains, walls.getObject(w)));
     }
     throw InputError(fmt::format(
         "{} {} too light for a time step of {:.6g} s with up to {:.0f} contacts; it must be at least {}, or "

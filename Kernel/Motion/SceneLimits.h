@@ -6,6 +6,7 @@
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Motion/Integrator.h"
+#include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -58,15 +59,15 @@ Integrator schemeOfScene(const ContactLaws& species, const GrainSizes& grains, c
                          const Integrator& integrator);
 
 /// The smallest stability limit (s) of the contacts that the scene can have; infinite without grains.
-/// @param ofPistons pistonRows()
+/// @param ofWalls of walls that forces move
 double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
-                           const Integrator& asked, const SpringAndDashpot& ofPistons);
+                           const Integrator& asked, const WallResponse& ofWalls);
 double sceneStabilityLimit(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                            const Integrator& integrator = integrators::predictedVelocityVerlet);
 
-/// Throws InputError if a piston is so light that the time step (s), which the grains bear, is above the
-/// stability limit: the lightest one, for its contacts, or all of them if the step does not bear the others
-/// either.
+/// Throws InputError if a piston, or a wall that is a body, is so light that the time step (s), which the
+/// grains bear, is above the stability limit: the lightest one, for its contacts, or all of them if the step
+/// does not bear the others either.
 void checkPistons(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                   double timeStep, const Integrator& integrator);
 

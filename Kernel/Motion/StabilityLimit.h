@@ -106,6 +106,19 @@ bool lacksDashpots(const Mixed& laws, const Bodies& bodies, double effectiveMass
     return squared > 0 && lacksDashpots(squared, contact.shortestRelaxation());
 }
 
+/// The springs and dashpots that walls which forces move add to those of a grain, over the masses of the
+/// walls: to its shifts, and to its turns.
+struct WallResponse {
+    SpringAndDashpot shift{}, spin{};
+
+    friend WallResponse operator+(const WallResponse& a, const WallResponse& b) {
+        return {a.shift + b.shift, a.spin + b.spin};
+    }
+    friend WallResponse operator*(double factor, const WallResponse& a) {
+        return {factor * a.shift, factor * a.spin};
+    }
+};
+
 /// The time step (s) above which grains with so many contacts, at the largest sound overlap, are no longer
 /// integrated stably. The squared frequency of any motion of a bed is at most that of a pair times a count of
 /// neighbours: the work of a contact, k (n.(v1 - v2))^2 <= k/m* (m1 (n.v1)^2 + m2 (n.v2)^2), is shared by its
@@ -120,18 +133,20 @@ bool lacksDashpots(const Mixed& laws, const Bodies& bodies, double effectiveMass
 /// their arms: as if they had a share of the mass. Their dashpots follow from the mass of the body, which is
 /// more than a free sphere's, and are not those of a pair alone: none of them is taken as implicit.
 /// @param effectiveMass kg, m1 m2 / (m1 + m2)
-/// @param ofPistons over their masses: n contacts of a piston, the mass M, share it, so that by the same
-/// inequality each counts for its grain with k (1/m + n/M), n k / M more than at a wall that is held
+/// @param ofWalls n contacts of a piston, the mass M, share it, so that by the same inequality each counts
+/// for its grain with k (1/m + n/M), n k / M more than at a wall that is held; a wall that turns has its
+/// mobility where it is touched in place of 1/M
 template <class Mixed>
 double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveMass,
                       const Integrator& integrator = integrators::predictedVelocityVerlet,
                       std::size_t contacts = contactsInDensestBed, const BodyResponse& response = {},
-                      const SpringAndDashpot& ofPistons = {}) {
+                      const WallResponse& ofWalls = {}) {
     const Neighbours met(contacts);
     const ContactStiffness contact = contactStiffness(laws, bodies, response.damping * effectiveMass);
     const double moved = response.inertia * effectiveMass, centre = 1 / moved;  // kg, 1/kg
-    SpringAndDashpot shift = centre * (met.along * contact.normal + met.across * contact.sliding) + ofPistons;
-    const SpringAndDashpot spin = turningAmong(met, contact, bodies, moved);
+    SpringAndDashpot shift =
+        centre * (met.along * contact.normal + met.across * contact.sliding) + ofWalls.shift;
+    const SpringAndDashpot spin = turningAmong(met, contact, bodies, moved) + ofWalls.spin;
 
     const SignChange signChange(integrator);
     if (!integrator.contacts.timesTouches)
@@ -143,7 +158,7 @@ double stabilityLimit(const Mixed& laws, const Bodies& bodies, double effectiveM
         if (integrator.contacts.springsInStep)  // those of friction are explicit
             squared = std::max(squared, fastestOfPair(contact, bodies));
         return stabilityMargin * std::sqrt(0.5) *
-               signChange.limit({centre * squared + ofPistons.spring, ofPistons.dashpot});
+               signChange.limit({centre * squared + ofWalls.shift.spring, ofWalls.shift.dashpot});
     }
     if (isOfPair) shift.dashpot -= centre * contact.normal.dashpot;
     if (integrator.contacts.springsInStep)

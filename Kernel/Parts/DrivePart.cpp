@@ -2,56 +2,74 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Step/SummaryRows.h"
 #include "Kernel/Walls/PlaneDrive.h"
+#include "Kernel/Walls/WallBody.h"
 
 namespace pendular {
 
 Features DrivePart::features(const StepContext& scene) const {
     Features found;
-    for (std::size_t w = 0; w < scene.walls.getSize(); ++w)
-        if (scene.walls.getObject(w).drive()) found.add(Feature::DrivenWalls, fmt::format("wall {}", w));
+    for (std::size_t w = 0; w < scene.walls.getSize(); ++w) {
+        const Wall& wall = scene.walls.getObject(w);
+        if (wall.isMovedByForces()) found.add(Feature::DrivenWalls, fmt::format("wall {}", w));
+        if (const WallBody* const body = wall.body(); body && body->turns())
+            found.add(Feature::TurnedWalls, fmt::format("wall {}", w));
+    }
     return found;
 }
 
+static void checkPlane(const StepContext& scene, std::size_t number, const PlaneDrive& drive) {
+    if (!PlaneMotion::canMove(scene.walls.getObject(number)))
+        throw InputError(fmt::format(
+            "wall {}: only a plane (InfiniteWall) can be moved by forces; give this wall no drive.", number));
+    if (drive.isServo() && scene.length >= 2 * drive.asked.time)
+        throw InputError(fmt::format(
+            "wall {}: time of the target force = {:.6g} s; it must be more than half a time step of "
+            "{:.6g} s, or the force would ring ever more.",
+            number, drive.asked.time, scene.length));
+    if (scene.particles.getSize() == 0 && !scene.hasInlets)
+        throw InputError(
+            fmt::format("wall {}: a piston or a target force needs grains, and there are none and no "
+                        "inlet that brings any; call setPiston() or setTargetForce() in the run, when "
+                        "they are there.",
+                        number));
+}
+
 void DrivePart::check(const StepContext& scene) {
-    for (std::size_t w = 0; w < scene.walls.getSize(); ++w) {
-        const Wall& wall = scene.walls.getObject(w);
-        const PlaneDrive* const drive = wall.drive();
-        if (!drive) continue;
-        if (!PlaneMotion::canMove(wall))
-            throw InputError(fmt::format(
-                "wall {}: only a plane (InfiniteWall) can be moved by forces; give this wall no drive.", w));
-        if (drive->isServo() && scene.length >= 2 * drive->asked.time)
-            throw InputError(fmt::format(
-                "wall {}: time of the target force = {:.6g} s; it must be more than half a time step of "
-                "{:.6g} s, or the force would ring ever more.",
-                w, drive->asked.time, scene.length));
-        if (scene.particles.getSize() == 0 && !scene.hasInlets)
-            throw InputError(
-                fmt::format("wall {}: a piston or a target force needs grains, and there are none and no "
-                            "inlet that brings any; call setPiston() or setTargetForce() in the run, when "
-                            "they are there.",
-                            w));
-    }
+    for (std::size_t w = 0; w < scene.walls.getSize(); ++w)
+        if (const PlaneDrive* const drive = std::as_const(scene.walls.getObject(w)).drive())
+            checkPlane(scene, w, *drive);
 }
 
 void DrivePart::prepare(StepContext& step) {
+    const auto takeTouches = [](auto* moved) {
+        if (!moved || moved->touches <= moved->mostTouches) return false;
+        moved->mostTouches = moved->touches;
+        return true;
+    };
+    bool areMore = false;
     for (std::size_t w = 0; w < step.walls.getSize(); ++w) {
-        PlaneDrive* const drive = step.walls.getObject(w).drive();
-        if (!drive || !drive->isPiston() || drive->touches <= drive->mostTouches) continue;
-        drive->mostTouches = drive->touches;
-        try {
-            checkPistons(*step.laws, *step.checkedSizes, step.walls,
-                         step.acceptsUnstableStep ? 0 : step.length, *step.scheme);
-        } catch (const InputError& refusal) {
-            throw RunError(fmt::format("At time {:.6g} s {}", step.time, refusal.what()));
-        }
+        Wall& wall = step.walls.getObject(w);
+        PlaneDrive* const drive = wall.drive();
+        areMore = takeTouches(drive && drive->isPiston() ? drive : nullptr) || areMore;
+        areMore = takeTouches(wall.body()) || areMore;
     }
     motion.forget();
+    bodies.forget();
+    if (!areMore) return;
+    try {
+        checkPistons(*step.laws, *step.checkedSizes, step.walls, step.acceptsUnstableStep ? 0 : step.length,
+                     *step.scheme);
+    } catch (const InputError& refusal) {
+        throw RunError(fmt::format("At time {:.6g} s {}", step.time, refusal.what()));
+    }
 }
 
 PlaneMotion::Step DrivePart::stepOf(const StepContext& step) {
@@ -59,18 +77,46 @@ PlaneMotion::Step DrivePart::stepOf(const StepContext& step) {
 }
 
 void DrivePart::moveSurroundings(StepContext& step) {
-    if (step.length > 0) motion.begin(step.walls, step.contacts, step.grains(), stepOf(step));
+    if (!(step.length > 0)) return;
+    motion.begin(step.walls, step.contacts, step.grains(), stepOf(step));
+    bodies.begin(step.walls, stepOf(step));
 }
 
 void DrivePart::afterForces(StepContext& step) {
-    if (step.length > 0) PlaneMotion::finish(step.walls, stepOf(step));
+    if (!(step.length > 0)) return;
+    PlaneMotion::finish(step.walls, stepOf(step));
+    WallBodyMotion::finish(step.walls, stepOf(step));
 }
 
-void DrivePart::takeBack(StepContext& step) { motion.takeBack(step.walls); }
+void DrivePart::takeBack(StepContext& step) {
+    bodies.takeBack(step.walls);
+    motion.takeBack(step.walls);
+}
+
+void DrivePart::addTo(SummaryRows& rows) const {
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        const WallBody* const body = std::as_const(walls.getObject(w)).body();
+        if (!body) continue;
+        const auto add = [&](std::string_view what, double value, std::string_view unit) {
+            rows.addNumber(fmt::format("wall {}: {}", w, what), value, unit);
+        };
+        if (body->isFree()) {
+            add("speed of its centre of mass", norm(body->free.velocity), "m/s");
+            add("angular velocity", norm(body->free.spin()), "rad/s");
+        } else if (body->turns()) {
+            add("angular velocity about its axis", body->speed, "rad/s");
+            add("angle turned about its axis", body->way, "rad");
+        } else {
+            add("speed along its direction", body->speed, "m/s");
+            add("way along its direction", body->way, "m");
+        }
+    }
+}
 
 void DrivePart::sumForcesOnNewDrives(const StepContext& scene) {
+    const auto isNew = [](const auto* moved) { return moved != nullptr && moved->steps == 0; };
     for (std::size_t w = 0; w < scene.walls.getSize(); ++w)
-        if (const PlaneDrive* const drive = scene.walls.getObject(w).drive(); drive && drive->steps == 0)
+        if (const Wall& wall = scene.walls.getObject(w); isNew(wall.drive()) || isNew(wall.body()))
             scene.contacts.sumForcesOn(scene.particles.store(), w);
 }
 

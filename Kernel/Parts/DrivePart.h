@@ -1,13 +1,15 @@
 #pragma once
 
 #include "Kernel/Motion/PlaneMotion.h"
+#include "Kernel/Motion/WallBodyMotion.h"
 #include "Kernel/Step/StepPart.h"
 
 namespace pendular {
 
-/// Planes that are moved by the forces on them: pistons, and walls with a target force.
+/// Walls that are moved by the forces on them: pistons, planes with a target force, and bodies.
 class DrivePart : public StepPart {
 public:
+    explicit DrivePart(const WallHandler& wallHandler) : walls(wallHandler) {}
     [[nodiscard]] std::string_view name() const override { return "drives"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
@@ -17,6 +19,7 @@ public:
     void moveSurroundings(StepContext& step) override;
     void afterForces(StepContext& step) override;
     void takeBack(StepContext& step) override;
+    void addTo(SummaryRows& rows) const override;
 
     /// Sums the forces on walls whose forces were not kept before.
     static void sumForcesOnNewDrives(const StepContext& scene);
@@ -24,7 +27,9 @@ public:
     [[nodiscard]] static PlaneMotion::Step stepOf(const StepContext& step);
 
 private:
+    const WallHandler& walls;
     PlaneMotion motion;
+    WallBodyMotion bodies;
 };
 
 }  // namespace pendular

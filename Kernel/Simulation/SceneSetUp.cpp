@@ -25,6 +25,7 @@ Scene::Inside::Inside(Scene& of)
       fluxPlanes(of.fluxPlaneHandler),
       bodies(of.inletHandler),
       liquid(of.sprayHandler, of.inletHandler),
+      drives(of.wallHandler),
       outlets(of.outletHandler),
       inlets(of.inletHandler),
       sprays(of.sprayHandler) {

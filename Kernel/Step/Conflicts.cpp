@@ -40,6 +40,8 @@ constexpr std::array table{
              "give the scene a rate instead (setStrainRate(), setShearRate())"},
     Conflict{Superquadrics, Inlets, "inlets bring spheres and clumps",
              "leave the inlets out, and add all at set-up"},
+    Conflict{Superquadrics, TurnedWalls, "the torque on a wall counts with contacts of spheres",
+             "let the wall slide (setSlider()), or give it a motion"},
     Conflict{Superquadrics, AdaptiveStep, "its bound of the step counts with contacts of spheres",
              leaveAdaptiveOut},
     Conflict{AdaptiveStep, DrivenWalls, singleGrains, leaveAdaptiveOut},

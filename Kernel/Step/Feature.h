@@ -14,6 +14,7 @@ enum class Feature : std::uint8_t {
     WallsInStrain,
     Membranes,
     DrivenWalls,
+    TurnedWalls,
     WornWalls,
     ImpactWear,
     Grains,

@@ -14,6 +14,10 @@ struct Pose {
     Pose() = default;
     explicit Pose(const Eigen::Isometry3d& pose);
 
+    /// A turn about an axis (unit) through a point (m) by an angle (rad).
+    [[nodiscard]] static Pose turnedAbout(const Vector<double>& axis, const Vector<double>& point,
+                                          double angle);
+
     [[nodiscard]] Vector<double> turn(const Vector<double>& v) const {
         return v.x * column[0] + v.y * column[1] + v.z * column[2];
     }

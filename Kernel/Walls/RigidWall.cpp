@@ -51,6 +51,14 @@ Pose::Pose(const Eigen::Isometry3d& pose) : shift(toVector(pose.translation())) 
     for (int k = 0; k < 3; ++k) column[k] = toVector(pose.linear().col(k));
 }
 
+Pose Pose::turnedAbout(const Vector<double>& axis, const Vector<double>& point, double angle) {
+    Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+    turn.linear() = Eigen::AngleAxisd(angle, toEigen(axis)).toRotationMatrix();
+    Pose pose(turn);
+    pose.shift = point - pose.turn(point);
+    return pose;
+}
+
 double SurfaceExtent::displacement(const Pose& from, const Pose& to) const {
     double turned = 0;  // m/m, the farthest shift of a unit vector
     if (symmetry == Symmetry::None) {
@@ -75,13 +83,19 @@ void RigidWall::takePlace() {
         throw InputError(
             "Wall: its place and shape cannot be set again in a run, where it would jump; move it by "
             "setVelocity(), setAngularVelocity() or setMotion(), or remove it and add another one.");
+    if (bodily)
+        throw InputError(
+            "Wall: its shape is set after setSlider(), setRotor() or setFreeBody(), which count with it; set "
+            "the shape first.");
     given = true;
 }
 
 void RigidWall::beginSteadyMotion() {
-    if (drive()) {
-        steady = {velocity.linear, {0, 0, 0}, pose.shift};
+    if (isMovedByForces()) {
+        steady = velocity;
+        if (drive()) steady.point = pose.shift;
         endDrive();
+        bodily.reset();
     } else if (isInRun() && !followsFunction) {
         steady = velocityAt(now);
     }
@@ -113,6 +127,7 @@ void RigidWall::setMotion(std::function<Eigen::Isometry3d(double)> poseOfTime) {
     if (!poseOfTime) throw InputError("Wall: the function of the motion is empty.");
     motion = std::move(poseOfTime);
     endDrive();
+    bodily.reset();
     followsFunction = true;
     steady = {};
     atRest = false;
@@ -126,6 +141,7 @@ Vector<double> RigidWall::beginDrive() {
         throw InputError(
             "Wall: it turns, so that it cannot be moved by forces along its normal; stop it first.");
     const Vector<double> linear = velocity.linear;
+    bodily.reset();
     followsFunction = false;
     atRest = false;
     steady = {};
@@ -221,6 +237,7 @@ void RigidWall::visitState(StateArchive& archive) {
     archive.finite("surfaceVelocity", surfaceVelocity);
     archive.finite("pose", pose);
     archive.finite("velocity", velocity);
+    visitBody(archive);
     now = hasMoved ? lastMoved : unset;
     if (archive.isReading() && isInRun() && followsFunction) requireSameMotion(archive);
 }
@@ -243,7 +260,7 @@ void RigidWall::requireSameMotion(const StateArchive& archive) const {
 }
 
 void RigidWall::join(double time) {
-    if (!atRest && !drive()) {
+    if (!atRest && !isMovedByForces()) {
         began = time;
         if (followsFunction) origin = displacementAt(time).inverse().after(pose);
         placeAt(time);
@@ -253,7 +270,7 @@ void RigidWall::join(double time) {
 
 double RigidWall::moveTo(double time) {
     now = time;
-    if (drive()) return shifted;
+    if (isMovedByForces()) return takeShapeShift() + shifted;
     return takeShapeShift() + (atRest ? 0 : placeAt(time));
 }
 

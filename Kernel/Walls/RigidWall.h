@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Walls/Pose.h"
 #include "Kernel/Walls/Wall.h"
+#include "Kernel/Walls/WallBody.h"
 #include "Kernel/Walls/WallImages.h"
 
 namespace pendular {
@@ -34,6 +36,25 @@ public:
     /// without end and give them energy, as the surface does not go anywhere, so it is left out.
     void setSurfaceVelocity(const Vec3D& velocity);
 
+    // These functions make the wall a body that the forces of the grains move, from where it is and with the
+    // velocity that it has; setVelocity() and its like end that. They may be called again in a run, for other
+    // forces. The shape must be set before. The forces on the wall are kept. Throw InputError.
+
+    /// It slides along a direction (of any length): mass x acceleration = force of the grains along it +
+    /// force + weight.
+    void setSlider(const Vec3D& direction, const SliderSettings& settings);
+    /// It turns about an axis (of any length) through a point (m): inertia x angular acceleration = torque of
+    /// the grains + torque. Its weight does not turn it. An endless surface must turn into itself.
+    void setRotor(const Vec3D& axis, const Vec3D& point, const RotorSettings& settings);
+    /// It moves and turns freely, under its weight, the grains, and a force and a torque.
+    void setFreeBody(const FreeBodySettings& settings);
+    using Wall::body;
+    [[nodiscard]] WallBody* body() final { return bodily ? &*bodily : nullptr; }
+    /// m/s or rad/s, of a slider or a rotor; 0 of others
+    [[nodiscard]] double getBodySpeed() const { return bodily ? bodily->speed : 0; }
+    /// m or rad, that a slider or a rotor has gone; 0 of others
+    [[nodiscard]] double getBodyWay() const { return bodily ? bodily->way : 0; }
+
     /// The velocity (m/s) of the wall's material at a point (m) of the scene.
     /// On a belt with the whole surface velocity, also the part that grains do not feel.
     [[nodiscard]] Vec3D getVelocityAt(const Vec3D& point) const;
@@ -46,6 +67,13 @@ public:
     void showVelocity(const Vector<double>& linear);
     /// Takes such a wall back to where it was.
     void takeBack(const Pose& before, const Vector<double>& linear);
+    // The same for a wall that is a body: to where the body is; with these velocities; back.
+    void followBody();
+    void showVelocity(const RigidVelocity& shown) { velocity = shown; }
+    void takeBack(const WallBody& before, const Pose& placed, const RigidVelocity& shown);
+    [[nodiscard]] const RigidVelocity& shownVelocity() const { return velocity; }
+    /// m, how far any point of its surface has gone by the last followBody()
+    [[nodiscard]] double lastShift() const { return shifted; }
     /// The wall is added to a run at this time (s): its motion begins now.
     void join(double time);
     void visitState(StateArchive& archive) override;
@@ -93,6 +121,13 @@ protected:
     /// It is moved by forces from now on, from where it is. Returns its velocity (m/s). Throws InputError if
     /// it turns.
     Vector<double> beginDrive();
+    /// It is a body from now on.
+    void beginBody(const WallBodySettings& asked);
+    /// kg, and kg m^2 along the wall's own axes about a point (m) of its own frame
+    void beginFreeBody(double mass, const Vec3D& centre, const Eigen::Matrix3d& inertia,
+                       const FreeBodySettings& forces);
+    /// Throws InputError unless the shape is set.
+    void requireShape(std::string_view function) const;
     /// How far (m) any point of the shape has moved, by wear, since this was last asked.
     virtual double takeShapeShift() { return 0; }
     /// The name and the numbers of the shape, by StateArchive::same().
@@ -126,7 +161,13 @@ private:
     void findAtImage(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                      std::span<WallPoint> points) const;
 
-    double shifted = 0;  // m, by goOn()
+    void setVelocitiesOfBody(const RigidVelocity& before);
+    void visitBody(StateArchive& archive);
+    [[nodiscard]] double reachFromAxis(const Vector<double>& axis, const Vector<double>& point) const;
+
+    std::optional<WallBody> bodily;
+    WallBodySettings bodyAtSetUp;
+    double shifted = 0;  // m, by goOn() and followBody()
     bool atRest = true;
     double now = unset;    // s, of the last moveTo(); not a number before the run
     double began = 0;      // s, when the steady motion was set

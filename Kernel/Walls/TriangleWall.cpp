@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Shapes/ClosedMesh.h"
+#include "Kernel/Shapes/MeshSolid.h"
 #include "Kernel/Walls/FaceSurface.h"
 
 namespace pendular {
@@ -86,6 +88,25 @@ void TriangleWall::set(std::span<const Triangle> triangles) {
     given = mesh = std::make_shared<const TriangleMesh>(triangles, CoplanarTriangles::Merge);
     takePlace();
     if (worn) beginWear(worn->law(), motionOfVertices());
+}
+
+MassProperties TriangleWall::massProperties() const {
+    requireShape("massProperties");
+    const MeshTriangles& all = mesh->triangles;
+    if (const auto objection = objectionToClosed(all.vertices, all.corners))
+        throw InputError(fmt::format(
+            "TriangleWall: it has no volume, so that its mass and inertia must be given: {}", *objection));
+    std::vector<CornersOfTriangle> triangles;
+    for (const auto& corners : all.corners)
+        triangles.push_back({all.vertices[corners[0]], all.vertices[corners[1]], all.vertices[corners[2]]});
+    return massOfMesh(triangles);
+}
+
+void TriangleWall::setFreeBody(double density) {
+    requireShape("setFreeBody");
+    checkValue("TriangleWall", "density of the free body", density, "kg/m^3", positive);
+    const MassProperties solid = massProperties();
+    beginFreeBody(density * solid.volume, solid.centre, density * solid.inertia, {});
 }
 
 void TriangleWall::keepWear(const WearLaw& law) {

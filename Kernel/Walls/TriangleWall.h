@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "Kernel/Shapes/MassProperties.h"
 #include "Kernel/Walls/RigidWall.h"
 #include "Kernel/Walls/TriangleReader.h"
 #include "Kernel/Walls/WornTriangles.h"
@@ -31,6 +32,14 @@ public:
     [[nodiscard]] std::vector<OpenEdge> openEdges() const override;
     /// Triangles without area, and repeated ones.
     [[nodiscard]] std::size_t getNumberLeftOut() const;
+
+    /// Volume, centre and inertia of density 1 of what the mesh holds, in its own frame. Throws InputError
+    /// where it is not closed.
+    [[nodiscard]] MassProperties massProperties() const;
+    using RigidWall::setFreeBody;
+    /// It moves freely as a solid of this density (kg/m^3). A mesh that is not closed is given mass and
+    /// inertia by the other function. Wear leaves both as they are.
+    void setFreeBody(double density);
 
     /// Counts from the start of the run what grains do to each triangle, and what they wear off it by the
     /// law; the scene keeps the ledger of the energy for it. The shape stays. Throws InputError before set()

@@ -16,6 +16,7 @@ namespace pendular {
 
 class ContactSystem;
 class Membrane;
+struct WallBody;
 
 /// The point of a part of a wall that is nearest to a sphere.
 struct WallPoint {
@@ -126,6 +127,11 @@ public:
     [[nodiscard]] virtual PlaneDrive* drive() { return nullptr; }
     [[nodiscard]] const PlaneDrive* drive() const { return const_cast<Wall*>(this)->drive(); }
 
+    /// What it is as a body that the forces on it move; null unless it is one.
+    [[nodiscard]] virtual WallBody* body() { return nullptr; }
+    [[nodiscard]] const WallBody* body() const { return const_cast<Wall*>(this)->body(); }
+    [[nodiscard]] bool isMovedByForces() const { return drive() != nullptr || body() != nullptr; }
+
     /// Itself where it is one whose vertices forces move; else null.
     [[nodiscard]] virtual Membrane* membrane() { return nullptr; }
     [[nodiscard]] const Membrane* membrane() const { return const_cast<Wall*>(this)->membrane(); }
@@ -139,7 +145,7 @@ public:
     /// Sums the forces of the grains on this wall after each step; off by default, because it costs time.
     /// @param about m, the point of the torque
     void keepForces(bool keep = true, const Vec3D& about = Vec3D::Zero());
-    [[nodiscard]] bool keepsForces() const { return forcesKept || drive() != nullptr; }
+    [[nodiscard]] bool keepsForces() const { return forcesKept || isMovedByForces(); }
     /// Keeps them also when no force moves the wall any more. What was kept stays.
     void keepForcesFromNowOn() {
         if (!forcesKept) keepForces(true, getTorquePoint());

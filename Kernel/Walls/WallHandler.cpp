@@ -76,7 +76,10 @@ void WallHandler::clear() {
 bool WallHandler::hasChanges() const {
     return changes != knownChanges ||
            std::ranges::any_of(walls,
-                               [](const auto& wall) { return wall->drive() && !wall->drive()->isChecked; }) ||
+                               [](const auto& wall) {
+                                   return (wall->drive() && !wall->drive()->isChecked) ||
+                                          (wall->body() && !wall->body()->isChecked);
+                               }) ||
            !std::ranges::equal(walls, knownSpecies, {},
                                [](const auto& wall) { return wall->getSpeciesIndex(); });
 }
@@ -88,6 +91,7 @@ void WallHandler::changesAreKnown() {
     for (const auto& wall : walls) {
         knownSpecies.push_back(wall->getSpeciesIndex());
         if (PlaneDrive* const drive = wall->drive()) drive->isChecked = true;
+        if (WallBody* const body = wall->body()) body->isChecked = true;
     }
 }
 

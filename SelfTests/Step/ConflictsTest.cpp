@@ -13,6 +13,7 @@
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"
 #include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Walls/InfiniteCylinder.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Support/AnyMaterial.h"
@@ -125,6 +126,12 @@ void give(PlainScene<S>& scene, Feature feature) {
         }
         case Feature::DrivenWalls:
             return addFloor(scene, true);
+        case Feature::TurnedWalls: {
+            InfiniteCylinder wall;
+            wall.set({0, 1, 0}, {0, 0, 0}, 1, CylinderSide::Inside);
+            wall.setRotor({0, 1, 0}, {0, 0, 0}, {.inertia = 1});
+            return static_cast<void>(addWall(scene, wall));
+        }
         case Feature::Membranes: {
             Membrane wall;
             wall.set(sheetBelow(), {.youngsModulus = 1e6, .thickness = 3e-4, .density = 1000});
