@@ -563,8 +563,7 @@ void ContactSystem::showWallMotion(const Grains& grains, const Bucket& bucket, s
     const WallBody* const body = wall.body();
     if (!body) return;
     const TranslationRecord& grain = grains.translation[contacts.firstOf(contact)];
-    const Vector<double> place =
-        grain.position - wall.imageShift(contacts.secondOf(contact), grain.position);
+    const Vector<double> place = grain.position - wall.imageShift(contacts.secondOf(contact), grain.position);
     const double distance = points.distance.lane[lane];
     const Vector<double> normal{points.normal[0].lane[lane], points.normal[1].lane[lane],
                                 points.normal[2].lane[lane]};

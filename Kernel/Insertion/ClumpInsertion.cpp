@@ -227,8 +227,10 @@ Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, c
     }
     const std::size_t before = scene.bodies.getSize();
     for (const PlacedBody& body : bodies) {
-        const Vector<double> inside = scene.periodic.imagesMove ? scene.periodic.wrap(body.place) : body.place;
-        const Vector<double> flow = options.withFlow ? scene.periodic.flowAt(inside) : Vector<double>{0, 0, 0};
+        const Vector<double> inside =
+            scene.periodic.imagesMove ? scene.periodic.wrap(body.place) : body.place;
+        const Vector<double> flow =
+            options.withFlow ? scene.periodic.flowAt(inside) : Vector<double>{0, 0, 0};
         body.kind->addTo(scene.particles, scene.bodies, body.radius, inside, body.turn, flow);
         ++result.number;
         result.mass += massOf(scene, body);
