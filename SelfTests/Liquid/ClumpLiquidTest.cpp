@@ -261,6 +261,8 @@ TEST(ClumpLiquid, wetGrainsThatAreJoinedKeepTheirMomentum) {
                          {.radius = 0.8 * r, .position = {2.2 * r, 0, 0}, .velocity = {0.1, 0.05, 0}},
                          {.radius = r, .position = {2.2 * r, 1.79 * r, 0}, .velocity = {0.1, 0.03, 0}}},
                         1e-5) {
+            speciesHandler.getObject(0)->setStiffness(200);  // against the pull of the bridge
+            speciesHandler.getObject(0)->setSlidingStiffness(56);
             setLiquidDensity(1000);
             keepEnergyLedger();
             setQuiet();

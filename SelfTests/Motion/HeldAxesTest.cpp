@@ -238,7 +238,7 @@ TEST(HeldAxes, aGrainReboundsFromWhatIsHeldAsFromAWall) {
         hold(scene);
         scene.run(2000);
         EXPECT_TRUE(scene.interactions().empty());
-        EXPECT_EQ(scene.motion(1).velocity, Vec3D(0, 0, 0));
+        EXPECT_LT(scene.motion(1).velocity.norm(), 1e-15);  // round-off where it may move sideways
         return scene.motion(0).velocity.z() / 0.1;
     };
     const double fixed = rebound([](auto& s) { s.particleHandler.getObject(1).fixParticle(); });
