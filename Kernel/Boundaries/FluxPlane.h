@@ -89,7 +89,7 @@ private:
 
     std::vector<Plane> planes;
     std::vector<Vector<double>> from,
-        bodiesFrom;  // m, of the grain at each place and of each body, before the motion
+        bodiesFrom;       // m, of the grain at each place and of each body, before the motion
     PeriodicBox boxFrom;  // before the motion
     std::vector<Crossing> crossings;
     bool hasBegun = false;

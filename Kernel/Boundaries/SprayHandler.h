@@ -31,12 +31,12 @@ struct SprayStep {
     GrainFilms& films;
     ContactSystem& contacts;
     const WallHandler& walls;
-    const PeriodicBox& periodic;                    // at the end of the step
-    const PeriodicBox &imagesBefore, &imagesNow;    // as images moved before the step, and move in it
-    Vector<double> gravity;  // m/s^2
-    double time, length;     // s, at its end; of it
-    double grainShift;       // m, of the farthest grain
-    double smallestRadius;   // m
+    const PeriodicBox& periodic;                  // at the end of the step
+    const PeriodicBox &imagesBefore, &imagesNow;  // as images moved before the step, and move in it
+    Vector<double> gravity;                       // m/s^2
+    double time, length;                          // s, at its end; of it
+    double grainShift;                            // m, of the farthest grain
+    double smallestRadius;                        // m
     int threads;
 };
 
@@ -44,9 +44,9 @@ struct SprayStep {
 /// exactly for any step, without drag, and do not meet each other. Each ends at the first grain or wall that
 /// it meets, of what its sphere sweeps in a step: a grain's film gets all of it, a wet wall's account as
 /// well; at a dry wall, or after its longest flight, it is lost. Between the ends of two steps its way is
-/// taken for straight, which is off by g dt^2 / 8 at most. In shear and strain they are treated as grains are:
-/// where the flow changes from one step to the next they get its change, and one that leaves the periodic box
-/// goes over to the velocity of its image inside.
+/// taken for straight, which is off by g dt^2 / 8 at most. In shear and strain they are treated as grains
+/// are: where the flow changes from one step to the next they get its change, and one that leaves the
+/// periodic box goes over to the velocity of its image inside.
 class SprayHandler {
 public:
     /// At set-up only. Returns the number of the spray. Throws InputError if something of it is not set.

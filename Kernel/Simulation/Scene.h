@@ -100,10 +100,10 @@ public:
     void setLeesEdwards(int flow, int gradient, double rate);
     /// Strains a periodic scene without gravity: the logarithm of its length along an axis grows by the rate
     /// (1/s), about its middle. Walls can be planes whose normal is along an axis that is not periodic, as in
-    /// an oedometer; their surface stretches along with the flow. Dashpots feel the flow, in which grains that are at rest go along:
-    /// when a rate is set or changed, all grains get the change of their velocity that it makes where they
-    /// are. In a run it holds from the next step on; the scene must have been set up with a rate (0 will do)
-    /// or a stress along one of its axes.
+    /// an oedometer; their surface stretches along with the flow. Dashpots feel the flow, in which grains
+    /// that are at rest go along: when a rate is set or changed, all grains get the change of their velocity
+    /// that it makes where they are. In a run it holds from the next step on; the scene must have been set up
+    /// with a rate (0 will do) or a stress along one of its axes.
     void setStrainRate(int axis, double rate);
     /// Strains the scene by a servo, so that the mean stress along the axis (Pa, compression positive; 0 is a
     /// target too) becomes the target: the rate is the difference over the stiffness of the contacts and the
