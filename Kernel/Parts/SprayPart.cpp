@@ -22,8 +22,8 @@ void SprayPart::beforeMotion(StepContext& step) { imagesNow = step.box; }
 void SprayPart::finish(StepContext& step) {
     const StepTimes::Within liquid(step.times, StepTimes::Part::Liquid);
     sprays.advance({step.grains(), step.particles.films(), step.contacts, step.walls, step.box, imagesBefore,
-                    imagesNow, step.gravity, step.time + step.length, step.length, step.shifts.grains, step.smallestRadius,
-                    step.threads});
+                    imagesNow, step.gravity, step.time + step.length, step.length, step.shifts.grains,
+                    step.smallestRadius, step.threads});
 }
 
 void SprayPart::visitState(StateArchive& archive, StepContext& scene) {
