@@ -40,8 +40,8 @@ struct SweepHit {
 /// The way of a sphere through a step as a grain sees it that moves straight, too.
 struct Approach {
     Vector<double> start, way;  // m, of the sphere's centre against the grain's
-    Vector<double> imageVelocity{
-        0, 0, 0};  // m/s, by which the sphere is faster than its image that the grain meets
+    /// m/s, by which the sphere is faster than its image that the grain meets.
+    Vector<double> imageVelocity{0, 0, 0};
 };
 [[nodiscard]] Approach approachTo(const TranslationRecord& grain, const Sweep& sweep, const PeriodicBox& box);
 

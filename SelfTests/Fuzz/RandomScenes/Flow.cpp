@@ -1,4 +1,6 @@
 // Grains that come and go: inlets, insert(), outlets, planes that count.
+#include <algorithm>
+
 #include "Kernel/Sizes/SizeLaws.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
@@ -151,7 +153,8 @@ void addClumpInlet(Making& making) {
 void addOutlet(Making& making) {
     Outlet outlet;
     const Vec3D middle = 0.5 * (making.lowest + making.highest);
-    if (making.draw.oneIn(2)) {
+    const bool isEndless = std::ranges::all_of(making.isPeriodic, [](bool periodic) { return periodic; });
+    if (making.draw.oneIn(2) && !isEndless) {
         int axis = making.draw.whole(0, 2);  // across which the scene does not repeat itself
         for (int k = 0; k < 2 && making.isPeriodic[static_cast<std::size_t>(axis)]; ++k)
             axis = (axis + 1) % 3;
