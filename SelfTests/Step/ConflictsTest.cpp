@@ -87,6 +87,16 @@ void addWornWall(PlainScene<S>& scene) {
 
 /// @param scene with its species as `own`
 template <class Scene>
+void addRotor(Scene& scene) {
+    InfiniteCylinder wall;
+    wall.set({0, 1, 0}, {0, 0, 0}, 1, CylinderSide::Inside);
+    wall.setRotor({0, 1, 0}, {0, 0, 0}, {.inertia = 1});
+    wall.setSpecies(scene.own);
+    scene.wallHandler.copyAndAddObject(wall);
+}
+
+/// @param scene with its species as `own`
+template <class Scene>
 void addInlet(Scene& scene) {
     Inlet inlet;
     inlet.setRegion(BoxRegion({-0.01, -0.01, 0.02}, {0.01, 0.01, 0.04}));
@@ -126,12 +136,8 @@ void give(PlainScene<S>& scene, Feature feature) {
         }
         case Feature::DrivenWalls:
             return addFloor(scene, true);
-        case Feature::TurnedWalls: {
-            InfiniteCylinder wall;
-            wall.set({0, 1, 0}, {0, 0, 0}, 1, CylinderSide::Inside);
-            wall.setRotor({0, 1, 0}, {0, 0, 0}, {.inertia = 1});
-            return static_cast<void>(addWall(scene, wall));
-        }
+        case Feature::TurnedWalls:
+            return addRotor(scene);
         case Feature::Membranes: {
             Membrane wall;
             wall.set(sheetBelow(), {.youngsModulus = 1e6, .thickness = 3e-4, .density = 1000});
@@ -200,6 +206,7 @@ std::string refusalOfEllipsoids(Feature with) {
         for (const int axis : {0, 1, 2}) scene.setPeriodic(axis, -0.1, 0.1);
         if (with == Feature::StressServo) scene.setTargetStress(2, 100, 0.1);
         else if (with == Feature::AdaptiveStep) scene.setAdaptiveTimeStep(0.9);
+        else if (with == Feature::TurnedWalls) addRotor(scene);
         else addInlet(scene);
         scene.initialise();
     });

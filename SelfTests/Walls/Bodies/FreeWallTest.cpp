@@ -3,6 +3,7 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Step/StepPart.h"
+#include "Kernel/Step/SummaryRows.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/Bodies/BodyScene.h"
 
@@ -51,6 +52,19 @@ TEST(WallBody, aSliderFallsAlongItsDirection) {
     scene.step(1000);
     EXPECT_EQ(wall->body(), nullptr);
     EXPECT_NEAR(wall->getPose().shift.z, 0.5 * a / std::numbers::sqrt2 + 1, 1e-12);
+}
+
+TEST(WallBody, theSummaryTellsHowFarItWent) {
+    Scene scene(plain(), {}, 1e-3);
+    scene.add(wheel())->setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 2e-6, .torque = 1e-6});
+    scene.add(wheel())->setSlider({0, 0, 1}, {.mass = 2, .force = 4});
+    scene.run(100);
+    SummaryRows rows;
+    scene.addPartsTo(rows);
+    const std::string shown = rows.shown();
+    for (const char* row : {"wall 0: angular velocity about its axis", "0.05 rad/s", "0.0025 rad",
+                            "wall 1: way along its direction", "0.2 m/s", "0.01 m"})
+        EXPECT_TRUE(contains(shown, row)) << shown;
 }
 
 /// Dry friction holds what is weaker; it stops a wheel after I w / B, and takes its energy.
