@@ -29,7 +29,7 @@ struct ContactSample {
     Vector<double> normal{0, 0, 0};        // unit, from body 1 to body 2
     Vector<double> wallVelocity{0, 0, 0};  // m/s, of a wall's surface
     Vector<double> wallSpin{0, 0, 0};      // rad/s, of a wall
-    Vector<double> wallArm{0, 0, 0};       // m, of a wall that is a body: from its centre to the contact
+    Vector<double> wallPoint{0, 0, 0};     // m, where a wall is touched
     Vector<double> arm1{0, 0, 0};          // m, of body 1 to the contact, if it is no sphere; else zero
     Vector<double> arm2{0, 0, 0};          // m, of body 2
     double halfOverlap = 0;                // m

@@ -560,18 +560,18 @@ void ContactSystem::showWallMotion(const Grains& grains, const Bucket& bucket, s
         now.wallVelocity += (driven->meanVelocity - driven->seenVelocity) * wall.drivenNormal();
         last.wallVelocity = now.wallVelocity;
     }
-    const WallBody* const body = wall.body();
-    if (!body) return;
     const TranslationRecord& grain = grains.translation[contacts.firstOf(contact)];
     const Vector<double> place = grain.position - wall.imageShift(contacts.secondOf(contact), grain.position);
     const double distance = points.distance.lane[lane];
     const Vector<double> normal{points.normal[0].lane[lane], points.normal[1].lane[lane],
                                 points.normal[2].lane[lane]};
+    now.wallPoint = place + (grain.radius - now.halfOverlap) * normal;
+    const WallBody* const body = wall.body();
+    if (!body) return;
     const Vector<double> seenAt = place + (std::isfinite(distance) ? distance : 0) * normal;
     const Vector<double> belt = now.wallVelocity - body->seen.at(seenAt);
-    now.wallArm = place + (grain.radius - now.halfOverlap) * normal - body->centre();
-    now.wallVelocity = belt + body->meanVelocityAt(now.wallArm);
-    last.wallVelocity = belt + body->meanVelocityAt(last.wallArm);
+    now.wallVelocity = belt + body->meanVelocityAt(now.wallPoint);
+    last.wallVelocity = belt + body->meanVelocityAtStart(last.wallPoint);
     now.wallSpin = last.wallSpin = body->mean.spin;
 }
 

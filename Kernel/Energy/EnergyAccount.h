@@ -120,8 +120,8 @@ public:
             ContactKind kind{
                 .isWall = bucket.wall >= 0, .isPlastic = laws.isPlastic, .adhesionBreaks = laws.breaks};
             if (kind.isWall) {
-                kind.lastPiston = pistonMotion(walls, static_cast<int>(record.lastWall), record.last);
-                kind.piston = pistonMotion(walls, bucket.wall, record.now);
+                kind.lastPiston = pistonMotion(walls, static_cast<int>(record.lastWall), record.last, true);
+                kind.piston = pistonMotion(walls, bucket.wall, record.now, false);
                 record.lastWall = bucket.wall;
             }
             const std::uint32_t first = block.first[lane], second = block.second[lane];
@@ -237,11 +237,14 @@ private:
     }
     /// The mean motion in the step of a piston, or a wall that is a body, where a contact is; zero for other
     /// walls.
-    static RigidVelocity pistonMotion(const WallHandler& walls, int number, const ContactSample& contact) {
+    static RigidVelocity pistonMotion(const WallHandler& walls, int number, const ContactSample& contact,
+                                      bool wasAtStart) {
         if (number < 0) return {};
         const Wall& wall = walls.getObject(static_cast<std::size_t>(number));
         if (const WallBody* const body = wall.body())
-            return {.linear = body->meanVelocityAt(contact.wallArm), .spin = body->mean.spin};
+            return {.linear = wasAtStart ? body->meanVelocityAtStart(contact.wallPoint)
+                                         : body->meanVelocityAt(contact.wallPoint),
+                    .spin = body->mean.spin};
         const PlaneDrive* const drive = wall.drive();
         return drive && drive->isPiston() ? RigidVelocity{.linear = drive->meanVelocity * wall.drivenNormal()}
                                           : RigidVelocity{};

@@ -91,6 +91,7 @@ void beginFreely(const RigidWall& wall, WallBody& body, const Step& step) {
     body.startVelocity = free.velocity;
     body.startSpin = free.spin();
     body.startEnergy = body.kineticEnergy();
+    body.mean.point = free.position;
     body.startForce = toVector(wall.getForce());
     body.startTorque = torqueOn(wall, body);
     takeForces(wall, body, step);
@@ -122,7 +123,7 @@ void finishFreely(const RigidWall& wall, WallBody& body, const Step& step) {
     body.earlierAcceleration = acceleration;
     body.earlierTorque = torque;
     body.mean = {0.5 * (body.startVelocity + free.velocity), 0.5 * (body.startSpin + free.spin()),
-                 free.position};
+                 body.mean.point};
     const RigidVelocity& mean = body.mean;
     const double byLoads = h * (dot(mean.linear, body.asked.force + free.mass * step.gravity) +
                                 dot(mean.spin, body.asked.torque));

@@ -82,7 +82,8 @@ struct WallBody {
     Vector<double> startVelocity{0, 0, 0}, startSpin{0, 0, 0};  // of a free body
     Vector<double> startForce{0, 0, 0}, startTorque{0, 0, 0};   // N, N m, of its contacts
     double startEnergy = 0;                                     // J
-    RigidVelocity seen, mean;                                   // by contacts; for their work
+    // By contacts; for their work, with the centre at the start of the step.
+    RigidVelocity seen, mean;
     /// J, what was done on it in the step besides the work of its contacts.
     struct Work {
         double byLoads = 0;     // with the weight
@@ -98,9 +99,12 @@ struct WallBody {
     [[nodiscard]] RigidVelocity velocity() const;
     /// Of a slider or a rotor with this speed (m/s or rad/s).
     [[nodiscard]] RigidVelocity velocityAt(double speedThen) const;
-    /// m/s, the mean one of its material in the step at an arm (m) from the centre
-    [[nodiscard]] Vector<double> meanVelocityAt(const Vector<double>& arm) const {
-        return mean.linear + cross(mean.spin, arm);
+    // m/s, the mean one of its material in the step: where a contact is (m) at its end, or was at its start.
+    [[nodiscard]] Vector<double> meanVelocityAt(const Vector<double>& point) const {
+        return mean.linear + cross(mean.spin, point - centre());
+    }
+    [[nodiscard]] Vector<double> meanVelocityAtStart(const Vector<double>& point) const {
+        return mean.at(point);
     }
     /// The pose of a wall that began with another one.
     [[nodiscard]] Pose poseFrom(const Pose& origin) const;

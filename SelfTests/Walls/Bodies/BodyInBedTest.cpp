@@ -82,6 +82,36 @@ TEST(WallBody, theLedgerCloses) {
     }
 }
 
+/// A wall that grains touch becomes a body, and turns about another axis, in the run: the ledger stays
+/// closed.
+TEST(WallBody, theLedgerClosesWhereItBeginsInTheRun) {
+    StirredBox scene;
+    scene.stirrer->setAngularVelocity({0, 0, 20}, scene.axis);
+    scene.keepEnergyLedger();
+    scene.initialise();
+    const EnergyLedger& ledger = scene.energyLedger();
+    const double start = ledger.closed();
+    const auto isClosed = [&] {
+        double all = 0;
+        for (const auto& entry : EnergyLedger::entries()) all += std::abs(ledger.*entry.member);
+        return std::abs(ledger.closed() - start) < 5 * std::sqrt(6000) * 0x1p-53 * all;
+    };
+    const auto goUntilTouched = [&] {
+        scene.stirrer->keepForces();
+        for (int n = 0; n < 4000 && scene.stirrer->getForce().norm() == 0; ++n) scene.step();
+        EXPECT_GT(scene.stirrer->getForce().norm(), 0);
+        EXPECT_TRUE(isClosed());
+    };
+    goUntilTouched();
+    scene.stirrer->setRotor({0, 0, 1}, scene.axis, scene.stirring);
+    scene.step(1);
+    EXPECT_TRUE(isClosed());
+    goUntilTouched();
+    scene.stirrer->setRotor({0, 0, 1}, scene.axis + Vec3D(0.001, 0, 0), scene.stirring);
+    scene.step(1);
+    EXPECT_TRUE(isClosed());
+}
+
 /// The change of a stirrer's angular momentum is the sum of its torques, each with half a step on either
 /// side.
 TEST(WallBody, theTorquesOfAStirrerBalance) {
