@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 59> composed{
     "HeldGrains", "HeldAxes", "HeldBodies", "Clumps", "Superquadrics", "JoinInRun", "BodyChange",
     // walls
     "Planes", "Cylinder", "Rod", "Tube", "Funnel", "MovingPlane", "VibratingPlane", "Belt", "WallThatComes",
-    "Mesh", "MovingMesh", "Wear", "WornVertices", "Membrane", "Piston", "ForceServo",
+    "Mesh", "MovingMesh", "Wear", "WornVertices", "Membrane", "Piston", "ForceServo", "Rotor", "FreeWall",
     // liquid
     "Films", "LiquidDensity", "Evaporation", "Spray", "JoinAtStart",
     // grains that come and go

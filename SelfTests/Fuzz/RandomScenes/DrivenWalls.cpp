@@ -1,4 +1,5 @@
-// Planes that forces move.
+// Walls that forces move.
+#include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
 namespace pendular::fuzz {
@@ -41,6 +42,60 @@ void addForceServo(Making& making) {
     making.before(making.someStep(), [added, velocity] { added->setVelocity(velocity); });
 }
 
+/// A closed box in a cell of which no grain has anything; none where all are taken.
+std::optional<TriangleWall> boxInCell(Making& making, Vec3D& middle) {
+    const std::optional<Vec3D> cell = making.takeCell();
+    if (!cell) return {};
+    middle = making.draw.give("middle", *cell);
+    const double half = making.draw.give("half", making.draw.even(0.1, 0.3) * making.scales.cell);
+    const auto at = [&](double x, double y, double z) {
+        return toVector(Vec3D(middle + half * Vec3D(x, 0.8 * y, 0.6 * z)));
+    };
+    std::vector<Triangle> faces;
+    for (const double s : {-1., 1.}) {
+        const auto side = [&](auto&& corner) {
+            const auto a = corner(-s, -1.), b = corner(s, -1.), c = corner(s, 1.), d = corner(-s, 1.);
+            faces.push_back({a, b, c}), faces.push_back({a, c, d});
+        };
+        side([&](double u, double v) { return at(s, u, v); });
+        side([&](double u, double v) { return at(v, s, u); });
+        side([&](double u, double v) { return at(u, v, s); });
+    }
+    TriangleWall box;
+    box.set(faces);
+    box.setSpecies(making.anyMaterial());
+    return box;
+}
+
+void addRotor(Making& making) {
+    Vec3D middle;
+    std::optional<TriangleWall> box = boxInCell(making, middle);
+    if (!box) return;
+    const double arm = making.scales.cell;
+    RotorSettings settings{.inertia = making.draw.give(
+                               "inertia", making.draw.decades(5, 100) * making.scales.mass() * arm * arm),
+                           .torque = making.draw.give("torque", 5 * loadOf(making) * arm)};
+    if (making.draw.oneIn(2)) settings.friction = making.draw.give("friction", 0.2 * settings.torque);
+    if (making.draw.oneIn(2))
+        settings.largestSpin = making.draw.give("largest", 0.2 * making.scales.speed / arm);
+    box->setRotor({0.2, 0.1, 1}, middle, settings);
+    TriangleWall* const added = making.scene.wallHandler.copyAndAddObject(*box);
+    if (!making.draw.oneIn(3)) return;
+    settings.torque *= -2;
+    making.before(making.someStep(), [added, middle, settings] {
+        added->setRotor({0.2, 0.1, 1}, middle, settings);
+    });
+}
+
+void addFreeWall(Making& making) {
+    Vec3D middle;
+    std::optional<TriangleWall> box = boxInCell(making, middle);
+    if (!box) return;
+    box->setVelocity(making.draw.give("velocity", Vec3D(making.draw.inCube(0.1 * making.scales.speed))));
+    box->setFreeBody(making.draw.give("density", making.draw.decades(30, 300) * making.scales.density));
+    making.scene.wallHandler.copyAndAddObject(*box);
+}
+
 }  // namespace
 
 std::vector<Feature> drivenWallFeatures() {
@@ -60,6 +115,18 @@ std::vector<Feature> drivenWallFeatures() {
          .kinds = {"wall", "driven wall"},
          .excludes = {"room", "WallThatGoes"},
          .needs = {"Grains"}},
+        {.name = "Rotor",
+         .share = 0.06,
+         .add = addRotor,
+         .loses = both,
+         .kinds = {"wall", "parts", "moved wall"},
+         .excludes = {"Superquadrics", "WallThatGoes"}},
+        {.name = "FreeWall",
+         .share = 0.06,
+         .add = addFreeWall,
+         .loses = both,
+         .kinds = {"wall", "parts", "moved wall"},
+         .excludes = {"Superquadrics", "WallThatGoes"}},
     };
 }
 
