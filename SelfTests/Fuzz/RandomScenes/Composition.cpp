@@ -16,7 +16,7 @@ namespace {
 
 using support::contains;
 
-constexpr std::array<std::string_view, 59> composed{
+constexpr std::array<std::string_view, 63> composed{
     // materials
     "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticMindlinLiquidBridgeWillett",
     "HertzianViscoelasticMindlinViscousLiquidBridgeWillett",
