@@ -173,7 +173,7 @@ Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const A
     const Inserted made =
         insertBodies(InletPart::placesOf(inside->context), mixture, region, amount, options);
     if (hasBegun()) BodyPart::warnOfGaps(inside->context, before);
-    else if (mixture.hasClumps())
+    else if (mixture.hasClumps() && made.number > 1)
         logger(LogLevel::Info,
                "insert(): {} grains and clumps, a solid fraction of {:.4g}; orientation order {:.3g}.",
                made.number, made.solidFraction, made.orientationOrder);

@@ -50,6 +50,8 @@ constexpr std::array refusedElsewhere{
     RefusedElsewhere{"needs steps of one length; set it before the run begins",
                      "refused where the step is changed"},
     RefusedElsewhere{"along this axis stays; strain", "a matter of axes: others can be strained"},
+    RefusedElsewhere{"of a TriangleWall from behind",
+                     "a grain comes below the floor through a period: a matter of places"},
     RefusedElsewhere{"is above the stability limit", "a matter of the numbers of a scene"},
     RefusedElsewhere{"only meshes are repeated", "a shape that is no mesh has no images"},
     RefusedElsewhere{"superquadrics touch InfiniteWall only", "not built: shapes at other walls"},
