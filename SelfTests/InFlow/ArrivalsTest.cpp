@@ -294,7 +294,7 @@ TEST(OutletInFlow, takesAllWhoseImagesAreInItsRegion) {
             }
         }
     }
-    EXPECT_GT(gone, 20u);
+    EXPECT_GT(gone, 10u);  // some 4 are in it at the start
     EXPECT_EQ(scene.outletHandler.countOf(0).all().number, gone);
 }
 

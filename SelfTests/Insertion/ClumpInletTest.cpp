@@ -336,8 +336,6 @@ TEST(ClumpInlet, refusesWhatCannotBe) {
         const std::string text = refused(change);
         EXPECT_TRUE(isOneSentence(text) && contains(text, words)) << text;
     };
-    expect("integrator that remembers",
-           [](ClumpScene& scene, Inlet&) { scene.setIntegrator(integrators::adamsMoulton); });
     expect("more than its region can let in", [](ClumpScene&, Inlet& inlet) { inlet.setMassFlow(0.08); });
     expect("half of that", [](ClumpScene& scene, Inlet&) { scene.setPeriodic(0, 0, 3 * d); });
     expect("sizes are given twice", [](ClumpScene& scene, Inlet& inlet) {
