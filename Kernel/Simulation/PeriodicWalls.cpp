@@ -93,7 +93,7 @@ std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const Su
                        high - low, names[axis], where, advice);
 }
 
-void PeriodicWalls::repeat(RigidWall& wall, std::size_t number) {
+void PeriodicWalls::requireShort(const RigidWall& wall, std::size_t number) const {
     const Vector<double> half = wall.surroundings().half;
     for (std::size_t k = 0; k < 3; ++k) {
         const double length = 2 * half.*along[k], period = periodic.length.*along[k];
@@ -104,12 +104,17 @@ void PeriodicWalls::repeat(RigidWall& wall, std::size_t number) {
                 "that is to be repeated with the scene is not longer than {} periods; make it shorter.",
                 number, length, names[k], period, WallImages::mostPeriods));
     }
+}
+
+void PeriodicWalls::repeat(RigidWall& wall, std::size_t number) {
+    requireShort(wall, number);
     if (wall.partCount() > WallImages::mostParts)
         throw InputError(fmt::format(
             "wall {} has {} parts, and it is not the same after a period: a mesh that is to be repeated with "
             "the scene has at most {}; take a coarser mesh.",
             number, wall.partCount(), WallImages::mostParts));
     wall.repeat(periodic.length);
+    imagesAreNew = true;
 }
 
 void PeriodicWalls::takeAsRepeated(std::size_t number) {
@@ -130,7 +135,8 @@ void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size
     const double met = needed + outside;
     // Vertices move on each side as grains wear them there, so that two ends would no longer fit.
     const bool isAlike = seen.margin >= met * rounded, staysAlike = !seen.passes || !movesVertices(wall);
-    const bool isOutside = seen.lowest >= faces.highest() || seen.highest <= faces.lowest;
+    // What does not go through a face and lies beyond it is a piece of its own.
+    const bool isOutside = !seen.passes && (seen.highest > faces.highest() || seen.lowest < faces.lowest);
     if (rigid && rigid->canBeRepeated() && (isOutside || !isAlike || !staysAlike)) {
         repeat(*rigid, number);
         return takeAsRepeated(number);
@@ -195,6 +201,7 @@ void PeriodicWalls::visitState(StateArchive& archive, const WallHandler& walls) 
         repeat(*wall, number);
         takeAsRepeated(number);
     }
+    imagesAreNew = false;  // contacts are listed after this
     archive.finite("band", band);
     archive.require(band >= 0 && band <= widestBand * smallest, "band",
                     "is no distance to which grains may be outside");
@@ -234,19 +241,29 @@ bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks
     return !(last.moved <= spare);
 }
 
+bool PeriodicWalls::followOne(const WallHandler& walls, std::size_t number, double shift) {
+    const Wall& wall = walls.getObject(number);
+    if (wall.isRepeated()) {
+        requireShort(dynamic_cast<const RigidWall&>(wall), number);
+        return false;
+    }
+    bool looked = false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (mustBeLookedAt(wall, axis, looks[number], shift)) look(walls, number, axis, band), looked = true;
+    return looked;
+}
+
 void PeriodicWalls::follow(const WallHandler& walls, double shift, double time) {
     if (shift == 0 || looks.empty()) return;
     bool lookedAgain = false;
-    for (std::size_t w = 0; w < looks.size(); ++w)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (walls.isRemoved(w) || !mustBeLookedAt(walls.getObject(w), axis, looks[w], shift)) continue;
-            try {
-                look(walls, w, axis, band);
-            } catch (const InputError& refusal) {
-                throw RunError(fmt::format("At time {:.6g} s {}", time, refusal.what()));
-            }
-            lookedAgain = true;
+    for (std::size_t w = 0; w < looks.size(); ++w) {
+        if (walls.isRemoved(w)) continue;
+        try {
+            lookedAgain |= followOne(walls, w, shift);
+        } catch (const InputError& refusal) {
+            throw RunError(fmt::format("At time {:.6g} s {}", time, refusal.what()));
         }
+    }
     if (lookedAgain) collectEnds();
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/ContactLaws.h"
@@ -30,6 +31,9 @@ public:
                const GrainSizes& sizes, double widestBody, double smallestRadius);
     /// Looks again where walls have moved by at most a shift (m) since the last time. Throws RunError.
     void follow(const WallHandler& walls, double shift, double time);
+
+    /// Whether walls have got images that no list of contacts has yet; not again until others have.
+    [[nodiscard]] bool takeNewImages() { return std::exchange(imagesAreNew, false); }
 
     /// Whether there is a wall that is not the same after any shift along the periods.
     [[nodiscard]] bool haveEnds() const { return anyHasEnds; }
@@ -64,6 +68,10 @@ private:
     /// Repeats a wall with the scene. Throws InputError where it is too long, or has too many parts.
     void repeat(RigidWall& wall, std::size_t number);
     void takeAsRepeated(std::size_t number);
+    /// Throws InputError where a wall that is repeated reaches over too many periods.
+    void requireShort(const RigidWall& wall, std::size_t number) const;
+    /// Returns whether it was looked at again.
+    bool followOne(const WallHandler& walls, std::size_t number, double shift);
     [[nodiscard]] static bool isWhereItWas(const Wall& wall, const Look& last);
     void forgetChecks(std::size_t walls);
     [[nodiscard]] double neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes) const;
@@ -81,7 +89,7 @@ private:
     double band = 0;             // m, as far as grains may be outside
     std::vector<WallLooks> looks;
     std::vector<bool> hasEnds;
-    bool anyHasEnds = false;
+    bool anyHasEnds = false, imagesAreNew = false;
     double nearest = 0;  // m, by which grains must move until one of them is too far outside
 };
 

@@ -99,7 +99,7 @@ void Scene::Inside::takeOverChanges() {
         if (newLaws || newBodies) {
             bookEnergyOfEnded(contacts.renew(grains));
             renewAccelerations(changes);
-        } else if (!contacts.takeIn(grains, changes.added)) {
+        } else if (periodicWalls.takeNewImages() || !contacts.takeIn(grains, changes.added)) {
             contacts.listNow(grains);
         } else {
             return;

@@ -94,7 +94,8 @@ void Scene::Inside::moveAll(StepContext& step) {
 void Scene::Inside::findForces(StepContext& step) {
     ParticleStore& grains = step.grains();
     bringBack(step);
-    contacts.refresh(grains, step.shifts.grains, step.shifts.walls);
+    if (periodicWalls.takeNewImages()) contacts.listNow(grains);
+    else contacts.refresh(grains, step.shifts.grains, step.shifts.walls);
     if (periodicWalls.haveEnds()) bringBackAtWalls(step);
     lookForDeepOverlaps(grains, step.shifts.approach);
     step.times.enter(StepTimes::Part::Contacts);

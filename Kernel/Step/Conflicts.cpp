@@ -14,7 +14,7 @@ namespace {
 
 using enum Feature;
 
-constexpr std::string_view noImagesOfWalls = "walls have no images, and those of the grains move past them",
+constexpr std::string_view noImagesOfWalls = "images of the grains move past walls, which stay",
                            leaveWallsOut =
                                "leave the walls out, or leave the images at rest and move walls instead "
                                "(setMotion(), setPiston())",

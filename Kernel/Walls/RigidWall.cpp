@@ -87,6 +87,7 @@ void RigidWall::takePlace() {
         throw InputError(
             "Wall: its shape is set after setSlider(), setRotor() or setFreeBody(), which count with it; set "
             "the shape first.");
+    images.repeat({0, 0, 0});  // the scene looks at the new shape
     given = true;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Kernel/Walls/PartCover.h"
+#include "Kernel/Walls/WallImages.h"
 
 namespace pendular {
 
@@ -74,12 +75,14 @@ private:
         findNear(place + 0.5 * gap * other.point.normal, 0.25 * gap);
         for (const Near& between : near)
             if (!isSame(between, number, edge.part) && !isSame(between, other.wall, other.part)) return;
+        const std::uint32_t otherPart =
+            walls.getObject(other.wall).isRepeated() ? WallImages::partOf(other.part) : other.part;
         tell(other.wall,
              fmt::format(
                  "Part {} of wall {} and part {} of wall {} face the same way and are {:.3g} m apart "
                  "at ({:.4g}, {:.4g}, {:.4g}) m: to grains with wide contacts they are one surface, to "
                  "others two; close the gap, or make it wider than {:.3g} m, or leave it if it is meant",
-                 edge.part, number, other.part, other.wall, gap, place.x, place.y, place.z, apart));
+                 edge.part, number, otherPart, other.wall, gap, place.x, place.y, place.z, apart));
     }
 
     /// Whether the other wall goes on at both sides of an edge.

@@ -96,7 +96,7 @@ std::vector<GrainMotion> many() {
 
 void expectHeldRefused(const std::string& text, int grain) {
     EXPECT_TRUE(support::isOneSentence(text));
-    EXPECT_TRUE(support::contains(text, "grains that are held in place"));
+    EXPECT_TRUE(support::contains(text, "grains that are held"));
     EXPECT_TRUE(support::contains(text, fmt::format("(particle {})", grain)));
 }
 

@@ -311,7 +311,7 @@ TEST(Strain, whatDoesNotFitIsRefused) {
     EXPECT_TRUE(support::contains(refusal([](auto& s) {
                                       s.setStrainRate(0, 1);
                                       InfiniteWall wall;
-                                      wall.set({0, 0, -1}, {0, 0, 0});
+                                      wall.set({-1, 0, 0}, {0, 0, 0});  // across the period
                                       wall.setSpecies(s.speciesHandler.getObject(0));
                                       s.wallHandler.copyAndAddObject(wall);
                                   }),
