@@ -11,7 +11,7 @@ namespace pendular {
 /// Two features that one scene cannot have.
 struct Conflict {
     Feature a, b;
-    std::string_view why, advice;  // parts of a sentence: "images of the grains move past walls ...", "leave the walls out"
+    std::string_view why, advice;  // parts of a sentence: "images ... move past walls", "leave the walls out"
 };
 
 /// All of them that the kernel knows.
