@@ -101,8 +101,7 @@ TEST(FedSprings, areWarnedOfWithARigidBody) {
     row.acceptUnstableTimeStep();
     const std::string warning = row.warning();
     EXPECT_TRUE(support::contains(warning, "larger dissipation"));
-    EXPECT_TRUE(support::contains(warning, "integrators::velocityVerlet"));
-    EXPECT_EQ(warning.find("springsInStep"), std::string::npos);
+    EXPECT_TRUE(support::contains(warning, "integrators::springsInStep or velocityVerlet"));
     Row verlet(0, 0.4 / frequency());
     verlet.bodyHandler.join({0});
     verlet.setIntegrator(integrators::velocityVerlet);

@@ -8,6 +8,7 @@
 #include "Kernel/Step/Conflicts.h"
 #include "SelfTests/Fuzz/RandomScenes/Draws.h"
 #include "SelfTests/Fuzz/RandomScenes/Feature.h"
+#include "SelfTests/Fuzz/RandomScenes/Making.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular::fuzz {
