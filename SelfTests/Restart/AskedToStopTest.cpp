@@ -235,7 +235,8 @@ void limitFiles(std::uintmax_t bytes) {
 }
 
 TEST_F(AskedToStop, byAFullDiskKeepsTheLastCompleteFile) {
-    for (const double share : {0.0, 0.02, 0.5, 0.99}) {
+    // The file of step 100 may be some per cent smaller than that of step 70.
+    for (const double share : {0.0, 0.02, 0.5, 0.9}) {
         std::filesystem::remove_all(part);
         runUndisturbed(part, 70);
         const std::string before = contentOf(part / "run-restart.h5");
