@@ -115,6 +115,7 @@ void PeriodicWalls::repeat(RigidWall& wall, std::size_t number) {
             number, wall.partCount(), WallImages::mostParts));
     wall.repeat(periodic.length);
     imagesAreNew = true;
+    takeAsRepeated(number);
 }
 
 void PeriodicWalls::takeAsRepeated(std::size_t number) {
@@ -138,8 +139,7 @@ void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size
     // What does not go through a face and lies beyond it is a piece of its own.
     const bool isOutside = !seen.passes && (seen.highest > faces.highest() || seen.lowest < faces.lowest);
     if (rigid && rigid->canBeRepeated() && (isOutside || !isAlike || !staysAlike)) {
-        repeat(*rigid, number);
-        return takeAsRepeated(number);
+        return repeat(*rigid, number);
     }
     if (!isAlike) throw InputError(sentence(number, axis, seen, met));
     looks[number].along[axis] = {.isEndless = seen.isEndless,
@@ -199,7 +199,6 @@ void PeriodicWalls::visitState(StateArchive& archive, const WallHandler& walls) 
             number < walls.getSize() ? dynamic_cast<RigidWall*>(&walls.getObject(number)) : nullptr;
         archive.require(wall && wall->canBeRepeated(), "repeatedWalls", "has a wall that cannot be repeated");
         repeat(*wall, number);
-        takeAsRepeated(number);
     }
     imagesAreNew = false;  // contacts are listed after this
     archive.finite("band", band);

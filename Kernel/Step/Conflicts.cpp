@@ -14,7 +14,7 @@ namespace {
 
 using enum Feature;
 
-constexpr std::string_view noImagesOfWalls = "images of the grains move past walls, which stay",
+constexpr std::string_view imagesPassWalls = "images of the grains move past walls, which stay",
                            leaveWallsOut =
                                "leave the walls out, or leave the images at rest and move walls instead "
                                "(setMotion(), setPiston())",
@@ -23,9 +23,9 @@ constexpr std::string_view noImagesOfWalls = "images of the grains move past wal
                            stepsOfOneLength = "they need steps of one length";
 
 constexpr std::array table{
-    Conflict{Shear, Walls, noImagesOfWalls, leaveWallsOut},
+    Conflict{Shear, Walls, imagesPassWalls, leaveWallsOut},
     Conflict{
-        Strain, WallsInStrain, noImagesOfWalls,
+        Strain, WallsInStrain, imagesPassWalls,
         "take planes across an axis that is not periodic, or leave the images at rest and move walls instead "
         "(setMotion(), setPiston())"},
     Conflict{Shear, HeldGrains, "a grain that is held would not go with the flow as its images do",

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
+#include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Species/BridgeLaws.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
@@ -66,23 +69,71 @@ struct Floor {
     Vec3D velocity{0, 0, 0};  // m/s
 };
 
+/// Grains of such a material, with films where liquid moves.
 template <class S>
-std::unique_ptr<ThroughFaces<S>> onFloor(const Floor& floor, int threads = 1) {
-    auto scene =
-        std::make_unique<ThroughFaces<S>>(rollingGrains(), std::initializer_list<int>{0, 1}, material<S>());
-    scene->setNumberOfThreads(threads);
-    scene->listenToContacts();
-    scene->keepEnergyLedger();
+std::unique_ptr<ThroughFaces<S>> filmedGrains(const std::vector<GrainMotion>& grains,
+                                              std::initializer_list<int> axes) {
+    auto scene = std::make_unique<ThroughFaces<S>>(grains, axes, material<S>());
     if constexpr (requires(S s) { s.setLiquidBridgeVolumeMax(1.0); })
         for (auto&& grain : scene->particleHandler) grain.setLiquidVolume(2e-12);
+    return scene;
+}
+
+template <class S>
+void addFloor(ThroughFaces<S>& scene, const Floor& floor) {
     const auto add = [&](auto wall) {
         if (floor.velocity != Vec3D(0, 0, 0)) wall.setVelocity(floor.velocity);
-        scene->add(wall)->keepForces();
+        scene.add(wall)->keepForces();
     };
-    if (floor.isMesh) return add(meshOf(paving(floor.lowest, floor.highest))), std::move(scene);
+    if (floor.isMesh) return add(meshOf(paving(floor.lowest, floor.highest)));
     InfiniteWall plane;
     plane.set({0, 0, -1}, {0, 0, 0});
     add(plane);
+}
+
+template <class S>
+std::unique_ptr<ThroughFaces<S>> onFloor(const Floor& floor, int threads = 1) {
+    auto scene = filmedGrains<S>(rollingGrains(), {0, 1});
+    scene->setNumberOfThreads(threads);
+    scene->listenToContacts();
+    scene->keepEnergyLedger();
+    addFloor(*scene, floor);
+    return scene;
+}
+
+/// Two clumps have rolled on a floor for 12 000 steps.
+inline std::unique_ptr<ThroughFaces<Dry>> clumpsOnFloor(const Floor& floor) {
+    auto scene =
+        std::make_unique<ThroughFaces<Dry>>(std::vector<GrainMotion>{}, std::initializer_list<int>{0, 1});
+    Clump clump(ClumpTemplate({{{-0.6, 0, 0}, 1}, {{0.6, 0, 0}, 1}}));
+    clump.setScale(r);
+    clump.setSpecies(scene->speciesHandler.getObject(0));
+    for (const double side : {-1.0, 1.0}) {
+        clump.setPosition({0.5 * length, (0.5 + 0.25 * side) * length, 1.3 * r});
+        clump.setVelocity({1.5 * side, 0.4, 0});
+        clump.setAngularVelocity({20, 100 * side, 200});
+        scene->bodyHandler.copyAndAddObject(clump);
+    }
+    addFloor(*scene, floor);
+    scene->initialise();
+    scene->steps(12000);
+    return scene;
+}
+
+/// Waves of 16 strips a period between two places (m).
+inline TriangleWall waves(double lowest, double highest, int count) {
+    return meshOf(strips(lowest, highest, count,
+                         [](double x) { return 0.3 * r * std::cos(2 * std::numbers::pi * x / length); }));
+}
+/// A grain has gone over waves for some steps: over those of a periodic scene, or over many.
+template <class S>
+std::unique_ptr<ThroughFaces<S>> overWaves(const TriangleWall& wall, bool isPeriodic, int steps) {
+    auto scene = filmedGrains<S>(
+        {{.radius = r, .position = {0.4 * length, 0.5 * length, 1.4 * r}, .velocity = {1.5, 0, 0}}}, {});
+    if (isPeriodic) scene->setPeriodic(0, 0, length);
+    scene->add(wall);
+    scene->initialise();
+    scene->steps(steps);
     return scene;
 }
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <numbers>
 
-#include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Periodic/PavedFloor.h"
 #include "SelfTests/Support/Refusal.h"
@@ -127,27 +126,7 @@ TEST(WallImages, aFloorThatShakesGoesOnAfterARestart) {
 }
 
 TEST(WallImages, clumpsRollOnThem) {
-    const auto make = [](bool isMesh) {
-        auto scene =
-            std::make_unique<ThroughFaces<Dry>>(std::vector<GrainMotion>{}, std::initializer_list<int>{0, 1});
-        Clump clump(ClumpTemplate({{{-0.6, 0, 0}, 1}, {{0.6, 0, 0}, 1}}));
-        clump.setScale(r);
-        clump.setSpecies(scene->speciesHandler.getObject(0));
-        for (const double side : {-1.0, 1.0}) {
-            clump.setPosition({0.5 * length, (0.5 + 0.25 * side) * length, 1.3 * r});
-            clump.setVelocity({1.5 * side, 0.4, 0});
-            clump.setAngularVelocity({20, 100 * side, 200});
-            scene->bodyHandler.copyAndAddObject(clump);
-        }
-        InfiniteWall plane;
-        plane.set({0, 0, -1}, {0, 0, 0});
-        if (isMesh) scene->add(meshOf(paving(0, length)));
-        else scene->add(plane);
-        scene->initialise();
-        scene->steps(12000);
-        return scene;
-    };
-    auto found = make(true), expected = make(false);
+    auto found = clumpsOnFloor({true, 0, length}), expected = clumpsOnFloor({false});
     EXPECT_GT(found->crossings, 4);
     expectSameMotion(*found, *expected, roundOff);
 }
@@ -159,10 +138,7 @@ TYPED_TEST(WallImages, anEdgeIsAnEdge) {
         const std::vector<GrainMotion> grains{
             {.radius = r, .position = {0.6 * length, 0.5 * length, 1.02 * r}, .velocity = {0.8, 0, 0}},
             {.radius = r, .position = {0.5 * length, 0.1 * length, 1.3 * r}, .velocity = {2.5, 0.1, 0}}};
-        auto scene = std::make_unique<ThroughFaces<TypeParam>>(grains, std::initializer_list<int>{},
-                                                               material<TypeParam>());
-        if constexpr (requires(TypeParam s) { s.setLiquidBridgeVolumeMax(1.0); })
-            for (auto&& grain : scene->particleHandler) grain.setLiquidVolume(2e-12);
+        auto scene = filmedGrains<TypeParam>(grains, {});
         if (isPeriodic) scene->setPeriodic(0, 0, length);
         std::vector<Triangle> floor;
         for (int k = 0; k < (isPeriodic ? 1 : 9); ++k) {
@@ -181,22 +157,8 @@ TYPED_TEST(WallImages, anEdgeIsAnEdge) {
 
 /// A wave of half a period beyond the box.
 TYPED_TEST(WallImages, aWaveThatBeginsAnywhereIsALongOne) {
-    const auto wave = [](double x) { return 0.3 * r * std::cos(2 * std::numbers::pi * x / length); };
-    const auto make = [&](bool isPeriodic) {
-        const std::vector<GrainMotion> grains{
-            {.radius = r, .position = {0.4 * length, 0.5 * length, 1.4 * r}, .velocity = {1.5, 0, 0}}};
-        auto scene = std::make_unique<ThroughFaces<TypeParam>>(grains, std::initializer_list<int>{},
-                                                               material<TypeParam>());
-        if constexpr (requires(TypeParam s) { s.setLiquidBridgeVolumeMax(1.0); })
-            for (auto&& grain : scene->particleHandler) grain.setLiquidVolume(2e-12);
-        if (isPeriodic) scene->setPeriodic(0, 0, length);
-        scene->add(meshOf(isPeriodic ? strips(0.5 * length, 1.5 * length, 16, wave)
-                                     : strips(-length, 8 * length, 144, wave)));
-        scene->initialise();
-        scene->steps(12000);
-        return scene;
-    };
-    auto found = make(true), expected = make(false);
+    auto found = overWaves<TypeParam>(waves(0.5 * length, 1.5 * length, 16), true, 12000),
+         expected = overWaves<TypeParam>(waves(-length, 8 * length, 144), false, 12000);
     EXPECT_GT(found->crossings, 2);
     expectSameMotion(*found, *expected, 100 * roundOff);
 }

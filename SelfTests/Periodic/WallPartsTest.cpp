@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Periodic/PavedFloor.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -87,23 +86,9 @@ TYPED_TEST(WallParts, aTubeOfRingsIsTheCylinder) {
 /// A floor with waves of the period, in a scene that repeats itself, is a floor with many waves in one that
 /// does not.
 TYPED_TEST(WallParts, wavesThatRepeatThemselvesAreALongFloor) {
-    const auto wave = [](double x) { return 0.3 * r * std::cos(2 * std::numbers::pi * x / length); };
-    const auto make = [&](bool isPeriodic) {
-        const std::vector<GrainMotion> grains{
-            {.radius = r, .position = {0.4 * length, 0.5 * length, 1.4 * r}, .velocity = {1.5, 0, 0}}};
-        auto scene = std::make_unique<ThroughFaces<TypeParam>>(grains, std::initializer_list<int>{},
-                                                               material<TypeParam>());
-        if constexpr (requires(TypeParam s) { s.setLiquidBridgeVolumeMax(1.0); })
-            for (auto&& grain : scene->particleHandler) grain.setLiquidVolume(2e-12);
-        if (isPeriodic) scene->setPeriodic(0, 0, length);
-        // 16 strips a wave, of which three go on beyond a face.
-        scene->add(meshOf(isPeriodic ? strips(-0.1875 * length, 1.1875 * length, 22, wave)
-                                     : strips(-length, 8 * length, 144, wave)));
-        scene->initialise();
-        scene->steps(16000);
-        return scene;
-    };
-    auto found = make(true), expected = make(false);
+    // 16 strips a wave, of which three go on beyond a face.
+    auto found = overWaves<TypeParam>(waves(-0.1875 * length, 1.1875 * length, 22), true, 16000),
+         expected = overWaves<TypeParam>(waves(-length, 8 * length, 144), false, 16000);
     EXPECT_GT(found->crossings, 3);
     EXPECT_GT(expected->motion(0).position.x(), 4 * length);
     // Edges of strips scatter what differs a little more than a plane does.
@@ -155,30 +140,7 @@ TYPED_TEST(WallParts, haveTheSameBitsForAnyThreads) {
 
 /// Grains of a body go through the face with its centre, though they are beyond it before or after.
 TEST(WallPartsOfBodies, clumpsRollOnAPavedFloorAsOnThePlane) {
-    const auto make = [](bool isMesh) {
-        auto scene =
-            std::make_unique<ThroughFaces<Dry>>(std::vector<GrainMotion>{}, std::initializer_list<int>{0, 1});
-        Clump clump(ClumpTemplate({{{-0.6, 0, 0}, 1}, {{0.6, 0, 0}, 1}}));
-        clump.setScale(r);
-        clump.setSpecies(scene->speciesHandler.getObject(0));
-        for (const double side : {-1.0, 1.0}) {
-            clump.setPosition({0.5 * length, (0.5 + 0.25 * side) * length, 1.3 * r});
-            clump.setVelocity({1.5 * side, 0.4, 0});
-            clump.setAngularVelocity({20, 100 * side, 200});
-            scene->bodyHandler.copyAndAddObject(clump);
-        }
-        if (isMesh) {
-            scene->add(meshOf(paving(-reach, length + reach)));
-        } else {
-            InfiniteWall plane;
-            plane.set({0, 0, -1}, {0, 0, 0});
-            scene->add(plane);
-        }
-        scene->initialise();
-        scene->steps(12000);
-        return scene;
-    };
-    auto found = make(true), expected = make(false);
+    auto found = clumpsOnFloor({true}), expected = clumpsOnFloor({false});
     EXPECT_GT(found->crossings, 4);
     expectSameMotion(*found, *expected, roundOff);
 }
