@@ -9,6 +9,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Insertion/DenseBodies.h"
+#include "Kernel/Insertion/DenseRefusals.h"
 #include "Kernel/Insertion/DenseStart.h"
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
@@ -175,13 +176,7 @@ void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, 
     }
     refuseWithoutRoom(owner, region, scene.walls, scene.periodic, smallest, largest, options.wholeGrains);
     const DenseBodies found = denseBodies(bodies, scene, region, options);
-    if (found.scale < 1) {
-        const auto [wanted, reached] = apartTexts(fraction, fraction * std::pow(found.scale, 3));
-        throw InputError(fmt::format(
-            "{}: a solid fraction of {} of the region was not reached among its walls and grains, only {} "
-            "after {} iterations; take a smaller amount, or a larger region.",
-            owner, wanted, reached, found.iterations));
-    }
+    if (found.scale < 1) refuseLessDense(fraction, found.scale, found.iterations);
     PeriodicBox fromRegion = scene.periodic;  // a region may go across a face
     fromRegion.lowest = region.bounds().lowest;
     for (const PlacedBody& body : bodies)
@@ -191,16 +186,6 @@ void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, 
                 throw InputError(fmt::format(
                     "{}: a clump of the size {:.6g} m was pushed out of the region; take a smaller amount.",
                     owner, 2 * body.radius));
-}
-
-void refuseTooDense(const Amount& amount, double ofSample) {
-    const double fraction =
-        amount.kind() == Amount::Kind::SolidFraction ? std::min(amount.value(), ofSample) : ofSample;
-    if (fraction <= densestRandomStart * (1 + roundOffOfLimits)) return;
-    const auto [wanted, most] = apartTexts(fraction, densestRandomStart);
-    throw InputError(fmt::format(
-        "{}: the clumps would have a solid fraction of {} of the region; a random start reaches {}.", owner,
-        wanted, most));
 }
 
 }  // namespace
@@ -222,7 +207,7 @@ Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, c
     if (fraction <= looseFraction * (1 + roundOffOfLimits))
         bodies = placeOneByOne(scene, bodies, *region, options, result.firstLeftOut);
     else {
-        refuseTooDense(amount, fraction);
+        refuseTooDense("clumps", amount, fraction);
         placeDensely(scene, bodies, *region, options, fraction);
     }
     const std::size_t before = scene.bodies.getSize();

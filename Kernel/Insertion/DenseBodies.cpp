@@ -7,6 +7,7 @@
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Insertion/SpreadPoints.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
@@ -84,20 +85,12 @@ private:
     };
 
     void placeAll(std::uint64_t seed) {
-        // As DenseStart.cpp does.
-        constexpr std::array<double, 3> steps{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-        const double spread = 1 / std::cbrt(static_cast<double>(placed.size()));
+        const SpreadPoints points(placed.size(), seed, purposeOfPlaces);
         const CountedRandom random(seed);
         std::uint64_t number = 0;
         for (PlacedBody& body : placed) {
             for (int attempt = 0; attempt < 1000; ++attempt, ++number) {
-                std::array<double, 3> even;
-                for (std::uint32_t a = 0; a < 3; ++a) {
-                    const double at = static_cast<double>(number) * steps[a] +
-                                      spread * (random.uniform(number, purposeOfPlaces + a) - 0.5);
-                    even[a] = at - std::floor(at);
-                }
-                body.place = region.candidate(even, hasMargin ? body.radius : 0);
+                body.place = region.candidate(points[number], hasMargin ? body.radius : 0);
                 if (region.contains(body.place, 0)) break;
             }
             body.turn =

@@ -8,6 +8,7 @@
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Insertion/SpreadPoints.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/Pack.h"
 
@@ -78,23 +79,13 @@ private:
     };
 
     void placeAll(std::span<const double> radii, std::uint64_t seed) {
-        // An additive recurrence covers space evenly (Roberts 2018: steps 1/g, 1/g^2, 1/g^3, g^4 = g + 1); a
-        // random displacement by up to half the mean distance takes its order away.
-        constexpr std::array<double, 3> steps{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-        const double spread = 1 / std::cbrt(static_cast<double>(radii.size()));
-        const CountedRandom random(seed);
+        const SpreadPoints points(radii.size(), seed, purposeOfPlaces);
         std::uint64_t number = 0;
         for (const double radius : radii) {
             const double margin = hasMargin ? radius : 0;
             Point place{};
             for (int attempt = 0; attempt < 1000; ++attempt, ++number) {
-                std::array<double, 3> even;
-                for (std::uint32_t a = 0; a < 3; ++a) {
-                    const double at = static_cast<double>(number) * steps[a] +
-                                      spread * (random.uniform(number, purposeOfPlaces + a) - 0.5);
-                    even[a] = at - std::floor(at);
-                }
-                place = region.candidate(even, margin);
+                place = region.candidate(points[number], margin);
                 if (region.contains(place, 0)) break;
             }
             ++number;

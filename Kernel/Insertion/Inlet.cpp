@@ -379,13 +379,15 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
 
 /// A restart refuses another mixture; one of grains of one kind is written as files without clumps have it.
 void InletHandler::visitKinds(StateArchive& archive, const BodyMixture& bodies) {
-    const auto& first = bodies[0];
-    archive.same("smallest", first.sizes.smallest(), "m");
-    archive.same("largest", first.sizes.largest(), "m");
-    archive.same("meanVolume", first.sizes.moment(3), "m^3");
-    archive.same("species", first.species());
-    archive.sameRecord<double>("velocity", first.velocity());
-    if (bodies.size() == 1 && first.grain()) {
+    const auto visitOne = [&](const BodyKind& kind) {
+        archive.same("smallest", kind.sizes.smallest(), "m");
+        archive.same("largest", kind.sizes.largest(), "m");
+        archive.same("meanVolume", kind.sizes.moment(3), "m^3");
+        archive.same("species", kind.species());
+        archive.sameRecord<double>("velocity", kind.velocity());
+    };
+    visitOne(bodies[0]);
+    if (bodies.size() == 1 && bodies[0].grain()) {
         archive.require(archive.isWriting() || !archive.holds("kinds"), "kinds",
                         "is kept, but the inlet brings grains of one kind");
         return;
@@ -394,11 +396,7 @@ void InletHandler::visitKinds(StateArchive& archive, const BodyMixture& bodies) 
     for (std::size_t k = 0; k < bodies.size(); ++k)
         archive.group(fmt::format("kind{}", k), [&] {
             const BodyKind& kind = bodies[k];
-            archive.same("smallest", kind.sizes.smallest(), "m");
-            archive.same("largest", kind.sizes.largest(), "m");
-            archive.same("meanVolume", kind.sizes.moment(3), "m^3");
-            archive.same("species", kind.species());
-            archive.sameRecord<double>("velocity", kind.velocity());
+            visitOne(kind);
             archive.same("share", bodies.shareOf(k));
             const ClumpTemplate* const shape = kind.clump() ? &kind.clump()->getTemplate() : nullptr;
             archive.same("spheres", static_cast<std::int32_t>(shape ? shape->getSpheres().size() : 0));

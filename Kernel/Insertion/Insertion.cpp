@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Insertion/DenseRefusals.h"
 #include "Kernel/Insertion/DenseStart.h"
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
@@ -162,30 +163,12 @@ std::vector<Vector<double>> placeOneByOne(const InsertionScene& scene, std::span
     return centres;
 }
 
-/// A fraction that was asked for counts as it was where the sample of the sizes is a little above it.
-void refuseTooDense(const Amount& amount, double ofSample) {
-    const double fraction =
-        amount.kind() == Amount::Kind::SolidFraction ? std::min(amount.value(), ofSample) : ofSample;
-    if (fraction <= densestRandomStart * (1 + roundOffOfLimits)) return;
-    const auto [wanted, most] = apartTexts(fraction, densestRandomStart);
-    throw InputError(fmt::format(
-        "{}: the grains would have a solid fraction of {} of the region; a random start reaches {}.", owner,
-        wanted, most));
-}
-
 std::vector<Vector<double>> placeDensely(const InsertionScene& scene, std::span<const double> radii,
                                          const Region& region, const InsertOptions& options,
                                          double fraction) {
     DenseStart found = denseStart(radii, options.wholeGrains, region, scene.particles.store(), scene.walls,
                                   scene.periodic, options.seed, scene.threads);
-    if (found.shrink < 1) {
-        const auto [wanted, reached] =
-            apartTexts(fraction, fraction * std::pow(std::max(found.shrink, 0.0), 3));
-        throw InputError(fmt::format(
-            "{}: a solid fraction of {} of the region was not reached among its walls and grains, only {} "
-            "after {} iterations; take a smaller amount, or a larger region.",
-            owner, wanted, reached, found.iterations));
-    }
+    if (found.shrink < 1) refuseLessDense(fraction, found.shrink, found.iterations);
     PeriodicBox fromRegion = scene.periodic;  // a region may go across a face
     fromRegion.lowest = region.bounds().lowest;
     for (std::size_t k = 0; k < radii.size(); ++k)
@@ -221,7 +204,7 @@ Inserted insertGrains(const InsertionScene& scene, const SizeDistribution& sizes
     if (fraction <= looseFraction)
         centres = placeOneByOne(scene, radii, *region, options, result.firstLeftOut);
     else {
-        refuseTooDense(amount, fraction);
+        refuseTooDense("grains", amount, fraction);
         centres = placeDensely(scene, radii, *region, options, fraction);
     }
     scene.particles.reserve(scene.particles.store().size() + radii.size());
