@@ -10,7 +10,7 @@
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::benchmarkProgramTest {
 namespace {
 
 support::ProgramResult benchmark(const std::string& arguments) {
@@ -90,4 +90,4 @@ TEST(HeavyBenchmarkProgram, publishedBedHasTheEnergyOfItsPeers) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::benchmarkProgramTest

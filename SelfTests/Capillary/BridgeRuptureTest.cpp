@@ -5,8 +5,7 @@
 
 #include "SelfTests/Capillary/RandomBridges.h"
 
-using namespace pendular;
-
+namespace pendular::bridgeRuptureTest {
 namespace {
 
 using std::numbers::pi;
@@ -125,3 +124,5 @@ TEST(BridgeRupture, BranchGoesOnBeyondTheFold) {
     }
     EXPECT_TRUE(turned);
 }
+
+}  // namespace pendular::bridgeRuptureTest

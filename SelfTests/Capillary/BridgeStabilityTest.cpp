@@ -12,8 +12,7 @@
 
 #include "SelfTests/Capillary/RandomBridges.h"
 
-using namespace pendular;
-
+namespace pendular::bridgeStabilityTest {
 namespace {
 
 using std::numbers::pi;
@@ -163,3 +162,5 @@ TEST(BridgeStability, CountsTheModesThatBruteForceFinds) {
     EXPECT_GT(compared, 300);
     EXPECT_GT(unstable, 50);
 }
+
+}  // namespace pendular::bridgeStabilityTest

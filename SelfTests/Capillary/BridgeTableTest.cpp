@@ -12,8 +12,7 @@
 // The table of exact bridges against the solver: that it is the solver's work, and how near it comes between
 // its nodes.
 
-using namespace pendular;
-
+namespace pendular::bridgeTableTest {
 namespace {
 
 using std::numbers::pi;
@@ -350,3 +349,5 @@ TEST(BridgeTable, canBeSolvedForOtherVolumes) {
                 }
             }
 }
+
+}  // namespace pendular::bridgeTableTest

@@ -10,8 +10,7 @@
 #include "SelfTests/Capillary/IndependentBridges.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 
-using namespace pendular;
-
+namespace pendular::capillaryBridgeTest {
 namespace {
 
 using std::numbers::pi;
@@ -309,3 +308,5 @@ TEST(CapillaryBridge, RefusesWhatIsNotABridge) {
     EXPECT_THROW(findRupture({{1, 0.5}, {1, 0.5}, 0}), InputError);
     EXPECT_THROW(static_cast<void>(solveBridge(good, 0)->profile(1)), InputError);
 }
+
+}  // namespace pendular::capillaryBridgeTest

@@ -9,8 +9,7 @@
 
 #include "Kernel/Math/GaussLegendre.h"
 
-using namespace pendular;
-
+namespace pendular::delaunayArcTest {
 namespace {
 
 using std::numbers::pi;
@@ -185,3 +184,5 @@ TEST(DelaunayArc, FindsNecksAndBulges) {
         EXPECT_EQ(arc.extremes(), extremes);
     }
 }
+
+}  // namespace pendular::delaunayArcTest

@@ -15,7 +15,7 @@
 // Bridges on and off the axis against Surface Evolver, which minimises their energy and knows neither the
 // Young-Laplace equation of a bridge on the axis nor that one off it is a sphere.
 
-namespace pendular {
+namespace pendular::evolverTest {
 namespace {
 
 constexpr double shift = 0.005;  // of the gap, to both sides, for the force
@@ -70,4 +70,4 @@ TEST(HeavyEvolver, findsTheSameEnergyPressureAndForce) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::evolverTest

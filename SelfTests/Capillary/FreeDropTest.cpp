@@ -11,7 +11,7 @@
 #include "Kernel/Math/Scalar.h"
 #include "SelfTests/Capillary/RandomBridges.h"
 
-namespace pendular {
+namespace pendular::freeDropTest {
 namespace {
 
 using std::numbers::pi;
@@ -102,4 +102,4 @@ TEST(FreeDrop, refusesWhatIsNoBridge) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::freeDropTest

@@ -15,8 +15,7 @@
 
 #include "SelfTests/Capillary/RandomBridges.h"
 
-using namespace pendular;
-
+namespace pendular::nearRuptureTest {
 namespace {
 
 using std::numbers::pi;
@@ -212,3 +211,5 @@ TEST(NearRupture, AgreesWithOtherPrograms) {
     // The gap is known to its digits. 0.12028 is the force of the unstable bridge.
     EXPECT_NEAR(bridge->arc().forceLength(), 0.128975, 5e-6);
 }
+
+}  // namespace pendular::nearRuptureTest

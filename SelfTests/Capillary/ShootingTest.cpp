@@ -12,8 +12,7 @@
 
 #include "SelfTests/Capillary/RandomBridges.h"
 
-using namespace pendular;
-
+namespace pendular::shootingTest {
 namespace {
 
 using std::numbers::pi;
@@ -111,3 +110,5 @@ TEST(Shooting, AgreesOnRandomBridges) {
     }
     RecordProperty("largestRelativeDifference", fmt::format("{:.1e}", worst));
 }
+
+}  // namespace pendular::shootingTest

@@ -14,7 +14,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/ShearOf.h"
 
-namespace pendular {
+namespace pendular::clustersTest {
 namespace {
 
 using support::Random;
@@ -215,4 +215,4 @@ TEST(HeavyClusters, ofHardSpheresInEquilibriumAreThoseOfAnIndependentProgram) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::clustersTest

@@ -12,7 +12,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::coarseGrainToolTest {
 namespace {
 
 using support::contentOf;
@@ -114,4 +114,4 @@ TEST(CoarseGrainTool, refusesInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::coarseGrainToolTest

@@ -13,7 +13,7 @@
 #include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::fieldOutputTest {
 namespace {
 
 using namespace support;
@@ -292,4 +292,4 @@ TEST(FieldOutput, refusesInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::fieldOutputTest

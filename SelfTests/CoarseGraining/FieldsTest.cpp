@@ -14,7 +14,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/SharedData.h"
 
-namespace pendular {
+namespace pendular::fieldsTest {
 namespace {
 
 using support::contains;
@@ -474,4 +474,4 @@ TEST(Fields, refuseInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::fieldsTest

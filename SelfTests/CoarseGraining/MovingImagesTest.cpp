@@ -19,7 +19,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::movingImagesTest {
 namespace {
 
 using scenes::boxMaterial;
@@ -296,4 +296,4 @@ TEST(FieldsOfMovingImages, areRefusedAroundAnAxis) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::movingImagesTest

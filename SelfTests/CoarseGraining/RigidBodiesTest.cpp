@@ -17,7 +17,7 @@
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/Random.h"
 
-namespace pendular {
+namespace pendular::rigidBodiesTest {
 namespace {
 
 using scenes::FewGrains;
@@ -287,4 +287,4 @@ TEST(ClustersOfBodies, holdTheirGrains) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::rigidBodiesTest

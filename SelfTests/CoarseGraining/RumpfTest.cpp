@@ -14,7 +14,7 @@
 #include "Kernel/State/Random.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
-namespace pendular {
+namespace pendular::rumpfTest {
 namespace {
 
 using scenes::FewGrains;
@@ -167,4 +167,4 @@ TEST(Rumpf, isTheSumOverAllPairsOfARandomPacking) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::rumpfTest

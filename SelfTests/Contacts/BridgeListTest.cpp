@@ -11,7 +11,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/ContactKey.h"
 
-namespace pendular {
+namespace pendular::bridgeListTest {
 namespace {
 
 using scenes::SettlingBox;
@@ -134,4 +134,4 @@ TEST(BridgeList, doesSoInAPeriodicScene) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeListTest

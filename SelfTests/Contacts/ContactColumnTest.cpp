@@ -16,7 +16,7 @@
 
 // Numbers that a driver keeps of each contact.
 
-namespace pendular {
+namespace pendular::contactColumnTest {
 namespace {
 
 using support::contains;
@@ -131,4 +131,4 @@ TEST(ContactColumns, refuseWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::contactColumnTest

@@ -7,7 +7,7 @@
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 
-namespace pendular {
+namespace pendular::contactEventTest {
 namespace {
 
 using Kind = ContactEvent::Kind;
@@ -151,4 +151,4 @@ TEST(Interactions, ofAGrainSumToItsForce) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::contactEventTest

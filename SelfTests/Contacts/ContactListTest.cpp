@@ -14,7 +14,7 @@
 #include "SelfTests/Support/ContactKey.h"
 #include "SelfTests/Support/Random.h"
 
-namespace pendular {
+namespace pendular::contactListTest {
 namespace {
 
 using scenes::boxMaterial;
@@ -252,4 +252,4 @@ TYPED_TEST(ContactListOf, findsThePairsInALineAndInAPlane) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::contactListTest

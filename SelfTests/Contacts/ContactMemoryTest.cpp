@@ -16,7 +16,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/ContactKey.h"
 
-namespace pendular {
+namespace pendular::contactMemoryTest {
 namespace {
 
 using scenes::SettlingBox;
@@ -168,4 +168,4 @@ TEST(ContactMemory, forgetsContactsThatHaveEnded) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::contactMemoryTest

@@ -14,7 +14,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::farGrainTest {
 namespace {
 
 using support::Random;
@@ -154,4 +154,4 @@ TEST(FarGrain, leavesTheBedAsItIs) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::farGrainTest

@@ -12,7 +12,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/ReferenceForces.h"
 
-namespace pendular {
+namespace pendular::forceSumTest {
 namespace {
 
 using scenes::FewGrains;
@@ -131,4 +131,4 @@ TEST(InitialForce, keepsTheEnergyOfAnOverlap) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::forceSumTest

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pendular {
+namespace pendular::idleLanesTest {
 namespace {
 
 /// Blocks of pairs, and one of a wall, of which each has so many lanes that touch.
@@ -49,4 +49,4 @@ TEST(IdleLanes, areThoseOfBlocksThatAct) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::idleLanesTest

@@ -16,7 +16,7 @@
 
 // A law may resist the motion of the ends of its bridge at a gap: approach, slip and rolling, and remember.
 
-namespace pendular {
+namespace pendular::movingBridgeTest {
 namespace {
 
 using scenes::cloudOfGrains;
@@ -310,4 +310,4 @@ TEST(MovingBridge, isKnownToTheStabilityLimit) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::movingBridgeTest

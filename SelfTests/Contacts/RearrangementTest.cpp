@@ -8,7 +8,7 @@
 
 #include "Kernel/Contacts/ContactStore.h"
 
-namespace pendular {
+namespace pendular::rearrangementTest {
 namespace {
 
 constexpr std::uint32_t nothing = Rearrangement::nothing;
@@ -94,4 +94,4 @@ TEST(Rearrangement, bringsAllThatAContactRemembers) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::rearrangementTest

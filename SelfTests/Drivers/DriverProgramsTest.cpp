@@ -16,7 +16,7 @@
 #include "SelfTests/Support/TemporaryFile.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::driverProgramsTest {
 namespace {
 
 using driverRuns::drivers;
@@ -599,4 +599,4 @@ TEST(Drivers, refuseWrongInputInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::driverProgramsTest

@@ -8,7 +8,7 @@
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::drumTest {
 namespace {
 
 using support::contains;
@@ -182,4 +182,4 @@ TEST(Drum, takesThePublishedState) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::drumTest

@@ -5,7 +5,7 @@
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::ellipsoidPackingTest {
 namespace {
 
 using driverRuns::rowsOf;
@@ -59,4 +59,4 @@ TEST(EllipsoidPacking, writesARowForEachAspectRatio) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::ellipsoidPackingTest

@@ -6,7 +6,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::hopperTest {
 namespace {
 
 using support::contains;
@@ -178,4 +178,4 @@ TEST(HopperDischarge, forgetsTheRunsOfBeforeWhenItBegins) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::hopperTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::obliqueImpactTest {
 namespace {
 
 using driverRuns::drivers;
@@ -197,4 +197,4 @@ TEST(ObliqueImpact, keepsAnAccountOnlyIfAsked) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::obliqueImpactTest

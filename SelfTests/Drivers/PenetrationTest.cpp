@@ -7,7 +7,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/SharedData.h"
 
-namespace pendular {
+namespace pendular::penetrationTest {
 namespace {
 
 using support::contains;
@@ -146,4 +146,4 @@ TEST(Penetration, takesThePublishedState) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::penetrationTest

@@ -2,7 +2,7 @@
 
 #include "Drivers/Shared/PublishedScene.h"
 
-namespace pendular {
+namespace pendular::publishedMaterialsTest {
 namespace {
 
 /// The published table again, typed from shared/peers/README.md: by pair, so that a swapped index shows.
@@ -75,4 +75,4 @@ TEST(PublishedMaterials, softGrainsTakeLongerSteps) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::publishedMaterialsTest

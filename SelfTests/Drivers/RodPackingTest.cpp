@@ -5,7 +5,7 @@
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::rodPackingTest {
 namespace {
 
 using driverRuns::rowsOf;
@@ -73,4 +73,4 @@ TEST(RodPacking, writesARowForEachAspectRatio) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::rodPackingTest

@@ -5,7 +5,7 @@
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::shearedSuspensionTest {
 namespace {
 
 using driverRuns::drivers;
@@ -74,4 +74,4 @@ TEST(LongShearedSuspension, hasTheClustersOfAnIndependentProgram) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::shearedSuspensionTest

@@ -6,7 +6,7 @@
 #include "SelfTests/Drivers/DriverRun.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::wetWallCollisionTest {
 namespace {
 
 using driverRuns::drivers;
@@ -67,4 +67,4 @@ TEST(WetWallCollision, goesOnWithTheRowsThatItsTableHas) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::wetWallCollisionTest

@@ -14,7 +14,7 @@
 // Beds on a floor that shakes: grains of two sizes, six walls, thousands of touches that begin, slide and
 // end. However many steps, what the floor has given is found again, to round-off.
 
-namespace pendular {
+namespace pendular::bedTest {
 namespace {
 
 using Dry = Species<HertzianViscoelastic, Mindlin>;
@@ -101,4 +101,4 @@ TEST(BedLedger, doesNotDependOnThreadsAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bedTest

@@ -9,7 +9,7 @@
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/AnyMaterial.h"
 
-namespace pendular {
+namespace pendular::changeLedgerTest {
 namespace {
 
 using scenes::HookedGrains;
@@ -208,4 +208,4 @@ TYPED_TEST(ChangeLedger, closesOverRandomChanges) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::changeLedgerTest

@@ -9,7 +9,7 @@
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Scenes/ShearedCloud.h"
 
-namespace pendular {
+namespace pendular::changedSceneLedgerTest {
 namespace {
 
 using Rough = Species<HertzianViscoelastic, Mindlin>;
@@ -148,4 +148,4 @@ TEST(ChangedSceneLedger, closesUnderAPistonAndWithClumps) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::changedSceneLedgerTest

@@ -11,7 +11,7 @@
 // Collisions of two unequal grains off centre, with spins, and of a grain with a wall: the account closes to
 // round-off, and what elastic forces did but is not found as stored energy falls with the square of the step.
 
-namespace pendular {
+namespace pendular::collisionLedgerTest {
 namespace {
 
 using scenes::FewGrains;
@@ -140,4 +140,4 @@ TEST(CollisionLedger, ofEachAttractionCloses) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::collisionLedgerTest

@@ -9,7 +9,7 @@
 // What single mechanisms take or give, against closed forms; torsion, plastic contacts and adhesions are
 // beside their laws (SelfTests/Species).
 
-namespace pendular {
+namespace pendular::mechanismTest {
 namespace {
 
 using scenes::FewGrains;
@@ -157,4 +157,4 @@ TEST(Mechanism, theAccountClosesUnderEveryIntegrator) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::mechanismTest

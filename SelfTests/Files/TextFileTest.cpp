@@ -13,7 +13,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::textFileTest {
 namespace {
 
 using support::contains;
@@ -177,4 +177,4 @@ TEST(TextReaders, normalsOfFacetsMayBeAnyWord) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::textFileTest

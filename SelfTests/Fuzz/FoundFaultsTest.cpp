@@ -8,7 +8,7 @@
 #include "SelfTests/Fuzz/Target.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::foundFaultsTest {
 namespace {
 
 using support::contains;
@@ -106,4 +106,4 @@ TEST_F(FoundFaultsOfRestart, aTableLargerThanTheFileIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::foundFaultsTest

@@ -23,7 +23,7 @@
     #include <hdf5.h>
 #endif
 
-namespace pendular {
+namespace pendular::hostTest {
 namespace {
 
 using support::contains;
@@ -206,4 +206,4 @@ TEST_F(Sink, isOfAllThreads) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::hostTest

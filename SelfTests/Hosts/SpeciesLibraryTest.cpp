@@ -8,7 +8,7 @@
 #include "Kernel/Simulation/Simulation.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::speciesLibraryTest {
 namespace {
 
 using support::contains;
@@ -113,4 +113,4 @@ TEST(SpeciesType, isRegisteredByACall) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::speciesLibraryTest

@@ -9,7 +9,7 @@
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::arrivalsTest {
 namespace {
 
 using periodic::Smooth;
@@ -313,4 +313,4 @@ TEST(OutletInStrain, endsTheRunWhereItsRegionIsLongerThanThePeriod) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::arrivalsTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::fluxTest {
 namespace {
 
 using Smooth = Species<LinearViscoelastic>;
@@ -281,4 +281,4 @@ TEST(FluxInShear, goesOnFromARestartFile) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::fluxTest

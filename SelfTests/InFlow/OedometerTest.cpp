@@ -9,7 +9,7 @@
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::oedometerTest {
 namespace {
 
 using periodic::Dry;
@@ -223,4 +223,4 @@ TEST(Oedometer, wallsThatTheFlowWouldGoThroughAreRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::oedometerTest

@@ -5,7 +5,7 @@
 #include "SelfTests/Periodic/MovingImages.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::sprayTest {
 namespace {
 
 using Wet = Species<LinearViscoelastic, NoFriction, LiquidMigrationWillett>;
@@ -157,4 +157,4 @@ TEST(SprayInFlow, hasTheSameBits) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sprayTest

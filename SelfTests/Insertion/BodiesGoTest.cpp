@@ -9,7 +9,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::bodiesGoTest {
 namespace {
 
 using scenes::boxMaterial;
@@ -174,4 +174,4 @@ TEST(BodiesGo, superquadricsToo) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bodiesGoTest

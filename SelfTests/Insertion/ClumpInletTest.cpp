@@ -9,7 +9,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::clumpInletTest {
 namespace {
 
 using scenes::ClumpScene;
@@ -353,4 +353,4 @@ TEST(ClumpInlet, refusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::clumpInletTest

@@ -8,7 +8,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::denseBodiesTest {
 namespace {
 
 using scenes::ClumpScene;
@@ -212,4 +212,4 @@ TEST(OrientationOrder, ofRandomAxesIsBelowItsBound) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::denseBodiesTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::flowTest {
 namespace {
 
 using scenes::equalSizes;
@@ -528,4 +528,4 @@ TEST(Outlet, ofAWetPeriodicSceneGoesOnThroughARestart) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::flowTest

@@ -11,7 +11,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::inletTest {
 namespace {
 
 using scenes::equalSizes;
@@ -650,4 +650,4 @@ TEST(Outlet, theMemoryOfASceneThatIsFilledAndEmptiedStaysFlat) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::inletTest

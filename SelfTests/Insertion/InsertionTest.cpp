@@ -11,7 +11,7 @@
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::insertionTest {
 namespace {
 
 using scenes::equalSizes;
@@ -377,4 +377,4 @@ TEST(SphereGrid, knowsWhatAllPairsKnow) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::insertionTest

@@ -14,7 +14,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::regionTest {
 namespace {
 
 using support::contains;
@@ -252,4 +252,4 @@ TEST(Region, refusesNumbersThatMakeNone) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::regionTest

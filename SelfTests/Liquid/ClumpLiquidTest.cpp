@@ -13,7 +13,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::clumpLiquidTest {
 namespace {
 
 using Wet = Species<LinearViscoelastic, SlidingFriction, LiquidMigrationWillett>;
@@ -319,4 +319,4 @@ TEST(ClumpLiquid, overlapsAreEstimatedForItsWeight) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::clumpLiquidTest

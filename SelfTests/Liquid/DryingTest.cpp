@@ -15,7 +15,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::dryingTest {
 namespace {
 
 using support::TestFolder;
@@ -568,4 +568,4 @@ TEST(Drying, refusesBadFields) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dryingTest

@@ -7,7 +7,7 @@
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/AnyMaterial.h"
 
-namespace pendular {
+namespace pendular::farChangeTest {
 namespace {
 
 using scenes::HookedGrains;
@@ -148,4 +148,4 @@ TYPED_TEST(FarFromDryingGrains, grainsThatComeDoNothingOverARestart) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::farChangeTest

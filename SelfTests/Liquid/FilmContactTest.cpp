@@ -16,7 +16,7 @@
 // Viscous bridges that form before a touch, where the films of two bodies meet: of liquid that moves, and of
 // fixed volumes.
 
-namespace pendular {
+namespace pendular::filmContactTest {
 namespace {
 
 using scenes::GrainMotion;
@@ -510,4 +510,4 @@ TEST(FilmContact, refusesWhatIsWrongInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::filmContactTest

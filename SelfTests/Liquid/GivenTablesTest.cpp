@@ -13,7 +13,7 @@
 // All rows of the given tables of independent programs that other tests have only a few numbers of:
 // trajectories of wet collisions, slip and roll along a wall while the gap opens, and bridges that dry.
 
-namespace pendular {
+namespace pendular::givenTablesTest {
 namespace {
 
 using namespace wet;
@@ -165,4 +165,4 @@ TEST(GivenTables, bridgesDryAsGiven) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::givenTablesTest

@@ -15,7 +15,7 @@
 
 // Bridges that are drawn faster than their law's range is made for are counted, and the summary says so.
 
-namespace pendular {
+namespace pendular::largestCapillaryNumberTest {
 namespace {
 
 using support::contains;
@@ -164,4 +164,4 @@ TEST(LargestCapillaryNumber, isInTheSummaryAndGoesOnAfterARestart) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::largestCapillaryNumberTest

@@ -13,7 +13,7 @@
 #include "BuildFolders.h"
 #include "SelfTests/Support/PlainLiquid.h"
 
-namespace pendular {
+namespace pendular::liquidStepTest {
 namespace {
 
 using support::PlainLiquid;
@@ -390,4 +390,4 @@ TEST(LiquidStep, givesTheLiquidOfAContactThatEndsToItsFilms) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::liquidStepTest

@@ -17,7 +17,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::movingLiquidTest {
 namespace {
 
 using scenes::HookedGrains;
@@ -664,4 +664,4 @@ TEST(MovingLiquid, refusesWhatItsLawsCannotHold) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::movingLiquidTest

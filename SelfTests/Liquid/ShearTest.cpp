@@ -11,7 +11,7 @@
 #include "SelfTests/Scenes/ShearedCloud.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::shearTest {
 namespace {
 
 using Moving = Species<HertzianViscoelastic, Mindlin, LiquidMigration<LiquidBridgeWillett>>;
@@ -100,4 +100,4 @@ TEST(LiquidInShear, filmsMeetAcrossTheFaceAsInTheMiddle) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::shearTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::sprayTest {
 namespace {
 
 using Wet = Species<LinearViscoelastic, NoFriction, LiquidMigrationWillett>;
@@ -655,4 +655,4 @@ TEST(Spray, refusesWhatCannotBeCounted) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sprayTest

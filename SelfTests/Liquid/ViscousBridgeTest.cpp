@@ -16,7 +16,7 @@
 // Bridges that resist motion: their coefficients against closed forms and given numbers, and the speeds that
 // scenes lose between two gaps.
 
-namespace pendular {
+namespace pendular::viscousBridgeTest {
 namespace {
 
 using scenes::FewGrains;
@@ -737,4 +737,4 @@ TEST(ViscousBridge, refusesWhatIsWrongInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::viscousBridgeTest

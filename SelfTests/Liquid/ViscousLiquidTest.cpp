@@ -11,7 +11,7 @@
 
 // Viscous bridges whose liquid moves: contacts that have none yet, have lost it, or get it again.
 
-namespace pendular {
+namespace pendular::viscousLiquidTest {
 namespace {
 
 using Wet = Species<LinearViscoelastic, NoFriction, ViscousLiquidMigrationWillett>;
@@ -110,4 +110,4 @@ TEST(ViscousLiquid, aBridgeThatFormsAgainHasNoPast) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::viscousLiquidTest

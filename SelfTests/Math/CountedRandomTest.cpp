@@ -4,7 +4,7 @@
 
 #include "Kernel/Math/CountedRandom.h"
 
-namespace pendular {
+namespace pendular::countedRandomTest {
 namespace {
 
 using Block = CountedRandom::Block;
@@ -44,4 +44,4 @@ TEST(CountedRandom, isEvenAndWithoutCorrelation) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::countedRandomTest

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace pendular {
+namespace pendular::elementaryFunctionsTest {
 namespace {
 
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
@@ -171,4 +171,4 @@ TEST(ElementaryFunctions, giveTheSameBitsOnEveryMachine) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::elementaryFunctionsTest

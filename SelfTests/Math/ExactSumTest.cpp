@@ -7,7 +7,7 @@
 
 #include "Kernel/Math/ExactSum.h"
 
-namespace pendular {
+namespace pendular::exactSumTest {
 namespace {
 
 double sumOf(const std::vector<double>& numbers) {
@@ -71,4 +71,4 @@ TEST(ExactSum, doesNotDependOnTheOrderOrTheParts) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::exactSumTest

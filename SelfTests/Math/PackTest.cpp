@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace pendular {
+namespace pendular::packTest {
 namespace {
 
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
@@ -421,4 +421,4 @@ TEST(Records, gatherColumnTakesOneMemberOfEachRecord) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::packTest

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-namespace pendular {
+namespace pendular::vectorTest {
 namespace {
 
 // Small integers: every result below is exact.
@@ -82,4 +82,4 @@ TEST(Vector, ofPacksGivesTheBitsOfEightVectors) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::vectorTest

@@ -11,7 +11,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::changesTest {
 namespace {
 
 using namespace membraneTests;
@@ -152,4 +152,4 @@ TEST(Membrane, aVertexThatIsNowhereEndsTheRun) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::changesTest

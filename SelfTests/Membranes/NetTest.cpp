@@ -12,7 +12,7 @@
 #include "Kernel/Walls/MembraneNet.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::netTest {
 namespace {
 
 using Point = Vector<double>;
@@ -441,4 +441,4 @@ TEST(MembraneNet, findsTrianglesThatCollapseOrTouch) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::netTest

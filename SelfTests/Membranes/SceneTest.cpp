@@ -10,7 +10,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::sceneTest {
 namespace {
 
 using namespace membraneTests;
@@ -303,4 +303,4 @@ TEST(Membrane, isDrawnAsItIs) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sceneTest

@@ -6,7 +6,7 @@
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::selfContactTest {
 namespace {
 
 using namespace membraneTests;
@@ -65,4 +65,4 @@ TEST(MembraneSelfContact, isNoneOfNeighbours) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::selfContactTest

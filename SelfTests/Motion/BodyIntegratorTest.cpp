@@ -14,7 +14,7 @@
 
 // Rigid bodies with integrators that remember the last step, or move springs in it.
 
-namespace pendular {
+namespace pendular::bodyIntegratorTest {
 namespace {
 
 using scenes::FewGrains;
@@ -230,4 +230,4 @@ TEST(BodyIntegrator, closesTheLedgerThroughJoinsAndBreakage) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bodyIntegratorTest

@@ -16,7 +16,7 @@
 
 // Clumps in scenes: the energy ledger, shear, strain, steps that end where nobody looks, and long runs.
 
-namespace pendular {
+namespace pendular::clumpMotionTest {
 namespace {
 
 using scenes::FewGrains;
@@ -546,4 +546,4 @@ TEST(LongClumpMotion, fusedSpheresDoNotDriftInABoxFor1e6Steps) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::clumpMotionTest

@@ -18,7 +18,7 @@
 // The step that the contacts of a scene stand, against the eigenvalues of their whole stiffness matrix.
 // Against runs: Tools/Studies/AccuracyVersusCost/Tests/ContactBoundInRunsTest.cpp.
 
-namespace pendular {
+namespace pendular::contactBoundTest {
 namespace {
 
 TEST(LargestEigenvalue, isThatOfEigenFromAbove) {
@@ -349,4 +349,4 @@ TEST(ContactBound, countsCoveredFacesOnce) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::contactBoundTest

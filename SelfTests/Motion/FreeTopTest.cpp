@@ -12,7 +12,7 @@
 
 // A body without forces, against Jacobi's solution in elliptic functions.
 
-namespace pendular {
+namespace pendular::freeTopTest {
 namespace {
 
 /// Jacobi's functions of a parameter m = k^2, by descending Landen transformations (Abramowitz and Stegun
@@ -178,4 +178,4 @@ TEST(FreeTop, isTheSameInEachLaneOfAPack) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::freeTopTest

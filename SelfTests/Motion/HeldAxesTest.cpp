@@ -16,7 +16,7 @@
 
 // Grains and rigid bodies that are held along and about some axes of space, or altogether.
 
-namespace pendular {
+namespace pendular::heldAxesTest {
 namespace {
 
 using scenes::FewGrains;
@@ -378,4 +378,4 @@ TEST(HeldAxes, canBeChangedInTheRun) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::heldAxesTest

@@ -12,7 +12,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::integratorTest {
 namespace {
 
 using Linear = Species<LinearViscoelastic>;
@@ -229,4 +229,4 @@ TEST(Integrator, ofARestartFileIsTheSame) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::integratorTest

@@ -18,7 +18,7 @@
 
 // Grains that are joined to rigid bodies: their forces are summed for the body, and it moves as one.
 
-namespace pendular {
+namespace pendular::rigidBodyTest {
 namespace {
 
 using scenes::FewGrains;
@@ -457,4 +457,4 @@ TEST(RigidBody, refusesWhatCannotBeJoined) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::rigidBodyTest

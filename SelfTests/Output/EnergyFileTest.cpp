@@ -10,7 +10,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::energyFileTest {
 namespace {
 
 using support::contentOf;
@@ -109,4 +109,4 @@ TEST(EnergyFile, takesWholeRowsOfEarlierTimesOnly) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::energyFileTest

@@ -19,7 +19,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::hdf5Test {
 namespace {
 
 using support::contentOf;
@@ -250,4 +250,4 @@ TEST_F(Hdf5Fields, thatCannotBeWrittenEndTheRunInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::hdf5Test

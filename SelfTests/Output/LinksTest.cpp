@@ -20,7 +20,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::linksTest {
 namespace {
 
 using support::contains;
@@ -168,4 +168,4 @@ TEST_F(Links, areNotGoneOnWith) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::linksTest

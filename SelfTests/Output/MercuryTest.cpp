@@ -20,7 +20,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::mercuryTest {
 namespace {
 
 using support::TestFolder;
@@ -250,4 +250,4 @@ TEST(Mercury, energiesWithoutALedgerAreRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::mercuryTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::namesTest {
 namespace {
 
 using support::contains;
@@ -72,4 +72,4 @@ TEST(Names, ofColumnsAndFieldsAreWordsAndSoAreTheirUnits) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::namesTest

@@ -12,7 +12,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::outputIntervalTest {
 namespace {
 
 std::vector<std::size_t> dueSteps(double interval, double timeStep, std::size_t end) {
@@ -130,4 +130,4 @@ TEST(OutputInterval, isNoneOrPositive) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::outputIntervalTest

@@ -18,7 +18,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::paraViewTest {
 namespace {
 
 using scenes::FewGrains;
@@ -318,4 +318,4 @@ TEST(ParaView, thatCannotBeWrittenEndsTheRunInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::paraViewTest

@@ -15,7 +15,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::polyDataTest {
 namespace {
 
 using support::contentOf;
@@ -183,4 +183,4 @@ TEST(PolyDataFile, isReadByVtk) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::polyDataTest

@@ -9,7 +9,7 @@
 
 #include "Kernel/Simulation/Progress.h"
 
-namespace pendular {
+namespace pendular::progressTest {
 namespace {
 
 /// Standard error goes to a terminal of so many columns, as long as it lives.
@@ -78,4 +78,4 @@ TEST(Progress, hasNoNegativeTimeLeft) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::progressTest

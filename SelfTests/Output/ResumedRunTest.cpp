@@ -17,7 +17,7 @@
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::resumedRunTest {
 namespace {
 
 using namespace support;
@@ -301,4 +301,4 @@ TEST_F(OutputFiles, mayBeAskedForLater) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::resumedRunTest

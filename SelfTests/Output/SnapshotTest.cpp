@@ -15,7 +15,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "Tools/Snapshot/Compose.h"
 
-namespace pendular {
+namespace pendular::snapshotTest {
 namespace {
 
 using namespace snapshot;
@@ -288,4 +288,4 @@ TEST_F(Snapshot, refusesInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::snapshotTest

@@ -20,7 +20,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::summaryTest {
 namespace {
 
 using support::contains;
@@ -413,4 +413,4 @@ TEST(Summary, refusesAFolderWithoutRuns) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::summaryTest

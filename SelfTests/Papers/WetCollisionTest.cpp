@@ -14,7 +14,7 @@
 #include "SelfTests/Papers/IndependentWetCollision.h"
 #include "SelfTests/Scenes/Collision.h"
 
-namespace pendular {
+namespace pendular::wetCollisionTest {
 namespace {
 
 namespace paper = independent::wetCollisionScene;
@@ -309,4 +309,4 @@ TEST(HeavyWetCollision, energyLedgerClosesWithTheSquareOfTheStep) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::wetCollisionTest

@@ -13,7 +13,7 @@
 #include "SelfTests/Support/CsvRows.h"
 #include "SelfTests/Support/RunProgram.h"
 
-namespace pendular {
+namespace pendular::partialSlipTest {
 namespace {
 
 constexpr int springs = 500;
@@ -259,4 +259,4 @@ TEST(PartialSlipImpact, isMeasured) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::partialSlipTest

@@ -17,7 +17,7 @@
 
 // Clumps: templates of spheres, scaled and turned copies of them, and where they come.
 
-namespace pendular {
+namespace pendular::clumpTest {
 namespace {
 
 using scenes::FewGrains;
@@ -305,4 +305,4 @@ TEST(Clump, isTurnedEvenly) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::clumpTest

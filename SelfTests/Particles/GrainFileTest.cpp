@@ -8,7 +8,7 @@
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::grainFileTest {
 namespace {
 
 using support::contains;
@@ -94,4 +94,4 @@ TEST(GrainFile, readsPublishedStates) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::grainFileTest

@@ -7,7 +7,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::lammpsTest {
 namespace {
 
 using scenes::FewGrains;
@@ -191,4 +191,4 @@ TEST(AddGrains, givesTypesTheirSpecies) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::lammpsTest

@@ -6,7 +6,7 @@
 
 #include "Kernel/Particles/PlaceIndex.h"
 
-namespace pendular {
+namespace pendular::placeIndexTest {
 namespace {
 
 TEST(PlaceIndex, isAMapFromIdentitiesToPlaces) {
@@ -58,4 +58,4 @@ TEST(PlaceIndex, mayBeEmpty) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::placeIndexTest

@@ -7,7 +7,7 @@
 
 #include "Kernel/Particles/Servo.h"
 
-namespace pendular {
+namespace pendular::servoTest {
 namespace {
 
 constexpr double stiffness = 300;
@@ -137,4 +137,4 @@ TEST(Servo, goesAsFastAsIsAllowedWhereNothingResists) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::servoTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::changesInRunTest {
 namespace {
 
 using periodic::againstFlow;
@@ -167,4 +167,4 @@ TEST(ChangesInRun, whatIsRefusedLeavesTheSceneAsItWas) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::changesInRunTest

@@ -8,7 +8,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::emptyAndHeldTest {
 namespace {
 
 using scenes::boxMaterial;
@@ -131,4 +131,4 @@ TEST(HeldGrainInAFlow, isRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::emptyAndHeldTest

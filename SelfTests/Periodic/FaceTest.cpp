@@ -13,7 +13,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::faceTest {
 namespace {
 
 using scenes::boxMaterial;
@@ -176,4 +176,4 @@ TEST(PeriodicLength, hasToBeALength) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::faceTest

@@ -19,7 +19,7 @@
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/ShearOf.h"
 
-namespace pendular {
+namespace pendular::leesEdwardsTest {
 namespace {
 
 using periodic::Dry;
@@ -302,4 +302,4 @@ TEST(LeesEdwards, whatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::leesEdwardsTest

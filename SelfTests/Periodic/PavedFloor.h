@@ -16,7 +16,7 @@
 
 // Grains that roll on a floor through the faces of a periodic scene.
 
-namespace pendular::periodic {
+namespace pendular::periodic::floors {
 
 using scenes::GrainMotion;
 
@@ -141,4 +141,4 @@ std::unique_ptr<ThroughFaces<S>> overWaves(const TriangleWall& wall, bool isPeri
 /// FaceTest.cpp); friction damps what it changes, so a hundred touches add up to less than 1e-8 of 1 m/s.
 constexpr double roundOff = 1e-8;
 
-}  // namespace pendular::periodic
+}  // namespace pendular::periodic::floors

@@ -13,7 +13,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Random.h"
 
-namespace pendular {
+namespace pendular::sceneTest {
 namespace {
 
 using scenes::boxMaterial;
@@ -220,4 +220,4 @@ TEST(PeriodicGas, keepsItsEnergy) { expectEnergyIsKept({0, 0, 0}); }
 TEST(PeriodicGas, keepsItsEnergyInAFieldOfGravity) { expectEnergyIsKept({1, 3, -9.81}); }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sceneTest

@@ -14,7 +14,7 @@
 #include "SelfTests/Support/ShearOf.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::shearControlTest {
 namespace {
 
 using periodic::againstFlow;
@@ -274,4 +274,4 @@ TEST(ShearControl, whatTheGrainsCannotBearEndsTheRun) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::shearControlTest

@@ -7,7 +7,7 @@
 #include "SelfTests/Periodic/PlainShearedSpheres.h"
 #include "SelfTests/Support/Random.h"
 
-namespace pendular {
+namespace pendular::shearedGrainsTest {
 namespace {
 
 /// Grains of density and diameter 1 in a flow of rate 1, from a shaken lattice.
@@ -142,4 +142,4 @@ TEST(ShearedGrains, kineticStressKnowsNoDriftAndNoFlow) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::shearedGrainsTest

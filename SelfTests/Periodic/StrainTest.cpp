@@ -18,7 +18,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::strainTest {
 namespace {
 
 using periodic::againstFlow;
@@ -344,4 +344,4 @@ TEST(Strain, whatTheGrainsCannotBearEndsTheRun) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::strainTest

@@ -11,7 +11,7 @@
 // Which walls a periodic scene takes as they are, those that grains which go through a face see alike on both
 // sides; which meshes it repeats; and which walls it refuses.
 
-namespace pendular::periodic {
+namespace pendular::periodic::wallEndsTest {
 namespace {
 
 using scenes::GrainMotion;
@@ -325,4 +325,4 @@ TEST(WallEnds, aMeshWhoseVerticesMoveAtAFaceIsRepeated) {
 }
 
 }  // namespace
-}  // namespace pendular::periodic
+}  // namespace pendular::periodic::wallEndsTest

@@ -12,7 +12,7 @@
 
 // A mesh that ends anywhere in a periodic scene stands there again after each period.
 
-namespace pendular::periodic {
+namespace pendular::periodic::floors::wallImagesTest {
 namespace {
 
 /// Meshes of one period that begin somewhere, and one of two periods; none of them goes on beyond both faces.
@@ -258,4 +258,4 @@ TEST(WallImages, partsTellTheirImages) {
 }
 
 }  // namespace
-}  // namespace pendular::periodic
+}  // namespace pendular::periodic::floors::wallImagesTest

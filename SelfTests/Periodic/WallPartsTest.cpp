@@ -8,7 +8,7 @@
 
 // Grains go through the faces of a periodic scene on walls of several parts, as on walls of one part.
 
-namespace pendular::periodic {
+namespace pendular::periodic::floors::wallPartsTest {
 namespace {
 
 template <class S>
@@ -210,4 +210,4 @@ TEST(WallParts, mayHaveACrackAtAFace) {
 }
 
 }  // namespace
-}  // namespace pendular::periodic
+}  // namespace pendular::periodic::floors::wallPartsTest

@@ -11,7 +11,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
 
-namespace pendular {
+namespace pendular::chooseBridgeModelTest {
 namespace {
 
 using support::contains;
@@ -106,4 +106,4 @@ TEST(TwoParticleCollisionAdvice, isALineAtSetUpWhereAskedFor) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::chooseBridgeModelTest

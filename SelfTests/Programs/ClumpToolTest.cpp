@@ -14,7 +14,7 @@
 #include "SelfTests/Support/TemporaryFile.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::clumpToolTest {
 namespace {
 
 using support::contentOf;
@@ -163,4 +163,4 @@ TEST(ClumpTool, refusesInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::clumpToolTest

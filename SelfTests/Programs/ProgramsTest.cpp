@@ -17,7 +17,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::programsTest {
 namespace {
 
 using support::contentOf;
@@ -291,4 +291,4 @@ TEST(UserDefinedLaw, runs) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::programsTest

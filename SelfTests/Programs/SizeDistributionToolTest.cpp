@@ -8,7 +8,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::sizeDistributionToolTest {
 namespace {
 
 using support::expectOneSentence;
@@ -80,4 +80,4 @@ TEST(SizeDistributionTool, refusesInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sizeDistributionToolTest

@@ -9,7 +9,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::standardStreamsTest {
 namespace {
 
 using support::contentOf;
@@ -78,4 +78,4 @@ TEST(StandardOutput, thatCannotBeWrittenIsAnError) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::standardStreamsTest

@@ -7,7 +7,7 @@
 
 #include "SelfTests/Restart/ChildRun.h"
 
-namespace pendular {
+namespace pendular::askedToStopTest {
 namespace {
 
 using namespace support;
@@ -340,4 +340,4 @@ TEST_F(AskedToStop, byATableThatCannotGrowSaysSo) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::askedToStopTest

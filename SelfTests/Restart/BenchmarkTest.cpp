@@ -6,7 +6,7 @@
 #include "SelfTests/Scenes/MovingBenchmark.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::benchmarkTest {
 namespace {
 
 class HeavyRestartedBenchmark : public testing::TestWithParam<const char*> {};
@@ -42,4 +42,4 @@ TEST_P(HeavyRestartedBenchmark, isInTheSameState) {
 INSTANTIATE_TEST_SUITE_P(All, HeavyRestartedBenchmark, scenes::benchmarkScenes(), scenes::benchmarkTestName);
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::benchmarkTest

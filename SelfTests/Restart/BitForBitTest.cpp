@@ -21,7 +21,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::bitForBitTest {
 namespace {
 
 using scenes::SettlingBox;
@@ -267,4 +267,4 @@ TEST(Restart, writesTheSameBytesForTheSameState) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bitForBitTest

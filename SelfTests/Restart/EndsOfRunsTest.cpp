@@ -9,7 +9,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::endsOfRunsTest {
 namespace {
 
 using support::contains;
@@ -168,4 +168,4 @@ TEST(Preparation, goesOnFromItsOwnRestartFile) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::endsOfRunsTest

@@ -13,7 +13,7 @@
 
     #include "Kernel/State/Hdf5Library.h"
 
-namespace pendular {
+namespace pendular::foreignPartsTest {
 namespace {
 
 using hdf5::Object;
@@ -105,7 +105,7 @@ TEST_F(ForeignParts, ofAListAreRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::foreignPartsTest
 
 #else
 

@@ -8,7 +8,7 @@
 #include "Kernel/State/RestartFile.h"
 #include "SelfTests/Restart/ChildRun.h"
 
-namespace pendular {
+namespace pendular::killedRunTest {
 namespace {
 
 using namespace support;
@@ -59,4 +59,4 @@ TEST(HeavyKilledRun, leavesAWholeStateThatGoesOnToTheSameOne) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::killedRunTest

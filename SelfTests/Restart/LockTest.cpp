@@ -8,7 +8,7 @@
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::lockTest {
 namespace {
 
 using namespace support;
@@ -172,4 +172,4 @@ TEST(FileThatIsAPipe, isRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::lockTest

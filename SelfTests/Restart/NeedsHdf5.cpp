@@ -3,7 +3,7 @@
 #include "Kernel/State/Hdf5File.h"
 #include "SelfTests/Support/Dependency.h"
 
-namespace pendular {
+namespace pendular::needsHdf5 {
 namespace {
 
 /// Skips all tests of this program in a build that has no restart files.
@@ -18,4 +18,4 @@ public:
 [[maybe_unused]] const auto* const needsHdf5 = testing::AddGlobalTestEnvironment(new NeedsHdf5);
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::needsHdf5

@@ -13,7 +13,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::refusedFileTest {
 namespace {
 
 using scenes::SettlingBox;
@@ -231,4 +231,4 @@ TEST_F(RestartFile, ofAnotherDriverIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::refusedFileTest

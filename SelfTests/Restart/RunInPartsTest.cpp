@@ -12,7 +12,7 @@
 #include "SelfTests/Restart/ChildRun.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::runInPartsTest {
 namespace {
 
 using namespace support;
@@ -411,4 +411,4 @@ TEST_F(RunInParts, inAHookOfTheSameSceneIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::runInPartsTest

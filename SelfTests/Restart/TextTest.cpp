@@ -5,7 +5,7 @@
 #include "BuildFolders.h"
 #include "SelfTests/Restart/ChildRun.h"
 
-namespace pendular {
+namespace pendular::textTest {
 namespace {
 
 /// What follows the line of a name, up to the next name.
@@ -47,4 +47,4 @@ TEST(RestartToText, printsEveryDigitOfEverything) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::textTest

@@ -8,7 +8,7 @@
 #include "Kernel/Species/Laws.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::namedSettersTest {
 namespace {
 
 using support::contains;
@@ -123,4 +123,4 @@ TEST(NamedSetter, thatThereIsNotIsRefusedWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::namedSettersTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::namedSpeciesTest {
 namespace {
 
 using scenes::boxMaterial;
@@ -254,4 +254,4 @@ TEST(SeveralSpecies, grainsKeepTheSpinTheyWereGivenBeforeFrictionWasAdded) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::namedSpeciesTest

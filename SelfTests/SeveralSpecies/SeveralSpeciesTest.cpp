@@ -15,7 +15,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::severalSpeciesTest {
 namespace {
 
 using scenes::boxMaterial;
@@ -384,4 +384,4 @@ TEST(SeveralSpecies, mayBeChangedInARun) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::severalSpeciesTest

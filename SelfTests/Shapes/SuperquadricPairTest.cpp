@@ -10,7 +10,7 @@
 #include "Kernel/Math/EigenConversion.h"
 #include "SelfTests/Support/Random.h"
 
-namespace pendular {
+namespace pendular::superquadricPairTest {
 namespace {
 
 struct Body {
@@ -281,4 +281,4 @@ TEST(SuperquadricPair, boxesAreApartOnlyWhereShapesAre) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::superquadricPairTest

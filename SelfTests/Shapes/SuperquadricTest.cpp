@@ -11,7 +11,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::superquadricTest {
 namespace {
 
 const std::vector<Superquadric> someShapes{{1, 1, 1, 2, 2}, {2, 1, 1, 2, 2},  {1, 2, 3, 2, 2},
@@ -205,4 +205,4 @@ TEST(SuperquadricSupport, givesTheSameBitsForEightAndForOne) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::superquadricTest

@@ -14,7 +14,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::unionOfSpheresTest {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -247,4 +247,4 @@ TEST(UnionOfSpheres, refusesWhatIsNoSphere) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::unionOfSpheresTest

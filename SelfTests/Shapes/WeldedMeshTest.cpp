@@ -9,7 +9,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::weldedMeshTest {
 namespace {
 
 using support::contains;
@@ -135,4 +135,4 @@ TEST(WeldedMesh, ofAMeshThatIsSmallAgainstTheTolerance) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::weldedMeshTest

@@ -7,7 +7,7 @@
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::acceptedOverlapsTest {
 namespace {
 
 using scenes::FewGrains;
@@ -132,4 +132,4 @@ TEST(AcceptedOverlaps, takeUpABedThatHasSettled) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::acceptedOverlapsTest

@@ -23,7 +23,7 @@
 
 // A time step that follows the contacts of the scene.
 
-namespace pendular {
+namespace pendular::adaptiveStepTest {
 namespace {
 
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
@@ -396,4 +396,4 @@ TEST(AdaptiveStep, isRefusedWhereItIsNotKnown) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::adaptiveStepTest

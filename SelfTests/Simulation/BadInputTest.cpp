@@ -12,7 +12,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::badInputTest {
 namespace {
 
 using scenes::FewGrains;
@@ -373,4 +373,4 @@ TEST(BadInput, aSceneThatHasBegunIsNotSolvedAgain) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::badInputTest

@@ -14,7 +14,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::callsInHooksTest {
 namespace {
 
 using support::contains;
@@ -223,4 +223,4 @@ TEST(TableOfARunThatHasEnded, isNotWrittenAnyMore) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::callsInHooksTest

@@ -17,7 +17,7 @@
 #include "SelfTests/Support/AnyMaterial.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::changeInARunTest {
 namespace {
 
 using scenes::endOf;
@@ -611,4 +611,4 @@ TEST(NumberOfAGrain, isAtMost2147483647) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::changeInARunTest

@@ -14,7 +14,7 @@
 
 // Grains that are added, changed and removed during a run.
 
-namespace pendular {
+namespace pendular::comingAndGoingTest {
 namespace {
 
 using scenes::endOf;
@@ -526,4 +526,4 @@ TEST(SceneCheck, looksAtPairsThatCanOccur) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::comingAndGoingTest

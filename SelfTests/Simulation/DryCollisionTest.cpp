@@ -8,7 +8,7 @@
 #include "SelfTests/Scenes/Collision.h"
 #include "SelfTests/Species/Normal/IndependentCollisions.h"
 
-namespace pendular {
+namespace pendular::dryCollisionTest {
 namespace {
 
 using scenes::Approach;
@@ -264,4 +264,4 @@ TEST(DryCollision, linearContactTimeIsThatOfTheDampedOscillator) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dryCollisionTest

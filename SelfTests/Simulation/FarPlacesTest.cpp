@@ -17,7 +17,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::farPlacesTest {
 namespace {
 
 using scenes::FewGrains;
@@ -218,4 +218,4 @@ TEST(FarPlaces, endARunThatComesToThem) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::farPlacesTest

@@ -14,7 +14,7 @@
 // Springs of friction without dashpots, which springs kept half a step ahead would feed: the default
 // integrator moves them in the step. Set-up warns where dashpots are only too weak for the step.
 
-namespace pendular {
+namespace pendular::fedSpringsTest {
 namespace {
 
 using S = Species<LinearViscoelastic, SlidingFriction>;
@@ -131,4 +131,4 @@ TEST(FedSprings, areNotUnderVelocityVerletNorInPairs) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::fedSpringsTest

@@ -5,7 +5,7 @@
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 
-namespace pendular {
+namespace pendular::freeFlightTest {
 namespace {
 
 using scenes::FewGrains;
@@ -163,4 +163,4 @@ TYPED_TEST(FreeFlight, noTimeIsNoStep) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::freeFlightTest

@@ -9,7 +9,7 @@
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 
-namespace pendular {
+namespace pendular::goldenHashTest {
 namespace {
 
 using scenes::SettlingBox;
@@ -112,4 +112,4 @@ TEST(GoldenHash, doesNotDependOnTheThreads) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::goldenHashTest

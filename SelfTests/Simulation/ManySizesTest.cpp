@@ -13,7 +13,7 @@
 #include "SelfTests/Support/ContactKey.h"
 #include "SelfTests/Support/Random.h"
 
-namespace pendular {
+namespace pendular::manySizesTest {
 namespace {
 
 using support::ContactKey;
@@ -199,4 +199,4 @@ TEST(HeavyFreeFlight, ofAMillionGrainsIsAMillionParabolas) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::manySizesTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::massAndForceInARunTest {
 namespace {
 
 using scenes::endOf;
@@ -276,4 +276,4 @@ TEST(WallsOfARun, goOnByWhatTheFileHas) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::massAndForceInARunTest

@@ -9,7 +9,7 @@
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Random.h"
 
-namespace pendular {
+namespace pendular::obliqueCollisionTest {
 namespace {
 
 using scenes::FewGrains;
@@ -284,4 +284,4 @@ TYPED_TEST(ObliqueCollision, wallIsTheLimitOfALargeSphere) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::obliqueCollisionTest

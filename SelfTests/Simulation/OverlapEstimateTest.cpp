@@ -14,7 +14,7 @@
 
 // The overlaps that a scene is about to have, and the step that follows.
 
-namespace pendular {
+namespace pendular::overlapEstimateTest {
 namespace {
 
 using Hertz = Species<HertzianViscoelastic>;
@@ -99,4 +99,4 @@ TEST(OverlapEstimate, refusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::overlapEstimateTest

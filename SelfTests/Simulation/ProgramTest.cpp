@@ -10,7 +10,7 @@
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::programTest {
 namespace {
 
 TEST(UncaughtException, endsAProgramWithItsSentence) {
@@ -83,4 +83,4 @@ TEST(UncaughtException, becomesAnExitCodeInRunProgram) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::programTest

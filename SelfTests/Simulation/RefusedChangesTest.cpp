@@ -9,7 +9,7 @@
 #include "SelfTests/Scenes/HookedGrains.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::refusedChangesTest {
 namespace {
 
 using S = HertzianViscoelasticMindlinSpecies;
@@ -161,4 +161,4 @@ TEST(RefusedChanges, leaveASceneWithAFloorAsItWas) { compare<Falling>(refusedWit
 TEST(RefusedChanges, leaveAStrainedSceneAsItWas) { compare<Strained>(refusedInStrain); }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::refusedChangesTest

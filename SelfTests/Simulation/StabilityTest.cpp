@@ -16,7 +16,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::stabilityTest {
 namespace {
 
 using scenes::FewGrains;
@@ -196,4 +196,4 @@ TYPED_TEST(StabilityOfABed, stopsFarAboveIt) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::stabilityTest

@@ -13,7 +13,7 @@
 // Grains that come and go all the time, far from those at rest: no list is needed for them, and places are
 // used again.
 
-namespace pendular {
+namespace pendular::steadyFlowTest {
 namespace {
 
 using Rough = Species<HertzianViscoelastic, Mindlin>;
@@ -194,4 +194,4 @@ TEST(SteadyFlow, whatBeginsToMoveInARunHasItsWeightAtOnce) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::steadyFlowTest

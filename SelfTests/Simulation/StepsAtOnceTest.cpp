@@ -14,7 +14,7 @@
 
 // The end of a step may be done together with the start of the next. No bit may show it, whoever looks when.
 
-namespace pendular {
+namespace pendular::stepsAtOnceTest {
 namespace {
 
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
@@ -142,4 +142,4 @@ TYPED_TEST(StepsAtOnce, endWithWholeOnes) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::stepsAtOnceTest

@@ -13,7 +13,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::stoppedRunTest {
 namespace {
 
 using scenes::FewGrains;
@@ -238,4 +238,4 @@ TEST(LastState, isNotWrittenByARunThatEnds) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::stoppedRunTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Species/Normal/IndependentCollisions.h"
 
-namespace pendular {
+namespace pendular::timeStepAdviceTest {
 namespace {
 
 using scenes::FewGrains;
@@ -224,4 +224,4 @@ TEST(TimeStepAdvice, ofASceneKnowsEverySpecies) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::timeStepAdviceTest

@@ -17,7 +17,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/SharedData.h"
 
-namespace pendular {
+namespace pendular::sizeDistributionTest {
 namespace {
 
 using support::contains;
@@ -281,4 +281,4 @@ TEST(SizeLaws, refuseInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sizeDistributionTest

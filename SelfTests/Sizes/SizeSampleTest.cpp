@@ -10,7 +10,7 @@
 #include "Kernel/Sizes/SizeTable.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::sizeSampleTest {
 namespace {
 
 using support::contains;
@@ -165,4 +165,4 @@ TEST(SizeSample, refusesFewGrainsForAWideDistribution) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sizeSampleTest

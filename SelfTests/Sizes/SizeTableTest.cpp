@@ -8,7 +8,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::sizeTableTest {
 namespace {
 
 using support::contains;
@@ -121,4 +121,4 @@ TEST(SizeTable, readsAMillionRows) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sizeTableTest

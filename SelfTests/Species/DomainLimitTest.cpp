@@ -5,7 +5,7 @@
 #include "Kernel/Species/DomainLimit.h"
 #include "Kernel/Species/Laws.h"
 
-namespace pendular {
+namespace pendular::domainLimitTest {
 namespace {
 
 /// A number as the texts of domains have it: "0.001", and "1e-4" where fmt gives "0.0001" or "1e-04".
@@ -98,4 +98,4 @@ TEST(DomainLimit, ofHertzIsWhereAParabolaIsASphereToThreePerCent) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::domainLimitTest

@@ -12,7 +12,7 @@
 
 // A law gives the same bits on T = double and T = Pack: what is tested in double is what the kernel computes.
 
-namespace pendular {
+namespace pendular::doubleAndPackTest {
 namespace {
 
 using support::Draw;
@@ -240,4 +240,4 @@ TEST(DoubleAndPack, bridgesGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::doubleAndPackTest

@@ -11,7 +11,7 @@
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::fieldTest {
 namespace {
 
 using support::contains;
@@ -392,4 +392,4 @@ TEST(Field, linearHelpersCheckWhatTheyAreGiven) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::fieldTest

@@ -11,7 +11,7 @@
 #include "SelfTests/Support/RandomLaw.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::mixingTest {
 namespace {
 
 using support::contains;
@@ -255,4 +255,4 @@ TEST(Mixing, slidingDissipationOfALinearSpeciesIsTheUsersTask) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::mixingTest

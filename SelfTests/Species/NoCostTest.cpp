@@ -10,7 +10,7 @@
 
 // A scene pays, in time and in memory, only for the physics in it.
 
-namespace pendular {
+namespace pendular::noCostTest {
 namespace {
 
 using Dry = Species<HertzianViscoelastic>;
@@ -135,4 +135,4 @@ TEST(NoCost, everySpeciesHasTheMemoryOfItsLawsAndNoMore) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::noCostTest

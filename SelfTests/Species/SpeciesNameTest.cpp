@@ -8,7 +8,7 @@
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::speciesNameTest {
 namespace {
 
 using support::contains;
@@ -40,7 +40,7 @@ static_assert(std::is_same_v<LinearViscoelasticLiquidBridgeWilletSpecies,
                              Species<LinearViscoelastic, NoFriction, LiquidBridgeWillett>>);
 
 TEST(SpeciesName, isTheConcatenationOfTheLawsNames) {
-    forEachSpecies([]<class S>() {
+    support::forSpeciesWithEveryLaw([]<class S>() {
         const std::string expected = std::string(S::Normal::name) + std::string(S::Friction::name) +
                                      std::string(S::Adhesion::name) + "Species";
         EXPECT_EQ(S::name, expected);
@@ -250,4 +250,4 @@ TEST(SpeciesName, aBrokenAdhesionLawIsNone) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::speciesNameTest

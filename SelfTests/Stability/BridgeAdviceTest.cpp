@@ -11,7 +11,7 @@
 
 // The advice that a driver can ask for: the bridges are those of its scene, and nothing else changes.
 
-namespace pendular {
+namespace pendular::bridgeAdviceTest {
 namespace {
 
 using Wet = Species<LinearViscoelastic, NoFriction, LiquidBridgeWillett>;
@@ -129,4 +129,4 @@ TEST(BridgeAdvice, changesNothing) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeAdviceTest

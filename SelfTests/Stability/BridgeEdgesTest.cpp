@@ -15,7 +15,7 @@
 // Each bridge law at and beyond the edges of its domain: set-up refuses it with one sentence, or its force in
 // the kernel is finite, continuous from contact to rupture, not absurd, and nothing beyond.
 
-namespace pendular {
+namespace pendular::bridgeEdgesTest {
 namespace {
 
 using support::bridge;
@@ -294,4 +294,4 @@ TEST(BridgeEdges, whatServesTheExtremesOfSizesServesAllBetween) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeEdgesTest

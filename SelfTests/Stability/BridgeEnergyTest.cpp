@@ -13,7 +13,7 @@
 // or does nothing there (in equilibrium), and pulls farther away. While it lasts the pair is an oscillator
 // without loss. When it forms and when it ruptures energy changes by its work, by design.
 
-namespace pendular {
+namespace pendular::bridgeEnergyTest {
 namespace {
 
 using scenes::Approach;
@@ -184,4 +184,4 @@ TEST(BridgeEnergy, aCollisionLosesTheWorkOfTheBridge) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeEnergyTest

@@ -7,7 +7,7 @@
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 
-namespace pendular {
+namespace pendular::inclinedPlaneTest {
 namespace {
 
 constexpr double friction = 0.3, radius = 1e-3, pull = 9.8;  // -, m, m/s^2
@@ -78,4 +78,4 @@ TEST(InclinedPlane, aBodyAboveTheLimitSlidesAsCoulombSays) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::inclinedPlaneTest

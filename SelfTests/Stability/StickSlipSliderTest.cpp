@@ -9,7 +9,7 @@
 
 #include "Kernel/Species/Friction/SlidingFriction.h"
 
-namespace pendular {
+namespace pendular::stickSlipSliderTest {
 namespace {
 
 // A slider of mass m on a belt under the load N, held by a spring K that is pulled with a small speed V. It
@@ -66,4 +66,4 @@ TEST(StickSlipSlider, slipsAsTheClosedFormSays) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::stickSlipSliderTest

@@ -19,7 +19,7 @@
 #include "SelfTests/Support/AnyMaterial.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::conflictsTest {
 namespace {
 
 using Wet = HertzianViscoelasticMindlinLiquidMigrationWillettSpecies;
@@ -289,4 +289,4 @@ TEST(Conflicts, areThoseOfThePage) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::conflictsTest

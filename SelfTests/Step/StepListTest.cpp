@@ -13,7 +13,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::stepListTest {
 namespace {
 
 using S = LinearViscoelasticSlidingFrictionSpecies;
@@ -215,4 +215,4 @@ TEST(OwnPart, hasItsRowInTheSummary) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::stepListTest

@@ -10,7 +10,7 @@
 
 #include "BuildFolders.h"
 
-namespace pendular {
+namespace pendular::floorsTest {
 namespace {
 
 const std::filesystem::path kernel = folders::source / "Kernel";
@@ -75,4 +75,4 @@ TEST(Floors, headersOfOutputsOnlyNameTheScene) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::floorsTest

@@ -10,7 +10,7 @@
 
 // Superquadrics in files and pictures, and what their contacts are at most.
 
-namespace pendular {
+namespace pendular::shapeFieldsTest {
 namespace {
 
 using scenes::FewSuperquadrics;
@@ -104,4 +104,4 @@ TEST(ShapeFields, areInFilesAndPictures) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::shapeFieldsTest

@@ -21,7 +21,7 @@
 
 // Superquadrics as grains of a scene: their contacts, motion, restart.
 
-namespace pendular {
+namespace pendular::superquadricSceneTest {
 namespace {
 
 using scenes::FewGrains;
@@ -438,4 +438,4 @@ TEST(SuperquadricScene, goesOnWithoutGrains) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::superquadricSceneTest

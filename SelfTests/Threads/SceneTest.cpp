@@ -6,7 +6,7 @@
 #include "SelfTests/Scenes/MovingBenchmark.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::sceneTest {
 namespace {
 
 using scenes::BenchmarkChoice;
@@ -35,4 +35,4 @@ TEST_P(HeavyBenchmarkScene, hasTheSameBitsForAnyNumberOfThreads) {
 INSTANTIATE_TEST_SUITE_P(All, HeavyBenchmarkScene, scenes::benchmarkScenes(), scenes::benchmarkTestName);
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sceneTest

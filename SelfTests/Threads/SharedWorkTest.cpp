@@ -12,7 +12,7 @@
 
 // How work is shared by threads.
 
-namespace pendular {
+namespace pendular::sharedWorkTest {
 namespace {
 
 void expectEachOnce(std::size_t count, int threads, std::size_t least) {
@@ -97,4 +97,4 @@ TEST(Threads, thatOutnumberTheProcessorsDoNotCollapse) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::sharedWorkTest

@@ -10,7 +10,7 @@
 // A belt, whose surface runs while its shape stays, drags grains along and never pushes them: it cannot, as
 // nothing of it comes nearer. So its velocity along the normal is left out, of each wall at each point.
 
-namespace pendular::wallTests {
+namespace pendular::wallTests::beltTest {
 namespace {
 
 using scenes::GrainMotion;
@@ -180,4 +180,4 @@ TEST(Belt, givesByFrictionWhatTheLedgerSays) {
 }
 
 }  // namespace
-}  // namespace pendular::wallTests
+}  // namespace pendular::wallTests::beltTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::driveInRunTest {
 namespace {
 
 using scenes::FewGrains;
@@ -216,4 +216,4 @@ TEST(DriveInRun, ofTwoPistonsTheOneThatIsTooLightIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::driveInRunTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Walls/WallScene.h"
 
-namespace pendular {
+namespace pendular::forceTest {
 namespace {
 
 using namespace wallTests;
@@ -128,4 +128,4 @@ TEST(WallForceFile, hasARowForEachWall) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::forceTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::intersectionOfHalfSpacesTest {
 namespace {
 
 const Vec3D origin(0, 0, 0);
@@ -132,4 +132,4 @@ TEST(IntersectionOfHalfSpaces, wrongPlanesAreRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::intersectionOfHalfSpacesTest

@@ -5,7 +5,7 @@
 #include "SelfTests/Support/EveryLaw.h"
 #include "SelfTests/Walls/WallScene.h"
 
-namespace pendular {
+namespace pendular::largeSphereTest {
 namespace {
 
 using namespace wallTests;
@@ -63,4 +63,4 @@ TEST(LargeSphere, ofAThousandRadiiIsAlmostAWallForAllLaws) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::largeSphereTest

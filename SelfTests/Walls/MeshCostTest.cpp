@@ -8,7 +8,7 @@
 #include "Kernel/Walls/InfiniteWall.h"
 #include "SelfTests/Walls/WallScene.h"
 
-namespace pendular {
+namespace pendular::meshCostTest {
 namespace {
 
 using namespace wallTests;
@@ -112,4 +112,4 @@ TEST(MeshCost, ofAWavyMeshIsThatOfThePartsAroundAGrain) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::meshCostTest

@@ -11,7 +11,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::meshFormatsTest {
 namespace {
 
 using support::contains;
@@ -299,4 +299,4 @@ TEST(MeshFormats, costNoMoreThanTheirSize) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::meshFormatsTest

@@ -11,7 +11,7 @@
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Walls/WallScene.h"
 
-namespace pendular {
+namespace pendular::meshTest {
 namespace {
 
 using namespace wallTests;
@@ -373,4 +373,4 @@ TEST(Tunnel, aGrainThatIsThrownBackIsNot) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::meshTest

@@ -9,7 +9,7 @@
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Walls/WallScene.h"
 
-namespace pendular {
+namespace pendular::motionTest {
 namespace {
 
 using namespace wallTests;
@@ -331,4 +331,4 @@ TEST(Motion, aDrumCarriesGrainsUp) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::motionTest

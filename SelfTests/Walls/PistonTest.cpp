@@ -15,7 +15,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::pistonTest {
 namespace {
 
 using scenes::FewGrains;
@@ -496,4 +496,4 @@ TEST(Piston, canBeStoppedAndLetGoAgain) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::pistonTest

@@ -9,7 +9,7 @@
 
 // A plane at rest gives its points to eight grains at once; every other wall to one grain after the other.
 
-namespace pendular::wallTests {
+namespace pendular::wallTests::planeTest {
 namespace {
 
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
@@ -124,4 +124,4 @@ TEST(Plane, hasANormalOfAnyLength) {
 }
 
 }  // namespace
-}  // namespace pendular::wallTests
+}  // namespace pendular::wallTests::planeTest

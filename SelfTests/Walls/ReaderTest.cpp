@@ -11,7 +11,7 @@
 #include "SelfTests/Support/SharedData.h"
 #include "SelfTests/Support/TemporaryFile.h"
 
-namespace pendular {
+namespace pendular::readerTest {
 namespace {
 
 using support::contains;
@@ -173,4 +173,4 @@ TEST(Readers, damagedFilesNeverDoMoreThanRefuse) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::readerTest

@@ -9,7 +9,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Walls/SeamScene.h"
 
-namespace pendular {
+namespace pendular::seamRunTest {
 namespace {
 
 using namespace wallTests;
@@ -287,4 +287,4 @@ TEST(SeamRun, ofTwoMaterialsTheNearestCounts) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::seamRunTest

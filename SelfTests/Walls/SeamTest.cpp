@@ -9,7 +9,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/SeamScene.h"
 
-namespace pendular {
+namespace pendular::seamTest {
 namespace {
 
 using namespace wallTests;
@@ -424,4 +424,4 @@ TEST(Seam, ofAFinelyCutCavityIsNone) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::seamTest

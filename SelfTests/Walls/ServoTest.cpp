@@ -9,7 +9,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::servoTest {
 namespace {
 
 using scenes::FewGrains;
@@ -145,4 +145,4 @@ TEST(HeavyServoWall, bringsABedToItsPressure) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::servoTest

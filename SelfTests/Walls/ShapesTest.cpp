@@ -7,7 +7,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/WallScene.h"
 
-namespace pendular {
+namespace pendular::shapesTest {
 namespace {
 
 using namespace wallTests;
@@ -250,4 +250,4 @@ TEST(Shapes, areRefusedBeforeTheyAreSet) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::shapesTest

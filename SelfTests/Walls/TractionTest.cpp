@@ -5,7 +5,7 @@
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 
-namespace pendular {
+namespace pendular::tractionTest {
 namespace {
 
 using Linear = Species<LinearViscoelastic>;
@@ -71,4 +71,4 @@ TEST(Traction, ofWallsAndPistonIsTheMeanStress) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::tractionTest

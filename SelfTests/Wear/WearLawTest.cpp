@@ -9,7 +9,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Wear/WearScene.h"
 
-namespace pendular {
+namespace pendular::wearLawTest {
 namespace {
 
 using namespace wearTests;
@@ -98,4 +98,4 @@ TEST(Wear, isRefusedWhereItCannotBeKept) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::wearLawTest

@@ -6,7 +6,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Wear/WearScene.h"
 
-namespace pendular {
+namespace pendular::wearTest {
 namespace {
 
 using namespace wearTests;
@@ -313,4 +313,4 @@ TEST(Wear, isDrawnForEachTriangle) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::wearTest

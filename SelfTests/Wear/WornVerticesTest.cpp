@@ -8,7 +8,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Wear/WearScene.h"
 
-namespace pendular::wearTests {
+namespace pendular::wearTests::wornVerticesTest {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -264,4 +264,4 @@ TEST(WornVertices, endARunThatWearsThemFromBehind) {
 }
 
 }  // namespace
-}  // namespace pendular::wearTests
+}  // namespace pendular::wearTests::wornVerticesTest

@@ -18,7 +18,7 @@
 
 // The four phases of a wet collision between two bodies with films.
 
-namespace pendular {
+namespace pendular::liquidFilmsTest {
 namespace {
 
 using scenes::cloudOfGrains;
@@ -339,4 +339,4 @@ TEST(LiquidFilms, refusesWhatIsNoFilm) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::liquidFilmsTest

@@ -11,7 +11,7 @@
 // A wet wall that is a mesh: grains that hit it where its triangles and parts meet collide as with a plane,
 // by one contact.
 
-namespace pendular {
+namespace pendular::wetMeshTest {
 namespace {
 
 using scenes::WetWallCase;
@@ -135,4 +135,4 @@ TEST(WetMesh, aCollisionAcrossASharedEdgeIsThatWithAPlane) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::wetMeshTest

@@ -16,7 +16,7 @@
 // Wet particle-wall collisions, against independent integrations of the same equations with located phases
 // (of five digits), and against numbers of the paper's text.
 
-namespace pendular {
+namespace pendular::wetWallTest {
 namespace {
 
 using scenes::WetWallCase;
@@ -388,4 +388,4 @@ TEST(WetWall, refusesWhatIsNoLayer) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::wetWallTest

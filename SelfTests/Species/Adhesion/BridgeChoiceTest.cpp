@@ -19,7 +19,7 @@
 
 // Which bridge law is advised, on choices made by hand and on the laws of the kernel.
 
-namespace pendular {
+namespace pendular::bridgeChoiceTest {
 namespace {
 
 BridgeChoice choice(std::string_view law, double cost, double error, std::size_t refused = 0) {
@@ -320,4 +320,4 @@ TEST(BridgeChoice, tellsInOneSentence) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeChoiceTest

@@ -10,7 +10,7 @@
 // What judges the bridge laws, against laws whose error is known: the exact force times a number, with a
 // rupture distance times another.
 
-namespace pendular {
+namespace pendular::bridgeErrorTest {
 namespace {
 
 using std::numbers::pi;
@@ -181,4 +181,4 @@ TEST(BridgeError, ofTheTableIsThatOfItsReadme) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeErrorTest

@@ -8,7 +8,7 @@
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/EveryLaw.h"
 
-namespace pendular {
+namespace pendular::bridgeForceTest {
 namespace {
 
 using support::Draw;
@@ -282,4 +282,4 @@ TEST(BridgeForce, withoutLiquidThereIsNone) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeForceTest

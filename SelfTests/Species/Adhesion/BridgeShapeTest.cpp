@@ -10,7 +10,7 @@
 
 // The shape of F(S) over all angles and volumes, and at the edges where the published fits fail.
 
-namespace pendular {
+namespace pendular::bridgeShapeTest {
 namespace {
 
 using support::bridge;
@@ -221,4 +221,4 @@ TEST(BridgeShape, bagheriAttractsAndIsPositiveWhereAccepted) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeShapeTest

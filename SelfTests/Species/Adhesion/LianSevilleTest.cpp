@@ -11,7 +11,7 @@
 // The closed form of Lian and Seville (2016), whose paper was not at hand: against another program that has
 // it, and against the exact solution, which its coefficients were fitted to.
 
-namespace pendular {
+namespace pendular::lianSevilleTest {
 namespace {
 
 using namespace bridge_models;
@@ -97,4 +97,4 @@ TEST(LianSeville, objectsInOneSentenceWhereItCannotServe) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::lianSevilleTest

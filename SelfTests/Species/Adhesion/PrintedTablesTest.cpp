@@ -13,7 +13,7 @@
 // figures have two to four digits. Models A to E are Lian, Pietsch and Rumpf, Willett (classical), Rabinovich
 // and Mikami.
 
-namespace pendular {
+namespace pendular::printedTablesTest {
 namespace {
 
 using std::numbers::pi;
@@ -261,4 +261,4 @@ TEST(PrintedTables, nineHasTheForceAtTheNeckUnderTheHeadingModelC) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::printedTablesTest

@@ -13,7 +13,7 @@
 
 // The published models against what their papers say, and against the exact solution.
 
-namespace pendular {
+namespace pendular::publishedBridgesTest {
 namespace {
 
 using std::numbers::pi;
@@ -216,4 +216,4 @@ TEST(PublishedBridges, objectInOneSentenceWhereTheyCannotServe) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::publishedBridgesTest

@@ -13,7 +13,7 @@
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::solidAdhesionTest {
 namespace {
 
 using support::Draw;
@@ -165,4 +165,4 @@ TEST(AdhesionRamp, fallsLinearlyToZeroAtItsRange) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::solidAdhesionTest

@@ -12,7 +12,7 @@
 
 // Whole collisions of grains that stick, against the energies that their laws store and lose.
 
-namespace pendular {
+namespace pendular::stickyCollisionTest {
 namespace {
 
 using scenes::Approach;
@@ -210,4 +210,4 @@ TEST(StickyCollision, strongDampingStaysFiniteAtVanishingOverlap) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::stickyCollisionTest

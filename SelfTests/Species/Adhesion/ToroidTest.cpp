@@ -10,7 +10,7 @@
 // Bridges whose meridian is taken for an arc of a circle: geometry against quadrature, and the published
 // forms of the same formulas against each other.
 
-namespace pendular {
+namespace pendular::toroidTest {
 namespace {
 
 using std::numbers::pi;
@@ -96,4 +96,4 @@ TEST(Toroid, volumeIsTheIntegralOfItsMeridian) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::toroidTest

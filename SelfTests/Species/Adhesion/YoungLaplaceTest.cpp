@@ -11,7 +11,7 @@
 // The exact law in SI units. How near its table is to the solver is tested with the table, in
 // SelfTests/Capillary.
 
-namespace pendular {
+namespace pendular::youngLaplaceTest {
 namespace {
 
 using std::numbers::pi;
@@ -187,4 +187,4 @@ TEST(YoungLaplace, tendsToDerjaguinsForceForSmallVolumes) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::youngLaplaceTest

@@ -1,6 +1,6 @@
 #include "SelfTests/Species/Composition/Composition.h"
 
-namespace pendular::composition {
+namespace pendular::composition::hertzianBSHPViscoelasticTest {
 namespace {
 
 TEST(Composition, HertzianBSHPViscoelasticWithEachOfTheOthers) {
@@ -15,4 +15,4 @@ TEST(Composition, HertzianBSHPViscoelasticInWholeSimulations) {
 }
 
 }  // namespace
-}  // namespace pendular::composition
+}  // namespace pendular::composition::hertzianBSHPViscoelasticTest

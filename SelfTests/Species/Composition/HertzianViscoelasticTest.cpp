@@ -1,6 +1,6 @@
 #include "SelfTests/Species/Composition/Composition.h"
 
-namespace pendular::composition {
+namespace pendular::composition::hertzianViscoelasticTest {
 namespace {
 
 TEST(Composition, HertzianViscoelasticWithEachOfTheOthers) {
@@ -15,4 +15,4 @@ TEST(Composition, HertzianViscoelasticInWholeSimulations) {
 }
 
 }  // namespace
-}  // namespace pendular::composition
+}  // namespace pendular::composition::hertzianViscoelasticTest

@@ -1,6 +1,6 @@
 #include "SelfTests/Species/Composition/Composition.h"
 
-namespace pendular::composition {
+namespace pendular::composition::linearPlasticViscoelasticTest {
 namespace {
 
 TEST(Composition, LinearPlasticViscoelasticWithEachOfTheOthers) {
@@ -15,4 +15,4 @@ TEST(Composition, LinearPlasticViscoelasticInWholeSimulations) {
 }
 
 }  // namespace
-}  // namespace pendular::composition
+}  // namespace pendular::composition::linearPlasticViscoelasticTest

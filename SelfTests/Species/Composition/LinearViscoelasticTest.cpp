@@ -1,6 +1,6 @@
 #include "SelfTests/Species/Composition/Composition.h"
 
-namespace pendular::composition {
+namespace pendular::composition::linearViscoelasticTest {
 namespace {
 
 TEST(Composition, LinearViscoelasticWithEachOfTheOthers) {
@@ -15,4 +15,4 @@ TEST(Composition, LinearViscoelasticInWholeSimulations) {
 }
 
 }  // namespace
-}  // namespace pendular::composition
+}  // namespace pendular::composition::linearViscoelasticTest

@@ -10,7 +10,7 @@
 #include "Kernel/Species/Friction/MindlinSecant.h"
 #include "SelfTests/Support/Draw.h"
 
-namespace pendular {
+namespace pendular::reducedProfileTest {
 namespace {
 
 using support::Draw;
@@ -227,4 +227,4 @@ TEST(ReducedProfile, ofOneSpringIsTheSpringAndSlider) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::reducedProfileTest

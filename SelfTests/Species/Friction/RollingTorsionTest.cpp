@@ -11,7 +11,7 @@
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::rollingTorsionTest {
 namespace {
 
 using scenes::FewGrains;
@@ -181,4 +181,4 @@ TEST(RollingTorsion, aCoefficientWithoutASpringIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::rollingTorsionTest

@@ -3,7 +3,7 @@
 #include "Kernel/Species/Friction/MindlinSecant.h"
 #include "Kernel/Species/Friction/SlidingFriction.h"
 
-namespace pendular {
+namespace pendular::stickSlipTest {
 namespace {
 
 constexpr double stiffness = 1000, dynamicCoefficient = 0.4, ratio = 1.5, load = 2;  // N/m; N
@@ -85,4 +85,4 @@ TEST(MindlinSecant, forceDependsOnTheWholeWayOnly) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::stickSlipTest

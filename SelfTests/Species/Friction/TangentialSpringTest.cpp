@@ -8,7 +8,7 @@
 #include "Kernel/Species/Friction/Shared/TangentialSpring.h"
 #include "SelfTests/Support/Draw.h"
 
-namespace pendular {
+namespace pendular::tangentialSpringTest {
 namespace {
 
 using support::Draw;
@@ -146,4 +146,4 @@ TEST(TangentialSpring, turnsAlikeFromBothBodies) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::tangentialSpringTest

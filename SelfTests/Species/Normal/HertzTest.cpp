@@ -11,7 +11,7 @@
 #include "SelfTests/Support/RandomLaw.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::hertzTest {
 namespace {
 
 using support::Draw;
@@ -219,4 +219,4 @@ TEST(Normal, hertzTellsItsCollisionTimeAndRestitution) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::hertzTest

@@ -13,7 +13,7 @@
 #include "SelfTests/Support/Draw.h"
 #include "SelfTests/Support/Refusal.h"
 
-namespace pendular {
+namespace pendular::plasticTest {
 namespace {
 
 using scenes::Approach;
@@ -217,4 +217,4 @@ TEST(LinearPlastic, unloadingSofterThanLoadingIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::plasticTest

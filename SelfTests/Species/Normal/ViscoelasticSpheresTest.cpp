@@ -7,7 +7,7 @@
 #include "Kernel/Species/TimeStepAdvice.h"
 #include "SelfTests/Species/Normal/LawCollision.h"
 
-namespace pendular {
+namespace pendular::viscoelasticSpheresTest {
 namespace {
 
 constexpr double modulus = 1e7, radius = 5e-4, mass = 2e-6, speed = 0.3;  // E*, R*, m* in SI units
@@ -67,4 +67,4 @@ TEST(ViscoelasticSpheres, tsujiDampingIsThatOfTheRestitution) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::viscoelasticSpheresTest

@@ -6,7 +6,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Walls/Bodies/BodyScene.h"
 
-namespace pendular::bodyTests {
+namespace pendular::bodyTests::bodyInBedTest {
 namespace {
 
 /// A stirrer with a torque, a slab that slides, and a box that moves freely, in a bed that settles.
@@ -212,4 +212,4 @@ TEST(WallBody, hasTheSameBitsForAnyThreadsAndThroughRestarts) {
 }
 
 }  // namespace
-}  // namespace pendular::bodyTests
+}  // namespace pendular::bodyTests::bodyInBedTest

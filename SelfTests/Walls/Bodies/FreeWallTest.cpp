@@ -7,7 +7,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/Bodies/BodyScene.h"
 
-namespace pendular::bodyTests {
+namespace pendular::bodyTests::freeWallTest {
 namespace {
 
 using support::contains;
@@ -281,4 +281,4 @@ TEST(WallBody, aStepThatFailsIsTakenBack) {
 }
 
 }  // namespace
-}  // namespace pendular::bodyTests
+}  // namespace pendular::bodyTests::freeWallTest

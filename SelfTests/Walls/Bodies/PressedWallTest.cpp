@@ -7,7 +7,7 @@
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Walls/Bodies/BodyScene.h"
 
-namespace pendular::bodyTests {
+namespace pendular::bodyTests::pressedWallTest {
 namespace {
 
 using support::contains;
@@ -212,4 +212,4 @@ TEST(WallBody, tooLightIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular::bodyTests
+}  // namespace pendular::bodyTests::pressedWallTest

@@ -6,7 +6,7 @@
 #include "Tools/Studies/AccuracyVersusCost/PouredBed.h"
 #include "Tools/Studies/AccuracyVersusCost/RibbedDrum.h"
 
-namespace pendular::bulk {
+namespace pendular::bulk::bulkFiguresTest {
 namespace {
 
 using Smooth = LinearViscoelasticSpecies;
@@ -144,4 +144,4 @@ TEST(HeavyRibbedDrum, isTurnedBackByTheWeight) {
 }
 
 }  // namespace
-}  // namespace pendular::bulk
+}  // namespace pendular::bulk::bulkFiguresTest

@@ -9,7 +9,7 @@
 
 // The step that the contacts of a scene stand (SelfTests/Motion/ContactBoundTest.cpp), against runs.
 
-namespace pendular {
+namespace pendular::contactBoundInRunsTest {
 namespace {
 
 // In the crystal the bound is exact where each motion has a spring of one kind: layers that shift, 8 k / m
@@ -47,4 +47,4 @@ TEST(ContactBound, isStableInRunsAndNearTheCriticalStep) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::contactBoundInRunsTest

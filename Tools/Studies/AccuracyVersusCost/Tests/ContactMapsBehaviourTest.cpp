@@ -8,7 +8,7 @@
 
 // What a contact does where its law is at its end: limits and refusals.
 
-namespace pendular {
+namespace pendular::contactMapsBehaviourTest {
 namespace {
 
 template <class S>
@@ -165,4 +165,4 @@ TEST(ContactMaps, restitutionsThatALawCannotHaveAreRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::contactMapsBehaviourTest

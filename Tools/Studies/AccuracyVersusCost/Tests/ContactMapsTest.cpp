@@ -13,7 +13,7 @@
 
 // The tables of Tools/Studies/accuracy-versus-cost --contact-maps beside closed forms, law by law.
 
-namespace pendular {
+namespace pendular::contactMapsTest {
 namespace {
 
 using support::Row;
@@ -207,4 +207,4 @@ TEST_F(HeavyContactMaps, steelYieldsAtJohnsonsSpeed) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::contactMapsTest

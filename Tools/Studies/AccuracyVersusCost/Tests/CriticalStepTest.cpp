@@ -6,7 +6,7 @@
 #include "SelfTests/Support/EveryLaw.h"
 #include "Tools/Studies/AccuracyVersusCost/CriticalStep.h"
 
-namespace pendular {
+namespace pendular::criticalStepTest {
 namespace {
 
 // Every scene is held together by an attraction that does not change with the overlap, so that all contacts
@@ -150,4 +150,4 @@ TEST(HeavyCriticalStep, isAboveTheAdviceForAttractionsOfEachKind) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::criticalStepTest

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pendular {
+namespace pendular::failureMapTest {
 namespace {
 
 TEST(FailureMap, regionIsThatOfTheWorstThatHappens) {
@@ -46,4 +46,4 @@ TEST(FailureMap, ofWillettsFormIsGoodOnlyForSmallWettingBridges) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::failureMapTest

@@ -14,7 +14,7 @@
 // Beds whose friction has no dashpots, which the default integrator would feed with springs kept half a step
 // ahead: it moves them in the step, by velocity Verlet.
 
-namespace pendular {
+namespace pendular::fedSpringsCuredTest {
 namespace {
 
 using Held = ReversibleAdhesive;
@@ -106,4 +106,4 @@ TEST(FedSpringsCured, collideAlikeToSecondOrder) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::fedSpringsCuredTest

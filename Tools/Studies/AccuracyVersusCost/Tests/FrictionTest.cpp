@@ -10,7 +10,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "Tools/Studies/AccuracyVersusCost/FrictionErrors.h"
 
-namespace pendular::friction {
+namespace pendular::friction::frictionTest {
 namespace {
 
 /// The rms error of the force over some paths of a population.
@@ -85,4 +85,4 @@ TEST(HeavyFrictionChart, hasEveryLawForEveryPopulation) {
 }
 
 }  // namespace
-}  // namespace pendular::friction
+}  // namespace pendular::friction::frictionTest

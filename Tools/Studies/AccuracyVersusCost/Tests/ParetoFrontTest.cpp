@@ -6,7 +6,7 @@
 
 #include "SelfTests/Support/Draw.h"
 
-namespace pendular {
+namespace pendular::paretoFrontTest {
 namespace {
 
 using Flags = std::vector<bool>;
@@ -42,4 +42,4 @@ TEST(ParetoFront, ofRandomChoicesDescends) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::paretoFrontTest

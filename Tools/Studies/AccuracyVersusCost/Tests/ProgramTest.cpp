@@ -13,7 +13,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "Tools/Studies/AccuracyVersusCost/BridgePopulations.h"
 
-namespace pendular {
+namespace pendular::programTest {
 namespace {
 
 using support::contentOf;
@@ -172,4 +172,4 @@ TEST(HeavyBridgeScenes, haveEveryLaw) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::programTest

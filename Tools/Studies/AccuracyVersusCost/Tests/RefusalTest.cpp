@@ -2,7 +2,7 @@
 
 #include "Tools/Studies/AccuracyVersusCost/SceneComparison.h"
 
-namespace pendular {
+namespace pendular::refusalTest {
 namespace {
 
 struct RefusedScene {
@@ -23,4 +23,4 @@ TEST(BridgeScenes, tellARefusalOnce) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::refusalTest

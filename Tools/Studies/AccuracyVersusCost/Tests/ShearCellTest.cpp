@@ -4,7 +4,7 @@
 
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 
-namespace pendular {
+namespace pendular::shearCellTest {
 namespace {
 
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
@@ -39,4 +39,4 @@ TEST(HeavyShearCell, stressOfTheContactsIsThatAtTheWall) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::shearCellTest

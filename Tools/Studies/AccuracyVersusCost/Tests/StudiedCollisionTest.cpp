@@ -4,7 +4,7 @@
 
 #include "Tools/Studies/AccuracyVersusCost/CollisionCases.h"
 
-namespace pendular {
+namespace pendular::studiedCollisionTest {
 namespace {
 
 // Thornton and Ning (1998), Powder Technology 99, 154: without a dashpot the neck takes
@@ -38,4 +38,4 @@ TEST(StudiedCollision, leavesNothingToGrainsThatStayTogether) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::studiedCollisionTest

@@ -8,7 +8,7 @@
 #include "Tools/Studies/AccuracyVersusCost/DryingBridges.h"
 #include "Tools/Studies/AccuracyVersusCost/ViscousBed.h"
 
-namespace pendular {
+namespace pendular::viscousBedTest {
 namespace {
 
 // A motion of a chain that alternates has four times the resistance of a bridge over the mass, 2 c / m*; that
@@ -79,4 +79,4 @@ TEST(DryingBridges, errMoreTheLaterTheyArePrepared) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::viscousBedTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/TestFolder.h"
 #include "Tools/Studies/AccuracyVersusCost/ViscousPair.h"
 
-namespace pendular {
+namespace pendular::viscousPairTest {
 namespace {
 
 // From 1 to 100 um and without end for V = 1e-11 m^3 between grains of 1 mm, in their radii: the digits that
@@ -74,4 +74,4 @@ TEST(HeavyViscousChart, hasEverySchemeForEveryPair) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::viscousPairTest

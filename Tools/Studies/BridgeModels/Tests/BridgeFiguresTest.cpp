@@ -8,7 +8,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 
-namespace pendular {
+namespace pendular::bridgeFiguresTest {
 namespace {
 
 using support::contentOf;
@@ -64,4 +64,4 @@ TEST(BridgeFigures, writesTablesWithTheMaximumOfThePaper) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::bridgeFiguresTest

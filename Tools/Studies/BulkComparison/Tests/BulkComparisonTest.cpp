@@ -8,7 +8,7 @@
 #include "Tools/Studies/AccuracyVersusCost/BulkFigures.h"
 #include "Tools/Studies/BulkComparison/PeerFiles.h"
 
-namespace pendular::bulk {
+namespace pendular::bulk::bulkComparisonTest {
 namespace {
 
 // Two grains that overlap across a periodic face: F = 4/3 E* R*^(1/2) d^(3/2), and l F of the pair.
@@ -81,4 +81,4 @@ TEST(BulkComparison, readsTheStartAndTheFramesThatItWrites) {
 }
 
 }  // namespace
-}  // namespace pendular::bulk
+}  // namespace pendular::bulk::bulkComparisonTest

@@ -10,7 +10,7 @@
 #include "SelfTests/Support/RunProgram.h"
 #include "Tools/Studies/ChungOoi/ChungOoiCases.h"
 
-namespace pendular {
+namespace pendular::chungOoiTest {
 namespace {
 
 using papers::ImpactCase;
@@ -198,4 +198,4 @@ TEST(ChungOoi8, spinningSphereOnAHeavyOne) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::chungOoiTest

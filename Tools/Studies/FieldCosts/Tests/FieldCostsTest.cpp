@@ -5,7 +5,7 @@
 #include "BuildFolders.h"
 #include "SelfTests/Support/RunProgram.h"
 
-namespace pendular {
+namespace pendular::fieldCostsTest {
 namespace {
 
 using support::expectOneSentence;
@@ -19,4 +19,4 @@ TEST(FieldCosts, refuseWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::fieldCostsTest

@@ -5,7 +5,7 @@
 #include "BuildFolders.h"
 #include "SelfTests/Support/RunProgram.h"
 
-namespace pendular {
+namespace pendular::outputCostsTest {
 namespace {
 
 using support::expectOneSentence;
@@ -20,4 +20,4 @@ TEST(OutputCosts, refuseWhatIsNoNumberOfGrains) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::outputCostsTest
