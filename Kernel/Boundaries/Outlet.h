@@ -14,8 +14,8 @@ namespace pendular {
 
 /// A place at which grains leave a scene: each one whose centre is in a region, or beyond a plane, at the end
 /// of a step is counted and removed; in a scene that repeats itself, each one of which an image is there. A
-/// rigid body goes as a whole, when its centre of mass is there, and counts as one. Grains that are held in
-/// place stay.
+/// rigid body goes as a whole, when its centre of mass is there, and counts as one. Grains and bodies that
+/// are held in place altogether stay; those that are held along some axes go.
 class Outlet {
 public:
     /// Lets grains in a region go.

@@ -41,8 +41,9 @@ struct InsertOptions {
     bool wholeGrains = true;  ///< in the region; else only their centres
     std::uint64_t seed = 1;
     std::uint32_t tries = 10000;  ///< random places for each grain, up to looseFraction
-    /// In shear and strain each velocity gets that of the flow at its place (shearFlowAt()) as well. Else it
-    /// is as given, at the place inside the periodic box: a grain without velocity is at rest there.
+    /// In shear and strain each velocity gets that of the flow at its place (shearFlowAt()) as well, also
+    /// where grains are inserted before the first step. Else it is as given, at the place inside the periodic
+    /// box: a grain without velocity is at rest there.
     bool withFlow = false;
 };
 

@@ -132,8 +132,8 @@ private:
 
 /// The part of a box that the walls of a scene leave: in front of planes, inside or outside of cylinders, and
 /// not within a radius of meshes (of which a region does not know the sides; MeshRegion does). The walls are
-/// asked each time, so it follows walls that move; its volume is measured by 2^16 points,
-/// once, and again where it sticks out of a periodic box, in which walls are at their own places only.
+/// asked each time, so it follows walls that move; its volume is measured by 2^16 points, once, and again
+/// where it sticks out of a periodic box.
 class BetweenWalls final : public Region {
 public:
     /// @param walls of the scene, which must be there as long as the region

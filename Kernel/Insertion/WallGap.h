@@ -51,9 +51,8 @@ void forEachImageInBox(const PeriodicBox& periodic, const Vector<double>& centre
                 function(inside + Vector<double>{shifts[0][a], shifts[1][b], shifts[2][c]});
 }
 
-/// Calls the function for the walls near a sphere and near its images, in a scene that repeats itself, where
-/// a wall is at its own place only. A wall along the period, which several images meet alike, is told of
-/// once.
+/// Calls the function for the walls near a sphere and near its images, in a scene that repeats itself. A wall
+/// along the period, which several images meet alike, is told of once.
 template <class Function>
 void forEachWallNear(const WallHandler& walls, const PeriodicBox& periodic, const Vector<double>& centre,
                      double radius, Function&& function) {

@@ -26,7 +26,8 @@ public:
     [[nodiscard]] Vec3D getPosition() const { return toEigen(record().position); }
     [[nodiscard]] Vec3D getVelocity() const { return toEigen(record().velocity); }
     [[nodiscard]] double getRadius() const { return record().radius; }
-    /// kg; infinite for a grain that is held. For a grain of a rigid body it is its share of the body's mass.
+    /// kg; infinite for a grain that is held in place altogether. For a grain of a rigid body it is its share
+    /// of the body's mass.
     [[nodiscard]] double getMass() const;
     [[nodiscard]] bool isFixed() const { return record().inverseMass == 0; }
     [[nodiscard]] int getSpeciesIndex() const;

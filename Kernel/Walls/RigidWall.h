@@ -12,10 +12,10 @@
 
 namespace pendular {
 
-/// A wall that is a rigid body with a prescribed motion. The shape is given in the body's own frame, which is
-/// that of the scene at time 0 unless setMotion() says otherwise; it never changes but by wear, so that a
-/// mesh is searched by one tree for long. The motion may be set again during a run: the wall goes on from
-/// where it is.
+/// A wall that is a rigid body. Its motion is prescribed (at rest unless it is set), or that of a body that
+/// forces drive (WallBody.h). The shape is given in the body's own frame, which is that of the scene at time
+/// 0 unless setMotion() says otherwise; it never changes but by wear, so that a mesh is searched by one tree
+/// for long. The motion may be set again during a run: the wall goes on from where it is.
 class RigidWall : public Wall {
 public:
     [[nodiscard]] bool isSet() const { return given; }

@@ -21,8 +21,9 @@ struct PeriodicFaces {
     [[nodiscard]] double highest() const { return lowest + length; }
 };
 
-/// A wall as grains that go through a face see it. A wall is at its own place only. Where grains meet it, it
-/// must be alike at both faces: what is near one of them has a partner one period farther.
+/// A wall as grains that go through a face see it. Only meshes have images (WallImages.h); any other wall is
+/// at its own place only. Where grains meet it, it must be alike at both faces: what is near one of them has
+/// a partner one period farther.
 struct SurfaceAtFaces {
     static constexpr double none = std::numeric_limits<double>::infinity();
 
