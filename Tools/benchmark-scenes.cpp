@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <deque>
 
 #include "Drivers/Shared/BenchmarkScenes.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Contacts/ContactStore.h"

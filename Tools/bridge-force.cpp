@@ -2,10 +2,10 @@
 /// surfaces.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <numbers>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"

@@ -2,12 +2,12 @@
 /// scene.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <map>
 #include <numbers>
 #include <optional>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"

@@ -2,13 +2,13 @@
 /// how far it is from the mesh, and a picture.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Files/CsvFile.h"

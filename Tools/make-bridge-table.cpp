@@ -2,10 +2,10 @@
 /// solver.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Capillary/BridgeTableMaking.h"
 #include "Kernel/Simulation/Program.h"

@@ -1,8 +1,8 @@
 /// Prints what is in a restart file, as text.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/State/RestartFile.h"

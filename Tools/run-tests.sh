@@ -38,7 +38,8 @@ stage() {  # name, command...
     return "$status"
 }
 build_and_test() {  # preset
-    stage "Configuring (preset $1, folder build/$1)" cmake --preset "$1" -D PENDULAR_BUILD_TESTS=ON
+    stage "Configuring (preset $1, folder build/$1)" cmake --preset "$1" -D PENDULAR_BUILD_TESTS=ON \
+        -D PENDULAR_JOIN_TEST_FILES=ON
     stage "Building (preset $1)" cmake --build --preset "$1" --parallel "$jobs"
     stage "Testing (preset $1)" ctest --preset "$1" --parallel "$jobs"
 }

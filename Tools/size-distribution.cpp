@@ -1,7 +1,6 @@
 /// Shows a distribution of grain sizes on all bases, draws grains from it, and compares samples with it.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"

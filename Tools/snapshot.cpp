@@ -1,10 +1,9 @@
 /// Draws the state of a run: shaded spheres, bridges, transparent walls, a legend. Rendered by POV-Ray,
 /// without a display.
 
-#include <CLI/CLI.hpp>
-
 #include <cstdlib>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Files/FileName.h"
 #include "Kernel/Simulation/Program.h"

@@ -1,11 +1,11 @@
 /// Lists the laws that species are composed of, and describes their parameters from the field tables.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cctype>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Contacts/SeveralSpeciesHandler.h"
 #include "Kernel/Simulation/Program.h"
@@ -22,6 +22,36 @@ std::string_view shownName() {
     return Law::name.empty() ? std::string_view("none") : Law::name;
 }
 
+struct LawEntry {
+    std::string_view name, shown;
+    bool acts;
+    void (*describe)();
+};
+
+template <class Law>
+void describeLaw();
+
+template <class Laws>
+std::vector<LawEntry> entriesOf() {
+    std::vector<LawEntry> entries;
+    Laws::forEach([&]<class Law>() {
+        bool acts = true;
+        if constexpr (requires { Law::acts; }) acts = Law::acts;
+        entries.push_back({Law::name, shownName<Law>(), acts, describeLaw<Law>});
+    });
+    return entries;
+}
+
+/// Calls function(name, normal, friction, adhesion) for every species.
+template <class Function>
+void forEachSpecies(Function&& function) {
+    for (const LawEntry& normal : entriesOf<NormalLaws>())
+        for (const LawEntry& friction : entriesOf<FrictionLaws>())
+            for (const LawEntry& adhesion : entriesOf<AdhesionLaws>())
+                function(fmt::format("{}{}{}Species", normal.name, friction.name, adhesion.name), normal,
+                         friction, adhesion);
+}
+
 template <class Laws>
 void listLaws(std::string_view kind) {
     fmt::print("{} laws\n", kind);
@@ -36,10 +66,11 @@ void list() {
         "Species: every normal law with every friction and every adhesion law; those with a * are "
         "instantiated, and can be chosen by name at run time\n");
     const std::vector<std::string_view> instantiated = instantiatedSpecies();
-    forEachSpecies([&]<class S>() {
-        const bool isMarked = std::ranges::find(instantiated, S::name) != instantiated.end();
-        fmt::print("{} {:<72} {} + {} + {}\n", isMarked ? '*' : ' ', S::name, S::Normal::name,
-                   shownName<typename S::Friction>(), shownName<typename S::Adhesion>());
+    forEachSpecies([&](const std::string& name, const LawEntry& normal, const LawEntry& friction,
+                       const LawEntry& adhesion) {
+        const bool isMarked = std::ranges::find(instantiated, name) != instantiated.end();
+        fmt::print("{} {:<72} {} + {} + {}\n", isMarked ? '*' : ' ', name, normal.shown, friction.shown,
+                   adhesion.shown);
     });
 }
 
@@ -85,10 +116,10 @@ void describeLaw() {
 /// Describes the law or the species of this name; all laws for "all".
 void describe(std::string_view name) {
     bool found = false;
-    std::vector<std::string_view> known;
+    std::vector<std::string> known;
     const std::string wanted = canonicalLawName(name);
     const auto tryLaw = [&]<class Law>() {
-        if (!Law::name.empty()) known.push_back(Law::name);
+        if (!Law::name.empty()) known.emplace_back(Law::name);
         if (Law::name.empty() || (wanted != Law::name && wanted != "all")) return;
         found = true;
         describeLaw<Law>();
@@ -96,17 +127,18 @@ void describe(std::string_view name) {
     NormalLaws::forEach(tryLaw);
     FrictionLaws::forEach(tryLaw);
     AdhesionLaws::forEach(tryLaw);
-    forEachSpecies([&]<class S>() {
-        known.push_back(S::name);
-        if (wanted != S::name) return;
+    forEachSpecies([&](const std::string& species, const LawEntry& normal, const LawEntry& friction,
+                       const LawEntry& adhesion) {
+        known.push_back(species);
+        if (wanted != species) return;
         found = true;
         fmt::print("# {}\n\nAlso: density, kg/m^3, greater than 0, `setDensity`; it must be set.\n\n",
-                   S::name);
-        describeLaw<typename S::Normal>();
-        if (S::Friction::acts) describeLaw<typename S::Friction>();
-        if (S::Adhesion::acts) describeLaw<typename S::Adhesion>();
+                   species);
+        normal.describe();
+        if (friction.acts) friction.describe();
+        if (adhesion.acts) adhesion.describe();
     });
-    if (!found) unknownName("law or species", name, known);
+    if (!found) unknownName("law or species", name, {known.begin(), known.end()});
 }
 
 }  // namespace

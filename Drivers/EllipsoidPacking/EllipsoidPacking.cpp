@@ -1,10 +1,9 @@
 /// Ellipsoids, or sharper superquadrics, fall on a floor: how densely they pack and how many neighbours they
 /// have, over their aspect ratio.
 
-#include <CLI/CLI.hpp>
-
 #include "Drivers/EllipsoidPacking/EllipsoidBed.h"
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Kernel/Files/CsvFile.h"
 
 using namespace pendular;

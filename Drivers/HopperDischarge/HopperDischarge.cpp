@@ -1,8 +1,7 @@
 /// Grains leave a hopper through circular orifices; their flow is compared with Beverloo's law.
 
-#include <CLI/CLI.hpp>
-
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/HopperScene.h"
 #include "Kernel/Files/CsvFile.h"
 #include "Kernel/Sizes/SizeTable.h"

@@ -1,12 +1,12 @@
 /// A sphere meets a rigid plane at varied angles: beside the measurements of Kharaz, Gorham and Salman
 /// (2001), and test 4 of Chung and Ooi (2011), whose computed curve is that of a spring factor of 1.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
 #include <optional>
 
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/SphereImpact.h"
 #include "Kernel/Files/CsvFile.h"
 

@@ -1,9 +1,8 @@
 /// Rods fall on a floor: how densely they pack and how many neighbours they have, over their aspect ratio.
 
-#include <CLI/CLI.hpp>
-
 #include "Drivers/RodPacking/RodBed.h"
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Kernel/Files/CsvFile.h"
 
 using namespace pendular;

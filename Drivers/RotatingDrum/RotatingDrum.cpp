@@ -1,9 +1,8 @@
 /// Grains of two sizes in a turning drum: case 2 of Dosta et al., "Comparing open-source DEM frameworks for
 /// simulations of common bulk processes", Comput. Phys. Commun. 296 (2024) 109066.
 
-#include <CLI/CLI.hpp>
-
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/DrumScene.h"
 #include "Drivers/Shared/FirstState.h"
 #include "Kernel/Output/RunTable.h"

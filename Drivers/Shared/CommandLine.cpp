@@ -1,8 +1,8 @@
 #include "Drivers/Shared/CommandLine.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Files/FileLock.h"
 #include "Kernel/Output/Hdf5Output.h"

@@ -1,6 +1,5 @@
 #include "Drivers/Shared/FirstState.h"
-
-#include <CLI/CLI.hpp>
+#include "Drivers/Shared/CommandLineLibrary.h"
 
 namespace pendular {
 

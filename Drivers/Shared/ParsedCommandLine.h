@@ -1,11 +1,12 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <optional>
 #include <string>
+
+#include "Drivers/Shared/CommandLineLibrary.h"
 
 namespace pendular {
 

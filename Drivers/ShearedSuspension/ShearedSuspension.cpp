@@ -2,9 +2,8 @@
 /// tears them apart. After Figures 7 and 8 of Yang, Sega and Harting, with Stokes's drag in place of their
 /// lattice Boltzmann fluid.
 
-#include <CLI/CLI.hpp>
-
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/ShearedSuspension/SuspensionLaws.h"
 #include "Kernel/CoarseGraining/Clusters.h"
 #include "Kernel/MercuryNames.h"

@@ -1,7 +1,7 @@
 /// A silo is filled by a stream of grains of many sizes: pressure on its wall over depth, against Janssen.
-#include <CLI/CLI.hpp>
 
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/WallPressure.h"
 #include "Kernel/MercuryNames.h"
 #include "Kernel/Output/GrainFlowFiles.h"

@@ -2,9 +2,8 @@
 /// Roy and Poeschel, "Discrete Element Simulations of particles interacting via capillary forces using
 /// MercuryDPM".
 
-#include <CLI/CLI.hpp>
-
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/RunTable.h"

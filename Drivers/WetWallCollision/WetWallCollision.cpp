@@ -1,10 +1,10 @@
 /// A sphere meets a plate under a layer of liquid, at any speed, angle and spin: the force balance model of
 /// wet particle-wall collisions, of whose Figures 6 to 13 make-figures.sh draws the curves.
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 
 #include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/WetWallImpact.h"
 #include "Kernel/Files/CsvFile.h"
 

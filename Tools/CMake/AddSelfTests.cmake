@@ -25,13 +25,18 @@ function(pendular_add_self_test folder sources)
     set(name "SelfTest${joined}")
     file(GLOB sources CONFIGURE_DEPENDS "${sources}")
     add_executable(${name} ${sources})
-    target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel GTest::gtest_main)
+    target_link_libraries(${name} PRIVATE SpeciesOfTests $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel
+                          GTest::gtest_main)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
     # Many small files with the same includes and species: together they compile in a sixth of the time.
     if(folder STREQUAL HowDoI OR folder STREQUAL Fuzz/RandomScenes)
         set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 14)
         set_source_files_properties("${selfTests}/HowDoI/FirstDriver.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    elseif(NOT folder STREQUAL Fuzz)  # its readers are one file each, and another test compiles them alone
+        set_target_properties(${name} PROPERTIES UNITY_BUILD ${PENDULAR_JOIN_TEST_FILES} UNITY_BUILD_BATCH_SIZE 6)
     endif()
+    # It tests that its one header is enough.
+    set_source_files_properties("${selfTests}/Species/MercuryBlockTest.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     add_warnings(${name})
     precompile_headers(${name} PrecompiledTests)
 
@@ -47,6 +52,14 @@ function(pendular_add_self_test folder sources)
         PROPERTIES LABELS long ENVIRONMENT PENDULAR_SHARE_SMALL_WORK=1)
 endfunction()
 
+# Species that several tests take, compiled once.
+pendular_instantiate_species("${PROJECT_BINARY_DIR}/Generated/SelfTests" SpeciesOfTests "${PENDULAR_SPECIES_OF_TESTS}"
+                             testedSources)
+add_library(SpeciesOfTests STATIC ${testedSources})
+target_link_libraries(SpeciesOfTests PRIVATE Pendular::Kernel)
+add_warnings(SpeciesOfTests)
+precompile_headers(SpeciesOfTests PendularKernel)
+
 file(GLOB_RECURSE testFolders CONFIGURE_DEPENDS RELATIVE "${selfTests}" "${selfTests}/*/*Test.cpp")
 list(TRANSFORM testFolders REPLACE "/[^/]*$" "")
 list(REMOVE_DUPLICATES testFolders)
@@ -61,7 +74,7 @@ target_link_libraries(PrecompiledTests PRIVATE $<TARGET_NAME_IF_EXISTS:PendularD
                       GTest::gtest_main)
 add_warnings(PrecompiledTests)
 precompile_headers(PrecompiledTests PrecompiledTests ${precompiledHeaders} <gtest/gtest.h>
-                   "Kernel/Simulation/Simulation.h")
+                   "Kernel/Simulation/Simulation.h" "${PROJECT_BINARY_DIR}/Generated/SelfTests/SpeciesOfTests.h")
 foreach(folder IN LISTS testFolders)
     pendular_add_self_test(${folder} "${selfTests}/${folder}/*.cpp")
 endforeach()

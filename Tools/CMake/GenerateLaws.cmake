@@ -82,16 +82,6 @@ function(pendular_generate_laws header)
 namespace pendular {
 
 @lists@
-/// Calls function.template operator()<S>() for the species of every combination of the laws.
-template <class Function>
-void forEachSpecies(Function&& function) {
-    NormalLaws::forEach([&]<class N>() {
-        FrictionLaws::forEach([&]<class F>() {
-            AdhesionLaws::forEach([&]<class A>() { function.template operator()<Species<N, F, A>>(); });
-        });
-    });
-}
-
 @aliases@
 }  // namespace pendular
 ]])
@@ -118,16 +108,47 @@ set(PENDULAR_POPULAR_SPECIES
     LinearViscoelasticLiquidBridgeWillettSpecies
     LinearViscoelasticSlidingFrictionLiquidMigrationWillettSpecies)
 
-# Writes a header that declares them, and in `sources` files that compile some of them each.
-function(pendular_generate_popular_species folder sources)
+# Those of several programs (SpeciesOfPrograms) and of several tests (SpeciesOfTests), compiled once for them.
+set(PENDULAR_SPECIES_OF_PROGRAMS "")
+foreach(model Chen ClassicalWillett Lambert Lian LianSeville MegiasAlguacil Mikami PietschRumpf Rabinovich Soulie Weigert)
+    list(APPEND PENDULAR_SPECIES_OF_PROGRAMS HertzianViscoelasticMindlinLiquidBridge${model}Species)
+endforeach()
+set(PENDULAR_SPECIES_OF_TESTS
+    LinearViscoelasticMindlinSpecies
+    HertzianBSHPViscoelasticMindlinSpecies
+    LinearPlasticViscoelasticMindlinSpecies
+    HertzianPlasticViscoelasticMindlinSpecies
+    HertzianViscoelasticMindlinIncrementalLiquidBridgeBagheriSpecies
+    HertzianViscoelasticMindlinPartialSlipLiquidBridgeBagheriSpecies
+    HertzianViscoelasticMindlinRollingTorsionLiquidBridgeBagheriSpecies
+    HertzianViscoelasticMindlinSecantLiquidBridgeBagheriSpecies
+    HertzianViscoelasticSlidingFrictionLiquidBridgeBagheriSpecies
+    HertzianViscoelasticSlidingRollingTorsionLiquidBridgeBagheriSpecies
+    HertzianViscoelasticDMTSpecies
+    HertzianViscoelasticIrreversibleAdhesiveSpecies
+    HertzianViscoelasticJKRSpecies
+    HertzianViscoelasticReversibleAdhesiveSpecies
+    HertzianBSHPViscoelasticSpecies
+    HertzianPlasticViscoelasticSpecies
+    LinearPlasticViscoelasticSpecies
+    LinearViscoelasticSlidingRollingTorsionSpecies
+    LinearViscoelasticLiquidMigrationWillettSpecies
+    LinearViscoelasticViscousLiquidBridgeWillettSpecies
+    LinearViscoelasticViscousLiquidMigrationWillettSpecies
+    HertzianViscoelasticMindlinLiquidMigrationBagheriSpecies)
+
+# Writes a header <type>.h, which declares the species of a list as the TypeList `type`, and in `sources` files that
+# compile some of them each.
+function(pendular_instantiate_species folder type species sources)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY "${PROJECT_BINARY_DIR}/Generated" OUTPUT_VARIABLE include)
     set(declared "")
     set(listed "")
-    foreach(name IN LISTS PENDULAR_POPULAR_SPECIES)
-        string(APPEND declared
+    foreach(name IN LISTS species)
+        string(APPEND declared "extern template class SpeciesLaws<${name}>;\n"
                "extern template std::unique_ptr<ContactLaws> makeSpeciesLaws(SpeciesHandler<${name}>&);\n")
     endforeach()
-    list(JOIN PENDULAR_POPULAR_SPECIES ", " listed)
-    file(CONFIGURE OUTPUT "${folder}/PopularSpecies.h" @ONLY CONTENT [[
+    list(JOIN species ", " listed)
+    file(CONFIGURE OUTPUT "${folder}/${type}.h" @ONLY CONTENT [[
 #pragma once
 
 // Written by CMake from the list in Tools/CMake/GenerateLaws.cmake.
@@ -137,13 +158,13 @@ function(pendular_generate_popular_species folder sources)
 
 namespace pendular {
 
-using PopularSpecies = TypeList<@listed@>;
+using @type@ = TypeList<@listed@>;
 
 @declared@
 }  // namespace pendular
 ]])
     set(written "")
-    set(remaining ${PENDULAR_POPULAR_SPECIES})
+    set(remaining ${species})
     while(remaining)
         list(SUBLIST remaining 0 3 part)
         list(REMOVE_ITEM remaining ${part})
@@ -153,11 +174,11 @@ using PopularSpecies = TypeList<@listed@>;
             string(APPEND compiled "template class SpeciesLaws<${name}>;\n"
                    "template std::unique_ptr<ContactLaws> makeSpeciesLaws(SpeciesHandler<${name}>&);\n")
         endforeach()
-        set(file "${folder}/PopularSpecies${number}.cpp")
+        set(file "${folder}/${type}${number}.cpp")
         file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT [[
 // Written by CMake from the list in Tools/CMake/GenerateLaws.cmake.
 
-#include "Kernel/Contacts/PopularSpecies.h"
+#include "@include@/@type@.h"
 
 namespace pendular {
 

@@ -1,8 +1,8 @@
 /// Accuracy against cost, and where methods fail, as tables for charts.
 
-#include <CLI/CLI.hpp>
 #include <array>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"

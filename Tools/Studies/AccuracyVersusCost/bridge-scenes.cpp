@@ -1,8 +1,7 @@
 /// Measures what each liquid bridge law costs in a whole scene, and what it changes in bulk.
 
-#include <CLI/CLI.hpp>
-
 #include "BuildFolders.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/Studies/AccuracyVersusCost/SceneComparison.h"

@@ -4,7 +4,6 @@
 /// of Figure 6, on and off the axis.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include <functional>
 #include <vector>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Capillary/CapillaryBridge.h"

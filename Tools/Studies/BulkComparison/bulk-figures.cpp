@@ -1,7 +1,6 @@
 /// Runs one scene of the comparison of bulk figures with LIGGGHTS and LAMMPS, or reads what they have run.
 
-#include <CLI/CLI.hpp>
-
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Base/RunError.h"

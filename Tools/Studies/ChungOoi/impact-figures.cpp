@@ -2,10 +2,10 @@
 /// is simulated, and theory. Tools/Studies/ChungOoi/Tests/ChungOoiTest.cpp checks the same impacts.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Files/CsvFile.h"
 #include "Kernel/Simulation/Program.h"

@@ -2,12 +2,12 @@
 /// samples.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <array>
 #include <cmath>
 
 #include "BuildFolders.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Drivers/Shared/RunOptions.h"

@@ -1,9 +1,9 @@
 /// Measures what a frame of a bed takes in each format of files: bytes, and time beside that of 1000 steps.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "Drivers/Shared/BenchmarkScenes.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Contacts/ContactSystem.h"

@@ -1,12 +1,12 @@
 /// How often Newton's method fails for pairs of superquadrics, how far off it is, and what a pair takes.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Drivers/Shared/ProcessorTime.h"
 #include "Kernel/Base/InputError.h"

@@ -1,10 +1,10 @@
 /// The force on a grain over a crack, a step and a groove of two plates, against their sizes.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <vector>
 
+#include "Drivers/Shared/CommandLineLibrary.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/Simulation.h"
