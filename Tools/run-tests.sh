@@ -39,7 +39,7 @@ stage() {  # name, command...
 }
 build_and_test() {  # preset
     stage "Configuring (preset $1, folder build/$1)" cmake --preset "$1" -D PENDULAR_BUILD_TESTS=ON \
-        -D PENDULAR_JOIN_TEST_FILES=ON
+        -D PENDULAR_QUICK_TEST_BUILD=ON
     stage "Building (preset $1)" cmake --build --preset "$1" --parallel "$jobs"
     stage "Testing (preset $1)" ctest --preset "$1" --parallel "$jobs"
 }

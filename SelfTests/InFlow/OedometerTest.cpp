@@ -98,7 +98,7 @@ TEST(Oedometer, sideStrainOfASlabBetweenPlanesGivesItsStress) {
 }
 
 /// The upper plane is a piston: under that load it comes to that distance.
-TEST(Oedometer, aPistonOnASlabComesToItsHeight) {
+TEST(HeavyOedometer, aPistonOnASlabComesToItsHeight) {
     Oedometer scene;
     scene.lid().setPiston(1e-4, edge * edge * slab.force);
     scene.compress(200000);
@@ -174,7 +174,7 @@ TEST(Oedometer, planesStretchWithTheFlow) {
 }
 
 /// One that slides and rolls across a face does so as in the middle of the box.
-TEST(Oedometer, aGrainAtAPlaneGoesAcrossAFaceAsInTheMiddle) {
+TEST(HeavyOedometer, aGrainAtAPlaneGoesAcrossAFaceAsInTheMiddle) {
     constexpr double rate = -8;
     const Vec3D velocity(0.3, 0.1, 0), spin(20, 70, 10);
     constexpr int steps = 20000;  // it goes 6 mm

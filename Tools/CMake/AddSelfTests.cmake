@@ -20,6 +20,9 @@ endif()
 
 set(selfTests "${PROJECT_SOURCE_DIR}/SelfTests")
 
+# The kernel, the species of the lists and the programs keep -O3; the tests themselves take no longer with -O1.
+set(testOptimisation $<$<AND:$<BOOL:${PENDULAR_QUICK_TEST_BUILD}>,$<CONFIG:Release>>:-O1>)
+
 function(pendular_add_self_test folder sources)
     string(REPLACE "/" "" joined "${folder}")
     set(name "SelfTest${joined}")
@@ -33,10 +36,11 @@ function(pendular_add_self_test folder sources)
         set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 14)
         set_source_files_properties("${selfTests}/HowDoI/FirstDriver.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     elseif(NOT folder STREQUAL Fuzz)  # its readers are one file each, and another test compiles them alone
-        set_target_properties(${name} PROPERTIES UNITY_BUILD ${PENDULAR_JOIN_TEST_FILES} UNITY_BUILD_BATCH_SIZE 6)
+        set_target_properties(${name} PROPERTIES UNITY_BUILD ${PENDULAR_QUICK_TEST_BUILD} UNITY_BUILD_BATCH_SIZE 6)
     endif()
     # It tests that its one header is enough.
     set_source_files_properties("${selfTests}/Species/MercuryBlockTest.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    target_compile_options(${name} PRIVATE ${testOptimisation})
     add_warnings(${name})
     precompile_headers(${name} PrecompiledTests)
 
@@ -72,6 +76,7 @@ file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/Generated/PrecompiledTests.cpp" CON
 add_library(PrecompiledTests OBJECT "${PROJECT_BINARY_DIR}/Generated/PrecompiledTests.cpp")
 target_link_libraries(PrecompiledTests PRIVATE $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel
                       GTest::gtest_main)
+target_compile_options(PrecompiledTests PRIVATE ${testOptimisation})
 add_warnings(PrecompiledTests)
 precompile_headers(PrecompiledTests PrecompiledTests ${precompiledHeaders} <gtest/gtest.h>
                    "Kernel/Simulation/Simulation.h" "${PROJECT_BINARY_DIR}/Generated/SelfTests/SpeciesOfTests.h")
