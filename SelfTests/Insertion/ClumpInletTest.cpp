@@ -98,7 +98,7 @@ TEST(ClumpInlet, bringsANumberASecond) {
 }
 
 // What has come is there or has gone: numbers exactly, masses to round-off.
-TEST(ClumpInlet, isBalancedByAnOutlet) {
+TEST(HeavyClumpInlet, isBalancedByAnOutlet) {
     Falling scene;
     scene.initialise();
     for (int k = 0; k < 30000; ++k) {
@@ -164,7 +164,7 @@ TEST(ClumpInlet, givesTheSameBitsForAnyThreadsAndThroughRestarts) {
 
 // What came is there, has gone, or was dissipated, to the round-off of each step: 16 000 times 2^-53, of some
 // ten sums.
-TEST(ClumpInlet, keepsTheEnergyLedgerClosed) {
+TEST(HeavyClumpInlet, keepsTheEnergyLedgerClosed) {
     Falling scene(1, 2e-6, true);
     scene.initialise();
     const double before = scene.energyLedger().closed();
@@ -196,7 +196,7 @@ public:
     }
 };
 
-TEST(ClumpInlet, goesWithPeriodsTheAdaptiveStepAndClumpsOfHooks) {
+TEST(HeavyClumpInlet, goesWithPeriodsTheAdaptiveStepAndClumpsOfHooks) {
     const TestFolder folder;
     OntoAFloor whole;
     whole.initialise();

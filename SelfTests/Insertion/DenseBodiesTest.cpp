@@ -116,7 +116,7 @@ TEST(DenseBodies, leaveWhatIsThere) {
 
 // Shares of the number to one body, sizes by each kind's own distribution, and the fraction to the largest
 // body.
-TEST(DenseBodies, ofAMixture) {
+TEST(HeavyDenseBodies, ofAMixture) {
     for (const Sample sample : {Sample::Exact, Sample::Random}) {
         ClumpScene scene;
         const double edge = 9 * d;
