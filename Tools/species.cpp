@@ -17,61 +17,12 @@ using namespace pendular;
 
 namespace {
 
-template <class Law>
-std::string_view shownName() {
-    return Law::name.empty() ? std::string_view("none") : Law::name;
-}
-
-struct LawEntry {
-    std::string_view name, shown;
-    bool acts;
-    void (*describe)();
-};
-
-template <class Law>
-void describeLaw();
-
-template <class Laws>
-std::vector<LawEntry> entriesOf() {
-    std::vector<LawEntry> entries;
-    Laws::forEach([&]<class Law>() {
-        bool acts = true;
-        if constexpr (requires { Law::acts; }) acts = Law::acts;
-        entries.push_back({Law::name, shownName<Law>(), acts, describeLaw<Law>});
-    });
-    return entries;
-}
-
-/// Calls function(name, normal, friction, adhesion) for every species.
-template <class Function>
-void forEachSpecies(Function&& function) {
-    for (const LawEntry& normal : entriesOf<NormalLaws>())
-        for (const LawEntry& friction : entriesOf<FrictionLaws>())
-            for (const LawEntry& adhesion : entriesOf<AdhesionLaws>())
-                function(fmt::format("{}{}{}Species", normal.name, friction.name, adhesion.name), normal,
-                         friction, adhesion);
-}
+std::string_view shown(std::string_view law) { return law.empty() ? std::string_view("none") : law; }
 
 template <class Laws>
 void listLaws(std::string_view kind) {
     fmt::print("{} laws\n", kind);
-    Laws::forEach([]<class Law>() { fmt::print("  {:<30} {}\n", shownName<Law>(), Law::summary); });
-}
-
-void list() {
-    listLaws<NormalLaws>("Normal");
-    listLaws<FrictionLaws>("Friction");
-    listLaws<AdhesionLaws>("Adhesion");
-    fmt::print(
-        "Species: every normal law with every friction and every adhesion law; those with a * are "
-        "instantiated, and can be chosen by name at run time\n");
-    const std::vector<std::string_view> instantiated = instantiatedSpecies();
-    forEachSpecies([&](const std::string& name, const LawEntry& normal, const LawEntry& friction,
-                       const LawEntry& adhesion) {
-        const bool isMarked = std::ranges::find(instantiated, name) != instantiated.end();
-        fmt::print("{} {:<72} {} + {} + {}\n", isMarked ? '*' : ' ', name, normal.shown, friction.shown,
-                   adhesion.shown);
-    });
+    Laws::forEach([]<class Law>() { fmt::print("  {:<30} {}\n", shown(Law::name), Law::summary); });
 }
 
 /// setDissipation of the field dissipation.
@@ -94,7 +45,7 @@ void describe(const Setter<Law>& setter) {
 
 template <class Law>
 void describeLaw() {
-    fmt::print("## {}\n\n{}. Domain: {}.\n\n", shownName<Law>(), Law::summary, Law::domain);
+    fmt::print("## {}\n\n{}. Domain: {}.\n\n", shown(Law::name), Law::summary, Law::domain);
     if (Law::fields().empty()) return;
     fmt::print(
         "| field | setter | unit | range | default | mixing of a and b | meaning | source "
@@ -113,20 +64,58 @@ void describeLaw() {
     for (const auto& setter : settersOf<Law>()) describe(setter);
 }
 
+struct LawEntry {
+    std::string_view name;  // empty for a law that does nothing
+    void (*describe)();
+};
+
+template <class Laws>
+std::vector<LawEntry> entriesOf() {
+    std::vector<LawEntry> entries;
+    Laws::forEach([&]<class Law>() { entries.push_back({Law::name, describeLaw<Law>}); });
+    return entries;
+}
+
+/// Calls function(name, normal, friction, adhesion) for every species.
+template <class Function>
+void forEachSpecies(Function&& function) {
+    const auto frictions = entriesOf<FrictionLaws>(), adhesions = entriesOf<AdhesionLaws>();
+    for (const LawEntry& normal : entriesOf<NormalLaws>())
+        for (const LawEntry& friction : frictions)
+            for (const LawEntry& adhesion : adhesions)
+                function(fmt::format("{}{}{}Species", normal.name, friction.name, adhesion.name), normal,
+                         friction, adhesion);
+}
+
+void list() {
+    listLaws<NormalLaws>("Normal");
+    listLaws<FrictionLaws>("Friction");
+    listLaws<AdhesionLaws>("Adhesion");
+    fmt::print(
+        "Species: every normal law with every friction and every adhesion law; those with a * are "
+        "instantiated, and can be chosen by name at run time\n");
+    const std::vector<std::string_view> instantiated = instantiatedSpecies();
+    forEachSpecies([&](const std::string& name, const LawEntry& normal, const LawEntry& friction,
+                       const LawEntry& adhesion) {
+        const bool isMarked = std::ranges::find(instantiated, name) != instantiated.end();
+        fmt::print("{} {:<72} {} + {} + {}\n", isMarked ? '*' : ' ', name, normal.name, shown(friction.name),
+                   shown(adhesion.name));
+    });
+}
+
 /// Describes the law or the species of this name; all laws for "all".
 void describe(std::string_view name) {
     bool found = false;
     std::vector<std::string> known;
     const std::string wanted = canonicalLawName(name);
-    const auto tryLaw = [&]<class Law>() {
-        if (!Law::name.empty()) known.emplace_back(Law::name);
-        if (Law::name.empty() || (wanted != Law::name && wanted != "all")) return;
-        found = true;
-        describeLaw<Law>();
-    };
-    NormalLaws::forEach(tryLaw);
-    FrictionLaws::forEach(tryLaw);
-    AdhesionLaws::forEach(tryLaw);
+    for (const auto& laws : {entriesOf<NormalLaws>(), entriesOf<FrictionLaws>(), entriesOf<AdhesionLaws>()})
+        for (const LawEntry& law : laws) {
+            if (law.name.empty()) continue;
+            known.emplace_back(law.name);
+            if (wanted != law.name && wanted != "all") continue;
+            found = true;
+            law.describe();
+        }
     forEachSpecies([&](const std::string& species, const LawEntry& normal, const LawEntry& friction,
                        const LawEntry& adhesion) {
         known.push_back(species);
@@ -134,9 +123,8 @@ void describe(std::string_view name) {
         found = true;
         fmt::print("# {}\n\nAlso: density, kg/m^3, greater than 0, `setDensity`; it must be set.\n\n",
                    species);
-        normal.describe();
-        if (friction.acts) friction.describe();
-        if (adhesion.acts) adhesion.describe();
+        for (const LawEntry* law : {&normal, &friction, &adhesion})
+            if (!law->name.empty()) law->describe();
     });
     if (!found) unknownName("law or species", name, {known.begin(), known.end()});
 }
