@@ -1,4 +1,5 @@
 #include "Drivers/Shared/FirstState.h"
+
 #include "Drivers/Shared/CommandLineLibrary.h"
 
 namespace pendular {

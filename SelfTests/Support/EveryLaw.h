@@ -15,9 +15,8 @@ void forEveryLaw(Function&& function) {
 }
 
 /// Species that stand for all: the laws do not know of each other, so a test of what composes them needs each
-/// normal law and each friction law once, dry and with a bridge. All combinations would make
-/// the build of the tests grow with the product of the numbers of laws; Composition tests a product of
-/// some.
+/// normal law and each friction law once, dry and with a bridge. All combinations would make the build of the
+/// tests grow with the product of the numbers of laws; Composition tests a product of some.
 template <class Function>
 void forRepresentativeSpecies(Function&& function) {
     NormalLaws::forEach([&]<class N>() { function.template operator()<Species<N, Mindlin, NoAdhesion>>(); });

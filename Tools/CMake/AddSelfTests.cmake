@@ -71,7 +71,7 @@ list(REMOVE_ITEM testFolders CompileFail OutOfTree)
 if(NOT PENDULAR_BUILD_STUDIES)
     list(REMOVE_ITEM testFolders Species/Composition)
 endif()
-if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # fields and names of laws: no memory to check, and a tenth of the build
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # laws without a scene, and a tenth of the build
     list(REMOVE_ITEM testFolders Species)
 endif()
 # The precompiled header of all tests, in a target of its own: a test program depends on no other one.
