@@ -59,10 +59,6 @@ void FieldOutput::prepare(const Scene& scene) const {
     }
     if (window > 0 && !times.isGiven() && scene.adaptiveTimeStep().isSet())
         throw InputError("FieldOutput: averages with the adaptive time step need withInterval().");
-    if (scene.laws().shapes())
-        throw InputError(
-            "FieldOutput: fields take grains for spheres, and those of this scene are none; leave it "
-            "out.");
     FieldSums::refuseMovingImages(sums.grid(), scene.getPeriodicBox());
     if (!withFlow && !scene.getPeriodicBox().imagesMove)
         throw InputError(

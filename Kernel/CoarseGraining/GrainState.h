@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct GrainState {
         double adhesiveForce = 0;     // N, attraction positive
         double liquid = 0;            // m^3, of the bridge
         bool touching = true;
+        /// m, from the centre of the first to the contact, where grains may be no spheres
+        std::optional<Vector<double>> toPoint{};
     };
 
     /// The branches (m) of a contact: from its point to the centres of its two bodies. Between two single

@@ -41,6 +41,7 @@ Vector<double> vectorAt(const PolyDataField& field, std::size_t k) {
 /// The way (m) from the centre of the first grain to the point of a contact: in the middle of the overlap or
 /// of the gap, at a wall on its surface.
 Vector<double> toPoint(const GrainState& state, const GrainState::Contact& contact) {
+    if (contact.toPoint) return *contact.toPoint;
     if (contact.second == GrainState::Contact::wall) return contact.shift;
     const double length = norm(contact.shift), radius = state.grains[contact.first].radius,
                  gap = length - radius - state.grains[contact.second].radius;
@@ -132,7 +133,7 @@ void appendContacts(const ContactSystem& contacts, const ParticleStore& grains, 
         if (contacts.firstOf(contact) != place) return;
         const bool atWall = bucket.wall >= 0;
         const std::uint32_t second = atWall ? GrainState::Contact::wall : number[contacts.secondOf(contact)];
-        if (!atWall && !contacts.isBridged(contact)) {
+        if (!atWall && !contacts.isBridged(contact) && !contacts.laws().shapes()) {
             const Vector<double> way =
                 grains.translation[contacts.secondOf(contact)].position - grains.translation[place].position;
             found.push_back({number[place], second, contacts.periodicBox().nearest(way),
@@ -142,6 +143,8 @@ void appendContacts(const ContactSystem& contacts, const ParticleStore& grains, 
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         found.push_back({number[place], second, seen.shift, seen.force, seen.adhesiveForce, seen.bridgeVolume,
                          seen.touching});
+        if (contacts.laws().shapes())
+            found.back().toPoint = seen.point - grains.translation[place].position;
     });
 }
 
@@ -246,7 +249,10 @@ GrainState stateOf(const PolyData& grains, const PolyData& contacts, const Perio
     const PolyDataField &force = ofContacts("force_N", 3), &adhesive = ofContacts("adhesive_force_N", 1),
                         &overlap = ofContacts("overlap_m", 1), &first = ofContacts("particle1", 1),
                         &second = ofContacts("particle2", 1), &wall = ofContacts("wall", 1);
-    const PolyDataField* volume = contacts.cellField("bridge_volume_m3");
+    const PolyDataField *volume = contacts.cellField("bridge_volume_m3"),
+                        *point = grains.pointField("half_lengths_m")
+                                     ? &ofContacts("contact_point_m", 3)
+                                     : nullptr;  // of spheres it follows from the rest
     const auto numberOf = [&](const PolyDataField& field, std::size_t k) {
         const auto found = numbers.find(static_cast<std::int64_t>(field.at(k)));
         if (found == numbers.end())
@@ -264,6 +270,9 @@ GrainState stateOf(const PolyData& grains, const PolyData& contacts, const Perio
                                   atWall ? GrainState::Contact::wall : numberOf(second, k),
                                   periodic.nearest(cornerOf(2 * k + 1) - cornerOf(2 * k)), vectorAt(force, k),
                                   adhesive.at(k), volume ? volume->at(k) : 0, overlap.at(k) >= 0});
+        if (point)
+            state.contacts.back().toPoint =
+                periodic.nearest(vectorAt(*point, k) - grains.points[state.contacts.back().first]);
     }
     joinBodies(state, grains);
     return state;

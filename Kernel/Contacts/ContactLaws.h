@@ -86,7 +86,7 @@ public:
     }
     [[nodiscard]] bool turnGrains() const final { return layout.hasTorque; }
     /// The shapes of the grains of a scene in which they are no spheres; else null.
-    [[nodiscard]] virtual const GrainShapes* shapes() const { return nullptr; }
+    [[nodiscard]] virtual GrainShapes* shapes() const { return nullptr; }
     virtual void mixAll() = 0;
     /// Whether a value of a species has been set since mixAll().
     [[nodiscard]] virtual bool hasChanges() const = 0;

@@ -1,42 +1,67 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
-#include "Kernel/Math/Vector.h"
+#include "Kernel/Math/Quaternion.h"
+#include "Kernel/Shapes/Superquadric.h"
 
 namespace pendular {
 
 class ParticleStore;
+class SuperquadricGrain;
+class Wall;
 class WallHandler;
-struct Superquadric;
+struct WallPoint;
 
-/// How two grains that are no spheres touch, or a grain and a plane.
+/// How two grains that are no spheres touch, or a grain and a wall.
 struct ShapedTouch {
     Vector<double> normal;  // unit, from body 1 to body 2
     double depth;           // m; negative: a gap
     Vector<double> arm1;    // m, from the centre of body 1 to the middle of the overlap
 };
 
-/// The grains of a scene that are no spheres: what is asked of them besides the forces of their contacts. The
-/// radius of such a grain in the store is that of the sphere around it.
+/// A grain's shape, and where its axes point to in space.
+struct ShapeInSpace {
+    Superquadric shape;  // three equal half lengths: a sphere
+    Axes<double> axes;
+};
+
+/// The grains of a scene that may be no spheres: what is asked of them besides the forces of their contacts.
+/// The radius of such a grain in the store is that of the sphere around it. A grain without a shape is a
+/// sphere, which may be part of a clump.
 class GrainShapes {
 public:
     virtual ~GrainShapes() = default;
 
+    /// Adds a grain with a shape, as a body of its own.
+    virtual void add(const SuperquadricGrain& grain) = 0;
+    /// Grains of this shape, of any size, are to come: limits count with it from now on.
+    virtual void expect(const Superquadric& shape) = 0;
+    /// The factor by which Gauss' radius at a contact may be larger than that of the spheres around, at most,
+    /// of all shapes that are there or expected: for the stability limit.
+    [[nodiscard]] virtual double largestRadiusRatio() const = 0;
+
+    /// Whether the grain at a place of the store is no sphere.
+    [[nodiscard]] virtual bool isShaped(const ParticleStore& grains, std::uint32_t place) const = 0;
+    [[nodiscard]] virtual ShapeInSpace shapeAt(const ParticleStore& grains, std::uint32_t place) const = 0;
+    /// m, from the centre of a grain to its farthest point along a normal (unit).
+    [[nodiscard]] virtual Vector<double> farthest(const ParticleStore& grains, std::uint32_t place,
+                                                  const Vector<double>& normal) const = 0;
     /// How the grains at two places of the store touch.
     /// @param shift m, centre 2 - centre 1
     [[nodiscard]] virtual ShapedTouch touch(const ParticleStore& grains, std::uint32_t first,
                                             std::uint32_t second, const Vector<double>& shift) const = 0;
-    /// @param normal unit, into the plane; @param distance m, of the centre
-    [[nodiscard]] virtual ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
-                                                   const Vector<double>& normal, double distance) const = 0;
-    /// The shape of a grain; its axes in space are those of the grain's body (Axes(orientation)).
-    [[nodiscard]] virtual const Superquadric& shapeAt(const ParticleStore& grains,
-                                                      std::uint32_t place) const = 0;
+    /// How a grain touches a part of a wall.
+    [[nodiscard]] virtual ShapedTouch touchAtWall(const ParticleStore& grains, std::uint32_t grain,
+                                                  const Wall& wall, std::uint32_t part) const = 0;
+    /// What Wall::findPoints() is for spheres, for the grain at a place: of each listed part the normal at
+    /// which they touch, and how far (m) the plane across it through the point of the wall is from the
+    /// grain's centre.
+    virtual void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
+                            std::span<const std::uint32_t> parts, std::span<WallPoint> points) const = 0;
     /// m, the smallest half length of a grain.
     [[nodiscard]] virtual double thickness(const ParticleStore& grains, std::uint32_t grain) const = 0;
-    /// Throws InputError for what the scene has besides and shapes do not know.
-    virtual void check(const WallHandler& walls) const = 0;
 };
 
 }  // namespace pendular

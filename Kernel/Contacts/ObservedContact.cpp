@@ -35,7 +35,7 @@ ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& 
         seen.shift = periodic.nearest(second.position - first.position);
         seen.separation = norm(seen.shift) - (first.radius + second.radius);
         seen.point = first.position + (first.radius + 0.5 * seen.separation) * seen.normal();
-    } else {
+    } else if (!laws.shapes()) {
         const std::uint32_t part = block.second[lane];
         WallPoint point;
         wall->findPoints(first.position, first.radius, {&part, 1}, {&point, 1});
@@ -45,12 +45,12 @@ ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& 
     }
     if (const GrainShapes* const shapes = laws.shapes()) {
         const ShapedTouch touch =
-            wall ? shapes->touchAtPlane(grains, block.first[lane], seen.normal(),
-                                        dot(seen.shift, seen.normal()))
+            wall ? shapes->touchAtWall(grains, block.first[lane], *wall, block.second[lane])
                  : shapes->touch(grains, block.first[lane], block.second[lane], seen.shift);
         seen.separation = -touch.depth;
         seen.ownNormal = touch.normal;
         seen.point = first.position + touch.arm1;
+        if (wall) seen.shift = touch.arm1 - (0.5 * touch.depth) * touch.normal;
     }
     if (seen.bridged) {
         ContactNumbers interaction;

@@ -4,6 +4,7 @@
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Walls/Wall.h"
 
@@ -111,7 +112,10 @@ private:
                 last = {record.radius};
                 range = laws.range(bucket.species1, bucket.species2, last);
             }
-            wall.findPoints(record.position, record.radius + range, parts, points);
+            if (const GrainShapes* const shapes = laws.shapes())
+                shapes->findPoints(grains, grain, wall, parts, points);
+            else
+                wall.findPoints(record.position, record.radius + range, parts, points);
             for (std::size_t k = 0; k < points.size(); ++k) {
                 const WallPoint& point = points[k];
                 contacts.wallPoints[(begin + k) / Pack::lanes - contacts.firstWallBlock()].set(

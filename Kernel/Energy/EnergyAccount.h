@@ -182,6 +182,7 @@ private:
     /// left.
     static Vector<double> depthOf(const EnergyRecord& record, double radius) {
         const ContactSample& sample = record.now.acts() ? record.now : record.last;
+        if (sample.isShaped()) return sample.arm1 - sample.halfOverlap * sample.normal;
         return (radius - 2 * sample.halfOverlap) * sample.normal;
     }
 

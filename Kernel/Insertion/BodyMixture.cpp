@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/Insertion/Insertion.h"
 #include "Kernel/Particles/BodyHandler.h"
 
 namespace pendular {
@@ -44,27 +46,42 @@ Vector<double> BodyKind::velocity() const {
 }
 double BodyKind::film() const { return grain() ? grain()->getLiquidVolume() : 0; }
 
+std::string_view BodyKind::word() const { return grain() ? "grain" : clump() ? "clump" : "superquadric"; }
+Eigen::Quaterniond BodyKind::orientation() const {
+    if (grain()) return Eigen::Quaterniond::Identity();
+    return clump() ? Eigen::Quaterniond(clump()->getOrientation()) : shaped()->getOrientation();
+}
+
 double BodyKind::density(double ofSpecies) const {
-    if (grain()) return ofSpecies;
+    if (!clump()) return ofSpecies;
     const ClumpTemplate& shape = clump()->getTemplate();
     return shape.massOf(ofSpecies, 1).mass / shape.getVolume();
 }
 
-double BodyKind::scale(double radius) const { return 2 / clump()->getTemplate().getDiameter() * radius; }
+double BodyKind::scale(double radius) const {
+    if (grain()) return radius / grain()->getRadius();
+    const double own = clump() ? clump()->getTemplate().getDiameter()
+                               : std::cbrt(6 / std::numbers::pi * shaped()->getShape().volume());
+    return 2 / own * radius;
+}
 double BodyKind::smallestSphere(double radius) const {
-    return grain() ? radius : scale(radius) * leastRadius(clump()->getTemplate());
+    if (clump()) return scale(radius) * leastRadius(clump()->getTemplate());
+    return reach(radius);
 }
 double BodyKind::largestSphere(double radius) const {
-    return grain() ? radius : scale(radius) * mostRadius(clump()->getTemplate());
+    if (clump()) return scale(radius) * mostRadius(clump()->getTemplate());
+    return reach(radius);
 }
 double BodyKind::reach(double radius) const {
-    return grain() ? radius : scale(radius) * clump()->getTemplate().getReach();
+    if (grain()) return radius;
+    return scale(radius) *
+           (clump() ? clump()->getTemplate().getReach() : shaped()->getShape().boundingRadius());
 }
 
 std::vector<Ball> BodyKind::spheres(double radius, const Vector<double>& place,
                                     const Eigen::Quaterniond& turn) const {
     const Vec3D centre = toEigen(place);
-    if (grain()) return {{centre, radius}};
+    if (!clump()) return {{centre, reach(radius)}};
     const Eigen::Matrix3d matrix = turn.normalized().toRotationMatrix();
     const double factor = scale(radius);
     std::vector<Ball> all;
@@ -73,23 +90,39 @@ std::vector<Ball> BodyKind::spheres(double radius, const Vector<double>& place,
     return all;
 }
 
-void BodyKind::addTo(ParticleHandler& particles, BodyHandler& bodies, double radius,
-                     const Vector<double>& place, const Eigen::Quaterniond& turn,
-                     const Vector<double>& flow) const {
-    if (const SphericalParticle* const one = grain()) {
-        SphericalParticle copy = *one;
+void BodyKind::addTo(const InsertionScene& scene, double radius, const Vector<double>& place,
+                     const Eigen::Quaterniond& turn, const Vector<double>& flow) const {
+    const auto put = [&](auto& one) {
+        one.setPosition(toEigen(place));
+        one.setVelocity(toEigen(velocity() + flow));
+    };
+    if (grain()) {
+        SphericalParticle copy = *grain();
         copy.setRadius(radius);
-        copy.setPosition(toEigen(place));
-        copy.setVelocity(toEigen(velocity() + flow));
-        particles.copyAndAddObject(copy);
-        return;
+        put(copy);
+        scene.particles.copyAndAddObject(copy);
+    } else if (clump()) {
+        Clump copy = *clump();
+        copy.setScale(scale(radius));
+        copy.setOrientation(turn);
+        put(copy);
+        scene.bodies.copyAndAddObject(copy);
+    } else {
+        SuperquadricGrain copy = shaped()->scaled(scale(radius));
+        copy.setOrientation(turn);
+        put(copy);
+        scene.shapes->add(copy);
     }
-    Clump copy = *clump();
-    copy.setScale(scale(radius));
-    copy.setPosition(toEigen(place));
-    copy.setOrientation(turn);
-    copy.setVelocity(toEigen(velocity() + flow));
-    bodies.copyAndAddObject(copy);
+}
+
+void requireShapes(const BodyMixture& mixture, GrainShapes* shapes, std::string_view who) {
+    for (const BodyKind& kind : mixture)
+        if (kind.shaped()) {
+            if (!shapes)
+                throw InputError(fmt::format(
+                    "{}: superquadrics are to come; derive the scene from SuperquadricSimulation.", who));
+            shapes->expect(kind.shaped()->getShape());
+        }
 }
 
 BodyMixture::BodyMixture(SizeBasis what) : basis(what) {
@@ -105,14 +138,17 @@ void BodyMixture::add(const SphericalParticle& like, const SizeDistribution& siz
 void BodyMixture::add(const Clump& like, const SizeDistribution& sizes, double share) {
     add(BodyKind{like, sizes, share});
 }
+void BodyMixture::add(const SuperquadricGrain& like, const SizeDistribution& sizes, double share) {
+    add(BodyKind{like, sizes, share});
+}
 void BodyMixture::add(BodyKind kind) {
     checkValue("BodyMixture", "share", kind.share, "", positive);
     if (basis == SizeBasis::Volume) kind.share /= kind.sizes.moment(3);
     kinds.push_back(std::move(kind));
 }
 
-bool BodyMixture::hasClumps() const {
-    return std::ranges::any_of(kinds, [](const BodyKind& kind) { return kind.clump() != nullptr; });
+bool BodyMixture::hasBodies() const {
+    return std::ranges::any_of(kinds, [](const BodyKind& kind) { return kind.grain() == nullptr; });
 }
 
 double BodyMixture::shareOf(std::size_t number) const {

@@ -5,43 +5,52 @@
 
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Sizes/SizeDistribution.h"
+#include "Kernel/Superquadrics/SuperquadricGrain.h"
 
 namespace pendular {
 
 class BodyHandler;
+class GrainShapes;
+struct InsertionScene;
 class ParticleHandler;
 
-/// One kind of bodies of a mixture: grains, or clumps of one template. Sizes are diameters (m) of grains, and
-/// of the spheres that have the volume of a clump.
+/// One kind of bodies of a mixture: grains, clumps of one template, or superquadrics of one shape. Sizes are
+/// diameters (m) of grains, and of the spheres that have the volume of a clump or a superquadric.
 struct BodyKind {
-    std::variant<SphericalParticle, Clump> like;  // species and motion of all of them
+    std::variant<SphericalParticle, Clump, SuperquadricGrain> like;  // species and motion of all of them
     SizeDistribution sizes;
     double share;  // of the number, to be divided by the sum of all
 
     [[nodiscard]] const SphericalParticle* grain() const { return std::get_if<SphericalParticle>(&like); }
     [[nodiscard]] const Clump* clump() const { return std::get_if<Clump>(&like); }
+    [[nodiscard]] const SuperquadricGrain* shaped() const { return std::get_if<SuperquadricGrain>(&like); }
+    /// "grain", "clump" or "superquadric"
+    [[nodiscard]] std::string_view word() const;
+    /// How the first one is turned; grains are not.
+    [[nodiscard]] Eigen::Quaterniond orientation() const;
     [[nodiscard]] int species() const;
     [[nodiscard]] Vector<double> velocity() const;  // m/s
-    /// m^3, the liquid of the film of one grain; clumps come dry.
+    /// m^3, the liquid of the film of one grain; all others come dry.
     [[nodiscard]] double film() const;
     /// kg/m^3, mass over volume. @param ofSpecies kg/m^3
     [[nodiscard]] double density(double ofSpecies) const;
-    /// The factor of all lengths of a clump that has the volume of a sphere of this radius (m).
+    /// The factor of all lengths of one that has the volume of a sphere of this radius (m).
     [[nodiscard]] double scale(double radius) const;
-    /// m, of the smallest and of the largest sphere of a body of a size.
+    /// m, of the smallest and of the largest sphere of a body of a size; of a superquadric that around it.
     [[nodiscard]] double smallestSphere(double radius) const;
     [[nodiscard]] double largestSphere(double radius) const;
     /// m, from the centre of a body of a size to its farthest point.
     [[nodiscard]] double reach(double radius) const;
-    /// The spheres of a body of a size (m), which is turned from its template to a place (m).
+    /// The spheres of a body of a size (m), which is turned from its template to a place (m); of a superquadric
+    /// that around it.
     [[nodiscard]] std::vector<Ball> spheres(double radius, const Vector<double>& place,
                                             const Eigen::Quaterniond& turn) const;
     /// Adds such a body to a scene. @param flow m/s, that its velocity gets besides its own
-    void addTo(ParticleHandler& particles, BodyHandler& bodies, double radius, const Vector<double>& place,
+    void addTo(const InsertionScene& scene, double radius, const Vector<double>& place,
                const Eigen::Quaterniond& turn, const Vector<double>& flow) const;
 };
 
-/// Grains and clumps of several kinds, each with its share, its sizes, its species and its velocity: for
+/// Grains, clumps and superquadrics of several kinds, each with its share, its sizes, its species and its velocity: for
 /// insert() and inlets.
 class BodyMixture {
 public:
@@ -52,6 +61,7 @@ public:
     /// Throws InputError unless the share, in any unit, is positive, and without a species.
     void add(const SphericalParticle& like, const SizeDistribution& sizes, double share = 1);
     void add(const Clump& like, const SizeDistribution& sizes, double share = 1);
+    void add(const SuperquadricGrain& like, const SizeDistribution& sizes, double share = 1);
 
     [[nodiscard]] bool empty() const { return kinds.empty(); }
     [[nodiscard]] std::size_t size() const { return kinds.size(); }
@@ -61,7 +71,8 @@ public:
 
     // Called by the scene, not by drivers.
 
-    [[nodiscard]] bool hasClumps() const;
+    /// Whether there are others than grains.
+    [[nodiscard]] bool hasBodies() const;
     /// The share of a kind of the number of bodies; all are 1.
     [[nodiscard]] double shareOf(std::size_t number) const;
     /// The kind of one body drawn at random, the same for the same seed and identity.
@@ -78,6 +89,10 @@ private:
     SizeBasis basis;
     std::vector<BodyKind> kinds;
 };
+
+/// Tells a scene of the shapes that are to come. Throws InputError if it takes none.
+/// @param shapes of the scene; null: it takes none
+void requireShapes(const BodyMixture& mixture, GrainShapes* shapes, std::string_view who);
 
 /// kg/m^3, of a species of a scene. Throws InputError if there is none.
 [[nodiscard]] double densityOf(const ParticleHandler& particles, int species);

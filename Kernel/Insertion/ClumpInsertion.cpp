@@ -68,7 +68,7 @@ void refuseWithoutSpecies(const BodyMixture& mixture) {
         if (kind.species() < 0)
             throw InputError(
                 fmt::format("{}: the {} has no species; call setSpecies() with one of this scene.", owner,
-                            kind.clump() ? "clump" : "grain"));
+                            kind.word()));
 }
 
 /// How many bodies have the mass of the amount on average.
@@ -193,6 +193,7 @@ void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, 
 Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, const Region& given,
                       const Amount& amount, const InsertOptions& options) {
     refuseWithoutSpecies(mixture);
+    requireShapes(mixture, scene.shapes, owner);
     const auto region = given.in(scene.periodic);
     std::vector<PlacedBody> bodies = bodiesOf(scene, mixture, amount, *region, options);
     Inserted result;
@@ -216,7 +217,7 @@ Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, c
             scene.periodic.imagesMove ? scene.periodic.wrap(body.place) : body.place;
         const Vector<double> flow =
             options.withFlow ? scene.periodic.flowAt(inside) : Vector<double>{0, 0, 0};
-        body.kind->addTo(scene.particles, scene.bodies, body.radius, inside, body.turn, flow);
+        body.kind->addTo(scene, body.radius, inside, body.turn, flow);
         ++result.number;
         result.mass += massOf(scene, body);
         result.solidFraction += sphereMass(body.radius, 1) / region->volume();

@@ -13,6 +13,8 @@
 #include "Kernel/Particles/GrainSpecies.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
+#include "Kernel/Superquadrics/ExtremeContact.h"
+#include "Kernel/Superquadrics/SuperquadricBody.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -30,6 +32,7 @@ constexpr std::uint32_t purposeOfTurns = 0x1259000;
 double massOf(const ParticleHandler& particles, const BodyKind& kind, double radius) {
     if (kind.grain()) return particles.massOf(radius, kind.species());
     const double density = densityOf(particles, kind.species());
+    if (kind.shaped()) return sphereMass(radius, density);
     return kind.clump()->getTemplate().massOf(density, kind.scale(radius)).mass;
 }
 
@@ -40,13 +43,10 @@ double largestReach(const BodyMixture& bodies) {
     return reach;
 }
 
-/// What the stability limit counts with for all clumps of a kind, whatever their sizes.
-/// @param density kg/m^3
-BodyResponse responseOf(const BodyKind& kind, double density) {
-    const ClumpTemplate& shape = kind.clump()->getTemplate();
+/// Adds the body that a clump of a template is.
+void addClump(ParticleStore& one, const ClumpTemplate& shape, double density) {
     const BodyMass mass = shape.massOf(density, 1);
     const PrincipalAxes principal = principalAxes(mass.inertia);
-    ParticleStore one;
     std::vector<BodyMember> members;
     double largest = 0;  // kg
     for (const Ball& ball : shape.getSpheres()) {
@@ -58,6 +58,20 @@ BodyResponse responseOf(const BodyKind& kind, double density) {
     }
     one.bodies.add({.mass = mass.mass, .inertia = toVector(principal.moments), .largestFreeMass = largest},
                    members, shape.getVolume());
+}
+
+/// What the stability limit counts with for all clumps or superquadrics of a kind, whatever their sizes.
+/// @param density kg/m^3
+BodyResponse responseOf(const BodyKind& kind, double density) {
+    ParticleStore one;
+    if (kind.clump()) addClump(one, kind.clump()->getTemplate(), density);
+    else {
+        const Superquadric& shape = kind.shaped()->getShape();
+        const RigidBody body = bodyOf(*kind.shaped(), density, extremeContact(shape).turning);
+        const BodyMember member{one.add({{0, 0, 0}, shape.boundingRadius(), {0, 0, 0}, 1 / body.mass}, {0, 0, 0}, 0),
+                                {0, 0, 0}};
+        one.bodies.add(body, {&member, 1}, shape.volume());
+    }
     BodyResponse response = one.bodies.response(one);
     // Those of the bodies that come differ by round-off, and must not be beyond it.
     response.inertia *= 1 - 1e-9;
@@ -139,30 +153,35 @@ std::vector<InletHandler::Sizes> InletHandler::sizes(const GrainSpecies& species
         for (const BodyKind& kind : kept.bodies) {
             Sizes sizes{kind.smallestSphere(0.5 * kind.sizes.smallest()),
                         kind.largestSphere(0.5 * kind.sizes.largest()), kind.species(), std::nullopt};
-            if (kind.clump())
+            if (!kind.grain())
                 sizes.response = responseOf(kind, species.density(static_cast<std::size_t>(kind.species())));
             all.push_back(sizes);
         }
     return all;
 }
 
-bool InletHandler::bringClumps() const {
-    return std::ranges::any_of(inlets, [](const Kept& kept) { return kept.bodies.hasClumps(); });
+bool InletHandler::bringBodies() const {
+    return std::ranges::any_of(inlets, [](const Kept& kept) { return kept.bodies.hasBodies(); });
 }
 
-double InletHandler::widestClump() const {
+double InletHandler::widestBody() const {
     double widest = 0;
     for (const Kept& kept : inlets)
         for (const BodyKind& kind : kept.bodies)
-            if (kind.clump()) widest = std::max(widest, 2 * kind.reach(0.5 * kind.sizes.largest()));
+            if (!kind.grain()) widest = std::max(widest, 2 * kind.reach(0.5 * kind.sizes.largest()));
     return widest;
 }
 
+void InletHandler::expectShapes(GrainShapes* shapes) const {
+    for (std::size_t k = 0; k < inlets.size(); ++k)
+        requireShapes(inlets[k].bodies, shapes, fmt::format("inlet {}", k));
+}
+
 void InletHandler::refuseTooWide(const PeriodicBox& periodic) const {
-    const double shortest = periodic.shortestLength(), widest = widestClump();
+    const double shortest = periodic.shortestLength(), widest = widestBody();
     if (widest > 0.5 * shortest)
         throw InputError(fmt::format(
-            "Inlet: the largest clump to come is {:.6g} m wide when it turns; in a scene that repeats itself "
+            "Inlet: the largest body to come is {:.6g} m wide when it turns; in a scene that repeats itself "
             "after {:.6g} m a body must not be wider than half of that.",
             widest, shortest));
 }
@@ -328,14 +347,14 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
                     fmt::format("inlet {}: at {:.6g} s there was no room for a {} of radius {:.3g} m; {} "
                                 "grains, {:.6g} kg, "
                                 "had come; the flow of such times is {}.",
-                                number, time, kind.clump() ? "clump" : "grain", radius, count.number,
+                                number, time, kind.word(), radius, count.number,
                                 count.mass, inlet.noRoom == NoRoom::Later ? "made up for later" : "lost"));
             if (inlet.noRoom == NoRoom::Lost) count.lost += due - whole;
             return;
         }
         const Vector<double> flow =
             scene.periodic.imagesMove ? scene.periodic.flowAt(room->place) : Vector<double>{0, 0, 0};
-        kind.addTo(scene.particles, scene.bodies, radius, room->place, room->turn, flow);
+        kind.addTo(scene, radius, room->place, room->turn, flow);
         for (const auto& [place, size] : kind.spheres(radius, room->place, room->turn))
             grid->add(toVector(place), size);
         ++count.number;
@@ -362,9 +381,9 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
         const auto even = [&](std::uint32_t which) {
             return random.uniform(kept.count.number, purposeOfTurns + 3 * number + which, attempt);
         };
-        const Eigen::Quaterniond turn = !kind.clump()       ? Eigen::Quaterniond::Identity()
-                                        : inlet.randomTurns ? evenTurn(even(0), even(1), even(2))
-                                                            : kind.clump()->getOrientation();
+        const Eigen::Quaterniond turn = !kind.grain() && inlet.randomTurns
+                                            ? evenTurn(even(0), even(1), even(2))
+                                            : kind.orientation();
         const auto isFree = [&](const Ball& ball) {
             const Vector<double> inRegion = toVector(ball.centre), centre = inRegion + way;
             return (!inlet.wholeGrains || kept.region->contains(inRegion, ball.radius)) &&
@@ -402,6 +421,11 @@ void InletHandler::visitKinds(StateArchive& archive, const BodyMixture& bodies) 
             archive.same("spheres", static_cast<std::int32_t>(shape ? shape->getSpheres().size() : 0));
             archive.same("volume", shape ? shape->getVolume() : 0, "m^3");
             archive.same("reach", shape ? shape->getReach() : 0, "m");
+            if (!kind.shaped()) return;
+            const Superquadric& own = kind.shaped()->getShape();
+            archive.sameRecord<double>("halfLengths", Vector<double>{own.a, own.b, own.c});
+            archive.same("n1", own.n1);
+            archive.same("n2", own.n2);
         });
 }
 

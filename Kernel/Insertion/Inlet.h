@@ -21,7 +21,7 @@ enum class NoRoom {
     Lost    ///< it is lost; from then on the flow is as before
 };
 
-/// Grains and clumps that come into a region of a scene at a rate. What has come by a time t is the largest
+/// Grains, clumps and superquadrics that come into a region of a scene at a rate. What has come by a time t is the largest
 /// sum of whole ones that is not above the integral of the rate (less what was lost): the error never exceeds
 /// one grain, for any time step. Grain k of an inlet has a size that is a counted random number of (seed, k),
 /// and comes at a random place that is free. One that finds no room is kept and tried again in the next step;
@@ -40,10 +40,15 @@ public:
     /// Clumps come instead of grains: template, species, velocity and spin of them. setSizes() are the
     /// diameters of spheres of their volume.
     void setClump(const Clump& clump) { like = clump; }
-    /// A mixture of grains and clumps comes, with the sizes that are in it. Each body has a kind that is a
+    /// Superquadrics come instead of grains, into a scene of SuperquadricSimulation: shape, species, velocity
+    /// and spin of them. setSizes() are the diameters of spheres of their volume. They are tried with the
+    /// spheres around them.
+    void setSuperquadric(const SuperquadricGrain& grain) { like = grain; }
+    /// A mixture of grains, clumps and superquadrics comes, with the sizes that are in it. Each body has a kind that is a
     /// counted random number of (seed, k).
     void setBodies(const BodyMixture& bodies) { mixture = bodies; }
-    /// Clumps come turned evenly at random, if this is not called; else as their Clump is turned.
+    /// Clumps and superquadrics come turned evenly at random, if this is not called; else as the first one is
+    /// turned.
     void setRandomTurns(bool random) { randomTurns = random; }
     /// kg/s
     void setMassFlow(double rate);
@@ -73,7 +78,7 @@ private:
 
     std::shared_ptr<const Region> region;
     std::optional<SizeDistribution> sizes;
-    std::variant<SphericalParticle, Clump> like;
+    std::variant<SphericalParticle, Clump, SuperquadricGrain> like;
     std::optional<BodyMixture> mixture;
     bool randomTurns = true;
     double massFlow = unset, numberFlow = unset;  // kg/s, 1/s
@@ -89,7 +94,7 @@ private:
 
 /// What has come through an inlet.
 struct InletCount {
-    std::uint64_t number = 0;  // of grains and clumps
+    std::uint64_t number = 0;  // of grains, clumps and superquadrics
     double mass = 0;           // kg
     double lost = 0;           // of the flow, kg or grains: what would have come if there had been room
     bool waits = false;        // the next grain finds no room
@@ -112,14 +117,17 @@ public:
     struct Sizes {
         double smallest, largest;
         int species;
-        std::optional<BodyResponse> response;  // of clumps
+        std::optional<BodyResponse> response;  // of clumps and superquadrics
     };
     [[nodiscard]] std::vector<Sizes> sizes(const GrainSpecies& species) const;
-    /// Whether clumps are to come.
-    [[nodiscard]] bool bringClumps() const;
-    /// m, the largest width of the clumps to come as they turn; 0 without any.
-    [[nodiscard]] double widestClump() const;
-    /// Throws InputError if a clump to come is wider than half the shortest period, as BodyHandler does.
+    /// Whether others than grains are to come.
+    [[nodiscard]] bool bringBodies() const;
+    /// m, the largest width of the bodies to come as they turn; 0 without any.
+    [[nodiscard]] double widestBody() const;
+    /// Tells a scene of the shapes to come. Throws InputError if it takes none.
+    /// @param shapes of the scene; null: it takes none
+    void expectShapes(GrainShapes* shapes) const;
+    /// Throws InputError if a body to come is wider than half the shortest period, as BodyHandler does.
     void refuseTooWide(const PeriodicBox& periodic) const;
     /// The mixture that an inlet brings.
     [[nodiscard]] const BodyMixture& bodiesOf(std::size_t inlet) const { return inlets[inlet].bodies; }

@@ -10,6 +10,7 @@
 namespace pendular {
 
 class BodyHandler;
+class GrainShapes;
 class WallHandler;
 
 /// How much is to be inserted.
@@ -68,6 +69,7 @@ struct InsertionScene {
     const WallHandler& walls;
     const PeriodicBox& periodic;
     int threads = 1;
+    GrainShapes* shapes = nullptr;  // null: it takes no superquadrics
 };
 
 /// Radii (m), the largest first; none where the first random grain is heavier than the amount. @param density

@@ -103,12 +103,23 @@ void refuseSelfContact(std::size_t number, Membrane& membrane, const Step& step)
         step.time, number, found->place.x, found->place.y, found->place.z, a, b, found->triangle));
 }
 
+/// The force acts where the shape of a grain touches, and not straight below its centre.
+void actAtShape(const GrainShapes& shapes, const ParticleStore& grains, std::uint32_t place,
+                const Vector<double>& normal, double distance, TriangleForce& at) {
+    const Vector<double> farthest = shapes.farthest(grains, place, normal);
+    const Vector<double> point = grains.translation[place].position + farthest -
+                                 (dot(farthest, normal) - distance) * normal;
+    at.couple += cross(at.point - point, at.force);
+    at.point = point;
+}
+
 }  // namespace
 
 Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& contacts,
                       const ParticleStore& grains) {
     const ContactStore& store = contacts.store();
     const ContactLayout& layout = store.memory.getLayout();
+    const GrainShapes* const shapes = contacts.laws().shapes();
     std::vector<TriangleForce> found;
     for (const Bucket& bucket : store.buckets) {
         if (bucket.wall != wall) continue;
@@ -132,6 +143,7 @@ Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& c
                 at.couple =
                     (grain.radius - store.memory.records[slot].halfOverlap - distance) * cross(normal, force);
             if (layout.hasContactTorque) at.couple -= store.memory.torques[slot].torque;
+            if (shapes) actAtShape(*shapes, grains, place, normal, distance, at);
             found.push_back(at);
         }
     }

@@ -7,7 +7,6 @@
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Output/SceneFields.h"
 #include "Kernel/Particles/SphericalParticle.h"
-#include "Kernel/Shapes/Superquadric.h"
 
 namespace pendular {
 
@@ -15,9 +14,8 @@ namespace {
 
 /// Adds, where there are rigid bodies, for each grain: the number of its body, or -1; where it is in it
 /// (body_arm, from the centre of mass); the velocity and the volume of the body. Zeros for grains in none.
-/// Grains that are no spheres are bodies by themselves, about their centres: they have the number only.
 template <std::floating_point Real>
-void addBodyFields(const ParticleStore& grains, bool areSpheres, PolyData& data) {
+void addBodyFields(const ParticleStore& grains, PolyData& data) {
     if (grains.bodies.empty()) return;
     const std::vector<Vector<double>> arms = grains.bodies.armsInSpace(grains);
     std::vector<std::int32_t> body;
@@ -35,7 +33,6 @@ void addBodyFields(const ParticleStore& grains, bool areSpheres, PolyData& data)
         volume.push_back(isMember ? static_cast<Real>(grains.bodies.volumeOf(k)) : 0);
     }
     data.pointFields.push_back({"body", 1, std::move(body)});
-    if (!areSpheres) return;
     data.pointFields.push_back({"body_arm_m", 3, std::move(arm)});
     data.pointFields.push_back({"body_velocity_m_per_s", 3, std::move(velocity)});
     data.pointFields.push_back({"body_volume_m3", 1, std::move(volume)});
@@ -78,7 +75,7 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws) {
     if (grains.hasSpin) data.pointFields.push_back({"spin_rad_per_s", 3, std::move(spin)});
     data.pointFields.push_back({"force_N", 3, std::move(force)});
     data.pointFields.push_back({"species", 1, std::move(species)});
-    addBodyFields<Real>(grains, laws.shapes() == nullptr, data);
+    addBodyFields<Real>(grains, data);
     data.pointFields.push_back({"fixed", 1, std::move(fixed)});
     data.pointFields.push_back({"identity", 1, std::move(identity)});
     for (const GrainColumn& column : grains.columns) {
@@ -110,8 +107,9 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         if (shapes) {
             const Vector<double> arm = seen.point - grains.translation[grains.place[seen.particle1]].position;
-            add(seen.particle1, 1, arm, seen.force);
-            if (bucket.wall < 0) add(seen.particle2, -1, arm - seen.shift, seen.force);
+            add(seen.particle1, 1, arm + arms.at(grains.place[seen.particle1]), seen.force);
+            if (bucket.wall < 0)
+                add(seen.particle2, -1, arm - seen.shift + arms.at(grains.place[seen.particle2]), seen.force);
             return;
         }
         const Vector<double> normal = (1 / norm(seen.shift)) * seen.shift;
@@ -134,9 +132,8 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
     std::vector<Real> numbers;
     for (const std::uint32_t place : grains.place) {
         const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
-        const double volume = shapes                      ? shapes->shapeAt(grains, place).volume()
-                              : body != RigidBodies::none ? grains.bodies.volumeOf(grains.bodies.find(body))
-                                                          : sphereMass(grains.translation[place].radius, 1);
+        const double volume = body != RigidBodies::none ? grains.bodies.volumeOf(grains.bodies.find(body))
+                                                        : sphereMass(grains.translation[place].radius, 1);
         for (const double sum : sums[place]) numbers.push_back(static_cast<Real>(sum / volume));
     }
     return {"stress_Pa", 9, std::move(numbers)};

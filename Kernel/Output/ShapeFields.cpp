@@ -11,11 +11,6 @@ namespace {
 
 constexpr int circles = 12, corners = 20;  // of latitude, without the poles; on each of them
 
-Axes<double> axesAt(const ParticleStore& grains, std::uint32_t place) {
-    const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
-    return Axes<double>(grains.bodies[grains.bodies.find(body)].orientation);
-}
-
 /// Unit, from one pole to the other: that one, the circles, the other one. The circles avoid the axes
 /// between, where edges of sharp shapes are nearest to them.
 std::vector<Vector<double>> normals() {
@@ -52,8 +47,7 @@ void addShapeFields(const ParticleStore& grains, const GrainShapes& shapes, Poly
     std::vector<float> lengths, orientation;
     std::vector<std::int32_t> first, second;
     for (const std::uint32_t place : grains.place) {
-        const Superquadric& shape = shapes.shapeAt(grains, place);
-        const Axes<double> axes = axesAt(grains, place);
+        const auto [shape, axes] = shapes.shapeAt(grains, place);
         for (const double length : {shape.a, shape.b, shape.c}) lengths.push_back(static_cast<float>(length));
         first.push_back(shape.n1), second.push_back(shape.n2);
         for (const auto part : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z})
@@ -72,8 +66,9 @@ PolyData shapeSurfaces(const ParticleStore& grains, const GrainShapes& shapes) {
     std::vector<std::int32_t> identity, body;
     const std::vector<Vector<double>> directions = normals();
     for (const std::uint32_t place : grains.place) {
-        const auto lanes = SuperquadricLanes<double>::from(shapes.shapeAt(grains, place));
-        const Axes<double> axes = axesAt(grains, place);
+        if (!shapes.isShaped(grains, place)) continue;
+        const auto [shape, axes] = shapes.shapeAt(grains, place);
+        const auto lanes = SuperquadricLanes<double>::from(shape);
         const auto first = static_cast<std::int32_t>(data.points.size());
         for (const Vector<double>& n : directions)
             data.points.push_back(grains.translation[place].position +

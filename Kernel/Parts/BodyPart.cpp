@@ -20,13 +20,13 @@
 namespace pendular {
 
 Features BodyPart::features(const StepContext& scene) const {
-    return scene.grains().bodies.empty() && !inlets.bringClumps() ? Features{}
+    return scene.grains().bodies.empty() && !inlets.bringBodies() ? Features{}
                                                                   : Features{Feature::RigidBodies};
 }
 
 void BodyPart::check(const StepContext& scene) {
     inlets.refuseTooWide(scene.box);
-    width = std::max(scene.bodies.refuseTooWide(), inlets.widestClump());
+    width = std::max(scene.bodies.refuseTooWide(), inlets.widestBody());
 }
 
 void BodyPart::begin(StepContext& scene, bool /*isRestarted*/) { warnOfGaps(scene, 0); }

@@ -17,7 +17,8 @@ Features InletPart::features(const StepContext& /*scene*/) const {
 }
 
 InsertionScene InletPart::placesOf(const StepContext& scene) {
-    return {scene.particles, scene.bodies, scene.walls, scene.box, scene.threads};
+    return {scene.particles, scene.bodies, scene.walls, scene.box, scene.threads,
+            scene.laws ? scene.laws->shapes() : nullptr};
 }
 
 void InletPart::begin(StepContext& scene, bool isRestarted) {
@@ -39,6 +40,7 @@ void InletPart::atEnd(StepContext& step) {
 void InletPart::visitState(StateArchive& archive, StepContext& /*scene*/) { inlets.visitState(archive); }
 
 GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, const InletHandler& inlets) {
+    inlets.expectShapes(laws.shapes());
     GrainSizes sizes(grains, laws.speciesCount());
     for (const InletHandler::Sizes& toCome : inlets.sizes(laws)) {
         // Twice, so that of all sizes between them any number may come; the count is that of a dense bed.
@@ -58,7 +60,7 @@ void InletPart::addTo(SummaryRows& rows) const {
     for (std::size_t k = 0; k < inlets.getSize(); ++k) {
         const InletCount& count = inlets.countOf(k);
         rows.add(fmt::format("inlet {}: {} that have come", k,
-                             inlets.bodiesOf(k).hasClumps() ? "grains and bodies" : "grains"),
+                             inlets.bodiesOf(k).hasBodies() ? "grains and bodies" : "grains"),
                  count.number);
         rows.addNumber(fmt::format("inlet {}: mass that has come", k), count.mass, "kg");
     }

@@ -167,15 +167,22 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
     return insert(mixture, region, amount, options);
 }
 
+Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
+                       const SuperquadricGrain& like, const InsertOptions& options) {
+    BodyMixture mixture;
+    mixture.add(like, sizes);
+    return insert(mixture, region, amount, options);
+}
+
 Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const Amount& amount,
                        const InsertOptions& options) {
     const std::size_t before = bodyHandler.getSize();
     const Inserted made =
         insertBodies(InletPart::placesOf(inside->context), mixture, region, amount, options);
     if (hasBegun()) BodyPart::warnOfGaps(inside->context, before);
-    else if (mixture.hasClumps() && made.number > 1)
+    else if (mixture.hasBodies() && made.number > 1)
         logger(LogLevel::Info,
-               "insert(): {} grains and clumps, a solid fraction of {:.4g}; orientation order {:.3g}.",
+               "insert(): {} grains and bodies, a solid fraction of {:.4g}; orientation order {:.3g}.",
                made.number, made.solidFraction, made.orientationOrder);
     return inside->reportShortfall(made);
 }

@@ -66,7 +66,11 @@ public:
     /// too.
     Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                     const Clump& like, const InsertOptions& options = {});
-    /// Inserts a mixture of grains and clumps, as exactly in its shares as their number allows.
+    /// Inserts superquadrics, each turned at random, into a scene of SuperquadricSimulation: a size is the
+    /// diameter of a sphere of its volume. The spheres around them overlap nothing.
+    Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
+                    const SuperquadricGrain& like, const InsertOptions& options = {});
+    /// Inserts a mixture of grains, clumps and superquadrics, as exactly in its shares as their number allows.
     Inserted insert(const BodyMixture& mixture, const Region& region, const Amount& amount,
                     const InsertOptions& options = {});
 

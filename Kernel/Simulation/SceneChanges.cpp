@@ -6,6 +6,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
@@ -71,12 +72,12 @@ void Scene::Inside::takeOverChanges() {
         const auto firstNewWall = static_cast<int>(walls.firstNewWall());
         // Springs may work in the step again, as they do after a restart without bodies.
         const bool lastBodyWent =
-            checkedSizes.hasBodies && context.grains().bodies.empty() && !scene.inletHandler.bringClumps();
+            checkedSizes.hasBodies && context.grains().bodies.empty() && !scene.inletHandler.bringBodies();
         if (!newLaws && !changedWalls && !newStep && !lastBodyWent &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
         const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
-        const bool bodiesCame = scene.inletHandler.bringClumps() &&
+        const bool bodiesCame = scene.inletHandler.bringBodies() &&
                                 areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest()),
                    changedGrains = !changes.placed.empty() || (!changes.altered.empty() && !bodiesCame),
                    newBodies = changedWalls || changedGrains;
@@ -90,8 +91,9 @@ void Scene::Inside::takeOverChanges() {
             contextNow(stepLength()),
             {.laws = newLaws, .walls = changedWalls, .grains = changedGrains, .timeStep = newStep});
         choosePartsLength();
-        const bool withShapes = laws().shapes() && !changes.added.empty(), hadEnds = periodicWalls.haveEnds();
-        if (newLaws || newBodies || withShapes || lastBodyWent || stepLength() != checkedStep ||
+        const bool newShapes = laws().shapes() && laws().shapes()->largestRadiusRatio() != checkedRadii,
+                   hadEnds = periodicWalls.haveEnds();
+        if (newLaws || newBodies || newShapes || lastBodyWent || stepLength() != checkedStep ||
             isNewToChecks(changes.added))
             check();
         ParticleStore& grains = particles.store();

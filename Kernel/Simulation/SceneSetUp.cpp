@@ -129,9 +129,9 @@ void Scene::Inside::check() {
     const Features found = wakeParts();
     refuseConflicts(found);
     parts.refuseOwnConflicts(found);
-    if (const GrainShapes* const shapes = laws().shapes()) shapes->check(scene.wallHandler);
     refuseWear(scene.wallHandler, account.isKept(), laws().layout.hasTorque);
     GrainSizes sizes = sizesOf(scene.particleHandler.store());
+    if (laws().shapes()) checkedRadii = laws().shapes()->largestRadiusRatio();
     if (scene.hasBegun() && stepLength() != checkedStep) refuseOtherStep();
     const bool checksStep = !context.acceptsUnstableStep && !adaptive.step().hasChosen(),
                willBeInStep = takesSpringsInStep(sizes);

@@ -38,8 +38,6 @@ constexpr std::array table{
              "set gravity to zero"},
     Conflict{Superquadrics, StressServo, "its servo knows the stiffness of contacts of spheres only",
              "give the scene a rate instead (setStrainRate(), setShearRate())"},
-    Conflict{Superquadrics, Inlets, "inlets bring spheres and clumps",
-             "leave the inlets out, and add all at set-up"},
     Conflict{Superquadrics, TurnedWalls, "the torque on a wall counts with contacts of spheres",
              "let the wall slide (setSlider()), or give it a motion"},
     Conflict{Superquadrics, AdaptiveStep, "its bound of the step counts with contacts of spheres",

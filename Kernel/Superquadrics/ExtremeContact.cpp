@@ -14,7 +14,7 @@ ExtremeContact extremeContact(const Superquadric& shape) {
     const auto lanes = SuperquadricLanes<double>::from(shape);
     const MassProperties solid = shape.mass();
     const Eigen::Vector3d moments = solid.inertia.diagonal() / solid.volume;  // m^2, over the mass
-    ExtremeContact most{0, 1};
+    ExtremeContact most{0, 1, 1};
     for (int i = 0; i <= intervals; ++i)
         for (int j = 0; j <= intervals; ++j) {
             const double down = 0.5 * std::numbers::pi * i / intervals,
@@ -26,11 +26,17 @@ ExtremeContact extremeContact(const Superquadric& shape) {
             most.turning = std::max(
                 most.turning, l.x * l.x / moments.x() + l.y * l.y / moments.y() + l.z * l.z / moments.z());
             const TangentPlane<double> plane(n);
-            const double gauss = curvature(at, plane.u, plane.v).determinant();
+            const Curvature<double> k = curvature(at, plane.u, plane.v);
+            const double gauss = k.determinant(), mean = 0.5 * (k.uu + k.vv),
+                         largest = mean + std::hypot(0.5 * (k.uu - k.vv), k.uv);
+            if (largest > 0)
+                most.smallestRadius =
+                    std::min(most.smallestRadius, 1 / (largest * shape.boundingRadius()));
             const double radius = gauss > 0 ? 1 / std::sqrt(gauss) : infinity;
             most.radii = std::max(most.radii, radius / shape.boundingRadius());
         }
-    return {1.01 * most.turning, std::min(1.01 * most.radii, SuperquadricGeometry::mostRadii)};
+    return {1.01 * most.turning, std::min(1.01 * most.radii, SuperquadricGeometry::mostRadii),
+            0.8 * most.smallestRadius};
 }
 
 }  // namespace pendular

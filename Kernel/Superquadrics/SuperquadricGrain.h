@@ -29,6 +29,17 @@ public:
         like.setSpecies(species);
     }
 
+    /// The same with all lengths times a factor.
+    [[nodiscard]] SuperquadricGrain scaled(double factor) const {
+        SuperquadricGrain copy(*this);
+        for (const auto length : {&Superquadric::a, &Superquadric::b, &Superquadric::c})
+            copy.shapeValue.*length *= factor;
+        copy.like.setRadius(copy.shapeValue.boundingRadius());
+        return copy;
+    }
+
+    [[nodiscard]] int getSpeciesIndex() const { return like.getSpeciesIndex(); }
+    [[nodiscard]] const Vec3D& getVelocity() const { return like.getVelocity(); }
     [[nodiscard]] const Superquadric& getShape() const { return shapeValue; }
     [[nodiscard]] const Eigen::Quaterniond& getOrientation() const { return orientationValue; }
     /// The sphere around it, with its species and motion.

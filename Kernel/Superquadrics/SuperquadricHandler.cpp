@@ -9,45 +9,9 @@
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
-#include "Kernel/Walls/InfiniteWall.h"
-#include "Kernel/Walls/WallHandler.h"
+#include "Kernel/Superquadrics/SuperquadricBody.h"
 
 namespace pendular {
-
-namespace {
-
-/// kg, of the largest free sphere of a body, as the stability limit takes it (RigidBodies::response): it
-/// compares the mass with which the body's contacts move, 1 / max(1/m, R^2 / (5/2 I)) with the smallest
-/// moment I, with that of this sphere. A normal force at an arm turns a superquadric as well.
-double freeMass(const RigidBody& body, const Superquadric& shape, double turning, double massOfSphere) {
-    const double radius = shape.boundingRadius();
-    const double moment = std::min({body.inertia.x, body.inertia.y, body.inertia.z});
-    const double ofSpheres = std::max(1 / body.mass, radius * radius / (2.5 * moment));
-    return massOfSphere * std::max((1 + turning) / body.mass, ofSpheres) / ofSpheres;
-}
-
-/// The axes of the shape are the principal ones: no search for them, which might change their order.
-RigidBody bodyOf(const SuperquadricGrain& grain, double density, double turning, double massOfSphere) {
-    const MassProperties solid = grain.getShape().mass();
-    const Eigen::Quaterniond& q = grain.getOrientation();
-    const SphericalParticle& around = grain.around();
-    RigidBody body{.mass = density * solid.volume,
-                   .inertia = toVector(Vec3D(density * solid.inertia.diagonal())),
-                   .position = toVector(around.getPosition()),
-                   .velocity = toVector(around.getVelocity()),
-                   .orientation = {q.w(), toVector(Vec3D(q.vec()))}};
-    body.setSpin(toVector(around.getAngularVelocity()));
-    body.largestFreeMass = freeMass(body, grain.getShape(), turning, massOfSphere);
-    return body;
-}
-
-SuperquadricPair<double> pairOf(const Superquadric& one, const RigidBody& first, const Superquadric& two,
-                                const RigidBody& second, const Vector<double>& shift) {
-    return {SuperquadricLanes<double>::from(one), SuperquadricLanes<double>::from(two),
-            Axes<double>(first.orientation), Axes<double>(second.orientation), shift};
-}
-
-}  // namespace
 
 std::uint32_t SuperquadricHandler::numberOf(const Superquadric& shape) {
     const auto [found, isNew] =
@@ -58,9 +22,11 @@ std::uint32_t SuperquadricHandler::numberOf(const Superquadric& shape) {
 }
 
 void SuperquadricHandler::addShape(const Superquadric& shape) {
+    const ExtremeContact& extreme = contactOf(shape);
     shapes.push_back(shape);
+    balls.push_back(extreme.smallestRadius * shape.boundingRadius());
     areEllipsoids &= shape.isEllipsoid();
-    largestRadii = std::max(largestRadii, contactOf(shape).radii);
+    largestRadii = std::max(largestRadii, extreme.radii);
 }
 
 const ExtremeContact& SuperquadricHandler::contactOf(const Superquadric& shape) {
@@ -80,12 +46,12 @@ const ExtremeContact& SuperquadricHandler::contactOf(const Superquadric& shape) 
 BodyReference SuperquadricHandler::copyAndAddObject(const SuperquadricGrain& grain) {
     const std::uint32_t identity = particles.copyAndAddObject(grain.around()).getId();
     ParticleStore& grains = particles.store();
-    const double massOfSphere =
-        particles.massOf(grain.around().getRadius(), grain.around().getSpeciesIndex());
-    const double density = massOfSphere / sphereMass(grain.around().getRadius(), 1);
+    const double density =
+        particles.massOf(grain.around().getRadius(), grain.around().getSpeciesIndex()) /
+        sphereMass(grain.around().getRadius(), 1);
     const BodyMember member{identity, {0, 0, 0}};
     const std::uint32_t number =
-        grains.bodies.add(bodyOf(grain, density, contactOf(grain.getShape()).turning, massOfSphere),
+        grains.bodies.add(bodyOf(grain, density, contactOf(grain.getShape()).turning),
                           {&member, 1}, grain.getShape().volume());
     grains.bodies.place(grains, grains.bodies.size() - 1);
     ParticleHandler::Inside::noteJoined(particles, {&identity, 1});
@@ -96,57 +62,61 @@ BodyReference SuperquadricHandler::copyAndAddObject(const SuperquadricGrain& gra
 
 const Superquadric& SuperquadricHandler::shapeOf(std::uint32_t grain) const {
     const std::uint32_t body = particles.store().bodies.bodyOf(grain);
-    if (body >= shapeOfBody.size() || shapeOfBody[body] == RigidBodies::none)
-        throw InputError(fmt::format("particle {} is no superquadric.", grain));
-    return shapes[shapeOfBody[body]];
+    if (const Superquadric* const shape = ofBody(body)) return *shape;
+    throw InputError(fmt::format("particle {} is no superquadric.", grain));
 }
 
-bool SuperquadricHandler::isEmpty() const {
-    return ParticleHandler::Inside::grainsInStep(particles).bodies.empty();
+ShapeInSpace SuperquadricHandler::shapeAt(const ParticleStore& grains, std::uint32_t place) const {
+    const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
+    if (const Superquadric* const shape = ofBody(number))
+        return {*shape, Axes<double>(grains.bodies[grains.bodies.find(number)].orientation)};
+    const double radius = grains.translation[place].radius;
+    return {{radius, radius, radius}, Axes<double>(Quaternion{})};
 }
 
-void SuperquadricHandler::requireAll() const {
-    const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
-    for (const std::uint32_t place : grains.place) {
-        const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
-        if (body >= shapeOfBody.size() || shapeOfBody[body] >= shapes.size())
-            throw InputError(fmt::format(
-                "particle {} is no superquadric; in a SuperquadricSimulation all grains must be added by "
-                "superquadricHandler (a sphere is one with three equal half lengths).",
-                grains.identity[place]));
-    }
-}
-
-void SuperquadricHandler::check(const WallHandler& walls) const {
-    requireAll();
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (!walls.isRemoved(w) && dynamic_cast<const InfiniteWall*>(&walls.getObject(w)) == nullptr)
-            throw InputError(fmt::format(
-                "wall {} is not plane: superquadrics touch InfiniteWall only; take planes, or clumps of "
-                "spheres.",
-                w));
+Vector<double> SuperquadricHandler::farthest(const ParticleStore& grains, std::uint32_t place,
+                                             const Vector<double>& normal) const {
+    const ShapeInSpace own = shapeAt(grains, place);
+    return own.axes.turn(
+        supportPoint(SuperquadricLanes<double>::from(own.shape), own.axes.turnBack(normal)).point);
 }
 
 double SuperquadricHandler::thickness(const ParticleStore& grains, std::uint32_t grain) const {
-    const Superquadric& shape = shapeAt(grains, grain);
+    const Superquadric shape = shapeAt(grains, grain).shape;
     return std::min({shape.a, shape.b, shape.c});
 }
 
 ShapedTouch SuperquadricHandler::touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                        const Vector<double>& shift) const {
-    const SuperquadricPair<double> pair = pairOf(shapeAt(grains, first), bodyAt(grains, first),
-                                                 shapeAt(grains, second), bodyAt(grains, second), shift);
+    const ShapeInSpace one = shapeAt(grains, first), two = shapeAt(grains, second);
+    const SuperquadricPair<double> pair{SuperquadricLanes<double>::from(one.shape),
+                                        SuperquadricLanes<double>::from(two.shape), one.axes, two.axes, shift};
     const SuperquadricTouch<double> found = findTouch(pair, firstNormal(pair), false);
     return {found.normal, found.depth, found.arm1};
 }
 
-ShapedTouch SuperquadricHandler::touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
-                                              const Vector<double>& normal, double distance) const {
-    const Axes<double> axes(bodyAt(grains, grain).orientation);
-    const SupportPoint<double> lowest =
-        supportPoint(SuperquadricLanes<double>::from(shapeAt(grains, grain)), axes.turnBack(normal));
-    const double depth = lowest.height - distance;
-    return {normal, depth, axes.turn(lowest.point) - (0.5 * depth) * normal};
+ShapeAtWall SuperquadricHandler::atWalls(const ParticleStore& grains, std::uint32_t place) const {
+    const ShapeInSpace own = shapeAt(grains, place);
+    const std::uint32_t kind = shapeOfBody[grains.bodies.bodyOf(grains.identity[place])];
+    return {SuperquadricLanes<double>::from(own.shape), own.axes, grains.translation[place].position,
+            balls[kind]};
+}
+
+void SuperquadricHandler::findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
+                                     std::span<const std::uint32_t> parts,
+                                     std::span<WallPoint> points) const {
+    if (isShaped(grains, grain)) return atWalls(grains, grain).findPoints(wall, parts, points);
+    const TranslationRecord& sphere = grains.translation[grain];
+    wall.findPoints(sphere.position, sphere.radius, parts, points);
+}
+
+ShapedTouch SuperquadricHandler::touchAtWall(const ParticleStore& grains, std::uint32_t grain,
+                                             const Wall& wall, std::uint32_t part) const {
+    WallPoint point{};
+    findPoints(grains, grain, wall, {&part, 1}, {&point, 1});
+    const Vector<double> lowest = farthest(grains, grain, point.normal);
+    const double depth = dot(lowest, point.normal) - point.distance;
+    return {point.normal, depth, lowest - (0.5 * depth) * point.normal};
 }
 
 void SuperquadricHandler::visitState(StateArchive& archive) {
@@ -165,9 +135,8 @@ void SuperquadricHandler::visitState(StateArchive& archive) {
     fallbackCount = count;
     archive.require(exponents.size() == 2 * halfLengths.size(), "exponents",
                     "does not have two of each shape");
-    shapes.clear(), numbers.clear();
+    shapes.clear(), balls.clear(), numbers.clear();
     areEllipsoids = true;
-    largestRadii = 1;
     for (std::size_t k = 0; k < halfLengths.size(); ++k) {
         const Vector<double>& lengths = halfLengths[k];
         for (const std::uint32_t n : {exponents[2 * k], exponents[2 * k + 1]})
@@ -206,33 +175,46 @@ SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, st
     const auto eight = [&](const Places& places) {
         Places at{};
         std::array<LaneColumn, 5> numbers;
+        LaneColumn moves;
+        Mask isShaped(false);
+        std::uint8_t shaped = 0;
         for (std::size_t k = 0; k < Pack::lanes; ++k) {
             // Lanes of grains that have gone are of no meaning.
-            at[k] = bodies.at(places[k]) < bodies.size() ? bodies.at(places[k]) : 0;
-            const Superquadric& s = shapes[shapeOfBody[bodies.numberOf(at[k])]];
+            const std::uint32_t body = bodies.at(places[k]);
+            const Superquadric* const own = body < bodies.size() ? ofBody(bodies.numberOf(body)) : nullptr;
+            const double radius = task.translation[places[k]].radius;
+            const Superquadric s = own ? *own : Superquadric{radius, radius, radius};
+            at[k] = own ? body : 0;
+            shaped = static_cast<std::uint8_t>(shaped | (own ? 1u : 0u) << k);
+            moves.lane[k] = own && bodies.isHeld(body) ? 0 : 1;  // one that is held has an infinite mass
             const double ofShape[5] = {s.a, s.b, s.c, static_cast<double>(s.n1), static_cast<double>(s.n2)};
             for (std::size_t c = 0; c < 5; ++c) numbers[c].lane[k] = ofShape[c];
         }
+        isShaped = maskFromBits(shaped);
         const auto column = [&](std::size_t c) { return Pack::load(numbers[c].lane.data()); };
-        constexpr std::size_t record = sizeof(RigidBody) / sizeof(double);
-        const double* const base = &bodies[0].mass;
-        const auto own = loadRecords<8>(base, record, at.data()),
-                   turning = loadRecords<8>(base + 16, record, at.data());
         const auto grain =
             loadRecords<8>(reinterpret_cast<const double*>(task.translation), 8, places.data());
         const auto [wx, wy, wz] =
             loadRecords<3>(reinterpret_cast<const double*>(task.rotation), 8, places.data());
-        Pack inverseMass = Pack(1) / own[0];
-        Vector<Pack> inertia = packsOf(own, 1);
-        if (bodies.areSomeHeld()) {  // one that is held altogether has an infinite mass
-            LaneColumn moves;
-            for (std::size_t k = 0; k < Pack::lanes; ++k) moves.lane[k] = bodies.isHeld(at[k]) ? 0 : 1;
+        // Of spheres, which may be parts of clumps, as the kernel of spheres takes them.
+        Pack inverseMass = grain[7];
+        const Pack ofSphere = (Pack(0.4) * grain[3] * grain[3]) / max(grain[7], Pack(1e-200));
+        Vector<Pack> inertia{ofSphere, ofSphere, ofSphere};
+        QuaternionOf<Pack> orientation{Pack(1), {Pack(0), Pack(0), Pack(0)}};
+        if (any(isShaped)) {
+            constexpr std::size_t record = sizeof(RigidBody) / sizeof(double);
+            const double* const base = &bodies[0].mass;
+            const auto body = loadRecords<8>(base, record, at.data()),
+                       turning = loadRecords<8>(base + 16, record, at.data());
             const Pack share = Pack::load(moves.lane.data());
-            inverseMass = inverseMass * share;
-            inertia = {inertia.x / share, inertia.y / share, inertia.z / share};
+            const Vector<Pack> moments = packsOf(body, 1);
+            inverseMass = select(isShaped, share / body[0], inverseMass);
+            inertia = select(isShaped, {moments.x / share, moments.y / share, moments.z / share}, inertia);
+            orientation.real = select(isShaped, turning[3], orientation.real);
+            orientation.imaginary = select(isShaped, packsOf(turning, 4), orientation.imaginary);
         }
         return EightSuperquadrics{{column(0), column(1), column(2), column(3), column(4), areEllipsoids},
-                                  Axes<Pack>(QuaternionOf<Pack>{turning[3], packsOf(turning, 4)}),
+                                  Axes<Pack>(orientation),
                                   inverseMass,
                                   inertia,
                                   packsOf(grain, 0),

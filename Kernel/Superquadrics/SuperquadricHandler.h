@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <map>
@@ -8,6 +9,7 @@
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Particles/BodyHandler.h"
 #include "Kernel/Superquadrics/ExtremeContact.h"
+#include "Kernel/Superquadrics/ShapeAtWall.h"
 #include "Kernel/Superquadrics/SuperquadricGeometry.h"
 #include "Kernel/Superquadrics/SuperquadricGrain.h"
 
@@ -16,8 +18,8 @@ namespace pendular {
 struct ContactTask;
 class StateArchive;
 
-/// The superquadrics of a scene. Each is a rigid body (BodyHandler) of one grain, the sphere around it, whose
-/// principal axes are those of the shape.
+/// The superquadrics of a scene, beside its spheres and clumps. Each is a rigid body (BodyHandler) of one
+/// grain, the sphere around it, whose principal axes are those of the shape.
 class SuperquadricHandler final : public GrainShapes {
 public:
     explicit SuperquadricHandler(ParticleHandler& particleHandler) : particles(particleHandler) {}
@@ -26,42 +28,48 @@ public:
     BodyReference copyAndAddObject(const SuperquadricGrain& grain);
     /// The shape of a grain, by its identity. Throws InputError if it is none of these.
     [[nodiscard]] const Superquadric& shapeOf(std::uint32_t grain) const;
-    [[nodiscard]] bool isEmpty() const;
     /// The number of evaluations of a contact that acted in which Newton's method has not ended, and the
     /// search without derivatives went on.
     [[nodiscard]] std::uint64_t fallbacks() const { return fallbackCount; }
 
-    [[nodiscard]] const Superquadric& shapeAt(const ParticleStore& grains,
-                                              std::uint32_t place) const override {
-        return shapes[shapeOfBody[grains.bodies.bodyOf(grains.identity[place])]];
+    [[nodiscard]] bool isShaped(const ParticleStore& grains, std::uint32_t place) const override {
+        return ofBody(grains.bodies.bodyOf(grains.identity[place])) != nullptr;
     }
+    [[nodiscard]] Vector<double> farthest(const ParticleStore& grains, std::uint32_t place,
+                                          const Vector<double>& normal) const override;
+    [[nodiscard]] ShapeInSpace shapeAt(const ParticleStore& grains, std::uint32_t place) const override;
     /// The smallest half length is the radius that overlaps are held against.
     [[nodiscard]] double thickness(const ParticleStore& grains, std::uint32_t grain) const override;
     [[nodiscard]] ShapedTouch touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                     const Vector<double>& shift) const override;
-    [[nodiscard]] ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
-                                           const Vector<double>& normal, double distance) const override;
-    void check(const WallHandler& walls) const override;
+    [[nodiscard]] ShapedTouch touchAtWall(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
+                                          std::uint32_t part) const override;
+    void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
+                    std::span<const std::uint32_t> parts, std::span<WallPoint> points) const override;
 
-    /// The factor by which Gauss' radius at a contact may be larger than that of the spheres around, at most:
-    /// for the stability limit.
-    [[nodiscard]] double largestRadiusRatio() const { return largestRadii; }
+    void add(const SuperquadricGrain& grain) override { static_cast<void>(copyAndAddObject(grain)); }
+    void expect(const Superquadric& shape) override {
+        largestRadii = std::max(largestRadii, contactOf(shape).radii);
+    }
+    [[nodiscard]] double largestRadiusRatio() const override { return largestRadii; }
     /// The geometry of the eight contacts of a block.
     [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block) const;
-    /// Throws InputError if a grain of the scene has no shape.
-    void requireAll() const;
     void visitState(StateArchive& archive);
 
 private:
-    [[nodiscard]] static const RigidBody& bodyAt(const ParticleStore& grains, std::uint32_t place) {
-        return grains.bodies[grains.bodies.find(grains.bodies.bodyOf(grains.identity[place]))];
+    /// The shape of the body with a number; null of clumps, and of grains in no body.
+    [[nodiscard]] const Superquadric* ofBody(std::uint32_t number) const {
+        if (number >= shapeOfBody.size() || shapeOfBody[number] == RigidBodies::none) return nullptr;
+        return &shapes[shapeOfBody[number]];
     }
+    [[nodiscard]] ShapeAtWall atWalls(const ParticleStore& grains, std::uint32_t place) const;
     [[nodiscard]] std::uint32_t numberOf(const Superquadric& shape);
     void addShape(const Superquadric& shape);
     [[nodiscard]] const ExtremeContact& contactOf(const Superquadric& shape);
 
     ParticleHandler& particles;
     std::vector<Superquadric> shapes;                        // that differ
+    std::vector<double> balls;                               // m, of each: see ShapeAtWall
     std::map<std::array<double, 5>, std::uint32_t> numbers;  // of shapes, by lengths and exponents
     std::vector<std::uint32_t> shapeOfBody;                  // by the number of the body
     bool areEllipsoids = true;  // all: one way for a whole scene, so that no bit depends on

@@ -27,17 +27,12 @@ public:
         const double factor = std::sqrt(superquadrics.largestRadiusRatio());
         return SpeciesLaws<S>::stiffness(a, b, {factor * bodies.radius1, factor * bodies.radius2}, mass);
     }
-    [[nodiscard]] const GrainShapes* shapes() const override { return &superquadrics; }
+    [[nodiscard]] GrainShapes* shapes() const override { return &superquadrics; }
     void visitState(StateArchive& archive, bool& changedInRun) override {
         SpeciesLaws<S>::visitState(archive, changedInRun);
         archive.group("superquadrics", [&] { superquadrics.visitState(archive); });
     }
-    void prepare(const std::vector<Bucket>& buckets) override {
-        superquadrics.requireAll();
-        SpeciesLaws<S>::prepare(buckets);
-    }
     bool compute(const ContactTask& task) const override {
-        if (superquadrics.isEmpty()) return true;  // blocks of grains that have all gone
         return this->computeBlocks(task,
                                    [&](std::size_t block) { return superquadrics.geometryOf(task, block); });
     }

@@ -16,6 +16,7 @@ public:
     void set(const Vec3D& direction, const Vec3D& point, double radius, CylinderSide side);
 
     [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override;
+    [[nodiscard]] bool hasConvexParts() const override { return !inside; }
 
 protected:
     void listInBody(const Vector<double>& centre, double reach,

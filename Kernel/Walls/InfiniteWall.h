@@ -25,6 +25,7 @@ public:
     /// which sound passes the bed. The force is looked at 100 times in it, or at each step.
     void setTargetForce(double force, double time, double largestSpeed);
 
+    [[nodiscard]] bool hasConvexParts() const override { return true; }
     using RigidWall::drive;
     [[nodiscard]] PlaneDrive* drive() override { return driven ? &*driven : nullptr; }
     /// m/s, positive away from the grains; 0 unless it is moved by forces.

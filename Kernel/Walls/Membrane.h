@@ -87,6 +87,7 @@ public:
     using Wall::membrane;
     [[nodiscard]] Membrane* membrane() override { return this; }
     [[nodiscard]] std::size_t partCount() const override { return getNet().triangles().size(); }
+    [[nodiscard]] bool hasConvexParts() const override { return true; }
     void listParts(const Vector<double>& centre, double reach,
                    std::vector<std::uint32_t>& parts) const override {
         shape.listParts(centre, reach, parts);

@@ -68,6 +68,10 @@ public:
     /// Whether a contact can be with this part, also of an image.
     [[nodiscard]] virtual bool hasPart(std::uint32_t part) const { return part < partCount(); }
 
+    /// Whether each part is a convex body or surface as the grains see it, so that a convex grain is nearest
+    /// to it in one place: not of a bowl.
+    [[nodiscard]] virtual bool hasConvexParts() const { return false; }
+
     /// Appends the parts that a sphere with this centre may touch while its centre is within `reach` (m) of
     /// them; where the scene repeats the wall, also those of its images.
     virtual void listParts(const Vector<double>& centre, double reach,

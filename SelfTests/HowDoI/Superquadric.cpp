@@ -19,6 +19,7 @@ struct Lenses : SuperquadricSimulation<HertzianViscoelasticMindlinSpecies> {
         lens.setPosition({0, 0, 0.9e-3});            // m
         lens.setOrientation({1, 0.3, 0, 0});         // a quaternion of any length
         superquadricHandler.copyAndAddObject(lens);  // returns its body
+        insert(evenSizes(1e-3, 1.4e-3), BoxRegion({0, 0, 0.01}, {0.02, 0.02, 0.03}), Amount::grains(20), lens);
         InfiniteWall floor;
         floor.setSpecies(material);
         floor.set({0, 0, -1}, {0, 0, 0});
@@ -33,6 +34,7 @@ TEST_F(HowDoI, Superquadric) {
     Lenses scene;
     run(scene);
     EXPECT_NEAR(scene.bodyHandler.getObject(0).getMass(), 2500 * 4.0 / 3 * std::numbers::pi * 0.5e-9, 1e-18);
+    EXPECT_EQ(scene.bodyHandler.getSize(), 21u);
     EXPECT_EQ(scene.superquadricHandler.fallbacks(), 0u);
     // It has fallen, and lies above the floor.
     const double height = scene.bodyHandler.getObject(0).getPosition().z();

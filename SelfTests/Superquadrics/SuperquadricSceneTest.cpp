@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Base/RunError.h"
-#include "Kernel/CoarseGraining/FieldOutput.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Math/CountedRandom.h"
 #include "Kernel/Simulation/StateHash.h"
@@ -12,7 +10,6 @@
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "Kernel/Walls/InfiniteCylinder.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
@@ -375,25 +372,6 @@ TEST(SuperquadricScene, refusesWhatItDoesNotKnow) {
         return refusal([&] { change(scene), scene.initialise(); });
     };
     EXPECT_TRUE(contains(sentence([](auto& scene) { scene.add({{1e-3, 1e-3, 1e-3, 1, 2}}); }), "exponent"));
-    EXPECT_TRUE(contains(sentence([](auto& scene) {
-                             SphericalParticle grain;
-                             grain.setSpecies(scene.speciesHandler.getObject(0)), grain.setRadius(1e-3);
-                             grain.setPosition({0.01, 0, 0});
-                             scene.particleHandler.copyAndAddObject(grain);
-                         }),
-                         "particle 1 is no superquadric"));
-    EXPECT_TRUE(contains(sentence([](auto& scene) {
-                             InfiniteCylinder wall;
-                             wall.setSpecies(scene.speciesHandler.getObject(0));
-                             wall.set({0, 0, 1}, {0, 0, 0}, 0.01, CylinderSide::Inside);
-                             scene.wallHandler.copyAndAddObject(wall);
-                         }),
-                         "not plane"));
-    EXPECT_TRUE(contains(sentence([](auto& scene) {
-                             scene.addOutput(FieldOutput(FieldGrid("Z", {0, 0, 0}, {1e-2, 1e-2, 1e-2}, 1e-3),
-                                                         KernelShape::Gauss, 1e-3));
-                         }),
-                         "take grains for spheres"));
     // The spheres around them overlap by half, but they do not; and they do if they are turned.
     const auto beside = [&](double angle) {
         return sentence([&](auto& scene) {
@@ -412,22 +390,6 @@ struct Touching : FewSuperquadrics<Smooth> {
         step(5);
     }
 };
-
-// Before the step, as at set-up.
-TEST(SuperquadricScene, refusesAPlainGrainInTheRun) {
-    Touching scene;
-    SphericalParticle plain;
-    plain.setSpecies(scene.speciesHandler.getObject(0));
-    plain.setRadius(1e-3);
-    plain.setPosition({0.1, 0, 0});
-    scene.particleHandler.copyAndAddObject(plain);
-    try {
-        scene.step();
-        FAIL() << "it was taken in";
-    } catch (const RunError& error) {
-        EXPECT_TRUE(contains(error.what(), "is no superquadric")) << error.what();
-    }
-}
 
 // Blocks of contacts whose grains have all gone are left alone.
 TEST(SuperquadricScene, goesOnWithoutGrains) {

@@ -186,7 +186,7 @@ std::vector<Feature> bodyFeatures() {
          .add = addHeldBodies,
          .loses = both | places,
          .kinds = {"body", "held"}},
-        // A scene has them only by name, as it can have no other grains.
+        // A scene has them only by name, as it has one type of species then.
         {.name = "Superquadrics", .share = 0, .add = addSuperquadrics, .kinds = {"body"}},
         {.name = "Clumps", .share = 0.2, .add = addClumps, .kinds = {"body"}},
         {.name = "Joined", .share = 0.08, .add = addJoined, .kinds = {"body"}},

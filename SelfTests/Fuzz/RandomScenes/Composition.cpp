@@ -55,9 +55,6 @@ constexpr std::array refusedElsewhere{
                      "a grain comes below the floor through a period: a matter of places"},
     RefusedElsewhere{"is above the stability limit", "a matter of the numbers of a scene"},
     RefusedElsewhere{"only meshes are repeated", "a shape that is no mesh has no images"},
-    RefusedElsewhere{"superquadrics touch InfiniteWall only", "not built: shapes at other walls"},
-    RefusedElsewhere{"is no superquadric", "not built: spheres beside shapes"},
-    RefusedElsewhere{"fields take grains for spheres", "not built: fields of shapes"},
 };
 
 /// A seed with which grains are many, and fill their box.
@@ -123,7 +120,7 @@ Recipe recipeWith(std::span<const std::string_view> names, std::uint64_t seed) {
     recipe.steps = 80;
     std::vector<std::string> features(names.begin(), names.end());
     for (const std::string_view name : names) addNeeded(features, featureNamed(name));
-    if (std::ranges::find(features, "Superquadrics") == features.end()) features.emplace_back("Grains");
+    features.emplace_back("Grains");
     for (const Feature& feature : allFeatures())
         if (std::ranges::find(features, feature.name) != features.end())
             recipe.features.push_back(feature.name);

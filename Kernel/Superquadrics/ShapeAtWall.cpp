@@ -1,0 +1,205 @@
+#include "Kernel/Superquadrics/ShapeAtWall.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace pendular {
+
+namespace {
+
+WallPoint nearest(const Wall& wall, std::uint32_t part, const Vector<double>& point) {
+    WallPoint found{};
+    wall.findPoints(point, infinity, {&part, 1}, {&found, 1});
+    return found;
+}
+
+/// The vector (x, y) of M (x, y) = (a, b).
+struct Flat {
+    double u, v;
+};
+Flat solve(double uu, double uv, double vu, double vv, const Flat& right) {
+    const double scale = 1 / (uu * vv - uv * vu);
+    return {scale * (vv * right.u - uv * right.v), scale * (uu * right.v - vu * right.u)};
+}
+
+}  // namespace
+
+ShapeAtWall::Look ShapeAtWall::lookAlong(const Wall& wall, std::uint32_t part,
+                                         const Vector<double>& normal) const {
+    Look look{.normal = normal, .support = supportAt(normal), .point{}, .towards{}, .distance = 0, .velocity{}};
+    look.point = coreAt(look.support, normal);
+    const WallPoint seen = nearest(wall, part, look.point);
+    look.towards = seen.normal;
+    look.distance = seen.distance;
+    look.velocity = seen.velocity;
+    // The core is beyond a face: the grain overlaps by more than the ball.
+    if (dot(seen.normal, normal) < 0 && wall.isCrossed(centre, look.point)) {
+        look.towards = -seen.normal;
+        look.distance = -seen.distance;
+    }
+    return look;
+}
+
+/// Gilbert's method: x is a point in the core, and goes towards the core's farthest point along the way to
+/// the wall as long as it comes nearer.
+Vector<double> ShapeAtWall::nearNormal(const Wall& wall, std::uint32_t part, const WallPoint& first,
+                                       bool& isApart) const {
+    constexpr int mostRounds = 30, mostHalvings = 8;
+    const bool isConvex = wall.hasConvexParts();
+    Vector<double> x = centre, n = first.normal;
+    double distance = first.distance;
+    isApart = false;
+    for (int round = 0; round < mostRounds; ++round) {
+        const Vector<double> farthest = coreAt(supportAt(n), n), way = farthest - x;
+        const double gain = dot(n, way);
+        // The part is beyond a plane across n, at this distance from x at least.
+        if (isConvex && distance - gain > ballRadius) {
+            isApart = true;
+            return n;
+        }
+        if (gain < 1e-3 * ballRadius) return n;
+        WallPoint there = nearest(wall, part, farthest);
+        if (dot(there.normal, way) >= 0 || wall.isCrossed(x, farthest)) return dot(there.normal, n) > 0 ? there.normal : n;
+        // The distance falls at first along the way, and rises at its end.
+        double low = 0, high = 1;
+        for (int k = 0; k < mostHalvings; ++k) {
+            const double middle = 0.5 * (low + high);
+            there = nearest(wall, part, x + middle * way);
+            (dot(there.normal, way) > 0 ? low : high) = middle;
+        }
+        if (low == 0) return n;
+        x += low * way;
+        there = nearest(wall, part, x);
+        n = there.normal, distance = there.distance;
+    }
+    return n;
+}
+
+/// The step (m) along the grain's surface at which Newton's method expects the normal. With the radii of
+/// curvature A of the grain, that of the ball r, and the change -H e of the direction to the wall by a shift
+/// e of the core, the shift w = (A - r) t of a turn t of the normal is that of t + H w = g, where g is how the
+/// direction to the wall differs from the normal.
+Vector<double> ShapeAtWall::newtonShift(const Wall& wall, std::uint32_t part, const Look& now) const {
+    const TangentPlane<double> plane(now.normal);
+    const double flattest = 1e-6 / (shape.a + shape.b + shape.c);
+    const Curvature<double> k = curvature(now.support, axes.turnBack(plane.u), axes.turnBack(plane.v)) +
+                                Curvature<double>{flattest, flattest, 0};
+    // (A - r)^-1 = (1 - r K)^-1 K
+    const Curvature<double> a = k.inverse();
+    const Curvature<double> s = Curvature<double>{a.uu - ballRadius, a.vv - ballRadius, a.uv}.inverse();
+    const Flat g{dot(now.towards, plane.u), dot(now.towards, plane.v)};
+    const double shift = 1e-5 * ballRadius;
+    const auto turnBy = [&](const Vector<double>& axis) -> Flat {  // -H axis
+        const Vector<double> change =
+            (1 / shift) * (nearest(wall, part, now.point + shift * axis).normal - now.towards);
+        return {dot(change, plane.u), dot(change, plane.v)};
+    };
+    const bool isBeyond = now.distance < 0;
+    const Flat byU = isBeyond ? Flat{0, 0} : turnBy(plane.u), byV = isBeyond ? Flat{0, 0} : turnBy(plane.v);
+    const double uu = s.uu - byU.u, uv = s.uv - byV.u, vu = s.uv - byU.v, vv = s.vv - byV.v;
+    Flat w = solve(uu, uv, vu, vv, g);
+    // A step that does not lead down goes the way of a wall that is flat.
+    const double decrease = w.u * g.u + w.v * g.v;
+    if (!(uu * vv - uv * vu > 0) || !(decrease > 0)) w = solve(s.uu, s.uv, s.uv, s.vv, g);
+    const Flat t{s.uu * w.u + s.uv * w.v, s.uv * w.u + s.vv * w.v};
+    return (w.u + ballRadius * t.u) * plane.u + (w.v + ballRadius * t.v) * plane.v;
+}
+
+ShapeAtWall::Look ShapeAtWall::settle(const Wall& wall, std::uint32_t part,
+                                      const Vector<double>& start) const {
+    constexpr int mostSteps = 60, mostHalvings = 40;
+    const double size = shape.a + shape.b + shape.c, roundOff = 1e-16 * (size + norm(centre));
+    Look now = lookAlong(wall, part, start);
+    for (int step = 0; step < mostSteps; ++step) {
+        if (!(now.distance < infinity)) return now;
+        Vector<double> shift = newtonShift(wall, part, now);
+        const double length = norm(shift);
+        if (!(length > 1e-14 * size)) return now;
+        if (length > 0.5 * size) shift = (0.5 * size / length) * shift;
+        const Vector<double> surface = axes.turn(now.support.point);
+        bool isBetter = false;
+        for (int k = 0; k < mostHalvings && !isBetter; ++k, shift = 0.5 * shift) {
+            const Vector<double> normal =
+                axes.turn(outwardNormal(shape, axes.turnBack(surface + shift)));
+            const Look there = lookAlong(wall, part, normal);
+            if (!(there.distance <= now.distance + roundOff)) continue;
+            isBetter = true;
+            const double turned = norm(normal - now.normal), gained = now.distance - there.distance;
+            now = there;
+            if (turned < 1e-15 || (gained <= roundOff && k > 2)) return now;
+        }
+        if (!isBetter) return now;
+    }
+    return now;
+}
+
+WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part) const {
+    WallPoint point = nearest(wall, part, centre);
+    if (!(point.distance < infinity)) return point;
+    if (supportAt(point.normal).height < point.distance && wall.hasConvexParts()) return point;  // apart
+    bool isApart = false;
+    const Vector<double> start = nearNormal(wall, part, point, isApart);
+    if (isApart) {
+        point.normal = start;
+        point.distance = supportAt(start).height * (1 + 1e-12) + ballRadius;
+        return point;
+    }
+    Look found = settle(wall, part, start);
+    if (!wall.hasConvexParts())  // the wall may be as near elsewhere: from each end of the grain
+        for (const Vector<double>& end : {axes.x, -axes.x, axes.y, -axes.y, axes.z, -axes.z}) {
+            const Look other = settle(wall, part, end);
+            if (other.distance < found.distance) found = other;
+        }
+    // An edge or a corner is in the core: the part is left by the way to its nearest point.
+    if (!(dot(found.normal, found.towards) > 0.99)) return point;
+    point.normal = found.normal;
+    point.distance = found.support.height - ballRadius + found.distance;
+    // Velocities are told of the point below the centre.
+    const Vector<double> touched = found.point + found.distance * found.towards;
+    point.velocity =
+        found.velocity + cross(wall.angularVelocity(), centre + point.distance * point.normal - touched);
+    return point;
+}
+
+/// A part is left out where the ball that touches it finds another part that stands for it, as a sphere does.
+void ShapeAtWall::leaveOutCovered(const Wall& wall, std::span<const std::uint32_t> parts,
+                                  std::span<WallPoint> points) const {
+    thread_local std::vector<std::uint32_t> order;
+    thread_local std::vector<double> depth;
+    thread_local std::vector<WallPoint> seen;
+    order.clear();
+    depth.assign(points.size(), -1);
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+        if (!(points[k].distance < infinity)) continue;
+        depth[k] = supportAt(points[k].normal).height - points[k].distance;
+        if (depth[k] > 0) order.push_back(k);
+    }
+    if (order.size() < 2) return;
+    std::sort(order.begin(), order.end(), [](std::uint32_t a, std::uint32_t b) {
+        return depth[a] > depth[b] || (depth[a] == depth[b] && a < b);
+    });
+    seen.resize(parts.size());
+    for (std::size_t rank = 1; rank < order.size(); ++rank) {
+        WallPoint& point = points[order[rank]];
+        wall.findPoints(coreAt(supportAt(point.normal), point.normal), ballRadius, parts, seen);
+        int by = seen[order[rank]].coveredBy;
+        if (by < 0) continue;
+        if (points[static_cast<std::size_t>(by)].coveredBy >= 0)
+            by = points[static_cast<std::size_t>(by)].coveredBy;
+        const auto ahead = order.begin() + static_cast<std::ptrdiff_t>(rank);
+        if (std::find(order.begin(), ahead, static_cast<std::uint32_t>(by)) == ahead) continue;
+        point.coveredBy = by;
+        point.distance = infinity;
+    }
+}
+
+void ShapeAtWall::findPoints(const Wall& wall, std::span<const std::uint32_t> parts,
+                             std::span<WallPoint> points) const {
+    for (std::size_t k = 0; k < parts.size(); ++k) points[k] = pointOf(wall, parts[k]);
+    if (parts.size() > 1) leaveOutCovered(wall, parts, points);
+}
+
+}  // namespace pendular
