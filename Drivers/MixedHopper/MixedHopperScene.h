@@ -9,6 +9,7 @@
 #include "Drivers/Shared/Beverloo.h"
 #include "Drivers/Shared/RunOptions.h"
 #include "Kernel/Particles/ClumpTemplate.h"
+#include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/Simulation/SuperquadricSimulation.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Laws.h"

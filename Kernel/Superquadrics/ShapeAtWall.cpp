@@ -136,6 +136,18 @@ ShapeAtWall::Look ShapeAtWall::settle(const Wall& wall, std::uint32_t part,
     return now;
 }
 
+/// Whether a look is what was sought: not where an edge or a corner is in the core. Beyond a face, which is
+/// told by that its direction is the same from beside, it still is.
+bool ShapeAtWall::isSettled(const Wall& wall, std::uint32_t part, const Look& found) const {
+    if (found.distance > 0) return dot(found.normal, found.towards) > 0.99;
+    const TangentPlane<double> plane(found.normal);
+    const auto isAlike = [&](const Vector<double>& axis) {
+        const Vector<double> there = nearest(wall, part, found.point + 0.1 * ballRadius * axis).normal;
+        return dot(there, found.towards) < -1 + 1e-12;
+    };
+    return dot(found.normal, found.towards) > 1 - 1e-12 && isAlike(plane.u) && isAlike(plane.v);
+}
+
 WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part) const {
     WallPoint point = nearest(wall, part, centre);
     if (!(point.distance < infinity)) return point;
@@ -153,8 +165,7 @@ WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part) const {
             const Look other = settle(wall, part, end);
             if (other.distance < found.distance) found = other;
         }
-    // An edge or a corner is in the core: the part is left by the way to its nearest point.
-    if (!(dot(found.normal, found.towards) > 0.99)) return point;
+    if (!isSettled(wall, part, found)) return point;  // it is left by the way to its nearest point
     point.normal = found.normal;
     point.distance = found.support.height - ballRadius + found.distance;
     // Velocities are told of the point below the centre.

@@ -56,6 +56,7 @@ private:
                                             bool& isApart) const;
     [[nodiscard]] Look settle(const Wall& wall, std::uint32_t part, const Vector<double>& start) const;
     [[nodiscard]] Vector<double> newtonShift(const Wall& wall, std::uint32_t part, const Look& now) const;
+    [[nodiscard]] bool isSettled(const Wall& wall, std::uint32_t part, const Look& found) const;
     [[nodiscard]] WallPoint pointOf(const Wall& wall, std::uint32_t part) const;
     void leaveOutCovered(const Wall& wall, std::span<const std::uint32_t> parts,
                          std::span<WallPoint> points) const;

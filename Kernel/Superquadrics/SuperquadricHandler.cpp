@@ -119,7 +119,29 @@ ShapedTouch SuperquadricHandler::touchAtWall(const ParticleStore& grains, std::u
     return {point.normal, depth, lowest - (0.5 * depth) * point.normal};
 }
 
+void SuperquadricHandler::visitExtremes(StateArchive& archive) {
+    constexpr std::size_t count = 8;
+    std::vector<double> numbersOfAll;
+    for (const auto& [shape, extreme] : extremes)
+        for (const double number : {shape.a, shape.b, shape.c, 1.0 * shape.n1, 1.0 * shape.n2, extreme.turning,
+                                    extreme.radii, extreme.smallestRadius})
+            numbersOfAll.push_back(number);
+    archive.column<double>("extremes", numbersOfAll);
+    if (!archive.isReading()) return;
+    archive.require(numbersOfAll.size() % count == 0, "extremes", "does not have eight numbers of each shape");
+    archive.require(std::ranges::all_of(numbersOfAll, [](double x) { return x >= 0 && x < infinity; }),
+                    "extremes", "has a number that is not positive");
+    extremes.clear();
+    for (std::size_t k = 0; k < numbersOfAll.size(); k += count) {
+        const double* const own = numbersOfAll.data() + k;
+        extremes.emplace_back(
+            Superquadric{own[0], own[1], own[2], static_cast<int>(own[3]), static_cast<int>(own[4])},
+            ExtremeContact{own[5], own[6], own[7]});
+    }
+}
+
 void SuperquadricHandler::visitState(StateArchive& archive) {
+    visitExtremes(archive);
     std::vector<Vector<double>> halfLengths;
     std::vector<std::uint32_t> exponents;
     for (const Superquadric& s : shapes) {

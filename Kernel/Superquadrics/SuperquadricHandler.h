@@ -66,6 +66,7 @@ private:
     [[nodiscard]] std::uint32_t numberOf(const Superquadric& shape);
     void addShape(const Superquadric& shape);
     [[nodiscard]] const ExtremeContact& contactOf(const Superquadric& shape);
+    void visitExtremes(StateArchive& archive);
 
     ParticleHandler& particles;
     std::vector<Superquadric> shapes;                        // that differ
@@ -75,7 +76,9 @@ private:
     bool areEllipsoids = true;  // all: one way for a whole scene, so that no bit depends on
                                 // which contacts are in a block
     double largestRadii = 1;
-    std::vector<std::pair<Superquadric, ExtremeContact>> extremes;  // of shapes that are not scaled others
+    /// Of shapes that are not scaled others. Restart files have them: found again for another size of a
+    /// shape, they would differ by round-off.
+    std::vector<std::pair<Superquadric, ExtremeContact>> extremes;
     mutable std::atomic<std::uint64_t> fallbackCount = 0;
 };
 

@@ -140,7 +140,8 @@ TEST(ShapeAtWall, noNormalHasASmallerOverlap) {
             found.distance;
         if (!(depth > 0)) continue;
         SCOPED_TRACE(testing::Message() << "triangle " << k);
-        ASSERT_NEAR(overlapAt(found.normal), depth, 1e-9);
+        // On flat faces (radii of curvature of 10^2 sizes) the normal is known to 1e-5: F to 10^2 x 1e-10.
+        ASSERT_NEAR(overlapAt(found.normal), depth, 1e-8);
         double least = depth;
         for (int j = 0; j < 2200; ++j) {
             const Vector<double> way = anyNormal();

@@ -128,7 +128,10 @@ TEST(HeavyShapesCome, withTheSameBitsForAnyThreadsAndThroughARestart) {
     resumed.restartFrom(folder.path() / "half.h5");
     resumed.run(3000);
     resumed.writeRestart(folder.path() / "resumed.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
+    {
+        SCOPED_TRACE("resumed");
+        support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
+    }
     Stream threaded(3);
     threaded.run(6000);
     threaded.writeRestart(folder.path() / "threaded.h5");
