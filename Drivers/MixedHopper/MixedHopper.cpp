@@ -1,5 +1,5 @@
-/// Spheres, clumps, ellipsoids and blocks fill a hopper through an inlet and leave it through an orifice: their flow
-/// over its diameter, and Beverloo's law fitted to it.
+/// Spheres, clumps, ellipsoids and blocks fill a hopper through an inlet and leave it through an orifice:
+/// their flow over its diameter, and Beverloo's law fitted to it.
 
 #include <fmt/format.h>
 
@@ -14,11 +14,11 @@ namespace {
 
 struct Options {
     MixedHopper hopper;
-    std::vector<double> orifices{0.024, 0.03, 0.036};     // m, diameters
-    std::vector<double> shares{1, 1, 1, 1};               // of spheres, clumps, ellipsoids, blocks
-    double begin = 0.1;                                   // s, of the steady part
-    double endTime = 0.35;                                // s
-    double interval = 0.002;                              // s
+    std::vector<double> orifices{0.024, 0.03, 0.036};  // m, diameters
+    std::vector<double> shares{1, 1, 1, 1};            // of spheres, clumps, ellipsoids, blocks
+    double begin = 0.1;                                // s, of the steady part
+    double endTime = 0.35;                             // s
+    double interval = 0.002;                           // s
     RunOptions run{.output = "MixedHopper-output"};
 };
 
@@ -72,22 +72,23 @@ void run(const Options& o) {
         runs.push_back(discharge(o, orifice, curves));
         if (runs.back().flow > 0) flows.push_back({orifice, runs.back().flow});
         if (!o.run.quiet)
-            fmt::print("orifice {:.4g} m: {:.4g} kg/s ({:+.1f} % from the first half to the second), bulk density "
-                       "{:.0f} kg/m^3\n",
-                       orifice, runs.back().flow, 100 * runs.back().change, runs.back().density);
+            fmt::print(
+                "orifice {:.4g} m: {:.4g} kg/s ({:+.1f} % from the first half to the second), bulk density "
+                "{:.0f} kg/m^3\n",
+                orifice, runs.back().flow, 100 * runs.back().change, runs.back().density);
     }
     curves.close();
-    const BeverlooLaw law =
-        fitBeverloo(flows, runs.front().density, MixedHopper::gravity, o.hopper.size);
+    const BeverlooLaw law = fitBeverloo(flows, runs.front().density, MixedHopper::gravity, o.hopper.size);
     CsvFile table(o.run.output + "/flow.csv",
                   "orifice_m,flow_kg/s,change_of_flow,bulk_density_kg/m3,beverloo_kg/s");
     for (const Discharge& one : runs)
         table.row(one.orifice, one.flow, one.change, one.density, law.flow(one.orifice));
     table.close();
     if (!o.run.quiet)
-        fmt::print("Beverloo's law: C = {:.3f}, k = {:.2f}, with d of equal volume; wrote {}/discharge.csv and "
-                   "{}/flow.csv\n",
-                   law.coefficient, law.emptyAnnulus, o.run.output, o.run.output);
+        fmt::print(
+            "Beverloo's law: C = {:.3f}, k = {:.2f}, with d of equal volume; wrote {}/discharge.csv and "
+            "{}/flow.csv\n",
+            law.coefficient, law.emptyAnnulus, o.run.output, o.run.output);
 }
 
 }  // namespace
@@ -96,7 +97,8 @@ int main(int argc, char** argv) {
     Options o;
     const DriverProgram driver{
         .name = "MixedHopper",
-        .description = "Spheres, clumps, ellipsoids and blocks fill a hopper and leave it through an orifice.",
+        .description =
+            "Spheres, clumps, ellipsoids and blocks fill a hopper and leave it through an orifice.",
         .options = o.run,
         .addOptions =
             [&](CLI::App& app) {
@@ -115,7 +117,11 @@ int main(int argc, char** argv) {
             {"hopper-diameter", "m", &o.hopper.diameter, positive, "of the hopper"},
             {"elastic-modulus", "Pa", &o.hopper.youngModulus, positive, "Young's modulus"},
             {"friction", "", &o.hopper.friction, {0, 10}, "coefficient of friction of bodies and walls"},
-            {"begin", "s", &o.begin, {0, infinity, true, false}, "start of the steady part, after the opening"},
+            {"begin",
+             "s",
+             &o.begin,
+             {0, infinity, true, false},
+             "start of the steady part, after the opening"},
             {"end-time", "s", &o.endTime, positive, "end of each run, after the opening"},
             {"interval", "s", &o.interval, positive, "between two rows of discharge.csv"},
             {"seed", "", &o.hopper.seed, {0, 1e9}, "of the places and turns with which bodies come"}}};

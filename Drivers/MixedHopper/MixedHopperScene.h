@@ -20,12 +20,12 @@ namespace pendular {
 /// A cylindrical hopper with a flat bottom at z = 0, and what fills it: spheres, clumps of two spheres,
 /// ellipsoids and rounded blocks, of the volume of spheres of diameter d.
 struct MixedHopper {
-    double diameter = 0.06;                          // m
-    double size = 0.004;                             // m, d
-    std::size_t number = 1500;                       // bodies
+    double diameter = 0.06;                                // m
+    double size = 0.004;                                   // m, d
+    std::size_t number = 1500;                             // bodies
     std::array<double, 4> shares{0.25, 0.25, 0.25, 0.25};  // of the number, of the four shapes
-    double youngModulus = 5e6;                       // Pa
-    double friction = 0.5;                           // of grains and walls
+    double youngModulus = 5e6;                             // Pa
+    double friction = 0.5;                                 // of grains and walls
     std::uint64_t seed = 1;
 
     static constexpr double gravity = 9.81;  // m/s^2
@@ -35,7 +35,9 @@ struct MixedHopper {
 
     [[nodiscard]] double area() const { return 0.25 * std::numbers::pi * diameter * diameter; }  // m^2
     /// m^3, of a mean body
-    [[nodiscard]] double meanVolume() const { return std::numbers::pi / 6 * size * size * size * (1 + spread * spread); }
+    [[nodiscard]] double meanVolume() const {
+        return std::numbers::pi / 6 * size * size * size * (1 + spread * spread);
+    }
     /// m, of a filling of solid fraction 0.5
     [[nodiscard]] double filling() const {
         return static_cast<double>(number) * meanVolume() / (0.5 * area());
@@ -72,9 +74,7 @@ public:
         wallHandler.removeObject(lid);
         isOpen = true;
     }
-    [[nodiscard]] bool continueSolve() const override {
-        return !isOpen || particleHandler.getSize() > 0;
-    }
+    [[nodiscard]] bool continueSolve() const override { return !isOpen || particleHandler.getSize() > 0; }
     void writeOutput() override {
         if (isOpen) curve.push_back({getTime() - hopper.fillingTime(), outletHandler.removedMass()});
     }
@@ -130,8 +130,7 @@ private:
         if (spheres > 0) mixture.add(prepared(SphericalParticle()), sizes, spheres);
         if (clumps > 0)
             mixture.add(prepared(Clump(ClumpTemplate({{{-0.5, 0, 0}, 1}, {{0.5, 0, 0}, 1}}))), sizes, clumps);
-        if (ellipsoids > 0)
-            mixture.add(prepared(SuperquadricGrain({1.5, 1, 0.75, 2, 2})), sizes, ellipsoids);
+        if (ellipsoids > 0) mixture.add(prepared(SuperquadricGrain({1.5, 1, 0.75, 2, 2})), sizes, ellipsoids);
         if (blocks > 0) mixture.add(prepared(SuperquadricGrain({1, 1, 1, 5, 5})), sizes, blocks);
         Inlet inlet;
         inlet.setRegion(CylinderRegion({0, 0, top}, {0, 0, top + 4 * d}, 0.5 * hopper.diameter));
@@ -145,13 +144,15 @@ private:
     [[nodiscard]] double bulkDensity() {
         const double low = 2 * hopper.size;
         double highest = 0, mass = 0;  // m, kg
-        forEachMovingBody(particleHandler.store(), [&](double, const Vector<double>& place, const Vector<double>&) {
-            highest = std::max(highest, place.z);
-        });
+        forEachMovingBody(particleHandler.store(),
+                          [&](double, const Vector<double>& place, const Vector<double>&) {
+                              highest = std::max(highest, place.z);
+                          });
         const double high = 0.75 * highest;
-        forEachMovingBody(particleHandler.store(), [&](double own, const Vector<double>& place, const Vector<double>&) {
-            if (place.z > low && place.z < high) mass += own;
-        });
+        forEachMovingBody(particleHandler.store(),
+                          [&](double own, const Vector<double>& place, const Vector<double>&) {
+                              if (place.z > low && place.z < high) mass += own;
+                          });
         return mass / (hopper.area() * (high - low));
     }
 

@@ -143,8 +143,7 @@ void appendContacts(const ContactSystem& contacts, const ParticleStore& grains, 
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         found.push_back({number[place], second, seen.shift, seen.force, seen.adhesiveForce, seen.bridgeVolume,
                          seen.touching});
-        if (contacts.laws().shapes())
-            found.back().toPoint = seen.point - grains.translation[place].position;
+        if (contacts.laws().shapes()) found.back().toPoint = seen.point - grains.translation[place].position;
     });
 }
 

@@ -114,8 +114,7 @@ private:
             }
             if (const GrainShapes* const shapes = laws.shapes())
                 shapes->findPoints(grains, grain, wall, parts, points);
-            else
-                wall.findPoints(record.position, record.radius + range, parts, points);
+            else wall.findPoints(record.position, record.radius + range, parts, points);
             for (std::size_t k = 0; k < points.size(); ++k) {
                 const WallPoint& point = points[k];
                 contacts.wallPoints[(begin + k) / Pack::lanes - contacts.firstWallBlock()].set(

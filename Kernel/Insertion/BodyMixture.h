@@ -41,8 +41,8 @@ struct BodyKind {
     [[nodiscard]] double largestSphere(double radius) const;
     /// m, from the centre of a body of a size to its farthest point.
     [[nodiscard]] double reach(double radius) const;
-    /// The spheres of a body of a size (m), which is turned from its template to a place (m); of a superquadric
-    /// that around it.
+    /// The spheres of a body of a size (m), which is turned from its template to a place (m); of a
+    /// superquadric that around it.
     [[nodiscard]] std::vector<Ball> spheres(double radius, const Vector<double>& place,
                                             const Eigen::Quaterniond& turn) const;
     /// Adds such a body to a scene. @param flow m/s, that its velocity gets besides its own
@@ -50,8 +50,8 @@ struct BodyKind {
                const Eigen::Quaterniond& turn, const Vector<double>& flow) const;
 };
 
-/// Grains, clumps and superquadrics of several kinds, each with its share, its sizes, its species and its velocity: for
-/// insert() and inlets.
+/// Grains, clumps and superquadrics of several kinds, each with its share, its sizes, its species and its
+/// velocity: for insert() and inlets.
 class BodyMixture {
 public:
     /// @param basis what shares count: bodies (Number) or their volumes (Volume). Throws InputError for

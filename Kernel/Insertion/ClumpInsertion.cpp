@@ -66,9 +66,8 @@ void refuseWithoutSpecies(const BodyMixture& mixture) {
     if (mixture.empty()) throw InputError("insert(): the mixture has no bodies; call add().");
     for (const BodyKind& kind : mixture)
         if (kind.species() < 0)
-            throw InputError(
-                fmt::format("{}: the {} has no species; call setSpecies() with one of this scene.", owner,
-                            kind.word()));
+            throw InputError(fmt::format(
+                "{}: the {} has no species; call setSpecies() with one of this scene.", owner, kind.word()));
 }
 
 /// How many bodies have the mass of the amount on average.

@@ -68,8 +68,8 @@ BodyResponse responseOf(const BodyKind& kind, double density) {
     else {
         const Superquadric& shape = kind.shaped()->getShape();
         const RigidBody body = bodyOf(*kind.shaped(), density, extremeContact(shape).turning);
-        const BodyMember member{one.add({{0, 0, 0}, shape.boundingRadius(), {0, 0, 0}, 1 / body.mass}, {0, 0, 0}, 0),
-                                {0, 0, 0}};
+        const BodyMember member{
+            one.add({{0, 0, 0}, shape.boundingRadius(), {0, 0, 0}, 1 / body.mass}, {0, 0, 0}, 0), {0, 0, 0}};
         one.bodies.add(body, {&member, 1}, shape.volume());
     }
     BodyResponse response = one.bodies.response(one);
@@ -347,8 +347,8 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
                     fmt::format("inlet {}: at {:.6g} s there was no room for a {} of radius {:.3g} m; {} "
                                 "grains, {:.6g} kg, "
                                 "had come; the flow of such times is {}.",
-                                number, time, kind.word(), radius, count.number,
-                                count.mass, inlet.noRoom == NoRoom::Later ? "made up for later" : "lost"));
+                                number, time, kind.word(), radius, count.number, count.mass,
+                                inlet.noRoom == NoRoom::Later ? "made up for later" : "lost"));
             if (inlet.noRoom == NoRoom::Lost) count.lost += due - whole;
             return;
         }
@@ -381,9 +381,8 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
         const auto even = [&](std::uint32_t which) {
             return random.uniform(kept.count.number, purposeOfTurns + 3 * number + which, attempt);
         };
-        const Eigen::Quaterniond turn = !kind.grain() && inlet.randomTurns
-                                            ? evenTurn(even(0), even(1), even(2))
-                                            : kind.orientation();
+        const Eigen::Quaterniond turn =
+            !kind.grain() && inlet.randomTurns ? evenTurn(even(0), even(1), even(2)) : kind.orientation();
         const auto isFree = [&](const Ball& ball) {
             const Vector<double> inRegion = toVector(ball.centre), centre = inRegion + way;
             return (!inlet.wholeGrains || kept.region->contains(inRegion, ball.radius)) &&

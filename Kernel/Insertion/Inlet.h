@@ -21,11 +21,11 @@ enum class NoRoom {
     Lost    ///< it is lost; from then on the flow is as before
 };
 
-/// Grains, clumps and superquadrics that come into a region of a scene at a rate. What has come by a time t is the largest
-/// sum of whole ones that is not above the integral of the rate (less what was lost): the error never exceeds
-/// one grain, for any time step. Grain k of an inlet has a size that is a counted random number of (seed, k),
-/// and comes at a random place that is free. One that finds no room is kept and tried again in the next step;
-/// it is not drawn again, because that would favour small ones.
+/// Grains, clumps and superquadrics that come into a region of a scene at a rate. What has come by a time t
+/// is the largest sum of whole ones that is not above the integral of the rate (less what was lost): the
+/// error never exceeds one grain, for any time step. Grain k of an inlet has a size that is a counted random
+/// number of (seed, k), and comes at a random place that is free. One that finds no room is kept and tried
+/// again in the next step; it is not drawn again, because that would favour small ones.
 class Inlet {
 public:
     template <std::derived_from<Region> R>
@@ -44,8 +44,8 @@ public:
     /// and spin of them. setSizes() are the diameters of spheres of their volume. They are tried with the
     /// spheres around them.
     void setSuperquadric(const SuperquadricGrain& grain) { like = grain; }
-    /// A mixture of grains, clumps and superquadrics comes, with the sizes that are in it. Each body has a kind that is a
-    /// counted random number of (seed, k).
+    /// A mixture of grains, clumps and superquadrics comes, with the sizes that are in it. Each body has a
+    /// kind that is a counted random number of (seed, k).
     void setBodies(const BodyMixture& bodies) { mixture = bodies; }
     /// Clumps and superquadrics come turned evenly at random, if this is not called; else as the first one is
     /// turned.

@@ -107,8 +107,8 @@ void refuseSelfContact(std::size_t number, Membrane& membrane, const Step& step)
 void actAtShape(const GrainShapes& shapes, const ParticleStore& grains, std::uint32_t place,
                 const Vector<double>& normal, double distance, TriangleForce& at) {
     const Vector<double> farthest = shapes.farthest(grains, place, normal);
-    const Vector<double> point = grains.translation[place].position + farthest -
-                                 (dot(farthest, normal) - distance) * normal;
+    const Vector<double> point =
+        grains.translation[place].position + farthest - (dot(farthest, normal) - distance) * normal;
     at.couple += cross(at.point - point, at.force);
     at.point = point;
 }

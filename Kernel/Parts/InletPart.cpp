@@ -17,8 +17,8 @@ Features InletPart::features(const StepContext& /*scene*/) const {
 }
 
 InsertionScene InletPart::placesOf(const StepContext& scene) {
-    return {scene.particles, scene.bodies, scene.walls, scene.box, scene.threads,
-            scene.laws ? scene.laws->shapes() : nullptr};
+    return {scene.particles, scene.bodies,  scene.walls,
+            scene.box,       scene.threads, scene.laws ? scene.laws->shapes() : nullptr};
 }
 
 void InletPart::begin(StepContext& scene, bool isRestarted) {

@@ -70,7 +70,8 @@ public:
     /// diameter of a sphere of its volume. The spheres around them overlap nothing.
     Inserted insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
                     const SuperquadricGrain& like, const InsertOptions& options = {});
-    /// Inserts a mixture of grains, clumps and superquadrics, as exactly in its shares as their number allows.
+    /// Inserts a mixture of grains, clumps and superquadrics, as exactly in its shares as their number
+    /// allows.
     Inserted insert(const BodyMixture& mixture, const Region& region, const Amount& amount,
                     const InsertOptions& options = {});
 

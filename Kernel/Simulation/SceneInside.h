@@ -104,7 +104,7 @@ public:
 
     Vector<double> lowestAtSetUp{0, 0, 0}, lengthAtSetUp{0, 0, 0};  // m, of the box
     GrainSizes checkedSizes;
-    double checkedRadii = 1;  // the largest ratio of radii of the shapes (GrainShapes.h)
+    double checkedRadii = 1;                       // the largest ratio of radii of the shapes (GrainShapes.h)
     double checkedStep = unset;                    // s
     double acceptedOverlap = largestSoundOverlap;  // of the smaller radius
     double gapOfFirstBridges = 0;                  // m

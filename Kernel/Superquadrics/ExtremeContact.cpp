@@ -30,8 +30,7 @@ ExtremeContact extremeContact(const Superquadric& shape) {
             const double gauss = k.determinant(), mean = 0.5 * (k.uu + k.vv),
                          largest = mean + std::hypot(0.5 * (k.uu - k.vv), k.uv);
             if (largest > 0)
-                most.smallestRadius =
-                    std::min(most.smallestRadius, 1 / (largest * shape.boundingRadius()));
+                most.smallestRadius = std::min(most.smallestRadius, 1 / (largest * shape.boundingRadius()));
             const double radius = gauss > 0 ? 1 / std::sqrt(gauss) : infinity;
             most.radii = std::max(most.radii, radius / shape.boundingRadius());
         }

@@ -29,7 +29,8 @@ Flat solve(double uu, double uv, double vu, double vv, const Flat& right) {
 
 ShapeAtWall::Look ShapeAtWall::lookAlong(const Wall& wall, std::uint32_t part,
                                          const Vector<double>& normal) const {
-    Look look{.normal = normal, .support = supportAt(normal), .point{}, .towards{}, .distance = 0, .velocity{}};
+    Look look{
+        .normal = normal, .support = supportAt(normal), .point{}, .towards{}, .distance = 0, .velocity{}};
     look.point = coreAt(look.support, normal);
     const WallPoint seen = nearest(wall, part, look.point);
     look.towards = seen.normal;
@@ -62,7 +63,8 @@ Vector<double> ShapeAtWall::nearNormal(const Wall& wall, std::uint32_t part, con
         }
         if (gain < 1e-3 * ballRadius) return n;
         WallPoint there = nearest(wall, part, farthest);
-        if (dot(there.normal, way) >= 0 || wall.isCrossed(x, farthest)) return dot(there.normal, n) > 0 ? there.normal : n;
+        if (dot(there.normal, way) >= 0 || wall.isCrossed(x, farthest))
+            return dot(there.normal, n) > 0 ? there.normal : n;
         // The distance falls at first along the way, and rises at its end.
         double low = 0, high = 1;
         for (int k = 0; k < mostHalvings; ++k) {
@@ -80,8 +82,8 @@ Vector<double> ShapeAtWall::nearNormal(const Wall& wall, std::uint32_t part, con
 
 /// The step (m) along the grain's surface at which Newton's method expects the normal. With the radii of
 /// curvature A of the grain, that of the ball r, and the change -H e of the direction to the wall by a shift
-/// e of the core, the shift w = (A - r) t of a turn t of the normal is that of t + H w = g, where g is how the
-/// direction to the wall differs from the normal.
+/// e of the core, the shift w = (A - r) t of a turn t of the normal is that of t + H w = g, where g is how
+/// the direction to the wall differs from the normal.
 Vector<double> ShapeAtWall::newtonShift(const Wall& wall, std::uint32_t part, const Look& now) const {
     const TangentPlane<double> plane(now.normal);
     const double flattest = 1e-6 / (shape.a + shape.b + shape.c);
@@ -122,8 +124,7 @@ ShapeAtWall::Look ShapeAtWall::settle(const Wall& wall, std::uint32_t part,
         const Vector<double> surface = axes.turn(now.support.point);
         bool isBetter = false;
         for (int k = 0; k < mostHalvings && !isBetter; ++k, shift = 0.5 * shift) {
-            const Vector<double> normal =
-                axes.turn(outwardNormal(shape, axes.turnBack(surface + shift)));
+            const Vector<double> normal = axes.turn(outwardNormal(shape, axes.turnBack(surface + shift)));
             const Look there = lookAlong(wall, part, normal);
             if (!(there.distance <= now.distance + roundOff)) continue;
             isBetter = true;

@@ -38,9 +38,9 @@ private:
     struct Look {
         Vector<double> normal;  // unit, outwards from the grain; the core's point is that with this normal
         SupportPoint<double> support;
-        Vector<double> point;    // m, of the core
-        Vector<double> towards;  // unit, to the wall
-        double distance;         // m, of the core; negative beyond a face
+        Vector<double> point;     // m, of the core
+        Vector<double> towards;   // unit, to the wall
+        double distance;          // m, of the core; negative beyond a face
         Vector<double> velocity;  // m/s, of the wall there
     };
 

@@ -46,13 +46,11 @@ const ExtremeContact& SuperquadricHandler::contactOf(const Superquadric& shape) 
 BodyReference SuperquadricHandler::copyAndAddObject(const SuperquadricGrain& grain) {
     const std::uint32_t identity = particles.copyAndAddObject(grain.around()).getId();
     ParticleStore& grains = particles.store();
-    const double density =
-        particles.massOf(grain.around().getRadius(), grain.around().getSpeciesIndex()) /
-        sphereMass(grain.around().getRadius(), 1);
+    const double density = particles.massOf(grain.around().getRadius(), grain.around().getSpeciesIndex()) /
+                           sphereMass(grain.around().getRadius(), 1);
     const BodyMember member{identity, {0, 0, 0}};
-    const std::uint32_t number =
-        grains.bodies.add(bodyOf(grain, density, contactOf(grain.getShape()).turning),
-                          {&member, 1}, grain.getShape().volume());
+    const std::uint32_t number = grains.bodies.add(
+        bodyOf(grain, density, contactOf(grain.getShape()).turning), {&member, 1}, grain.getShape().volume());
     grains.bodies.place(grains, grains.bodies.size() - 1);
     ParticleHandler::Inside::noteJoined(particles, {&identity, 1});
     shapeOfBody.resize(number, RigidBodies::none);
@@ -90,7 +88,8 @@ ShapedTouch SuperquadricHandler::touch(const ParticleStore& grains, std::uint32_
                                        const Vector<double>& shift) const {
     const ShapeInSpace one = shapeAt(grains, first), two = shapeAt(grains, second);
     const SuperquadricPair<double> pair{SuperquadricLanes<double>::from(one.shape),
-                                        SuperquadricLanes<double>::from(two.shape), one.axes, two.axes, shift};
+                                        SuperquadricLanes<double>::from(two.shape), one.axes, two.axes,
+                                        shift};
     const SuperquadricTouch<double> found = findTouch(pair, firstNormal(pair), false);
     return {found.normal, found.depth, found.arm1};
 }
@@ -123,12 +122,13 @@ void SuperquadricHandler::visitExtremes(StateArchive& archive) {
     constexpr std::size_t count = 8;
     std::vector<double> numbersOfAll;
     for (const auto& [shape, extreme] : extremes)
-        for (const double number : {shape.a, shape.b, shape.c, 1.0 * shape.n1, 1.0 * shape.n2, extreme.turning,
-                                    extreme.radii, extreme.smallestRadius})
+        for (const double number : {shape.a, shape.b, shape.c, 1.0 * shape.n1, 1.0 * shape.n2,
+                                    extreme.turning, extreme.radii, extreme.smallestRadius})
             numbersOfAll.push_back(number);
     archive.column<double>("extremes", numbersOfAll);
     if (!archive.isReading()) return;
-    archive.require(numbersOfAll.size() % count == 0, "extremes", "does not have eight numbers of each shape");
+    archive.require(numbersOfAll.size() % count == 0, "extremes",
+                    "does not have eight numbers of each shape");
     archive.require(std::ranges::all_of(numbersOfAll, [](double x) { return x >= 0 && x < infinity; }),
                     "extremes", "has a number that is not positive");
     extremes.clear();

@@ -19,7 +19,8 @@ struct Lenses : SuperquadricSimulation<HertzianViscoelasticMindlinSpecies> {
         lens.setPosition({0, 0, 0.9e-3});            // m
         lens.setOrientation({1, 0.3, 0, 0});         // a quaternion of any length
         superquadricHandler.copyAndAddObject(lens);  // returns its body
-        insert(evenSizes(1e-3, 1.4e-3), BoxRegion({0, 0, 0.01}, {0.02, 0.02, 0.03}), Amount::grains(20), lens);
+        insert(evenSizes(1e-3, 1.4e-3), BoxRegion({0, 0, 0.01}, {0.02, 0.02, 0.03}), Amount::grains(20),
+               lens);
         InfiniteWall floor;
         floor.setSpecies(material);
         floor.set({0, 0, -1}, {0, 0, 0});

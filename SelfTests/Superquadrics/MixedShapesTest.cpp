@@ -61,9 +61,9 @@ void addPlainGrains(Scene& scene) {
 }
 
 // The kernel of shapes takes spheres for superquadrics of three equal half lengths: round-off of a force is
-// some tens of 2^-53 r over the overlap of 1 %, 1e-12, and it moves a grain in 600 steps by less than 1e-12 of
-// the way. Springs are turned with the change of the normal and not with its velocity, which differs by
-// a dt^2 / 2 r, some 1e-8 rad in a step, whose square remains.
+// some tens of 2^-53 r over the overlap of 1 %, 1e-12, and it moves a grain in 600 steps by less than 1e-12
+// of the way. Springs are turned with the change of the normal and not with its velocity, which differs by a
+// dt^2 / 2 r, some 1e-8 rad in a step, whose square remains.
 TEST(MixedShapes, plainGrainsMoveAsInASceneOfSpheres) {
     FewGrains<Mindlins> spheres(material(), {}, 1e-7);
     FewSuperquadrics<Mindlins> mixed(material(), {}, 1e-7);
@@ -75,7 +75,8 @@ TEST(MixedShapes, plainGrainsMoveAsInASceneOfSpheres) {
         EXPECT_LT((one.getPosition() - two.getPosition()).norm(), 1e-9 * r) << k;
         EXPECT_LT((one.getVelocity() - two.getVelocity()).norm(), 1e-8 * one.getVelocity().norm()) << k;
     }
-    EXPECT_GT((spheres.bodyHandler.getObject(0).getVelocity() - Vec3D(0.5, 0, 0)).norm(), 0.1);  // it has met one
+    EXPECT_GT((spheres.bodyHandler.getObject(0).getVelocity() - Vec3D(0.5, 0, 0)).norm(),
+              0.1);  // it has met one
 }
 
 /// An ellipsoid, a rounded block, a sphere and a dumbbell that meet.

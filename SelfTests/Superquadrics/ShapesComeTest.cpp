@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Species/Friction/SlidingFriction.h"
-#include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Species/Friction/SlidingFriction.h"
+#include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
@@ -149,8 +149,7 @@ TEST(ShapesCome, intoScenesThatTakeThemOnly) {
     const auto says = [](const std::string& sentence) {
         return contains(sentence, "derive the scene from SuperquadricSimulation");
     };
-    EXPECT_TRUE(says(refusal(
-        [&] { scene.insert(equalSizes(d), box, Amount::grains(3), lens(own)); })));
+    EXPECT_TRUE(says(refusal([&] { scene.insert(equalSizes(d), box, Amount::grains(3), lens(own)); })));
     Inlet inlet;
     inlet.setRegion(box);
     inlet.setSuperquadric(lens(own));

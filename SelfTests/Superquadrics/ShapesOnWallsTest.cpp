@@ -68,12 +68,14 @@ Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
 }
 
-// The plane of the mesh has the depth and the normal of the plane to round-off: with an overlap of 1e-5 of the
-// size, forces differ by 1e-16 / 1e-5 = 1e-11, and so does the motion in a time in which nothing hits again.
+// The plane of the mesh has the depth and the normal of the plane to round-off: with an overlap of 1e-5 of
+// the size, forces differ by 1e-16 / 1e-5 = 1e-11, and so does the motion in a time in which nothing hits
+// again.
 TEST(ShapesOnWalls, anEllipsoidRollsOnAMeshAsOnAPlane) {
-    const SuperquadricMotion motion{{2e-3, 1.2e-3, 1.5e-3}, {0, 0, 1.6e-3}, {0.1, 0.05, 0}, {5, 30, 2},
-                                    turned(0.4, {1, 2, 0.5})};
-    Rolling onPlane(motion, 3000, 2e-6, 0.2), onMesh(motion, 3000, 2e-6, 0.2), onParts(motion, 3000, 2e-6, 0.2);
+    const SuperquadricMotion motion{
+        {2e-3, 1.2e-3, 1.5e-3}, {0, 0, 1.6e-3}, {0.1, 0.05, 0}, {5, 30, 2}, turned(0.4, {1, 2, 0.5})};
+    Rolling onPlane(motion, 3000, 2e-6, 0.2), onMesh(motion, 3000, 2e-6, 0.2),
+        onParts(motion, 3000, 2e-6, 0.2);
     onPlane.addPlane({0, 0, -1}, {0, 0, 0});
     onMesh.addFloor(1);
     // Bent by 1e-7 rad along x = 0.1 mm and so on, so that its triangles stay apart.
@@ -143,7 +145,10 @@ TEST(ShapesOnWalls, aGrooveIsTouchedOnBothSides) {
         u{-0.01, -0.01, 0.01}, v{0.01, -0.01, 0.01};
     groove.set(std::vector<Triangle>{{p, q, t}, {p, t, s}, {q, p, u}, {q, u, v}});
     // Its faces are across the sides of the groove.
-    Rolling scene({shape, {0, 0, 0.999e-3 * std::numbers::sqrt2}, {0, 0, 0}, {0, 0, 0},
+    Rolling scene({shape,
+                   {0, 0, 0.999e-3 * std::numbers::sqrt2},
+                   {0, 0, 0},
+                   {0, 0, 0},
                    turned(0.25 * std::numbers::pi, {1, 0, 0})},
                   3000, 2e-6, 0);
     scene.addWall(groove);
@@ -156,7 +161,10 @@ TEST(ShapesOnWalls, aGrooveIsTouchedOnBothSides) {
 // A mesh that moves with the frame gives the motion of a mesh at rest seen from it.
 TEST(ShapesOnWalls, aMovingMeshIsSeenFromItsFrame) {
     const Vec3D drift(0.3, -0.2, 0.1);
-    const SuperquadricMotion motion{{2e-3, 1.2e-3, 1.5e-3, 3, 4}, {0, 0, 1.9e-3}, {0.1, 0.05, -0.2}, {5, 30, 2},
+    const SuperquadricMotion motion{{2e-3, 1.2e-3, 1.5e-3, 3, 4},
+                                    {0, 0, 1.9e-3},
+                                    {0.1, 0.05, -0.2},
+                                    {5, 30, 2},
                                     turned(0.4, {1, 2, 0.5})};
     SuperquadricMotion moving = motion;
     moving.velocity += drift;
@@ -173,8 +181,8 @@ TEST(ShapesOnWalls, aMovingMeshIsSeenFromItsFrame) {
 
 // In a periodic scene a floor of triangles goes on as a plane does, also one that is moved by half a period.
 TEST(ShapesOnWalls, imagesOfAMeshCarryShapes) {
-    const SuperquadricMotion motion{{2e-3, 1.2e-3, 1.5e-3}, {0, 0, 1.6e-3}, {0.8, 0.5, 0}, {5, 30, 2},
-                                    turned(0.4, {1, 2, 0.5})};
+    const SuperquadricMotion motion{
+        {2e-3, 1.2e-3, 1.5e-3}, {0, 0, 1.6e-3}, {0.8, 0.5, 0}, {5, 30, 2}, turned(0.4, {1, 2, 0.5})};
     const auto placeOn = [&](bool isPlane, double shift) {
         Rolling scene(motion, 3000, 2e-6, 0.2);
         scene.setPeriodic(0, -5e-3, 5e-3);
