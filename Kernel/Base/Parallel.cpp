@@ -20,21 +20,19 @@ inline void pause() {
 #endif
 }
 
-/// Waits until a number is no longer this one: awake for a while, then asleep.
-template <class Number>
-void waitWhile(const std::atomic<Number>& number, Number value, bool awake) {
-    if (awake) {
-        // The parts of a step follow each other within some microseconds; a thread wakes in some fifty.
-        constexpr auto longest = std::chrono::microseconds(200);
-        const auto start = std::chrono::steady_clock::now();
-        do {
-            for (int k = 0; k < 32; ++k) {
-                if (number.load(std::memory_order_acquire) != value) return;
-                pause();
-            }
-        } while (std::chrono::steady_clock::now() - start < longest);
-    }
-    while (number.load(std::memory_order_acquire) == value) number.wait(value, std::memory_order_acquire);
+/// Looks for a while whether something is so: the parts of a step follow each other within some
+/// microseconds, and a thread wakes in some fifty.
+template <class Condition>
+bool isSoonSo(Condition&& condition) {
+    constexpr auto longest = std::chrono::microseconds(200);
+    const auto start = std::chrono::steady_clock::now();
+    do {
+        for (int k = 0; k < 32; ++k) {
+            if (condition()) return true;
+            pause();
+        }
+    } while (std::chrono::steady_clock::now() - start < longest);
+    return false;
 }
 
 /// Threads that wait for work. They end with the process.
@@ -56,23 +54,39 @@ private:
         void (*call)(void*, int) = nullptr;
         void* context = nullptr;
     };
+    /// What a worker does. Work is offered to it; it begins it, or the offer is withdrawn. Whoever waits is
+    /// told in the state, so that it is woken.
+    enum State : int { idle, asleep, offered, running, waitedFor };
     struct alignas(64) Worker {
-        std::atomic<std::uint32_t> turn{0};
+        std::atomic<int> state{idle};
+
+        bool goes(int from, int to) {
+            return state.compare_exchange_strong(from, to, std::memory_order_acq_rel);
+        }
+        [[nodiscard]] int now() const { return state.load(std::memory_order_acquire); }
+        void waitWhile(int what) {
+            while (now() == what) state.wait(what, std::memory_order_acquire);
+        }
     };
 
+    /// A worker that has not begun when this thread has done its own part does not run: its processor has
+    /// other work, or there are fewer processors than threads. Its part is done here then.
     void share(int count, void (*call)(void*, int), void* context) {
         const auto helpers = static_cast<std::size_t>(count - 1);
         staysAwake.store(count <= processorCount(), std::memory_order_relaxed);
         work = {call, context};
-        open.store(count - 1, std::memory_order_relaxed);
-        for (std::size_t k = 0; k < helpers; ++k) {
-            workers[k].turn.fetch_add(1, std::memory_order_release);
-            workers[k].turn.notify_one();
-        }
+        for (std::size_t k = 0; k < helpers; ++k)
+            if (workers[k].state.exchange(offered, std::memory_order_acq_rel) == asleep)
+                workers[k].state.notify_one();
         call(context, 0);
-        for (int left = open.load(std::memory_order_acquire); left > 0;
-             left = open.load(std::memory_order_acquire))
-            waitWhile(open, left, staysAwake.load(std::memory_order_relaxed));
+        for (std::size_t k = 0; k < helpers; ++k)
+            if (workers[k].goes(offered, idle)) call(context, static_cast<int>(k) + 1);
+        for (std::size_t k = 0; k < helpers; ++k) waitFor(workers[k]);
+    }
+    void waitFor(Worker& worker) {
+        if (staysAwake.load(std::memory_order_relaxed) && isSoonSo([&] { return worker.now() != running; }))
+            return;
+        if (worker.goes(running, waitedFor)) worker.waitWhile(waitedFor);
     }
     /// Makes what is missing; false where the system gives no more threads.
     bool hasWorkers(std::size_t wanted) {
@@ -89,10 +103,14 @@ private:
         return true;
     }
     void serve(Worker& worker, int part) {
-        for (std::uint32_t seen = 0;; ++seen) {
-            waitWhile(worker.turn, seen, staysAwake.load(std::memory_order_relaxed));
+        for (;;) {
+            const bool isAwake = staysAwake.load(std::memory_order_relaxed) &&
+                                 isSoonSo([&] { return worker.now() == offered; });
+            if (!isAwake && worker.goes(idle, asleep)) worker.waitWhile(asleep);
+            if (!worker.goes(offered, running)) continue;
             work.call(work.context, part);
-            if (open.fetch_sub(1, std::memory_order_acq_rel) == 1) open.notify_one();
+            if (worker.state.exchange(idle, std::memory_order_acq_rel) == waitedFor)
+                worker.state.notify_one();
         }
     }
 
@@ -100,7 +118,6 @@ private:
     std::atomic_flag busy;
     std::deque<Worker> workers;  // a reference to one stays valid
     Work work;
-    alignas(64) std::atomic<int> open{0};
     std::atomic<bool> staysAwake{false};
 };
 

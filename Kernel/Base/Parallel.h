@@ -10,7 +10,9 @@ namespace pendular {
 /// Calls call(context, part) for parts 0 ... count - 1 at the same time, part 0 on this thread, and returns
 /// when all have ended. The call must not throw. Threads are made when they are first needed, and wait for
 /// the next call: for some microseconds awake, then asleep, so that they take no time from other programs.
-/// With more threads than processors they sleep at once. A call within a call, or beside another one, does
+/// With more threads than processors they sleep at once. A part whose thread has not begun when this one is
+/// done with its own is done here: where other programs run, nobody waits for a thread that does not. A call
+/// within a call, or beside another one, does
 /// its parts one after the other.
 void onThreads(int count, void (*call)(void* context, int part), void* context);
 
