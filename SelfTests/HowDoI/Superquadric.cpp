@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "Kernel/Simulation/SuperquadricSimulation.h"
+#include "Kernel/Sizes/SizeLaws.h"
 
 namespace {
 
