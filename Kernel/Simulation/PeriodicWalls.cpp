@@ -29,6 +29,9 @@ constexpr double tolerance = 1e-4;
 
 constexpr double rounded = 1 - 1e-6;  // what a sentence asks for is
 
+/// Whether it is alike at both faces as far as grains meet it (m).
+bool isAlike(const SurfaceAtFaces& seen, double met) { return seen.margin >= met * rounded; }
+
 bool movesVertices(const Wall& wall) {
     const auto* const worn = dynamic_cast<const WornWall*>(&wall);
     return worn && worn->keepsWear() && worn->movesVertices();
@@ -36,14 +39,18 @@ bool movesVertices(const Wall& wall) {
 
 }  // namespace
 
-double PeriodicWalls::neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes) const {
+double PeriodicWalls::neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes,
+                               double bodyReach) {
     double farthest = 0;
     for (std::size_t s = 0; s < sizes.free.size(); ++s) {
         if (sizes.free[s].empty()) continue;
         const auto species = static_cast<int>(s);
         for (const double radius : {sizes.free[s].smallest, sizes.free[s].largest}) {
-            const double range = std::max(laws.range(species, wall.getSpeciesIndex(), {radius, infinity}),
-                                          laws.filmContactGap(species, wall.getSpeciesIndex()));
+            const double range =
+                laws.layout.interaction == 0
+                    ? 0
+                    : std::max(laws.range(species, wall.getSpeciesIndex(), {radius, infinity}),
+                               laws.filmContactGap(species, wall.getSpeciesIndex()));
             farthest = std::max(farthest, std::max(radius, bodyReach) + range);
         }
     }
@@ -126,6 +133,50 @@ void PeriodicWalls::takeAsRepeated(std::size_t number) {
     looks[number].along.fill(alike);
 }
 
+bool PeriodicWalls::mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen, const PeriodicFaces& faces,
+                                   double met) {
+    const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);
+    if (!rigid || !rigid->canBeRepeated()) return false;
+    // What does not go through a face and lies beyond it is a piece of its own.
+    if (!seen.passes && (seen.highest > faces.highest() || seen.lowest < faces.lowest)) return true;
+    // Vertices move on each side as grains wear them there, so that two ends would no longer fit.
+    return !isAlike(seen, met) || (seen.passes && movesVertices(wall));
+}
+
+bool PeriodicWalls::areKnownFor(const WallHandler& walls, const ContactLaws& laws, const GrainSizes& sizes,
+                                double widestBody) const {
+    for (std::size_t w = 0; w < looks.size(); ++w) {
+        const auto* const mesh = dynamic_cast<const RigidWall*>(&walls.getObject(w));
+        if (!mesh || !mesh->canBeRepeated() || mesh->isRepeated()) continue;
+        const double needed = neededOf(*mesh, laws, sizes, 0.5 * widestBody);
+        for (const Look& known : looks[w].along)
+            if (!(needed + known.moved <= known.margin)) return false;
+    }
+    return looks.size() == walls.getSize();
+}
+
+std::vector<RigidWall*> PeriodicWalls::meshesToRepeat(const WallHandler& walls, const PeriodicBox& box,
+                                                      const ContactLaws& laws, const GrainSizes& sizes,
+                                                      double widestBody, double smallestRadius) {
+    PeriodicWalls own;
+    std::vector<RigidWall*> found;
+    if (!own.begin(box, widestBody, smallestRadius)) return found;
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        auto* const mesh = dynamic_cast<RigidWall*>(&walls.getObject(w));
+        if (!mesh || !mesh->canBeRepeated() || mesh->isRepeated()) continue;
+        if (mesh->partCount() > WallImages::mostParts) continue;  // it will be refused
+        const double needed = neededOf(*mesh, laws, sizes, own.bodyReach);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (box.length.*along[axis] == 0) continue;
+            const PeriodicFaces faces = own.facesOf(axis, needed);
+            if (!mustBeRepeated(*mesh, mesh->atFaces(faces), faces, needed)) continue;
+            found.push_back(mesh);
+            break;
+        }
+    }
+    return found;
+}
+
 void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size_t axis, double outside) {
     Wall& wall = walls.getObject(number);
     auto* const rigid = dynamic_cast<RigidWall*>(&wall);
@@ -134,14 +185,8 @@ void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size
     const PeriodicFaces faces = facesOf(axis, needed);
     const SurfaceAtFaces seen = wall.atFaces(faces);
     const double met = needed + outside;
-    // Vertices move on each side as grains wear them there, so that two ends would no longer fit.
-    const bool isAlike = seen.margin >= met * rounded, staysAlike = !seen.passes || !movesVertices(wall);
-    // What does not go through a face and lies beyond it is a piece of its own.
-    const bool isOutside = !seen.passes && (seen.highest > faces.highest() || seen.lowest < faces.lowest);
-    if (rigid && rigid->canBeRepeated() && (isOutside || !isAlike || !staysAlike)) {
-        return repeat(*rigid, number);
-    }
-    if (!isAlike) throw InputError(sentence(number, axis, seen, met));
+    if (mustBeRepeated(wall, seen, faces, met)) return repeat(*rigid, number);
+    if (!isAlike(seen, met)) throw InputError(sentence(number, axis, seen, met));
     looks[number].along[axis] = {.isEndless = seen.isEndless,
                                  .passes = seen.passes,
                                  .needed = needed,
@@ -156,6 +201,13 @@ void PeriodicWalls::forgetChecks(std::size_t walls) {
     anyHasEnds = false;
 }
 
+bool PeriodicWalls::begin(const PeriodicBox& box, double widestBody, double smallestRadius) {
+    periodic = box;
+    smallest = smallestRadius;
+    bodyReach = 0.5 * widestBody;
+    return box.any() && !box.imagesMove && smallest < infinity;
+}
+
 void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const PeriodicBox& box,
                           const ContactLaws& laws, const GrainSizes& sizes, double widestBody,
                           double smallestRadius) {
@@ -163,10 +215,7 @@ void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const Peri
     if (!(periodic.length == box.length))  // they were of another scene, or of an attempt that was refused
         for (std::size_t w = 0; w < walls.getSize(); ++w)
             if (auto* const rigid = dynamic_cast<RigidWall*>(&walls.getObject(w))) rigid->repeat({0, 0, 0});
-    periodic = box;
-    smallest = smallestRadius;
-    bodyReach = 0.5 * widestBody;
-    if (!box.any() || box.imagesMove || !(smallest < infinity)) return forgetChecks(walls.getSize());
+    if (!begin(box, widestBody, smallestRadius)) return forgetChecks(walls.getSize());
     looks.resize(walls.getSize());
     double spare = infinity;
     for (std::size_t w = 0; w < looks.size(); ++w) {
@@ -175,7 +224,7 @@ void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const Peri
             continue;
         }
         const Wall& wall = walls.getObject(w);
-        const double needed = looks[w].needed = neededOf(wall, laws, sizes);
+        const double needed = looks[w].needed = neededOf(wall, laws, sizes, bodyReach);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Look& known = looks[w].along[axis];
             if (periodic.length.*along[axis] == 0) continue;

@@ -9,6 +9,7 @@
 #include "Kernel/Motion/GrainSizes.h"
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/State/StateArchive.h"
+#include "Kernel/Walls/RigidWall.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -29,6 +30,15 @@ public:
     /// smallestRadius m, infinite without grains
     void check(const WallHandler& walls, bool haveChanged, const PeriodicBox& box, const ContactLaws& laws,
                const GrainSizes& sizes, double widestBody, double smallestRadius);
+    /// Whether the meshes that are not repeated need not be for such grains either, by the last look.
+    [[nodiscard]] bool areKnownFor(const WallHandler& walls, const ContactLaws& laws, const GrainSizes& sizes,
+                                   double widestBody) const;
+    /// The meshes that check() would repeat and that are not repeated yet.
+    [[nodiscard]] static std::vector<RigidWall*> meshesToRepeat(const WallHandler& walls,
+                                                                const PeriodicBox& box,
+                                                                const ContactLaws& laws,
+                                                                const GrainSizes& sizes, double widestBody,
+                                                                double smallestRadius);
     /// Looks again where walls have moved by at most a shift (m) since the last time. Throws RunError.
     void follow(const WallHandler& walls, double shift, double time);
 
@@ -63,6 +73,12 @@ private:
         double needed = 0;  // m, from a grain on a face, as far as it meets the wall
         std::array<Look, 3> along;
     };
+    /// Takes what looks are made with. Returns whether grains go through faces and see walls that may end.
+    bool begin(const PeriodicBox& box, double widestBody, double smallestRadius);
+    /// Whether a mesh must be repeated, which is seen like this at a pair of faces.
+    /// @param met m, from a face, as far as grains meet it
+    [[nodiscard]] static bool mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen,
+                                             const PeriodicFaces& faces, double met);
     /// @param outside m, how far grains are outside
     void look(const WallHandler& walls, std::size_t wall, std::size_t axis, double outside);
     /// Repeats a wall with the scene. Throws InputError where it is too long, or has too many parts.
@@ -74,7 +90,9 @@ private:
     bool followOne(const WallHandler& walls, std::size_t number, double shift);
     [[nodiscard]] static bool isWhereItWas(const Wall& wall, const Look& last);
     void forgetChecks(std::size_t walls);
-    [[nodiscard]] double neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes) const;
+    /// m, from a grain on a face, as far as it meets a wall. @param bodyReach m
+    [[nodiscard]] static double neededOf(const Wall& wall, const ContactLaws& laws, const GrainSizes& sizes,
+                                         double bodyReach);
     [[nodiscard]] PeriodicFaces facesOf(std::size_t axis, double least) const;
     [[nodiscard]] std::string sentence(std::size_t wall, std::size_t axis, const SurfaceAtFaces& seen,
                                        double met) const;
@@ -91,6 +109,25 @@ private:
     std::vector<bool> hasEnds;
     bool anyHasEnds = false, imagesAreNew = false;
     double nearest = 0;  // m, by which grains must move until one of them is too far outside
+};
+
+/// Repeats the meshes that a scene will repeat when it looks at its walls, for as long as this is there:
+/// grains that are put into the scene before that are to see the images, too.
+class ImagesForNow {
+public:
+    ImagesForNow() = default;
+    ImagesForNow(std::vector<RigidWall*> meshes, const Vector<double>& periods)
+        : repeated(std::move(meshes)) {
+        for (RigidWall* const mesh : repeated) mesh->repeat(periods);
+    }
+    ImagesForNow(ImagesForNow&& other) noexcept : repeated(std::exchange(other.repeated, {})) {}
+    ImagesForNow& operator=(ImagesForNow&&) = delete;
+    ~ImagesForNow() {
+        for (RigidWall* const mesh : repeated) mesh->repeat({0, 0, 0});
+    }
+
+private:
+    std::vector<RigidWall*> repeated;
 };
 
 }  // namespace pendular

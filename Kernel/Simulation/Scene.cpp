@@ -154,39 +154,6 @@ void Scene::addOwnPart(std::unique_ptr<StepPart> part) {
     inside->parts.add(std::move(part));
 }
 
-Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
-                       const SphericalParticle& like, const InsertOptions& options) {
-    return inside->reportShortfall(
-        insertGrains(InletPart::placesOf(inside->context), sizes, region, amount, like, options));
-}
-
-Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
-                       const Clump& like, const InsertOptions& options) {
-    BodyMixture mixture;
-    mixture.add(like, sizes);
-    return insert(mixture, region, amount, options);
-}
-
-Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
-                       const SuperquadricGrain& like, const InsertOptions& options) {
-    BodyMixture mixture;
-    mixture.add(like, sizes);
-    return insert(mixture, region, amount, options);
-}
-
-Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const Amount& amount,
-                       const InsertOptions& options) {
-    const std::size_t before = bodyHandler.getSize();
-    const Inserted made =
-        insertBodies(InletPart::placesOf(inside->context), mixture, region, amount, options);
-    if (hasBegun()) BodyPart::warnOfGaps(inside->context, before);
-    else if (mixture.hasBodies() && made.number > 1)
-        logger(LogLevel::Info,
-               "insert(): {} grains and bodies, a solid fraction of {:.4g}; orientation order {:.3g}.",
-               made.number, made.solidFraction, made.orientationOrder);
-    return inside->reportShortfall(made);
-}
-
 // Functions that say what the scene has:
 
 double Scene::getShearRate() const { return inside->flow.shearRate(); }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -171,29 +170,6 @@ void Scene::Inside::refuseOverlapsOf(const GrainChanges& changes, int firstNewWa
                           [&](const Bucket& bucket, std::uint32_t first, std::uint32_t second) {
                               return isNew[first] || isNew[second] || bucket.wall >= firstNewWall;
                           });
-}
-
-/// Why less than the amount was inserted, and what helps.
-static std::array<std::string, 2> reasonOfShortfall(const Inserted& made) {
-    if (made.wanted == 0)
-        return {
-            fmt::format("insert(): no grain came, because the first random one is heavier than the amount "
-                        "of {:.6g} kg",
-                        made.wantedMass),
-            "take a larger amount, another seed, or Sample::Exact"};
-    return {fmt::format("insert(): {} of {} grains found room, {:.6g} kg of {:.6g} kg, a solid fraction of "
-                        "{:.3g} of the region; the first left out has a radius of {:.6g} m",
-                        made.number, made.wanted, made.mass, made.wantedMass, made.solidFraction,
-                        made.firstLeftOut),
-            "take a smaller amount, a larger region, or more tries"};
-}
-
-Inserted Scene::Inside::reportShortfall(const Inserted& made) {
-    if (made.number == made.wanted && made.wanted > 0) return made;
-    const auto [what, advice] = reasonOfShortfall(made);
-    if (!scene.hasBegun()) throw InputError(fmt::format("{}; {}.", what, advice));
-    if (!std::exchange(noRoomWasTold, true)) scene.logger(LogLevel::Warn, "{}.", what);
-    return made;
 }
 
 }  // namespace pendular

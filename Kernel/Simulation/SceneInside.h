@@ -29,7 +29,7 @@
 namespace pendular {
 
 /// The inside of a scene: the contacts, the parts of its step, and what it does with them. SceneSetUp.cpp,
-/// SceneStep.cpp, SceneChanges.cpp and SceneRestart.cpp have one thing each.
+/// SceneStep.cpp, SceneChanges.cpp, SceneInsertion.cpp and SceneRestart.cpp have one thing each.
 class Scene::Inside {
 public:
     explicit Inside(Scene& of);
@@ -65,6 +65,12 @@ public:
     void mixChangedLaws();
     /// Books the energy (J) that was stored in contacts which the driver has ended.
     void bookEnergyOfEnded(double stored);
+
+    // SceneInsertion.cpp
+
+    /// Images of meshes that the scene will repeat, also before it has looked at its walls.
+    /// @param mixture to come
+    [[nodiscard]] ImagesForNow imagesFor(const BodyMixture& mixture);
     [[nodiscard]] Inserted reportShortfall(const Inserted& made);
 
     // SceneRestart.cpp
