@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <utility>
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactList.h"
@@ -112,6 +113,7 @@ bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucke
 void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach) {
     RememberedContacts remembered;
     remembered.take(contacts, grains.identity, threads);
+    for (const std::uint32_t place : std::exchange(passed, {})) remembered.goOn(place, {});
     listAgain(grains, remembered, keepsBridges, reach);
 }
 std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges,
@@ -153,6 +155,15 @@ double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32
     passage.rename(remembered);
     listAgain(grains, remembered);
     return stored;
+}
+
+void ContactSystem::bringBackPlaced(const Grains& grains, std::span<const std::uint32_t> places,
+                                    const std::vector<bool>& hasEnds,
+                                    const std::function<void()>& bringBack) {
+    FacePassage passage(contacts, *walls, *species, hasEnds);
+    passage.leave(grains, places);
+    bringBack();
+    passed = passage.arriveChanged(grains, filmReach() + skin.width(), contacts);
 }
 
 double ContactSystem::largestFilmContactGap() const {

@@ -52,6 +52,11 @@ public:
     /// whose pair has other laws now, which know nothing of what the contact remembers. Returns the energy
     /// (J) that was stored in what has ended, where a ledger is kept.
     double renew(Grains& grains);
+    /// Brings grains back into a periodic scene whose walls have ends that were put outside between two
+    /// steps: their contacts at walls go on at what the walls have behind the face. Before renew().
+    /// @param places of these grains; @param hasEnds of each wall; @param bringBack changes their positions
+    void bringBackPlaced(const Grains& grains, std::span<const std::uint32_t> places,
+                         const std::vector<bool>& hasEnds, const std::function<void()>& bringBack);
     /// Ends the contacts of the grain at a place, or at a wall, which is about to be removed; returns the
     /// energy (J) that was stored in them, where a ledger is kept.
     double endContactsOf(Grains& grains, std::uint32_t place);
@@ -272,6 +277,7 @@ private:
     std::vector<Sphere> lateSpheres;  // these grains, when takeIn() looks at them
     bool takesInGrains = false;       // and keeps the cells for it
     std::optional<NeighbourSearch> cells;
+    std::vector<std::uint32_t> passed;  // places of grains whose contacts are no longer in their order
     bool ledger = false;
     int threads = 1;
     std::size_t rebuilds = 0;

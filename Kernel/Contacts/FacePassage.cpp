@@ -99,24 +99,24 @@ void FacePassage::goOnAtImages(const Grains& grains, Passing& passing, std::uint
     }
 }
 
+/// One of two parts that the grain sees in the same place, as above their common edge, is covered: that goes
+/// on as such. In a shallow groove round-off may cover the other one; the contact is handed over then.
+FacePassage::Seen* FacePassage::partnerOf(const Seen& before, std::vector<Seen>& now, double radius) {
+    const double most = tolerance * radius;  // m
+    const auto apart = [&](const Seen& each) {
+        if (each.isTaken || !(each.distance < infinity)) return infinity;
+        const double between = norm(each.foot - before.foot);
+        return between <= most ? between + (each.isCovered != before.isCovered ? most : 0) : infinity;
+    };
+    const auto nearest = std::ranges::min_element(now, {}, apart);
+    return nearest != now.end() && apart(*nearest) < infinity ? &*nearest : nullptr;
+}
+
 bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint32_t wall, double reach) {
     std::vector<Seen> now = allSeenAt(grains, passing.place, wall, reach);
     meetsWalls |= !now.empty();
     const double radius = grains.translation[passing.place].radius, touch = (1 - tolerance) * radius,
                  range = rangeAt(grains, passing.place, wall);
-    // One of two parts that the grain sees in the same place, as above their common edge, is covered: that
-    // goes on as such. In a shallow groove round-off may cover the other one; the contact is handed over
-    // then.
-    const double most = tolerance * radius;  // m
-    const auto partnerOf = [&](const Seen& before) -> Seen* {
-        const auto apart = [&](const Seen& each) {
-            if (each.isTaken || !(each.distance < infinity)) return infinity;
-            const double between = norm(each.foot - before.foot);
-            return between <= most ? between + (each.isCovered != before.isCovered ? most : 0) : infinity;
-        };
-        const auto nearest = std::ranges::min_element(now, {}, apart);
-        return nearest != now.end() && apart(*nearest) < infinity ? &*nearest : nullptr;
-    };
     // Beside a point that the grain sees on the other side, too, it is one contact with that (WallPatches),
     // though the parts there are cut otherwise, or have a crack.
     const auto isBeside = [&](const Seen& point, const std::vector<Seen>& others) {
@@ -129,7 +129,7 @@ bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint
         for (const Seen& before : passing.before) {
             const bool acts = store.acts(before.contact);
             if (before.wall != wall || acts != acting) continue;
-            if (Seen* const partner = partnerOf(before)) {
+            if (Seen* const partner = partnerOf(before, now, radius)) {
                 partner->isTaken = true;
                 if (acts) passing.parts.push_back({wall, before.part, partner->part});
                 continue;
@@ -142,6 +142,35 @@ bool FacePassage::findPartners(const Grains& grains, Passing& passing, std::uint
     return std::ranges::none_of(now, [&](const Seen& each) {
         return !each.isTaken && !each.isCovered && each.distance < touch && !isBeside(each, passing.before);
     });
+}
+
+std::vector<std::uint32_t> FacePassage::arriveChanged(const Grains& grains, double reach,
+                                                      ContactStore& contacts) {
+    std::vector<std::uint32_t> places;
+    for (const Passing& passing : grainsThatPass) {
+        if (passing.before.empty()) continue;
+        places.push_back(passing.place);
+        const TranslationRecord& grain = grains.translation[passing.place];
+        const Vector<double> way = grain.position - passing.position;
+        std::vector<std::vector<Seen>> now(walls.getSize());
+        for (Seen before : passing.before) {
+            if (!store.acts(before.contact)) continue;
+            std::uint32_t& part =
+                contacts.blocks[before.contact / Pack::lanes].second[before.contact % Pack::lanes];
+            if (walls.getObject(before.wall).isRepeated()) {
+                part = walls.getObject(before.wall).partAfter(way, part);
+                continue;
+            }
+            std::vector<Seen>& seen = now[before.wall];
+            if (seen.empty()) seen = allSeenAt(grains, passing.place, before.wall, reach);
+            before.isCovered = false;  // it acts
+            Seen* const partner = partnerOf(before, seen, grain.radius);
+            if (!partner) continue;
+            partner->isTaken = true;
+            part = partner->part;
+        }
+    }
+    return places;
 }
 
 void FacePassage::rename(RememberedContacts& remembered) const {

@@ -30,6 +30,11 @@ public:
     /// @param reach m, from the surface of a grain, within which contacts are listed; @param time s
     void arrive(const Grains& grains, double reach, double time);
 
+    /// The same where they were put outside between two steps, and may have been changed otherwise, too: a
+    /// contact that finds no partner is left to those who look at what the change has taken apart. Contacts
+    /// of the list are at the new parts at once. Returns the places of grains that have such contacts.
+    std::vector<std::uint32_t> arriveChanged(const Grains& grains, double reach, ContactStore& contacts);
+
     /// Whether contacts must be listed again.
     [[nodiscard]] bool needsList() const { return meetsWalls; }
     /// Contacts that act, though another part stands for theirs, and that have no partner: they end.
@@ -60,6 +65,8 @@ private:
     [[nodiscard]] std::vector<Seen> allSeenAt(const Grains& grains, std::uint32_t place, std::uint32_t wall,
                                               double reach) const;
     [[nodiscard]] double rangeAt(const Grains& grains, std::uint32_t place, std::uint32_t wall) const;
+    /// The part that a grain sees in the same place as that before; null if there is none.
+    static Seen* partnerOf(const Seen& before, std::vector<Seen>& now, double radius);
     /// A wall that the scene repeats has all parts again: contacts go on with those of another image.
     void goOnAtImages(const Grains& grains, Passing& passing, std::uint32_t wall);
     /// Returns whether all that matters has a partner.

@@ -45,7 +45,8 @@ public:
     struct NewPart {
         std::uint32_t wall, before, now;  // the number of the wall
     };
-    /// Some contacts of the grain that was at a place when they were taken go on with other parts.
+    /// Some contacts of the grain that was at a place when they were taken go on with other parts; all of its
+    /// contacts are in their order then, also where they were not.
     void goOn(std::uint32_t place, std::span<const NewPart> parts);
     /// Sets the bits of an entry in the state of a block.
     static void setState(const Entry& entry, std::size_t lane, BlockState& state);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -128,12 +129,18 @@ void Scene::Inside::refuseOtherStep() const {
 void Scene::Inside::wrapPlaced(ParticleStore& grains, const GrainChanges& changes, bool hadEnds) {
     const double before = potentialEnergy(grains, context.gravity);
     if (!hadEnds) wrapAll(grains);  // no contact is at a part of a wall
+    const auto isOutside = [&](std::uint32_t identity) {
+        const Vector<double>& position = grains.translation[grains.place[identity]].position;
+        return !grains.bodies.contains(identity) && !(box.wrap(position) == position);
+    };
+    std::vector<std::uint32_t> places;
     for (const auto* identities : {&changes.added, &changes.placed})
         for (const std::uint32_t identity : *identities)
-            if (!grains.bodies.contains(identity)) {
-                Vector<double>& position = grains.translation[grains.place[identity]].position;
-                position = box.wrap(position);
-            }
+            if (isOutside(identity)) places.push_back(grains.place[identity]);
+    contacts.bringBackPlaced(grains, places, periodicWalls.endsOfWalls(), [&] {
+        for (const std::uint32_t place : places)
+            grains.translation[place].position = box.wrap(grains.translation[place].position);
+    });
     if (context.ledger) context.ledger->carried += before - potentialEnergy(grains, context.gravity);
     periodicWalls.lookAgain();
 }
