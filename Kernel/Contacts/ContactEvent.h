@@ -15,8 +15,11 @@ struct ContactEvent {
     std::uint32_t particle1;  // identity; the lower one
     std::uint32_t particle2;  // `none` at a wall
     int wall;                 // -1: grain with grain
-    std::uint32_t part;       // of the wall; of an image: see WallImages
+    std::uint32_t part;       // of the wall, e.g. a triangle of a mesh, or several that are one face
     Kind kind;
+    /// Of the wall, where a periodic scene repeats it: 0 is the wall itself. A grain may touch a part of two
+    /// images at once, which this tells apart; when the grain is brought back, it is another number.
+    std::uint32_t image = 0;
 
     friend auto operator<=>(const ContactEvent&, const ContactEvent&) = default;
 };

@@ -4,24 +4,18 @@
 #include <array>
 #include <tuple>
 
+#include "Kernel/Walls/WallHandler.h"
+#include "Kernel/Walls/WallImages.h"
+
 namespace pendular {
 
 namespace {
 
 using Kind = ContactEvent::Kind;
-using Row = std::array<std::uint32_t, 5>;  // an event in a file; the wall's number + 1, 0: none
+using Row = std::array<std::uint32_t, 6>;  // an event in a file; the wall's number + 1, 0: none
 
 auto contactOf(const ContactEvent& event) {
-    return std::tuple(event.particle1, event.particle2, event.wall, event.part);
-}
-
-ContactEvent eventOf(const ContactStore& store, const Bucket& bucket, std::uint32_t contact,
-                     const std::vector<std::uint32_t>& identity, Kind kind) {
-    const ContactBlock& block = store.blocks[contact / Pack::lanes];
-    const std::uint32_t first = identity[block.first[contact % Pack::lanes]],
-                        second = block.second[contact % Pack::lanes];
-    if (bucket.wall >= 0) return {first, ContactEvent::none, bucket.wall, second, kind};
-    return {first, identity[second], -1, 0, kind};
+    return std::tuple(event.particle1, event.particle2, event.wall, event.image, event.part);
 }
 
 /// Calls function(lane, kind) for each bit that differs.
@@ -36,6 +30,19 @@ void forEachChange(const BlockState& before, const BlockState& after, Function&&
 }
 
 }  // namespace
+
+ContactEvent ContactEvents::eventOf(const ContactStore& store, const Bucket& bucket, std::uint32_t contact,
+                                    const std::vector<std::uint32_t>& identity, Kind kind) const {
+    const ContactBlock& block = store.blocks[contact / Pack::lanes];
+    const std::uint32_t first = identity[block.first[contact % Pack::lanes]],
+                        second = block.second[contact % Pack::lanes];
+    if (bucket.wall < 0) return {first, identity[second], -1, 0, kind};
+    if (!walls->getObject(static_cast<std::size_t>(bucket.wall)).isRepeated())
+        return {first, ContactEvent::none, bucket.wall, second, kind};
+    return {first,       ContactEvent::none,
+            bucket.wall, WallImages::partOf(second),
+            kind,        WallImages::imageOf(second) / WallImages::mostParts};
+}
 
 void ContactEvents::leaveForNextStep() {
     early.insert(early.end(), events.begin(), events.end());
@@ -94,13 +101,14 @@ void ContactEvents::visitState(StateArchive& archive) {
     std::vector<Row> rows;
     for (const ContactEvent& e : early)
         rows.push_back({e.particle1, e.particle2, static_cast<std::uint32_t>(e.wall + 1), e.part,
-                        static_cast<std::uint32_t>(e.kind)});
+                        static_cast<std::uint32_t>(e.kind), e.image});
     archive.column<std::uint32_t>("beforeNextStep", rows);
     early.clear();
-    for (const auto& [particle1, particle2, wall, part, kind] : rows) {
+    for (const auto& [particle1, particle2, wall, part, kind, image] : rows) {
         archive.require(kind <= static_cast<std::uint32_t>(Kind::BridgeRuptures), "beforeNextStep",
                         "has an event of no kind that there is");
-        early.push_back({particle1, particle2, static_cast<int>(wall) - 1, part, static_cast<Kind>(kind)});
+        early.push_back(
+            {particle1, particle2, static_cast<int>(wall) - 1, part, static_cast<Kind>(kind), image});
     }
 }
 

@@ -7,10 +7,13 @@
 
 namespace pendular {
 
+class WallHandler;
+
 /// The events of a step, found from the bits of blocks before and after it: no work for the kernel, and none
 /// at all in a scene that does not listen.
 class ContactEvents {
 public:
+    void setWalls(const WallHandler& ofScene) { walls = &ofScene; }
     void listen(bool on) { listening = on; }
     [[nodiscard]] bool isListening() const { return listening; }
 
@@ -58,7 +61,11 @@ public:
 
 private:
     void startColumns(ContactStore& store, const Bucket& bucket) const;
+    [[nodiscard]] ContactEvent eventOf(const ContactStore& store, const Bucket& bucket, std::uint32_t contact,
+                                       const std::vector<std::uint32_t>& identity,
+                                       ContactEvent::Kind kind) const;
 
+    const WallHandler* walls = nullptr;
     bool listening = false, watching = false;
     std::vector<double> startsOfColumns;
     std::vector<BlockState> states;  // of a bucket before the step

@@ -28,6 +28,7 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     contacts.memory.reset(ledger);
     liquid.prepare(films, *walls, periodic);
     contactEvents.watch(liquid.moves());
+    contactEvents.setWalls(wallHandler);
     overlapWatch = OverlapWatch(species->overlapLimit.largest);
     capillaryWatch = {};
 }
