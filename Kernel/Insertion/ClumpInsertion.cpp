@@ -73,7 +73,7 @@ void refuseWithoutSpecies(const BodyMixture& mixture) {
 /// How many bodies have the mass of the amount on average.
 std::size_t countOf(const Amount& amount, double meanMass, double full) {
     if (amount.kind() == Amount::Kind::Grains) return static_cast<std::size_t>(amount.value());
-    const double whole = amount.value() * (amount.kind() == Amount::Kind::Mass ? 1 : full),  // kg
+    const double whole = amount.massOf(0, full),  // kg
         number = std::floor(whole / meanMass * (1 + 1e-12));
     constexpr double most = ParticleStore::largestIdentity;
     if (number < 1 || number > most)
@@ -88,7 +88,7 @@ std::vector<PlacedBody> drawBodies(const InsertionScene& scene, const BodyMixtur
                                    const Amount& amount, double full, const InsertOptions& options) {
     const std::size_t mean = countOf(amount, mixture.meanMass(scene.particles), full);
     const bool byNumber = amount.kind() == Amount::Kind::Grains;
-    const double whole = amount.value() * (amount.kind() == Amount::Kind::Mass ? 1 : full);  // kg
+    const double whole = amount.massOf(0, full);  // kg
     const CountedRandom random(options.seed);
     std::vector<PlacedBody> bodies;
     for (double sum = 0; !byNumber || bodies.size() < mean;) {
@@ -100,22 +100,27 @@ std::vector<PlacedBody> drawBodies(const InsertionScene& scene, const BodyMixtur
     return bodies;
 }
 
+/// kg, of the bodies of a mixture that fill a volume (m^3) without voids.
+double fullMassOf(const InsertionScene& scene, const BodyMixture& mixture, double volume) {
+    if (mixture.size() == 1) return densityOf(scene, mixture[0]) * volume;
+    double mean = 0;  // m^3
+    for (std::size_t k = 0; k < mixture.size(); ++k)
+        mean += mixture.shareOf(k) * std::numbers::pi / 6 * mixture[k].sizes.moment(3);
+    return mixture.meanMass(scene.particles) / mean * volume;
+}
+
 /// The bodies of an amount, the largest first.
 std::vector<PlacedBody> bodiesOf(const InsertionScene& scene, const BodyMixture& mixture,
                                  const Amount& amount, const Region& region, const InsertOptions& options) {
-    const double full = region.volume();  // m^3
     std::vector<PlacedBody> bodies;
     if (mixture.size() == 1) {
         for (const double radius :
-             radiiOf(amount, mixture[0].sizes, densityOf(scene, mixture[0]), full, options))
+             radiiOf(amount, mixture[0].sizes, densityOf(scene, mixture[0]), region.volume(), options))
             bodies.push_back({&mixture[0], radius});
         return bodies;
     }
     // A fraction of volume is one of mass, at the mean density.
-    double meanVolume = 0;
-    for (std::size_t k = 0; k < mixture.size(); ++k)
-        meanVolume += mixture.shareOf(k) * std::numbers::pi / 6 * mixture[k].sizes.moment(3);
-    const double fullMass = mixture.meanMass(scene.particles) / meanVolume * full;  // kg
+    const double fullMass = fullMassOf(scene, mixture, region.volume());  // kg
     if (options.sample == Sample::Random) bodies = drawBodies(scene, mixture, amount, fullMass, options);
     else {
         const std::vector<std::size_t> counts =
@@ -187,6 +192,33 @@ void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, 
                     owner, 2 * body.radius));
 }
 
+/// Bodies find their places; those that find no room are left out. Grains of one kind, which need not turn,
+/// have a faster way of their own.
+/// @param fraction of the region that they fill
+void placeSpheres(const InsertionScene& scene, std::vector<PlacedBody>& bodies, const Region& region,
+                  const Amount& amount, double fraction, const InsertOptions& options, double& firstLeftOut) {
+    std::vector<double> radii;
+    for (const PlacedBody& body : bodies) radii.push_back(body.radius);
+    const std::vector<Vector<double>> centres =
+        placesOfSpheres(scene, radii, region, amount, fraction, options, firstLeftOut);
+    for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].place = centres[k];
+    std::erase_if(bodies, [](const PlacedBody& body) { return !isSet(body.place.x); });
+}
+void placeBodies(const InsertionScene& scene, std::vector<PlacedBody>& bodies, const Region& region,
+                 const Amount& amount, const InsertOptions& options, double& firstLeftOut) {
+    double volume = 0;  // m^3
+    for (const PlacedBody& body : bodies) volume += sphereMass(body.radius, 1);
+    const double fraction = volume / region.volume();
+    if (fraction <= looseFraction * (1 + roundOffOfLimits))
+        bodies = placeOneByOne(scene, bodies, region, options, firstLeftOut);
+    else {
+        refuseTooDense("clumps", amount, fraction);
+        placeDensely(scene, bodies, region, options, fraction);
+    }
+    if (scene.periodic.imagesMove)
+        for (PlacedBody& body : bodies) body.place = scene.periodic.wrap(body.place);
+}
+
 }  // namespace
 
 Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, const Region& given,
@@ -194,29 +226,26 @@ Inserted insertBodies(const InsertionScene& scene, const BodyMixture& mixture, c
     refuseWithoutSpecies(mixture);
     requireShapes(mixture, scene.shapes, owner);
     const auto region = given.in(scene.periodic);
+    const bool areSpheres = mixture.size() == 1 && mixture[0].grain();
+    if (areSpheres)
+        refuseWithoutRoom(owner, *region, scene.walls, scene.periodic, 0.5 * mixture[0].sizes.smallest(),
+                          0.5 * mixture[0].sizes.largest(), options.wholeGrains);
     std::vector<PlacedBody> bodies = bodiesOf(scene, mixture, amount, *region, options);
     Inserted result;
     result.wanted = bodies.size();
-    double volume = 0;  // m^3
-    for (const PlacedBody& body : bodies) {
-        result.wantedMass += massOf(scene, body);
-        volume += sphereMass(body.radius, 1);
-    }
+    double mass = 0;  // kg
+    for (const PlacedBody& body : bodies) mass += massOf(scene, body);
+    const double full = fullMassOf(scene, mixture, region->volume());
+    result.wantedMass = amount.kind() == Amount::Kind::Grains ? mass : amount.massOf(0, full);
     if (bodies.empty()) return result;
-    const double fraction = volume / region->volume();
-    if (fraction <= looseFraction * (1 + roundOffOfLimits))
-        bodies = placeOneByOne(scene, bodies, *region, options, result.firstLeftOut);
-    else {
-        refuseTooDense("clumps", amount, fraction);
-        placeDensely(scene, bodies, *region, options, fraction);
-    }
+    if (areSpheres) placeSpheres(scene, bodies, *region, amount, mass / full, options, result.firstLeftOut);
+    else placeBodies(scene, bodies, *region, amount, options, result.firstLeftOut);
     const std::size_t before = scene.bodies.getSize();
+    scene.particles.reserve(scene.particles.store().size() + bodies.size());
     for (const PlacedBody& body : bodies) {
-        const Vector<double> inside =
-            scene.periodic.imagesMove ? scene.periodic.wrap(body.place) : body.place;
         const Vector<double> flow =
-            options.withFlow ? scene.periodic.flowAt(inside) : Vector<double>{0, 0, 0};
-        body.kind->addTo(scene, body.radius, inside, body.turn, flow);
+            options.withFlow ? scene.periodic.flowAt(body.place) : Vector<double>{0, 0, 0};
+        body.kind->addTo(scene, body.radius, body.place, body.turn, flow);
         ++result.number;
         result.mass += massOf(scene, body);
         result.solidFraction += sphereMass(body.radius, 1) / region->volume();

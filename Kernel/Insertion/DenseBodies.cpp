@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "Kernel/Base/Parallel.h"
-#include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Insertion/MayOverlap.h"
 #include "Kernel/Insertion/SpreadPoints.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/EigenConversion.h"
@@ -79,9 +78,6 @@ private:
         Point place;  // m
         double size;  // m, the wanted radius
         std::uint32_t body;
-    };
-    struct Pair {
-        std::uint32_t first, second;
     };
 
     void placeAll(std::uint64_t seed) {
@@ -178,16 +174,17 @@ private:
         listedScale = scale;
         listed.resize(arms.size());
         for (std::size_t k = 0; k < arms.size(); ++k) listed[k] = spheres[k].place;
-        const std::vector<Pair> pairs = findPairs();
-        begins.assign(spheres.size() + 1, 0);
-        for (const Pair& pair : pairs) ++begins[pair.first + 1], ++begins[pair.second + 1];
-        std::partial_sum(begins.begin(), begins.end(), begins.begin());
-        partners.resize(begins.back());
-        std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
-        for (const Pair& pair : pairs) {
-            partners[next[pair.first]++] = pair.second;
-            partners[next[pair.second]++] = pair.first;
-        }
+        std::vector<TranslationRecord> records;
+        records.reserve(spheres.size());
+        for (const Sphere& sphere : spheres)
+            records.push_back({scene.periodic.wrap(sphere.place), sizeOf(sphere), {0, 0, 0}, 1});
+        border.assign(arms.size(), 0);
+        mayOverlap.list(
+            records, skin, scene.periodic, scene.threads, worthAThread,
+            [&](std::uint32_t a, std::uint32_t b) { return spheres[a].body != spheres[b].body; },
+            [&](std::size_t k) {
+                if (k < arms.size()) border[k] = isNearBorder(spheres[k]);
+            });
     }
 
     [[nodiscard]] double farthestMoved() {
@@ -201,33 +198,6 @@ private:
             },
             worthAThread);
         return std::sqrt(std::ranges::max(farthest));
-    }
-
-    /// Finds the pairs in an order that depends on the spheres only.
-    std::vector<Pair> findPairs() {
-        std::vector<TranslationRecord> records;
-        records.reserve(spheres.size());
-        for (const Sphere& sphere : spheres)
-            records.push_back({scene.periodic.wrap(sphere.place), sizeOf(sphere), {0, 0, 0}, 1});
-        const NeighbourSearch search(records, skin, scene.periodic, scene.threads);
-        border.assign(arms.size(), 0);
-        std::vector<std::vector<Pair>> parts(static_cast<std::size_t>(scene.threads));
-        inParts(
-            spheres.size(), scene.threads,
-            [&](int part, std::size_t from, std::size_t to) {
-                std::vector<Pair>& own = parts[static_cast<std::size_t>(part)];
-                for (std::size_t k = from; k < to; ++k) {
-                    const auto self = static_cast<std::uint32_t>(k);
-                    search.forEachPartner(self, [&](std::uint32_t other) {
-                        if (spheres[self].body != spheres[other].body) own.push_back({self, other});
-                    });
-                    if (k < arms.size()) border[k] = isNearBorder(spheres[k]);
-                }
-            },
-            worthAThread);
-        for (std::size_t part = 1; part < parts.size(); ++part)
-            parts[0].insert(parts[0].end(), parts[part].begin(), parts[part].end());
-        return std::move(parts[0]);
     }
 
     [[nodiscard]] bool isNearBorder(const Sphere& sphere) const {
@@ -255,8 +225,8 @@ private:
         const Sphere& self = spheres[k];
         const double size = sizeOf(self), wanted = scale * self.size;
         const Point arm = self.place - body.place;
-        for (std::uint32_t n = begins[k]; n < begins[k + 1]; ++n) {
-            const Sphere& other = spheres[partners[n]];
+        for (const std::uint32_t partner : mayOverlap.of(k)) {
+            const Sphere& other = spheres[partner];
             const Point from = scene.periodic.nearest(self.place - other.place);
             const double touch = size + sizeOf(other), squared = squaredNorm(from);
             if (squared >= touch * touch) continue;
@@ -336,7 +306,7 @@ private:
     std::vector<Sphere> spheres;
     std::vector<Vec3D> arms;    // m, of the spheres of bodies, before their turn
     std::vector<Point> listed;  // m, where spheres were when the list was made
-    std::vector<std::uint32_t> begins, partners;
+    MayOverlap mayOverlap;
     std::vector<std::uint8_t> border;
 };
 

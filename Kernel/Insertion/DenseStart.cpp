@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
+#include "Kernel/Insertion/MayOverlap.h"
 #include "Kernel/Insertion/SpreadPoints.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/Pack.h"
@@ -74,10 +74,6 @@ private:
         [[nodiscard]] double radius() const { return std::abs(size); }
     };
 
-    struct Pair {
-        std::uint32_t first, second;
-    };
-
     void placeAll(std::span<const double> radii, std::uint64_t seed) {
         const SpreadPoints points(radii.size(), seed, purposeOfPlaces);
         std::uint64_t number = 0;
@@ -119,44 +115,17 @@ private:
         moved = 0;
         listed.clear();
         for (const Sphere& sphere : spheres) listed.push_back(sphere.position);
-        const std::vector<Pair> pairs = findPairs();
-        begins.assign(spheres.size() + 1, 0);
-        for (const Pair& pair : pairs) ++begins[pair.first + 1], ++begins[pair.second + 1];
-        std::partial_sum(begins.begin(), begins.end(), begins.begin());
-        partners.assign(begins.back() + Pack::lanes, 0);
-        std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
-        for (const Pair& pair : pairs) {
-            partners[next[pair.first]++] = pair.second;
-            partners[next[pair.second]++] = pair.first;
-        }
+        border.resize(spheres.size());
+        mayOverlap.list(
+            asRecords(), skin, periodic, threads, worthAThread,
+            [](std::uint32_t, std::uint32_t) { return true; },
+            [&](std::size_t k) { border[k] = spheres[k].moves() && isNearBorder(spheres[k]); });
     }
 
     /// The lanes of the eight partners from `n` on that are before `end`.
-    static Mask listedFrom(std::uint32_t n, std::uint32_t end) {
-        const std::uint32_t left = std::min<std::uint32_t>(end - n, Pack::lanes);
+    static Mask listedFrom(std::size_t n, std::size_t end) {
+        const std::size_t left = std::min<std::size_t>(end - n, Pack::lanes);
         return maskFromBits(static_cast<std::uint8_t>((1U << left) - 1));
-    }
-
-    /// Finds the pairs in an order that depends on the spheres only.
-    std::vector<Pair> findPairs() {
-        const NeighbourSearch search(asRecords(), skin, periodic, threads);
-        border.resize(spheres.size());
-        std::vector<std::vector<Pair>> parts(static_cast<std::size_t>(threads));
-        inParts(
-            spheres.size(), threads,
-            [&](int part, std::size_t from, std::size_t to) {
-                std::vector<Pair>& own = parts[static_cast<std::size_t>(part)];
-                own.reserve(8 * (to - from));
-                for (std::size_t k = from; k < to; ++k) {
-                    const auto self = static_cast<std::uint32_t>(k);
-                    search.forEachPartner(self, [&](std::uint32_t other) { own.push_back({self, other}); });
-                    border[k] = spheres[k].moves() && isNearBorder(spheres[k]);
-                }
-            },
-            worthAThread);
-        for (std::size_t part = 1; part < parts.size(); ++part)
-            parts[0].insert(parts[0].end(), parts[part].begin(), parts[part].end());
-        return std::move(parts[0]);
     }
 
     /// Borders and grains may leave less room than the region's volume says: then the spheres have jammed.
@@ -200,12 +169,13 @@ private:
         Vector<Pack> sum{Pack(0), Pack(0), Pack(0)};
         Pack least(infinity);
         Push push;
-        for (std::uint32_t n = begins[k]; n < begins[k + 1]; n += Pack::lanes) {
-            const auto [x, y, z, sizes] = loadRecords<4>(&spheres[0].position.x, 4, &partners[n]);
+        const std::span<const std::uint32_t> partners = mayOverlap.of(k);
+        for (std::size_t n = 0; n < partners.size(); n += Pack::lanes) {
+            const auto [x, y, z, sizes] = loadRecords<4>(&spheres[0].position.x, 4, partners.data() + n);
             const Vector<Pack> apart =
                 periodic.nearest(Vector<Pack>{self.position.x - x, self.position.y - y, self.position.z - z});
             const Pack radii = abs(sizes), touch = size + radii, squared = squaredNorm(apart);
-            const Mask overlap = (squared < touch * touch) & listedFrom(n, begins[k + 1]);
+            const Mask overlap = (squared < touch * touch) & listedFrom(n, partners.size());
             if (none(overlap)) continue;
             const Pack distance = sqrt(squared);
             // A grain of the scene has the size that it has.
@@ -278,7 +248,7 @@ private:
     std::vector<std::uint32_t> order;  // of the spheres as they were given
     std::vector<Point> shifts, steps;  // m, of the last iteration and of this one
     std::vector<Point> listed;         // m, where spheres were when the list was made
-    std::vector<std::uint32_t> begins, partners;
+    MayOverlap mayOverlap;
     std::vector<std::uint8_t> border;
 };
 

@@ -29,18 +29,6 @@ InputError tooManyError(double number) {
         fmt::format("{}: the amount is some {} grains; it must be at most {}.", owner, wanted, most));
 }
 
-/// kg. @param mean of a grain; @param full of a region without voids
-double massOf(const Amount& amount, double mean, double full) {
-    switch (amount.kind()) {
-        case Amount::Kind::Mass:
-            return amount.value();
-        case Amount::Kind::SolidFraction:
-            return amount.value() * full;
-        default:
-            return amount.value() * mean;
-    }
-}
-
 std::size_t exactCount(const Amount& amount, double mean, double whole) {
     const double number =
         amount.kind() == Amount::Kind::Grains ? amount.value() : std::floor(whole / mean * (1 + 1e-12));
@@ -65,11 +53,21 @@ Amount Amount::solidFraction(double fraction) {
     checkValue(owner, "solid fraction", fraction, "", {0, 1, false, false});
     return {Kind::SolidFraction, fraction};
 }
+double Amount::massOf(double mean, double full) const {
+    switch (what) {
+        case Kind::Mass:
+            return much;
+        case Kind::SolidFraction:
+            return much * full;
+        default:
+            return much * mean;
+    }
+}
 
 std::vector<double> radiiOf(const Amount& amount, const SizeDistribution& sizes, double density,
                             double volume, const InsertOptions& options) {
     const double mean = density * std::numbers::pi / 6 * sizes.moment(3);  // kg
-    const double whole = massOf(amount, mean, density * volume);
+    const double whole = amount.massOf(mean, density * volume);
     const std::size_t count = exactCount(amount, mean, whole);
     if (options.sample == Sample::Exact) return exactRadii(sizes, count);
     if (amount.kind() == Amount::Kind::Grains) {
@@ -182,45 +180,12 @@ std::vector<Vector<double>> placeDensely(const InsertionScene& scene, std::span<
 
 }  // namespace
 
-Inserted insertGrains(const InsertionScene& scene, const SizeDistribution& sizes, const Region& given,
-                      const Amount& amount, const SphericalParticle& like, const InsertOptions& options) {
-    if (like.getSpeciesIndex() < 0)
-        throw InputError(
-            fmt::format("{}: the grain has no species; call setSpecies() with one of this scene.", owner));
-    const auto region = given.in(scene.periodic);
-    const double density = scene.particles.massOf(1, like.getSpeciesIndex()) / sphereMass(1, 1);
-    refuseWithoutRoom(owner, *region, scene.walls, scene.periodic, 0.5 * sizes.smallest(),
-                      0.5 * sizes.largest(), options.wholeGrains);
-    const std::vector<double> radii = radiiOf(amount, sizes, density, region->volume(), options);
-    Inserted result;
-    result.wanted = radii.size();
-    double mass = 0;  // kg
-    for (const double radius : radii) mass += sphereMass(radius, density);
-    const double full = density * region->volume();
-    result.wantedMass = amount.kind() == Amount::Kind::Grains ? mass : massOf(amount, 0, full);
-    if (radii.empty()) return result;
-    const double fraction = mass / full;
-    std::vector<Vector<double>> centres;
-    if (fraction <= looseFraction)
-        centres = placeOneByOne(scene, radii, *region, options, result.firstLeftOut);
-    else {
-        refuseTooDense("grains", amount, fraction);
-        centres = placeDensely(scene, radii, *region, options, fraction);
-    }
-    scene.particles.reserve(scene.particles.store().size() + radii.size());
-    SphericalParticle grain = like;
-    for (std::size_t k = 0; k < radii.size(); ++k) {
-        if (!isSet(centres[k].x)) continue;
-        grain.setRadius(radii[k]);
-        grain.setPosition(toEigen(centres[k]));
-        if (options.withFlow)
-            grain.setVelocity(like.getVelocity() + toEigen(scene.periodic.flowAt(centres[k])));
-        scene.particles.copyAndAddObject(grain);
-        ++result.number;
-        result.mass += sphereMass(radii[k], density);
-    }
-    result.solidFraction = result.mass / full;
-    return result;
+std::vector<Vector<double>> placesOfSpheres(const InsertionScene& scene, std::span<const double> radii,
+                                            const Region& region, const Amount& amount, double fraction,
+                                            const InsertOptions& options, double& firstLeftOut) {
+    if (fraction <= looseFraction) return placeOneByOne(scene, radii, region, options, firstLeftOut);
+    refuseTooDense("grains", amount, fraction);
+    return placeDensely(scene, radii, region, options, fraction);
 }
 
 }  // namespace pendular

@@ -26,6 +26,8 @@ public:
 
     [[nodiscard]] Kind kind() const { return what; }
     [[nodiscard]] double value() const { return much; }
+    /// kg. @param mean of a grain or body; @param full of a region without voids
+    [[nodiscard]] double massOf(double mean, double full) const;
 
 private:
     Amount(Kind kind, double value) : what(kind), much(value) {}
@@ -85,14 +87,14 @@ void refuseWithoutRoom(std::string_view owner, const Region& region, const WallH
                        const PeriodicBox& periodic, double smallest, double largest, bool wholeGrains,
                        const Vector<double>& way = {0, 0, 0});
 
-/// Inserts grains that overlap nothing: no grain, no wall, none of their images. A grain that finds no room
-/// is left out, and all smaller ones are tried. No grain comes of an amount that is less than the first
-/// random grain.
-///
-/// Throws InputError if the sizes do not fit the region, if it lies behind a wall, and if the solid fraction
-/// cannot be reached: with that which can.
-/// @param like species, velocity, spin and film of all of them
-Inserted insertGrains(const InsertionScene& scene, const SizeDistribution& sizes, const Region& region,
-                      const Amount& amount, const SphericalParticle& like, const InsertOptions& options);
+/// Finds room for spheres that overlap nothing: no grain, no wall, none of their images. Up to looseFraction
+/// one after the other, the largest first: one that finds no room is left out, and all smaller ones are
+/// tried; above it by denseStart(). Throws InputError if the solid fraction cannot be reached: with that
+/// which can.
+/// @param radii m, the largest first; @param fraction of the region that they fill
+/// @return m, their centres inside the periodic box; not a number where there was no room
+std::vector<Vector<double>> placesOfSpheres(const InsertionScene& scene, std::span<const double> radii,
+                                            const Region& region, const Amount& amount, double fraction,
+                                            const InsertOptions& options, double& firstLeftOut);
 
 }  // namespace pendular

@@ -82,9 +82,7 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
                        const SphericalParticle& like, const InsertOptions& options) {
     BodyMixture mixture;
     mixture.add(like, sizes);
-    const ImagesForNow images = inside->imagesFor(mixture);
-    return inside->reportShortfall(
-        insertGrains(InletPart::placesOf(inside->context), sizes, region, amount, like, options));
+    return insert(mixture, region, amount, options);
 }
 
 Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, const Amount& amount,
