@@ -558,6 +558,12 @@ void ContactSystem::sumLostForces(const Grains& grains) {
             sumForcesOn(grains, w);
 }
 
+/// m, from the wall's point below a grain's centre to where a grain that is no sphere touches.
+static Vector<double> besideCentre(const ContactSample& s) {
+    return s.isShaped() ? s.arm1 - (dot(s.arm1, s.normal) - s.halfOverlap) * s.normal
+                        : Vector<double>{0, 0, 0};
+}
+
 /// A wall that forces move was seen by the contact with a velocity of the step, and work is done at the mean
 /// one: of a body, at the point where the wall has its torque (addWallForces), then and now.
 void ContactSystem::showWallMotion(const Grains& grains, const Bucket& bucket, std::uint32_t contact,
@@ -577,13 +583,13 @@ void ContactSystem::showWallMotion(const Grains& grains, const Bucket& bucket, s
     const double distance = points.distance.lane[lane];
     const Vector<double> normal{points.normal[0].lane[lane], points.normal[1].lane[lane],
                                 points.normal[2].lane[lane]};
-    now.wallPoint = place + (grain.radius - now.halfOverlap) * normal;
+    now.wallPoint = place + (now.isShaped() ? now.arm1 : (grain.radius - now.halfOverlap) * normal);
     const WallBody* const body = wall.body();
     if (!body) return;
     const Vector<double> seenAt = place + (std::isfinite(distance) ? distance : 0) * normal;
     const Vector<double> belt = now.wallVelocity - body->seen.at(seenAt);
-    now.wallVelocity = belt + body->meanVelocityAt(now.wallPoint);
-    last.wallVelocity = belt + body->meanVelocityAtStart(last.wallPoint);
+    now.wallVelocity = belt + body->meanVelocityAt(now.wallPoint - besideCentre(now));
+    last.wallVelocity = belt + body->meanVelocityAtStart(last.wallPoint - besideCentre(last));
     now.wallSpin = last.wallSpin = body->mean.spin;
 }
 
@@ -593,7 +599,8 @@ void ContactSystem::sumForcesOn(const Grains& grains, std::size_t number) {
     WallForceSum sum;
     for (const Bucket& bucket : contacts.buckets)
         if (bucket.wall == static_cast<int>(number))
-            addWallForces(contacts, bucket, wall, grains, about, sum);
+            (species->shapes() ? addWallForcesOnShapes : addWallForces)(contacts, bucket, wall, grains, about,
+                                                                        sum);
     wall.setForce(sum.force.value(), sum.torque.value(), sum.touches);
 }
 

@@ -19,6 +19,16 @@ struct ShapedTouch {
     Vector<double> normal;  // unit, from body 1 to body 2
     double depth;           // m; negative: a gap
     Vector<double> arm1;    // m, from the centre of body 1 to the middle of the overlap
+    double radius;          // m, the effective radius as the laws take it
+};
+
+/// What the contacts of a grain can be at most, wherever on its surface they are.
+struct ShapeExtremes {
+    double radius;   // m, Gauss'; infinite on flat faces
+    double around;   // m, which stands for it where that is more
+    double turning;  // (arm x n) I^-1 (arm x n) m: by how much the turning adds to 1/m along the normal
+    double sliding;  // the same along a tangent
+    double lever;    // m, |arm x n|: times the spin, the speed by which the surface comes nearer
 };
 
 /// A grain's shape, and where its axes point to in space.
@@ -52,14 +62,21 @@ public:
     /// @param shift m, centre 2 - centre 1
     [[nodiscard]] virtual ShapedTouch touch(const ParticleStore& grains, std::uint32_t first,
                                             std::uint32_t second, const Vector<double>& shift) const = 0;
+    /// How a grain touches a plane.
+    /// @param normal unit, into the plane; @param distance m, of the centre
+    [[nodiscard]] virtual ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
+                                                   const Vector<double>& normal, double distance) const = 0;
     /// How a grain touches a part of a wall.
-    [[nodiscard]] virtual ShapedTouch touchAtWall(const ParticleStore& grains, std::uint32_t grain,
-                                                  const Wall& wall, std::uint32_t part) const = 0;
+    [[nodiscard]] ShapedTouch touchAtWall(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
+                                          std::uint32_t part) const;
     /// What Wall::findPoints() is for spheres, for the grain at a place: of each listed part the normal at
     /// which they touch, and how far (m) the plane across it through the point of the wall is from the
-    /// grain's centre.
-    virtual void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
+    /// grain's centre. Of parts that are apart from a shape, a plane that lies between.
+    /// @param range m, beyond the surface of a sphere, up to which parts are told apart
+    virtual void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall, double range,
                             std::span<const std::uint32_t> parts, std::span<WallPoint> points) const = 0;
+    [[nodiscard]] virtual ShapeExtremes extremesAt(const ParticleStore& grains,
+                                                   std::uint32_t place) const = 0;
     /// m, the smallest half length of a grain.
     [[nodiscard]] virtual double thickness(const ParticleStore& grains, std::uint32_t grain) const = 0;
 };

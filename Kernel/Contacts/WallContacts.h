@@ -88,6 +88,25 @@ inline void addWallForces(const ContactStore& store, const Bucket& bucket, const
     }
 }
 
+/// The same for grains that are no spheres, of which the wall's nearest point does not tell where they touch:
+/// the wall has the reverse of what the grain has about its centre (ParticleSum.h).
+inline void addWallForcesOnShapes(const ContactStore& store, const Bucket& bucket, const Wall& wall,
+                                  const ParticleStore& grains, const Vector<double>& about,
+                                  WallForceSum& sum) {
+    const ContactMemory& memory = store.memory;
+    for (std::size_t c = bucket.begin * Pack::lanes; c < bucket.end * Pack::lanes; ++c) {
+        if (!store.acts(c)) continue;
+        const TranslationRecord& grain = grains.translation[store.firstOf(c)];
+        const Vector<double> place = grain.position - wall.imageShift(store.secondOf(c), grain.position);
+        const ForceTorqueRecord& record = memory.records[store.slotOf(c)];
+        ++sum.touches;
+        sum.force.add(-record.force);
+        sum.torque.add(-cross(place - about, record.force));
+        sum.torque.add((record.halfOverlap - grain.radius) * record.leverless);
+        if (memory.getLayout().hasContactTorque) sum.torque.add(-memory.torques[store.slotOf(c)].torque);
+    }
+}
+
 /// Throws if a grain's centre has gone through the wall in this step (s), as seen from the wall: from then on
 /// the contact would push it on, out of the other side.
 inline void refuseCrossing(const Wall& wall, int number, const TranslationRecord& grain,

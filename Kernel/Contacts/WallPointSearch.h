@@ -113,7 +113,7 @@ private:
                 range = laws.range(bucket.species1, bucket.species2, last);
             }
             if (const GrainShapes* const shapes = laws.shapes())
-                shapes->findPoints(grains, grain, wall, parts, points);
+                shapes->findPoints(grains, grain, wall, range, parts, points);
             else wall.findPoints(record.position, record.radius + range, parts, points);
             for (std::size_t k = 0; k < points.size(); ++k) {
                 const WallPoint& point = points[k];

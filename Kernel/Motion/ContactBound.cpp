@@ -107,7 +107,10 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
                                  const ParticleStore& grains, const Integrator& integrator,
                                  const ContactOutlook& outlook) {
     ContactBound found;
-    terms.clear();
+    terms.clear(), shaped.clear();
+    box = &contacts.periodicBox();
+    shapes = contacts.laws().shapes();
+    findBodies(grains);
     std::vector<std::size_t> ends;
     for (const Bucket& bucket : contacts.store().buckets) {
         take(contacts, walls, grains, bucket, outlook);
@@ -124,11 +127,11 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
             term.reached = reachedOverlap(contacts.laws(), bucket, term, outlook);
             found.supposedOverlap = std::max(
                 found.supposedOverlap, outlook.margin * term.reached / term.pair.bodies.effectiveRadius());
+            if (shapes && outlook.time > 0)
+                term.pair.bodies = {shaped[static_cast<std::size_t>(&term - terms.data())].largestRadius};
         }
         press(contacts.laws(), bucket, ofBucket, outlook, found.meanOverlap);
     });
-    box = &contacts.periodicBox();
-    findBodies(grains);
     chooseWeights(grains);
     for (const Term& term : terms) {
         addTo(grains, term, term.first, term.second);
@@ -181,12 +184,17 @@ void ContactBounds::findBodies(const ParticleStore& grains) {
             movers[grains.place[member.grain]] = static_cast<std::uint32_t>(blocks.size() + k);
 }
 
-Vector<double> ContactBounds::armOf(const ParticleStore& grains, const Term& term,
-                                    std::uint32_t place) const {
-    const TranslationRecord& grain = grains.translation[place];
-    const double toContact = place == term.first ? grain.radius : -grain.radius;
+Vector<double> ContactBounds::fromGrain(const ParticleStore& grains, const Term& term,
+                                        std::uint32_t place) const {
+    if (shapes) return sideOf(term, place).arm;
+    const double radius = grains.translation[place].radius;
+    return (place == term.first ? radius : -radius) * term.normal;
+}
+
+Vector<double> ContactBounds::armOf(const ParticleStore& grains, std::uint32_t place,
+                                    const Vector<double>& fromGrain) const {
     const RigidBody& body = grains.bodies[moverAt(place) - blocks.size()];
-    return box->nearest(grain.position - body.position) + toContact * term.normal;
+    return box->nearest(grains.translation[place].position - body.position) + fromGrain;
 }
 
 double ContactBounds::inverseInertia(const ParticleStore& grains, std::uint32_t place) const {
@@ -198,7 +206,8 @@ double ContactBounds::inverseInertia(const ParticleStore& grains, std::uint32_t 
 double ContactBounds::mobility(const ParticleStore& grains, const Term& term, std::uint32_t place) const {
     if (!isInBody(place)) return grains.translation[place].inverseMass;
     const std::size_t k = moverAt(place) - blocks.size();
-    return mobilityOf(grains.bodies[k], armOf(grains, term, place), term.normal, grains.bodies.heldAxesOf(k));
+    return mobilityOf(grains.bodies[k], armOf(grains, place, fromGrain(grains, term, place)), term.normal,
+                      grains.bodies.heldAxesOf(k));
 }
 
 /// Finds the load of each grain, and the units of the sums.
@@ -269,6 +278,12 @@ void ContactBounds::takePair(const ContactSystem& contacts, const ParticleStore&
     if (box.imagesMove) velocity += box.velocityBetweenImages(apart, shift);
     Term term{.first = first, .second = second, .normal = (1 / distance) * shift};
     term.gap = distance - (one.radius + two.radius);
+    if (shapes) {
+        if (!(term.gap < outlook.reach)) return;
+        const ShapedTerm both =
+            takeShapes(grains, shapes->touch(grains, first, second, shift), shift, velocity, outlook, term);
+        return keep(contacts, bucket, contact, term, outlook, &both);
+    }
     term.approach = dot(velocity, term.normal);
     term.smallerRadius = std::min(one.radius, two.radius);
     term.pair.bodies = {one.radius, two.radius};
@@ -292,6 +307,7 @@ void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, 
     parts.clear();
     for (std::size_t c = begin; c < end; ++c) parts.push_back(contacts.secondOf(c));
     points.assign(parts.size(), {});
+    if (shapes) return takeShapeAtWall(contacts, wall, grains, bucket, begin, outlook);
     const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
     const Bodies bodies{grain.radius};
     const double range = laws.resistsMotion ? laws.range(bucket.species1, bucket.species2, bodies) : 0;
@@ -320,7 +336,7 @@ void ContactBounds::takeAtWall(const ContactSystem& contacts, const Wall& wall, 
 
 /// If it acts, or is within reach.
 void ContactBounds::keep(const ContactSystem& contacts, const Bucket& bucket, std::size_t contact, Term& term,
-                         const ContactOutlook& outlook) {
+                         const ContactOutlook& outlook, const ShapedTerm* ofShapes) {
     const int a = bucket.species1, b = bucket.species2;
     const ContactLaws& laws = contacts.laws().ofPair(a, b);
     term.drags = contacts.isBridged(contact);
@@ -329,7 +345,9 @@ void ContactBounds::keep(const ContactSystem& contacts, const Bucket& bucket, st
             laws.formsAtContact ? laws.filmContactGap(a, b) : laws.range(a, b, term.pair.bodies);
         term.drags = term.gap < outlook.reach + forms;
     }
-    if (term.gap < outlook.reach || term.gap < 0 || term.drags) terms.push_back(term);
+    if (!(term.gap < outlook.reach || term.gap < 0 || term.drags)) return;
+    terms.push_back(term);
+    if (ofShapes) shaped.push_back(*ofShapes);
 }
 
 void ContactBounds::summarise(ContactBound& found) const {
@@ -439,10 +457,15 @@ void ContactBounds::addToBody(const ParticleStore& grains, const Term& term, std
     OfBody& block = bodies[moverAt(place) - blocks.size()];
     note(term, block);
     const RigidBody& body = grains.bodies[moverAt(place) - blocks.size()];
-    const ContactStiffness& s = term.stiffness;
+    ContactStiffness s = term.stiffness;
+    if (shapes) {
+        const ShapedSide& side = sideOf(term, place);
+        s.normal = side.normal * s.normal, s.sliding = side.sliding * s.sliding;
+    }
     const double share = shareOf(grains, place, other);
+    const Vector<double> toContact = armOf(grains, place, fromGrain(grains, term, place));
     const Vector<double> n = body.orientation.turnBack(term.normal),
-                         arm = body.orientation.turnBack(armOf(grains, term, place));
+                         arm = body.orientation.turnBack(toContact);
     const BodySlip slip(body, arm);
     const auto addPart = [&](BodyMatrix& to, double along, double across, double unit) {
         for (const Vector<double>& axis : axesOfSpace) addSquare(to, share * across, slip.along(axis), unit);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Motion/Integrator.h"
 
 namespace pendular {
@@ -54,6 +55,11 @@ struct ContactBound {
 /// A rigid body has one block, to which the contacts of all its grains add: with the arm a from its centre of
 /// mass to a contact, s1 = n.(v + w x a) or, across, (1 - n n)(v + w x a). Its eigenvalues are exact.
 ///
+/// Of grains that are no spheres (GrainShapes), contacts are where they touch, and have the radius that they
+/// have there. Where they may be by the next choice is not known: a small turn brings the contact of a flat
+/// face from its middle to its rim. So with a time ahead each is taken with the largest radius of the two,
+/// and as much stiffer as a force elsewhere on the surface moves the body more easily.
+///
 /// The stiffness of friction is that of contacts that stick. What turns the normal forces (F/d of each) is
 /// left out: a thousandth.
 ///
@@ -85,6 +91,15 @@ private:
         bool drags = false;        // a bridge
         bool isHeld = false;       // one of the grains, along some axes
     };
+    /// A side of a contact of grains that are no spheres.
+    struct ShapedSide {
+        Vector<double> arm{0, 0, 0};     // m, from the grain's centre
+        double normal = 1, sliding = 1;  // so many times more easily a force moves it elsewhere, at most
+    };
+    struct ShapedTerm {
+        ShapedSide first, second;
+        double largestRadius = 0;  // m, effective
+    };
     template <class Block>
     struct OfOne {
         Block spring{}, dashpot{};
@@ -104,10 +119,24 @@ private:
     void takePair(const ContactSystem& contacts, const ParticleStore& grains, const Bucket& bucket,
                   std::size_t contact, const ContactOutlook& outlook);
     /// @param begin, end contacts of one grain with parts of the wall
+    void takeShapeAtWall(const ContactSystem& contacts, const Wall& wall, const ParticleStore& grains,
+                         const Bucket& bucket, std::size_t begin, const ContactOutlook& outlook);
     void takeAtWall(const ContactSystem& contacts, const Wall& wall, const ParticleStore& grains,
                     const Bucket& bucket, std::size_t begin, std::size_t end, const ContactOutlook& outlook);
     void keep(const ContactSystem& contacts, const Bucket& bucket, std::size_t contact, Term& term,
-              const ContactOutlook& outlook);
+              const ContactOutlook& outlook, const ShapedTerm* ofShapes = nullptr);
+    /// Makes a contact of the spheres around two grains that of their shapes, or of one with a plane.
+    /// @param shift m, centre 2 - centre 1; @param velocity m/s, of 1 against 2, or the wall where it touches
+    [[nodiscard]] ShapedTerm takeShapes(const ParticleStore& grains, const ShapedTouch& touch,
+                                        const Vector<double>& shift, const Vector<double>& velocity,
+                                        const ContactOutlook& outlook, Term& term) const;
+    [[nodiscard]] ShapedSide sideOf(const ParticleStore& grains, std::uint32_t place,
+                                    const Vector<double>& arm, const Vector<double>& normal,
+                                    const ContactOutlook& outlook) const;
+    [[nodiscard]] const ShapedSide& sideOf(const Term& term, std::uint32_t place) const {
+        const ShapedTerm& both = shaped[static_cast<std::size_t>(&term - terms.data())];
+        return place == term.first ? both.first : both.second;
+    }
     /// m: what a pair that touches, or may come to, can reach by its own approach.
     [[nodiscard]] static double reachedOverlap(const ContactLaws& laws, const Bucket& bucket,
                                                const Term& term, const ContactOutlook& outlook);
@@ -122,9 +151,13 @@ private:
         return movers.empty() ? place : movers[place];
     }
     [[nodiscard]] bool isInBody(std::uint32_t place) const { return moverAt(place) >= blocks.size(); }
-    /// m, from the centre of mass of the body to the contact.
-    [[nodiscard]] Vector<double> armOf(const ParticleStore& grains, const Term& term,
-                                       std::uint32_t place) const;
+    /// m, from the centre of mass of the body to a point.
+    /// @param fromGrain m, from the grain's centre to it
+    [[nodiscard]] Vector<double> armOf(const ParticleStore& grains, std::uint32_t place,
+                                       const Vector<double>& fromGrain) const;
+    /// m, from the grain's centre to the contact.
+    [[nodiscard]] Vector<double> fromGrain(const ParticleStore& grains, const Term& term,
+                                           std::uint32_t place) const;
     /// 1/kg: how easily a force along the normal moves it there.
     [[nodiscard]] double mobility(const ParticleStore& grains, const Term& term, std::uint32_t place) const;
     [[nodiscard]] double inverseInertia(const ParticleStore& grains, std::uint32_t place) const;
@@ -158,11 +191,13 @@ private:
                           ContactBound& found);
 
     std::vector<Term> terms;
+    std::vector<ShapedTerm> shaped;     // of each; empty where grains are spheres
     std::vector<OfGrain> blocks;        // of the grains by place
     std::vector<OfBody> bodies;         // of the rigid bodies
     std::vector<std::uint32_t> movers;  // of each place; empty without bodies
     std::vector<double> loads;          // 1/s^2, sum of spring over mass: of the grains, then of the bodies
     const PeriodicBox* box = nullptr;
+    const GrainShapes* shapes = nullptr;  // null where grains are spheres
     // The parts of a wall that are near one grain, and their points.
     std::vector<std::uint32_t> parts;
     std::vector<WallPoint> points;

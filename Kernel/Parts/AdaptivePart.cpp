@@ -25,6 +25,17 @@ double AdaptivePart::largestStepOf(const StepContext& scene, const GrainSizes& s
                     shareOfServo * flow.shortestServoTime());
 }
 
+/// m, of a grain across itself where it is thinnest
+static double smallestRadius(const StepContext& scene, const GrainSizes& sizes) {
+    const GrainShapes* const shapes = scene.laws->shapes();
+    if (!shapes) return sizes.smallest();
+    const ParticleStore& grains = scene.grains();
+    double smallest = infinity;
+    for (const std::uint32_t place : grains.place)
+        smallest = std::min(smallest, shapes->thickness(grains, place));
+    return smallest;
+}
+
 /// Grains that have come shorten the step until the next choice; other changes ask for one.
 void AdaptivePart::takeOver(StepContext& scene, const SceneChanges& changes) {
     if (!changes.areOnlyNewGrains()) return adaptive.chooseAnew();
@@ -40,8 +51,9 @@ void AdaptivePart::prepare(StepContext& step) {
     const StepTimes::Within search(step.times, StepTimes::Part::Search);
     const GrainSizes sizes = sizesOfScene(*step.laws, grains, inlets);
     const double most = largestStepOf(step, sizes);
-    const AdaptiveStep::Outlook outlook = adaptive.lookAhead(
-        grains, step.box, step.length, most, norm(step.gravity), step.largestReach, sizes.smallest());
+    const AdaptiveStep::Outlook outlook =
+        adaptive.lookAhead(grains, step.box, step.length, most, norm(step.gravity), step.largestReach,
+                           smallestRadius(step, sizes), step.laws->shapes());
     ContactBound bound;
     if (outlook.isKnown()) {
         step.contacts.listWithin(grains, outlook.contacts.reach);

@@ -30,9 +30,10 @@ struct Speeds {
 };
 
 /// @param around velocity (m/s) at a place (m): of what is there. A grain of a rigid body may get the speed
-/// that the body's turning gives it in any direction.
+/// that the body's turning gives it in any direction, and the surface of one that is no sphere comes nearer
+/// by the turning as well.
 template <class Around>
-Speeds speedsOf(const ParticleStore& grains, const Around& around) {
+Speeds speedsOf(const ParticleStore& grains, const GrainShapes* shapes, const Around& around) {
     Speeds found;
     for (const std::uint32_t at : grains.place) {
         const TranslationRecord& grain = grains.translation[at];
@@ -43,7 +44,8 @@ Speeds speedsOf(const ParticleStore& grains, const Around& around) {
         const double own = norm(body.velocity - around(body.position)), inSpace = norm(body.velocity),
                      spin = norm(body.spin());
         for (const BodyMember& member : grains.bodies.membersOf(k)) {
-            const double turning = spin * norm(member.arm);
+            const double lever = shapes ? shapes->extremesAt(grains, grains.place[member.grain]).lever : 0;
+            const double turning = spin * (norm(member.arm) + lever);
             found.add(own + turning, inSpace + turning);
         }
     }
@@ -62,12 +64,12 @@ double rateOf(const PeriodicBox& box) {
 
 AdaptiveStep::Outlook AdaptiveStep::lookAhead(const ParticleStore& grains, const PeriodicBox& box,
                                               double step, double most, double gravity, double reach,
-                                              double smallestRadius) {
+                                              double smallestRadius, const GrainShapes* shapes) {
     const double time = static_cast<double>(interval) * longest(step, most);
     const bool flows = box.imagesMove;
     const Vector<double> frame = flows ? Vector<double>{0, 0, 0} : meanVelocity(grains);
-    const Speeds speeds =
-        speedsOf(grains, [&](const Vector<double>& place) { return flows ? box.flowAt(place) : frame; });
+    const Speeds speeds = speedsOf(
+        grains, shapes, [&](const Vector<double>& place) { return flows ? box.flowAt(place) : frame; });
     // A wall may gain as much again as it has; what it gains beyond that is seen.
     const double walls = 2 * wallSpeed + norm(frame);
     const double falling = 0.5 * gravity * time;  // m/s, in the mean of the time

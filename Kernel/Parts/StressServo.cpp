@@ -6,6 +6,7 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/BodyArms.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {
@@ -48,6 +49,23 @@ KineticStress kineticStress(const ParticleStore& grains, const PeriodicBox& box,
     return stress;
 }
 
+/// The spring of a contact between grains.
+struct PressedContact {
+    Vector<double> along;  // m, its normal, as long as the way from centre to centre
+    Bodies bodies;
+    double overlap;  // m
+};
+PressedContact pressedContact(const GrainShapes* shapes, const ParticleStore& grains, std::uint32_t first,
+                              std::uint32_t second, const Vector<double>& apart) {
+    const double distance = norm(apart);
+    if (shapes) {
+        const ShapedTouch touch = shapes->touch(grains, first, second, apart);
+        return {distance * touch.normal, {touch.radius}, touch.depth};
+    }
+    const Bodies bodies{grains.translation[first].radius, grains.translation[second].radius};
+    return {apart, bodies, bodies.radius1 + bodies.radius2 - distance};
+}
+
 }  // namespace
 
 DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore& grains,
@@ -65,16 +83,17 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
     for (std::size_t a = 0; a < 3; ++a)
         found.stiffness[a] = static_cast<double>(2 + controlled) * found.stress[a];
     const BodyArms arms(grains);
+    const GrainShapes* const shapes = contacts.laws().shapes();
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const std::uint32_t place1 = contacts.firstOf(contact), place2 = contacts.secondOf(contact);
         const TranslationRecord &first = grains.translation[place1], &second = grains.translation[place2];
         const Vector<double> apart = box.nearest(second.position - first.position);
-        const double distance = norm(apart), overlap = first.radius + second.radius - distance;
-        const double spring = overlap > 0
-                                  ? contacts.laws().normalStiffness(bucket.species1, bucket.species2,
-                                                                    {first.radius, second.radius}, overlap)
-                                  : 0;
-        const auto shift = partsOf(apart), force = partsOf(contacts.forceOf(contact));
+        const double distance = norm(apart);
+        const auto [along, bodies, overlap] = pressedContact(shapes, grains, place1, place2, apart);
+        const double spring =
+            overlap > 0 ? contacts.laws().normalStiffness(bucket.species1, bucket.species2, bodies, overlap)
+                        : 0;
+        const auto shift = partsOf(along), force = partsOf(contacts.forceOf(contact));
         const auto branch = partsOf(apart + (arms.at(place1) - arms.at(place2)));
         double share = 0;  // of the controlled axes in the direction of the contact
         for (std::size_t a = 0; a < 3; ++a)

@@ -21,7 +21,8 @@ struct DiagonalStress {
 /// (2 + number of controlled axes) s_a: of free grains C x L is constant. For one axis K_a is
 /// (1/V) sum k b^2 n_a^4; for all three it is the sum of a row of the stiffnesses C_ab, so that no
 /// combination of lengths is stiffer against its servo. Of rigid bodies b is the branch between their centres
-/// of mass, and b n_a stands for its part along an axis. In shear it is G = (1/V) sum k b^2 n_f^2 n_g^2, with
+/// of mass, and b n_a stands for its part along an axis; of grains that are no spheres n is the normal of the
+/// contact, and k is that of its own radius. In shear it is G = (1/V) sum k b^2 n_f^2 n_g^2, with
 /// the axes of the flow and of the gradient, and of the kinetic part s_gg.
 [[nodiscard]] DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore& grains,
                                             const HomogeneousStrain& strain, const LeesEdwards& shear = {});

@@ -268,7 +268,6 @@ private:
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;
     void addOwnPart(std::unique_ptr<StepPart> part);
-    void requireSpheres(std::string_view call) const;
     /// A function that refuses a change which does not go together with moving images; empty at set-up.
     std::function<void()> refusalInRun();
 

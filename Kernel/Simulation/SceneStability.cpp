@@ -36,13 +36,11 @@ double Scene::shortestContactTime() {
 
 double Scene::stableStepOfContacts() {
     requireBegun("stableStepOfContacts()");
-    requireSpheres("stableStepOfContacts()");
     return ContactBounds().find(contacts(), wallHandler, particleHandler.store(), scheme()).step;
 }
 
 StabilityAdvice Scene::stabilityAdvice() {
     requireBegun("stabilityAdvice()");
-    requireSpheres("stabilityAdvice()");
     const ParticleStore& grains = particleHandler.store();
     const auto find = [&](const ContactOutlook& outlook) {
         return ContactBounds().find(contacts(), wallHandler, grains, scheme(), outlook);
@@ -70,12 +68,6 @@ StabilityAdvice Scene::stabilityAdvice() {
         .species = acts ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
         .contactsOfThis = now.contactsOfGrain,
         .overlapOfThis = now.overlapOfGrain};
-}
-
-void Scene::requireSpheres(std::string_view call) const {
-    if (laws().shapes())
-        throw InputError(
-            fmt::format("Simulation: {} knows the contacts of spheres only; take stabilityLimit().", call));
 }
 
 void Scene::setAdaptiveTimeStep(double share, std::optional<double> largestStep) {

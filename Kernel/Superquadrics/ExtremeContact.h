@@ -8,6 +8,7 @@ namespace pendular {
 struct ExtremeContact {
     double turning;  // (arm x n) I^-1 (arm x n) m: by how much the turning adds to 1/m
     double radii;    // Gauss' radius over that of the sphere around, at most SuperquadricGeometry::mostRadii
+    double sliding;  // (arm x t) I^-1 (arm x t) m, the largest of all tangents t
     double smallestRadius;  // of curvature, over that of the sphere around: of a ball that rolls inside
 };
 

@@ -47,18 +47,18 @@ ShapeAtWall::Look ShapeAtWall::lookAlong(const Wall& wall, std::uint32_t part,
 /// Gilbert's method: x is a point in the core, and goes towards the core's farthest point along the way to
 /// the wall as long as it comes nearer.
 Vector<double> ShapeAtWall::nearNormal(const Wall& wall, std::uint32_t part, const WallPoint& first,
-                                       bool& isApart) const {
+                                       double& gap) const {
     constexpr int mostRounds = 30, mostHalvings = 8;
     const bool isConvex = wall.hasConvexParts();
     Vector<double> x = centre, n = first.normal;
     double distance = first.distance;
-    isApart = false;
+    gap = 0;
     for (int round = 0; round < mostRounds; ++round) {
         const Vector<double> farthest = coreAt(supportAt(n), n), way = farthest - x;
         const double gain = dot(n, way);
         // The part is beyond a plane across n, at this distance from x at least.
         if (isConvex && distance - gain > ballRadius) {
-            isApart = true;
+            gap = distance - gain - ballRadius;
             return n;
         }
         if (gain < 1e-3 * ballRadius) return n;
@@ -153,11 +153,11 @@ WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part) const {
     WallPoint point = nearest(wall, part, centre);
     if (!(point.distance < infinity)) return point;
     if (supportAt(point.normal).height < point.distance && wall.hasConvexParts()) return point;  // apart
-    bool isApart = false;
-    const Vector<double> start = nearNormal(wall, part, point, isApart);
-    if (isApart) {
+    double gap = 0;  // m
+    const Vector<double> start = nearNormal(wall, part, point, gap);
+    if (gap > 0) {
         point.normal = start;
-        point.distance = supportAt(start).height * (1 + 1e-12) + ballRadius;
+        point.distance = supportAt(start).height + gap;
         return point;
     }
     Look found = settle(wall, part, start);

@@ -29,7 +29,7 @@ public:
         : shape(superquadric), axes(inSpace), centre(place), ballRadius(ball) {}
 
     /// As Wall::findPoints(), but the distance is that of the plane across the normal through the point of
-    /// the wall. Of parts that do not touch the grain it is any that says so.
+    /// the wall; of parts that do not touch the grain, of a plane that lies between.
     void findPoints(const Wall& wall, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const;
 
@@ -52,8 +52,9 @@ private:
         return centre + axes.turn(support.point) - ballRadius * normal;
     }
     [[nodiscard]] Look lookAlong(const Wall& wall, std::uint32_t part, const Vector<double>& normal) const;
+    /// A normal that is near the wanted one. @param gap m, above 0 if a plane across it parts grain and wall
     [[nodiscard]] Vector<double> nearNormal(const Wall& wall, std::uint32_t part, const WallPoint& first,
-                                            bool& isApart) const;
+                                            double& gap) const;
     [[nodiscard]] Look settle(const Wall& wall, std::uint32_t part, const Vector<double>& start) const;
     [[nodiscard]] Vector<double> newtonShift(const Wall& wall, std::uint32_t part, const Look& now) const;
     [[nodiscard]] bool isSettled(const Wall& wall, std::uint32_t part, const Look& found) const;

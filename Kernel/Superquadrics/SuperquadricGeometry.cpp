@@ -128,7 +128,6 @@ void SuperquadricGeometry::writeRecords(ContactMemory& memory, std::size_t block
     const Mask touching = depth > Pack(0);
     const Vector<Pack> force = select(touching, fma(-normalForce, normal, tangential), zero());
     const Vector<Pack> torque1 = select(touching, cross(arm1, force), zero());
-    // At a wall as for a sphere, since the sum of the forces on it takes the force to act under the centre.
     Vector<Pack> leverless = cross(normal, force);
     if (!isAtWall)
         leverless =

@@ -26,6 +26,7 @@ void SuperquadricHandler::addShape(const Superquadric& shape) {
     shapes.push_back(shape);
     balls.push_back(extreme.smallestRadius * shape.boundingRadius());
     areEllipsoids &= shape.isEllipsoid();
+    contacts.push_back(extreme);
     largestRadii = std::max(largestRadii, extreme.radii);
 }
 
@@ -84,6 +85,24 @@ double SuperquadricHandler::thickness(const ParticleStore& grains, std::uint32_t
     return std::min({shape.a, shape.b, shape.c});
 }
 
+/// An ellipsoid is flattest where its smallest half axis ends; a superquadric is flat where any one does. A
+/// sphere is alike everywhere, and its contacts turn it by sliding only.
+ShapeExtremes SuperquadricHandler::extremesAt(const ParticleStore& grains, std::uint32_t place) const {
+    const double around = grains.translation[place].radius;
+    if (!isShaped(grains, place)) return {around, around, 0, 0, 0};
+    const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]), number = shapeOfBody[body];
+    const Superquadric& s = shapes[number];
+    const ExtremeContact& contact = contacts[number];
+    const RigidBody& own = grains.bodies[grains.bodies.find(body)];
+    const double thin = std::min({s.a, s.b, s.c}),
+                 moment = std::max({own.inertia.x, own.inertia.y, own.inertia.z});
+    return {.radius = s.isEllipsoid() ? s.a * s.b * s.c / (thin * thin) : infinity,
+            .around = SuperquadricGeometry::mostRadii * around,
+            .turning = contact.turning,
+            .sliding = contact.sliding,
+            .lever = std::sqrt(contact.turning * moment / own.mass)};
+}
+
 ShapedTouch SuperquadricHandler::touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                        const Vector<double>& shift) const {
     const ShapeInSpace one = shapeAt(grains, first), two = shapeAt(grains, second);
@@ -91,7 +110,8 @@ ShapedTouch SuperquadricHandler::touch(const ParticleStore& grains, std::uint32_
                                         SuperquadricLanes<double>::from(two.shape), one.axes, two.axes,
                                         shift};
     const SuperquadricTouch<double> found = findTouch(pair, firstNormal(pair), false);
-    return {found.normal, found.depth, found.arm1};
+    const Bodies around{grains.translation[first].radius, grains.translation[second].radius};
+    return {found.normal, found.depth, found.arm1, radiusOf(found.radius, around)};
 }
 
 ShapeAtWall SuperquadricHandler::atWalls(const ParticleStore& grains, std::uint32_t place) const {
@@ -102,33 +122,37 @@ ShapeAtWall SuperquadricHandler::atWalls(const ParticleStore& grains, std::uint3
 }
 
 void SuperquadricHandler::findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
-                                     std::span<const std::uint32_t> parts,
+                                     double range, std::span<const std::uint32_t> parts,
                                      std::span<WallPoint> points) const {
     if (isShaped(grains, grain)) return atWalls(grains, grain).findPoints(wall, parts, points);
     const TranslationRecord& sphere = grains.translation[grain];
-    wall.findPoints(sphere.position, sphere.radius, parts, points);
+    wall.findPoints(sphere.position, sphere.radius + range, parts, points);
 }
 
-ShapedTouch SuperquadricHandler::touchAtWall(const ParticleStore& grains, std::uint32_t grain,
-                                             const Wall& wall, std::uint32_t part) const {
-    WallPoint point{};
-    findPoints(grains, grain, wall, {&part, 1}, {&point, 1});
-    const Vector<double> lowest = farthest(grains, grain, point.normal);
-    const double depth = dot(lowest, point.normal) - point.distance;
-    return {point.normal, depth, lowest - (0.5 * depth) * point.normal};
+ShapedTouch SuperquadricHandler::touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
+                                              const Vector<double>& normal, double distance) const {
+    const auto [shape, axes] = shapeAt(grains, grain);
+    const SupportPoint<double> lowest =
+        supportPoint(SuperquadricLanes<double>::from(shape), axes.turnBack(normal));
+    const double depth = lowest.height - distance;
+    const TangentPlane<double> plane(normal);
+    const double gauss = curvature(lowest, axes.turnBack(plane.u), axes.turnBack(plane.v)).determinant();
+    return {normal, depth, axes.turn(lowest.point) - (0.5 * depth) * normal,
+            radiusOf(gauss > 0 ? 1 / std::sqrt(gauss) : infinity, {grains.translation[grain].radius})};
 }
 
 void SuperquadricHandler::visitExtremes(StateArchive& archive) {
-    constexpr std::size_t count = 8;
+    constexpr std::size_t count = 9;
     std::vector<double> numbersOfAll;
     for (const auto& [shape, extreme] : extremes)
         for (const double number : {shape.a, shape.b, shape.c, 1.0 * shape.n1, 1.0 * shape.n2,
-                                    extreme.turning, extreme.radii, extreme.smallestRadius})
+                                    extreme.turning, extreme.radii, extreme.sliding,
+                                    extreme.smallestRadius})
             numbersOfAll.push_back(number);
     archive.column<double>("extremes", numbersOfAll);
     if (!archive.isReading()) return;
     archive.require(numbersOfAll.size() % count == 0, "extremes",
-                    "does not have eight numbers of each shape");
+                    "does not have nine numbers of each shape");
     archive.require(std::ranges::all_of(numbersOfAll, [](double x) { return x >= 0 && x < infinity; }),
                     "extremes", "has a number that is not positive");
     extremes.clear();
@@ -136,7 +160,7 @@ void SuperquadricHandler::visitExtremes(StateArchive& archive) {
         const double* const own = numbersOfAll.data() + k;
         extremes.emplace_back(
             Superquadric{own[0], own[1], own[2], static_cast<int>(own[3]), static_cast<int>(own[4])},
-            ExtremeContact{own[5], own[6], own[7]});
+            ExtremeContact{own[5], own[6], own[7], own[8]});
     }
 }
 
@@ -157,7 +181,7 @@ void SuperquadricHandler::visitState(StateArchive& archive) {
     fallbackCount = count;
     archive.require(exponents.size() == 2 * halfLengths.size(), "exponents",
                     "does not have two of each shape");
-    shapes.clear(), balls.clear(), numbers.clear();
+    shapes.clear(), balls.clear(), numbers.clear(), contacts.clear();
     areEllipsoids = true;
     for (std::size_t k = 0; k < halfLengths.size(); ++k) {
         const Vector<double>& lengths = halfLengths[k];

@@ -38,13 +38,14 @@ public:
     [[nodiscard]] Vector<double> farthest(const ParticleStore& grains, std::uint32_t place,
                                           const Vector<double>& normal) const override;
     [[nodiscard]] ShapeInSpace shapeAt(const ParticleStore& grains, std::uint32_t place) const override;
+    [[nodiscard]] ShapeExtremes extremesAt(const ParticleStore& grains, std::uint32_t place) const override;
     /// The smallest half length is the radius that overlaps are held against.
     [[nodiscard]] double thickness(const ParticleStore& grains, std::uint32_t grain) const override;
     [[nodiscard]] ShapedTouch touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                     const Vector<double>& shift) const override;
-    [[nodiscard]] ShapedTouch touchAtWall(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
-                                          std::uint32_t part) const override;
-    void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
+    [[nodiscard]] ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
+                                           const Vector<double>& normal, double distance) const override;
+    void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall, double range,
                     std::span<const std::uint32_t> parts, std::span<WallPoint> points) const override;
 
     void add(const SuperquadricGrain& grain) override { static_cast<void>(copyAndAddObject(grain)); }
@@ -67,9 +68,14 @@ private:
     void addShape(const Superquadric& shape);
     [[nodiscard]] const ExtremeContact& contactOf(const Superquadric& shape);
     void visitExtremes(StateArchive& archive);
+    /// m: Gauss' radius, or the most that the laws take of two bodies.
+    [[nodiscard]] static double radiusOf(double gauss, const Bodies& around) {
+        return std::min(gauss, SuperquadricGeometry::mostRadii * around.effectiveRadius());
+    }
 
     ParticleHandler& particles;
     std::vector<Superquadric> shapes;                        // that differ
+    std::vector<ExtremeContact> contacts;                    // of each of them
     std::vector<double> balls;                               // m, of each: see ShapeAtWall
     std::map<std::array<double, 5>, std::uint32_t> numbers;  // of shapes, by lengths and exponents
     std::vector<std::uint32_t> shapeOfBody;                  // by the number of the body

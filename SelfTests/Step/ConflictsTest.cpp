@@ -207,7 +207,7 @@ std::string refusalOfEllipsoids(Feature with) {
         if (with == Feature::StressServo) scene.setTargetStress(2, 100, 0.1);
         else if (with == Feature::AdaptiveStep) scene.setAdaptiveTimeStep(0.9);
         else if (with == Feature::TurnedWalls) addRotor(scene);
-        else addInlet(scene);
+        else if (with == Feature::Inlets) addInlet(scene);
         scene.initialise();
     });
 }
@@ -261,6 +261,13 @@ TEST(Conflicts, areTheOnlyReason) {
             EXPECT_EQ(refusalOf<Wet>({feature}), "") << nameOf(feature);
         }
     EXPECT_EQ(refusalOf<Viscous>({}), "");
+}
+
+// A rotor, as a cylinder, is refused for its shape alone.
+TEST(Conflicts, areNoneOfSuperquadricsWithAServoARotorAndTheAdaptiveStep) {
+    for (const Feature feature : {Feature::Superquadrics, Feature::StressServo, Feature::AdaptiveStep})
+        EXPECT_EQ(refusalOfEllipsoids(feature), "") << nameOf(feature);
+    EXPECT_TRUE(support::contains(refusalOfEllipsoids(Feature::TurnedWalls), "is not plane"));
 }
 
 TEST(Conflicts, standInTheTableOnce) {

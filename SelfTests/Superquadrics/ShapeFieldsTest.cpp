@@ -36,6 +36,10 @@ TEST(ExtremeContact, isThatOfEllipsoidsInClosedForm) {
     EXPECT_NEAR(oblate.radii, 1.01 * a / c, 1e-12);
     EXPECT_EQ(extremeContact({1, 1, 1, 6, 6}).radii, SuperquadricGeometry::mostRadii);
     EXPECT_NEAR(extremeContact({1, 1, 1, 2, 2}).turning, 0, 1e-30);
+    // A force along the rim turns a sphere by r^2 / I = 5/2 of 1/m; at the tips of a prolate ellipsoid by
+    // 5 a^2 / (a^2 + c^2), and about its axis by 5/2 at the equator.
+    EXPECT_NEAR(extremeContact({1, 1, 1, 2, 2}).sliding, 1.01 * 2.5, 1e-12);
+    EXPECT_NEAR(prolate.sliding, 1.01 * 5 * a * a / (a * a + c * c), 1e-12);
 }
 
 /// The volume that a closed surface of polygons holds, positive if these are seen in a ring from outside.

@@ -120,13 +120,13 @@ std::vector<Feature> drivenWallFeatures() {
          .add = addRotor,
          .loses = both,
          .kinds = {"wall", "parts", "moved wall"},
-         .excludes = {"Superquadrics", "WallThatGoes"}},
+         .excludes = {"WallThatGoes"}},
         {.name = "FreeWall",
          .share = 0.06,
          .add = addFreeWall,
          .loses = both,
          .kinds = {"wall", "parts", "moved wall"},
-         .excludes = {"Superquadrics", "WallThatGoes"}},
+         .excludes = {"WallThatGoes"}},
     };
 }
 

@@ -1,0 +1,14 @@
+#include "Kernel/Contacts/GrainShapes.h"
+
+#include "Kernel/Walls/Wall.h"
+
+namespace pendular {
+
+ShapedTouch GrainShapes::touchAtWall(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
+                                     std::uint32_t part) const {
+    WallPoint point{};
+    findPoints(grains, grain, wall, 0, {&part, 1}, {&point, 1});
+    return touchAtPlane(grains, grain, point.normal, point.distance);
+}
+
+}  // namespace pendular
