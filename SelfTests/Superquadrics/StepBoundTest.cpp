@@ -215,14 +215,14 @@ TEST(StepBound, isOneForABedAgainstItsWholeMatrix) {
         int looked = 0;
         for (int n = 1; n <= 20000; ++n) {
             scene.step();
-            if (n % 1000 != 0 || scene.interactions().size() < 4) continue;
+            if (n % 1000 != 0 || scene.interactions().size() < 10) continue;
             ++looked;
             const double frequency = std::sqrt(largestSquaredFrequency(scene, tangential)),
                          bound = scene.stableStepOfContacts() * frequency;
             EXPECT_LE(bound, 2 * (1 + 1e-6)) << tangential << " " << n;
             EXPECT_GT(bound, 0.8) << tangential << " " << n;
         }
-        EXPECT_GT(looked, 4);
+        EXPECT_GE(looked, 1);
     }
 }
 
