@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Motion/ContactBound.h"
 #include "Kernel/Particles/MovingBodies.h"
-#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Shapes/SuperquadricSupport.h"
 #include "Kernel/Walls/PartCover.h"
 
@@ -63,8 +63,8 @@ void ContactBounds::takeShapeAtWall(const ContactSystem& contacts, const Wall& w
         const Vector<double> surface =
             point.velocity + cross(wall.angularVelocity(), touch.arm1 - point.distance * point.normal);
         Term term{.first = place, .second = none, .normal = point.normal};
-        const ShapedTerm own = takeShapes(grains, touch, {0, 0, 0},
-                                          grains.translation[place].velocity - surface, outlook, term);
+        const ShapedTerm own =
+            takeShapes(grains, touch, {0, 0, 0}, grains.translation[place].velocity - surface, outlook, term);
         keep(contacts, bucket, begin + k, term, outlook, &own);
     }
 }

@@ -153,7 +153,7 @@ WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part) const {
     WallPoint point = nearest(wall, part, centre);
     if (!(point.distance < infinity)) return point;
     if (supportAt(point.normal).height < point.distance && wall.hasConvexParts()) return point;  // apart
-    double gap = 0;  // m
+    double gap = 0;                                                                              // m
     const Vector<double> start = nearNormal(wall, part, point, gap);
     if (gap > 0) {
         point.normal = start;

@@ -146,13 +146,11 @@ void SuperquadricHandler::visitExtremes(StateArchive& archive) {
     std::vector<double> numbersOfAll;
     for (const auto& [shape, extreme] : extremes)
         for (const double number : {shape.a, shape.b, shape.c, 1.0 * shape.n1, 1.0 * shape.n2,
-                                    extreme.turning, extreme.radii, extreme.sliding,
-                                    extreme.smallestRadius})
+                                    extreme.turning, extreme.radii, extreme.sliding, extreme.smallestRadius})
             numbersOfAll.push_back(number);
     archive.column<double>("extremes", numbersOfAll);
     if (!archive.isReading()) return;
-    archive.require(numbersOfAll.size() % count == 0, "extremes",
-                    "does not have nine numbers of each shape");
+    archive.require(numbersOfAll.size() % count == 0, "extremes", "does not have nine numbers of each shape");
     archive.require(std::ranges::all_of(numbersOfAll, [](double x) { return x >= 0 && x < infinity; }),
                     "extremes", "has a number that is not positive");
     extremes.clear();
