@@ -51,10 +51,9 @@ struct Discharge {
 };
 
 Discharge discharge(const Options& o, double orifice, CsvFile& curves) {
-    MixedHopperScene scene(o.hopper, orifice);
+    MixedHopperScene scene(o.hopper, orifice, o.interval);
     o.run.apply(scene, nameOf(orifice));
     scene.setTimeMax(o.hopper.fillingTime() + o.endTime);
-    scene.setSaveCount(stepsOf(o.interval, scene.getTimeStep()));
     scene.solve();
     for (const CurvePoint& p : scene.getCurve()) curves.row(orifice, p.x, p.y);
     if (scene.getCurve().empty()) return {orifice, 0, 0, 0};

@@ -53,8 +53,9 @@ struct MixedHopper {
 /// Bodies come in above a closed orifice; later it is opened, and what falls below it is counted and removed.
 class MixedHopperScene : public SuperquadricSimulation<HertzianViscoelasticMindlinSpecies> {
 public:
-    /// @param orifice diameter, m
-    MixedHopperScene(const MixedHopper& given, double orifice) : hopper(given), orificeDiameter(orifice) {
+    /// @param orifice diameter, m; @param interval s, between two points of the curve
+    MixedHopperScene(const MixedHopper& given, double orifice, double interval)
+        : hopper(given), orificeDiameter(orifice), pointInterval(interval) {
         checkValue("MixedHopper", "orifice diameter", orifice, "m", {0, hopper.diameter, false, false});
         const Material* const material = speciesHandler.copyAndAddObject(makeMaterial());
         const double radius = 0.5 * hopper.diameter, hole = 0.5 * orifice, top = 2.5 * hopper.filling();
@@ -65,7 +66,8 @@ public:
         below.setPlane(-Vec3D::UnitZ(), {0, 0, -4 * hopper.size});
         outletHandler.copyAndAddObject(below);
         setGravity({0, 0, -MixedHopper::gravity});
-        setTimeStep(std::min(stabilityLimit(), shortestContactTime() / 15));
+        setTimeStep(stabilityLimit());
+        setAdaptiveTimeStep(0.9, shortestContactTime() / 15);
     }
 
     void actionsBeforeTimeStep() override {
@@ -75,8 +77,10 @@ public:
         isOpen = true;
     }
     [[nodiscard]] bool continueSolve() const override { return !isOpen || particleHandler.getSize() > 0; }
-    void writeOutput() override {
-        if (isOpen) curve.push_back({getTime() - hopper.fillingTime(), outletHandler.removedMass()});
+    void actionsAfterTimeStep() override {
+        const double time = getTime() - hopper.fillingTime();
+        if (isOpen && time >= static_cast<double>(curve.size()) * pointInterval)
+            curve.push_back({time, outletHandler.removedMass()});
     }
     void visitState(StateArchive& archive) override {
         archive.same("orifice", orificeDiameter, "m");
@@ -168,6 +172,7 @@ private:
 
     MixedHopper hopper;
     double orificeDiameter;  // m
+    double pointInterval;    // s
     std::size_t lid;         // its number in wallHandler
     bool isOpen = false;
     double density = 0;  // kg/m^3

@@ -8,7 +8,7 @@ namespace pendular {
 /// The laws of one species type for superquadrics. Contacts remember the normal of the last step, with which
 /// the search for the next one begins, behind what the normal law remembers.
 template <class S>
-class SuperquadricLaws : public SpeciesLaws<S> {
+class SuperquadricLaws final : public SpeciesLaws<S> {
     static_assert(!S::Adhesion::acts, "Superquadrics do not adhere: take a species without adhesion.");
     static_assert(!S::hasContactTorque,
                   "Superquadrics have no rolling or torsion torque: take a species with SlidingFriction or "

@@ -14,6 +14,7 @@ public:
         centre = toVector(point), radius = size;
         takePlace();
     }
+    [[nodiscard]] bool hasConvexParts() const override { return true; }
 
 protected:
     void listInBody(const Vector<double>& place, double reach,
@@ -38,61 +39,16 @@ private:
     double radius = 0;  // m
 };
 
-/// Superquadrics that may touch plates.
-class ShapesAtPlates final : public GrainShapes {
-public:
-    explicit ShapesAtPlates(const SuperquadricHandler& of) : shapes(of) {}
-
-    [[nodiscard]] ShapedTouch touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
-                                    const Vector<double>& shift) const override {
-        return shapes.touch(grains, first, second, shift);
-    }
-    [[nodiscard]] ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
-                                           const Vector<double>& normal, double distance) const override {
-        return shapes.touchAtPlane(grains, grain, normal, distance);
-    }
-    [[nodiscard]] const Superquadric& shapeAt(const ParticleStore& grains,
-                                              std::uint32_t place) const override {
-        return shapes.shapeAt(grains, place);
-    }
-    [[nodiscard]] ShapeExtremes extremesAt(const ParticleStore& grains, std::uint32_t place) const override {
-        return shapes.extremesAt(grains, place);
-    }
-    [[nodiscard]] double thickness(const ParticleStore& grains, std::uint32_t grain) const override {
-        return shapes.thickness(grains, grain);
-    }
-    void check(const WallHandler&) const override { shapes.requireAll(); }
-
-private:
-    const SuperquadricHandler& shapes;
-};
-
-template <class S>
-class LawsAtPlates final : public SuperquadricLaws<S> {
-public:
-    LawsAtPlates(SpeciesHandler<S>& species, SuperquadricHandler& superquadrics)
-        : SuperquadricLaws<S>(species, superquadrics), atPlates(superquadrics) {}
-    [[nodiscard]] const GrainShapes* shapes() const override { return &atPlates; }
-
-private:
-    ShapesAtPlates atPlates;
-};
-
+/// A few superquadrics and plates.
 template <class S>
 class SuperquadricsAtPlates : public FewSuperquadrics<S> {
 public:
     SuperquadricsAtPlates(const S& material, const std::vector<SuperquadricMotion>& grains, double step)
-        : FewSuperquadrics<S>(material, grains, step) {
-        this->setLaws(laws);
-    }
-    ~SuperquadricsAtPlates() override { this->completeLeftRun(); }
+        : FewSuperquadrics<S>(material, grains, step) {}
     Plate* addPlate(Plate plate) {
         plate.setSpecies(this->speciesHandler.getObject(0));
         return this->wallHandler.copyAndAddObject(plate);
     }
-
-private:
-    LawsAtPlates<S> laws{this->speciesHandler, this->superquadricHandler};
 };
 
 }  // namespace pendular::scenes

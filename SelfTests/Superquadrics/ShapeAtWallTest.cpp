@@ -247,15 +247,17 @@ TEST(ShapeAtWall, noNormalHasASmallerOverlap) {
             found.distance;
         if (!(depth > 0)) continue;
         SCOPED_TRACE(testing::Message() << "triangle " << k);
+        const double ball = extremeContact(shape).smallestRadius * shape.boundingRadius();
         // On flat faces (radii of curvature of 10^2 sizes) the normal is known to 1e-5: F to 10^2 x 1e-10.
-        ASSERT_NEAR(overlapAt(found.normal), depth, 1e-8);
+        // Where less of the ball is left before the wall, it sees a shift as a larger turn.
+        ASSERT_NEAR(overlapAt(found.normal), depth, depth > 0.5 * ball ? 1e-6 : 1e-8);
         double least = depth;
         for (int j = 0; j < 2200; ++j) {
             const Vector<double> way = anyNormal();
             least =
                 std::min(least, overlapAt(j < 2000 ? way : found.normal + std::pow(0.1, 1 + j % 6) * way));
         }
-        if (depth > 0.5 * extremeContact(shape).smallestRadius * shape.boundingRadius()) {
+        if (depth > 0.5 * ball) {
             ++deep;
             continue;
         }
