@@ -14,7 +14,7 @@ namespace {
 
 struct Options {
     MixedHopper hopper;
-    std::vector<double> orifices{0.024, 0.03, 0.036};  // m, diameters
+    std::vector<double> orifices{0.022, 0.026, 0.03};  // m, diameters
     std::vector<double> shares{1, 1, 1, 1};            // of spheres, clumps, ellipsoids, blocks
     double begin = 0.1;                                // s, of the steady part
     double endTime = 0.35;                             // s
@@ -77,6 +77,7 @@ void run(const Options& o) {
                 orifice, runs.back().flow, 100 * runs.back().change, runs.back().density);
     }
     curves.close();
+    checkValue("MixedHopper", "bulk density of the filling", runs.front().density, "kg/m^3", positive);
     const BeverlooLaw law = fitBeverloo(flows, runs.front().density, MixedHopper::gravity, o.hopper.size);
     CsvFile table(o.run.output + "/flow.csv",
                   "orifice_m,flow_kg/s,change_of_flow,bulk_density_kg/m3,beverloo_kg/s");

@@ -20,9 +20,9 @@ namespace pendular {
 /// A cylindrical hopper with a flat bottom at z = 0, and what fills it: spheres, clumps of two spheres,
 /// ellipsoids and rounded blocks, of the volume of spheres of diameter d.
 struct MixedHopper {
-    double diameter = 0.06;                                // m
+    double diameter = 0.05;                                // m
     double size = 0.004;                                   // m, d
-    std::size_t number = 1500;                             // bodies
+    std::size_t number = 800;                              // bodies
     std::array<double, 4> shares{0.25, 0.25, 0.25, 0.25};  // of the number, of the four shapes
     double youngModulus = 5e6;                             // Pa
     double friction = 0.5;                                 // of grains and walls
@@ -31,7 +31,7 @@ struct MixedHopper {
     static constexpr double gravity = 9.81;  // m/s^2
     static constexpr double density = 2500;  // kg/m^3
     static constexpr double spread = 0.1;    // of the sizes to either side
-    static constexpr double speed = 1;       // m/s, with which bodies come in
+    static constexpr double speed = 0.5;     // m/s, with which bodies come in
 
     [[nodiscard]] double area() const { return 0.25 * std::numbers::pi * diameter * diameter; }  // m^2
     /// m^3, of a mean body
@@ -157,7 +157,7 @@ private:
                           [&](double own, const Vector<double>& place, const Vector<double>&) {
                               if (place.z > low && place.z < high) mass += own;
                           });
-        return mass / (hopper.area() * (high - low));
+        return high > low ? mass / (hopper.area() * (high - low)) : 0;
     }
 
     Material makeMaterial() const {

@@ -225,7 +225,7 @@ double slabOverlap(const Superquadric& shape, const Axes<double>& axes, const Ve
 // 300 triangles at random about shapes of all exponents, that overlap by less than half the radius of the
 // ball: the depth is F at its own normal, so it is an upper bound of the least; and no other of 2000 normals,
 // nor of 200 near by, has a smaller one. Where an overlap is larger, the depth is still F at the normal.
-TEST(ShapeAtWall, noNormalHasASmallerOverlap) {
+TEST(HeavyShapeAtWall, noNormalHasASmallerOverlap) {
     support::Random random(7);
     const auto anyNormal = [&] { return toVector(random.direction()); };
     int touching = 0, deep = 0;
