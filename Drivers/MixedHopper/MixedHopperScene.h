@@ -20,9 +20,9 @@ namespace pendular {
 /// A cylindrical hopper with a flat bottom at z = 0, and what fills it: spheres, clumps of two spheres,
 /// ellipsoids and rounded blocks, of the volume of spheres of diameter d.
 struct MixedHopper {
-    double diameter = 0.05;                                // m
+    double diameter = 0.04;                                // m
     double size = 0.004;                                   // m, d
-    std::size_t number = 800;                              // bodies
+    std::size_t number = 400;                              // bodies
     std::array<double, 4> shares{0.25, 0.25, 0.25, 0.25};  // of the number, of the four shapes
     double youngModulus = 5e6;                             // Pa
     double friction = 0.5;                                 // of grains and walls
