@@ -54,6 +54,8 @@ constexpr std::array refusedElsewhere{
     RefusedElsewhere{"of a TriangleWall from behind",
                      "a grain comes below the floor through a period: a matter of places"},
     RefusedElsewhere{"is above the stability limit", "a matter of the numbers of a scene"},
+    RefusedElsewhere{"and wall 0: initial overlap",
+                     "a wall comes where a grain has gone: a matter of places"},
     RefusedElsewhere{"only meshes are repeated", "a shape that is no mesh has no images"},
 };
 
