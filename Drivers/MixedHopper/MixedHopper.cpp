@@ -77,6 +77,12 @@ void run(const Options& o) {
                 orifice, runs.back().flow, 100 * runs.back().change, runs.back().density);
     }
     curves.close();
+    if (flows.size() < 2)
+        throw InputError(
+            fmt::format("MixedHopper: bodies flowed through {} of {} orifices from {:g} s to {:g} s, and the "
+                        "law needs two: take "
+                        "wider ones, or another time.",
+                        flows.size(), runs.size(), o.begin, o.endTime));
     checkValue("MixedHopper", "bulk density of the filling", runs.front().density, "kg/m^3", positive);
     const BeverlooLaw law = fitBeverloo(flows, runs.front().density, MixedHopper::gravity, o.hopper.size);
     CsvFile table(o.run.output + "/flow.csv",

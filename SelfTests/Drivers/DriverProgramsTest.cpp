@@ -74,6 +74,9 @@ TEST(Drivers, printNothingWhereTheyAreQuietAndGoOnAtTheirEnd) {
          "--end-time-s 0.06"},
         {"LiquidInShear", "--width-m 0.02 --end-time-s 0.01 --interval-s 0.005"},
         {"ObliqueImpact", "--angles-deg 10 --angles-deg 60"},
+        {"MixedHopper",
+         "--number 50 --hopper-diameter-m 0.016 --shares 1 0 0 0 --orifice-m 0.012 0.015 "
+         "--elastic-modulus-Pa 1e6 --begin-s 0.06 --end-time-s 0.12"},
         {"Penetration", "--number 120 --softening 100 --end-time-s 0.001"},
         {"RodPacking", "--number 30 --width 3.5 --aspects 1 1.4"},
         {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"},
