@@ -110,7 +110,7 @@ Vector<double> ShapeAtWall::newtonShift(const Wall& wall, std::uint32_t part, co
     return (w.u + ballRadius * t.u) * plane.u + (w.v + ballRadius * t.v) * plane.v;
 }
 
-ShapeAtWall::Look ShapeAtWall::settle(const Wall& wall, std::uint32_t part,
+ShapeAtWall::Look ShapeAtWall::newton(const Wall& wall, std::uint32_t part,
                                       const Vector<double>& start) const {
     constexpr int mostSteps = 60, mostHalvings = 40;
     const double size = shape.a + shape.b + shape.c, roundOff = 1e-16 * (size + norm(centre));
@@ -135,6 +135,38 @@ ShapeAtWall::Look ShapeAtWall::settle(const Wall& wall, std::uint32_t part,
         if (!isBetter) return now;
     }
     return now;
+}
+
+/// Where Newton's method has not ended: the best of eight directions about the normal, at steps that are
+/// halved where none is better.
+ShapeAtWall::Look ShapeAtWall::searchAround(const Wall& wall, std::uint32_t part, Look best) const {
+    constexpr int mostRounds = 100;
+    constexpr double diagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
+    constexpr double directions[8][2] = {{1, 0},  {diagonal, diagonal},   {0, 1},  {-diagonal, diagonal},
+                                         {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}};
+    double step = 0.1;  // rad
+    for (int round = 0; round < mostRounds && step > 1e-9; ++round) {
+        const TangentPlane<double> plane(best.normal);
+        const Vector<double> middle = best.normal;
+        bool isBetter = false;
+        for (const auto& [u, v] : directions) {
+            const Vector<double> tried = middle + (step * u) * plane.u + (step * v) * plane.v;
+            const Look there = lookAlong(wall, part, (1 / norm(tried)) * tried);
+            if (!(there.distance < best.distance)) continue;
+            best = there;
+            isBetter = true;
+        }
+        if (!isBetter) step *= 0.5;
+    }
+    return best;
+}
+
+ShapeAtWall::Look ShapeAtWall::settle(const Wall& wall, std::uint32_t part,
+                                      const Vector<double>& start) const {
+    const Look found = newton(wall, part, start);
+    const bool isFound = !(found.distance > 0) || !(found.distance < 2 * ballRadius) ||
+                         dot(found.normal, found.towards) > 1 - 1e-12;
+    return isFound ? found : searchAround(wall, part, found);
 }
 
 /// Whether a look is what was sought: not where an edge or a corner is in the core. Beyond a face, which is

@@ -55,6 +55,8 @@ private:
     /// A normal that is near the wanted one. @param gap m, above 0 if a plane across it parts grain and wall
     [[nodiscard]] Vector<double> nearNormal(const Wall& wall, std::uint32_t part, const WallPoint& first,
                                             double& gap) const;
+    [[nodiscard]] Look newton(const Wall& wall, std::uint32_t part, const Vector<double>& start) const;
+    [[nodiscard]] Look searchAround(const Wall& wall, std::uint32_t part, Look best) const;
     [[nodiscard]] Look settle(const Wall& wall, std::uint32_t part, const Vector<double>& start) const;
     [[nodiscard]] Vector<double> newtonShift(const Wall& wall, std::uint32_t part, const Look& now) const;
     [[nodiscard]] bool isSettled(const Wall& wall, std::uint32_t part, const Look& found) const;
