@@ -16,8 +16,8 @@ struct Options {
     MixedHopper hopper;
     std::vector<double> orifices{0.02, 0.024, 0.028};  // m, diameters
     std::vector<double> shares{1, 1, 1, 1};            // of spheres, clumps, ellipsoids, blocks
-    double begin = 0.1;                                // s, of the steady part
-    double endTime = 0.3;                              // s
+    double begin = 0.07;                               // s, of the steady part
+    double endTime = 0.17;                             // s
     double interval = 0.002;                           // s
     RunOptions run{.output = "MixedHopper-output"};
 };
