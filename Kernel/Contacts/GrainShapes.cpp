@@ -1,5 +1,6 @@
 #include "Kernel/Contacts/GrainShapes.h"
 
+#include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Walls/Wall.h"
 
 namespace pendular {
@@ -8,6 +9,8 @@ ShapedTouch GrainShapes::touchAtWall(const ParticleStore& grains, std::uint32_t 
                                      std::uint32_t part) const {
     WallPoint point{};
     findPoints(grains, grain, wall, 0, {&part, 1}, {&point, 1});
+    if (!(point.distance < infinity))  // a grain that touches no walls
+        return {point.normal, -grains.translation[grain].radius, {0, 0, 0}, 0};
     return touchAtPlane(grains, grain, point.normal, point.distance);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "Kernel/Math/Quaternion.h"
 #include "Kernel/Shapes/Superquadric.h"
@@ -35,6 +36,7 @@ struct ShapeExtremes {
 struct ShapeInSpace {
     Superquadric shape;  // three equal half lengths: a sphere
     Axes<double> axes;
+    double edgeRadius = 0;  // m; of a box with rounded edges, which has these half lengths; else 0
 };
 
 /// The grains of a scene that may be no spheres: what is asked of them besides the forces of their contacts.
@@ -77,6 +79,8 @@ public:
                             std::span<const std::uint32_t> parts, std::span<WallPoint> points) const = 0;
     [[nodiscard]] virtual ShapeExtremes extremesAt(const ParticleStore& grains,
                                                    std::uint32_t place) const = 0;
+    /// Why a wall cannot stand in the scene of these grains; empty if it can.
+    [[nodiscard]] virtual std::string objectionTo(const Wall& wall) const = 0;
     /// m, the smallest half length of a grain.
     [[nodiscard]] virtual double thickness(const ParticleStore& grains, std::uint32_t grain) const = 0;
 };

@@ -6,6 +6,23 @@
 
 namespace pendular {
 
+namespace {
+
+/// m, of the free sphere as which a grain counts: in a block, one of the mass that the block's contacts move,
+/// which is minus its largestFreeMass.
+double radiusInLimit(const ParticleStore& grains, std::size_t place) {
+    const double radius = grains.translation[place].radius;
+    const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
+    if (number == RigidBodies::none) return radius;
+    const std::size_t own = grains.bodies.find(number);
+    const RigidBody& body = grains.bodies[own];
+    if (body.largestFreeMass >= 0) return radius;
+    return std::cbrt(-body.largestFreeMass / body.mass * grains.bodies.volumeOf(own) * 3 /
+                     (4 * std::numbers::pi));
+}
+
+}  // namespace
+
 GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount)
     : count(grains.count()),
       all(speciesCount),
@@ -15,13 +32,16 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount)
     for (std::size_t k = 0; k < grains.size(); ++k) {
         if (grains.isGap(k)) continue;
         const TranslationRecord& grain = grains.translation[k];
-        all[grains.species[k]].add(grain.radius);
+        const double counted = radiusInLimit(grains, k);
+        all[grains.species[k]].add(counted);
+        if (counted < grain.radius) all[grains.species[k]].add(grain.radius);
+        smallestOfBodies = std::min(smallestOfBodies, counted > grain.radius ? grain.radius : infinity);
         const Vector<double>& at = grain.position;
         const double r = grain.radius;
         lowest = {std::min(lowest.x, at.x - r), std::min(lowest.y, at.y - r), std::min(lowest.z, at.z - r)};
         highest = {std::max(highest.x, at.x + r), std::max(highest.y, at.y + r),
                    std::max(highest.z, at.z + r)};
-        if (grain.inverseMass > 0) free[grains.species[k]].add(grain.radius);
+        if (grain.inverseMass > 0) free[grains.species[k]].add(counted);
     }
     countHeldAlong(grains);
 }
@@ -39,7 +59,7 @@ void GrainSizes::countHeldAlong(const ParticleStore& grains) {
 }
 
 double GrainSizes::smallest() const {
-    double radius = infinity;
+    double radius = smallestOfBodies;
     for (const SizeRange& range : all) radius = std::min(radius, range.smallest);
     return radius;
 }

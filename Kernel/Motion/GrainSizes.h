@@ -32,7 +32,8 @@ struct SizeRange {
     }
 };
 
-/// The sizes of the grains of each species: of all, and of those that are free to move.
+/// The sizes of the grains of each species: of all, and of those that are free to move. A block's count as
+/// free spheres of the mass that its contacts move.
 struct GrainSizes {
     std::size_t count = 0;  // of grains
     std::vector<SizeRange> all, free;
@@ -54,6 +55,7 @@ struct GrainSizes {
     }
 
 private:
+    double smallestOfBodies = infinity;  // m, of grains that count as larger ones
     void countHeldAlong(const ParticleStore& grains);
 };
 

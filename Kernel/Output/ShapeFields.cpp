@@ -47,7 +47,7 @@ void addShapeFields(const ParticleStore& grains, const GrainShapes& shapes, Poly
     std::vector<float> lengths, orientation;
     std::vector<std::int32_t> first, second;
     for (const std::uint32_t place : grains.place) {
-        const auto [shape, axes] = shapes.shapeAt(grains, place);
+        const auto [shape, axes, edgeRadius] = shapes.shapeAt(grains, place);
         for (const double length : {shape.a, shape.b, shape.c}) lengths.push_back(static_cast<float>(length));
         first.push_back(shape.n1), second.push_back(shape.n2);
         for (const auto part : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z})
@@ -67,12 +67,13 @@ PolyData shapeSurfaces(const ParticleStore& grains, const GrainShapes& shapes) {
     const std::vector<Vector<double>> directions = normals();
     for (const std::uint32_t place : grains.place) {
         if (!shapes.isShaped(grains, place)) continue;
-        const auto [shape, axes] = shapes.shapeAt(grains, place);
+        const auto [shape, axes, edgeRadius] = shapes.shapeAt(grains, place);
         const auto lanes = SuperquadricLanes<double>::from(shape);
         const auto first = static_cast<std::int32_t>(data.points.size());
         for (const Vector<double>& n : directions)
             data.points.push_back(grains.translation[place].position +
-                                  axes.turn(supportPoint(lanes, n).point));
+                                  (edgeRadius > 0 ? shapes.farthest(grains, place, axes.turn(n))
+                                                  : axes.turn(supportPoint(lanes, n).point)));
         addPolygons(data, first);
         const std::uint32_t own = grains.identity[place];
         identity.resize(data.ends.size(), static_cast<std::int32_t>(own));

@@ -197,6 +197,10 @@ BodyResponse RigidBodies::response(const ParticleStore& grains) const {
     for (std::size_t k = 0; k < size(); ++k) {
         if (isHeld(k)) continue;
         const RigidBody& body = bodies[k];
+        if (body.largestFreeMass < 0) {  // its grains count with this mass: GrainSizes
+            most.damping = std::max(most.damping, body.mass / -body.largestFreeMass);
+            continue;
+        }
         double largest = 0, smallest = infinity;  // m
         for (const BodyMember& member : membersOf(k)) {
             const double radius = grains.translation[grains.place[member.grain]].radius;
@@ -277,7 +281,7 @@ void RigidBodies::requireWhole(const StateArchive& archive, const ParticleStore&
         const Vector<double>& inertia = body.inertia;
         const Quaternion& q = body.orientation;
         archive.require(
-            body.mass > 0 && body.largestFreeMass > 0 && inertia.x > 0 && inertia.y > 0 && inertia.z > 0,
+            body.mass > 0 && body.largestFreeMass != 0 && inertia.x > 0 && inertia.y > 0 && inertia.z > 0,
             "motion", "has a mass or a moment of inertia that is not positive");
         archive.require(std::abs(q.real * q.real + squaredNorm(q.imaginary) - 1) < 1e-6, "motion",
                         "has an orientation that is no rotation");

@@ -123,12 +123,22 @@ bool Scene::Inside::takesSpringsInStep(const GrainSizes& sizes) const {
            (adaptive.step().isSet() && integrator.contacts.implicitForces && laws().layout.hasTorque);
 }
 
+static void refuseWalls(const GrainShapes* shapes, const WallHandler& walls) {
+    if (!shapes) return;
+    for (std::size_t w = 0; w < walls.getSize(); ++w) {
+        if (walls.isRemoved(w)) continue;
+        if (const std::string reason = shapes->objectionTo(walls.getObject(w)); !reason.empty())
+            throw InputError(fmt::format("wall {}: {}.", w, reason));
+    }
+}
+
 void Scene::Inside::check() {
     contextNow(stepLength());
     context.hasInlets = !scene.inletHandler.isEmpty();
     const Features found = wakeParts();
     refuseConflicts(found);
     parts.refuseOwnConflicts(found);
+    refuseWalls(laws().shapes(), scene.wallHandler);
     refuseWear(scene.wallHandler, account.isKept(), laws().layout.hasTorque);
     GrainSizes sizes = sizesOf(scene.particleHandler.store());
     if (laws().shapes()) checkedRadii = laws().shapes()->largestRadiusRatio();

@@ -107,6 +107,29 @@ SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t 
     spinSum = first.spin + spin;
 }
 
+SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t block,
+                                           const EightTouches& touches)
+    : isAtWall(task.store.buckets[task.bucket].wall >= 0), fellBack(false) {
+    takeLast(task, block);
+    std::array<LaneColumn, EightTouches::numbers> columns;
+    for (std::size_t k = 0; k < Pack::lanes; ++k) {
+        const auto* const numbers = reinterpret_cast<const double*>(&touches.lanes[k]);
+        for (std::size_t c = 0; c < columns.size(); ++c) columns[c].lane[k] = numbers[c];
+    }
+    const LaneColumn* at = columns.data();
+    const auto number = [&] { return Pack::load((at++)->lane.data()); };
+    const auto vector = [&] {
+        const Vector<Pack> loaded = load(at);
+        at += 3;
+        return loaded;
+    };
+    normal = vector();
+    depth = number(), effectiveRadius = number();
+    radius1 = number(), radius2 = number();
+    inverseMass = number(), response = number();
+    arm1 = vector(), arm2 = vector(), velocity = vector(), spinSum = vector();
+}
+
 ContactGeometry<Pack> SuperquadricGeometry::complete() const {
     ContactGeometry<Pack> g;
     g.normal = normal;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 
 #include "Kernel/Contacts/ContactGeometry.h"
@@ -27,6 +28,23 @@ struct EightSuperquadrics {
     }
 };
 
+/// Eight contacts that were found one by one, as those of blocks are. Of one that does not touch, only the
+/// depth and the radii of the spheres around matter.
+struct EightTouches {
+    struct Lane {
+        Vector<double> normal{1, 0, 0};               // unit, from body 1 to body 2
+        double depth = -1;                            // m
+        double effectiveRadius = 0;                   // m
+        double radius1 = 0, radius2 = 0;              // m, of the spheres around
+        double inverseMass = 1, response = 1;         // 1/kg, as of SuperquadricGeometry
+        Vector<double> arm1{0, 0, 0}, arm2{0, 0, 0};  // m
+        Vector<double> velocity{0, 0, 0};             // m/s, of the surfaces
+        Vector<double> spinSum{0, 0, 0};              // rad/s
+    };
+    static constexpr std::size_t numbers = sizeof(Lane) / sizeof(double);
+    std::array<Lane, Pack::lanes> lanes;
+};
+
 /// The geometry of eight contacts of superquadrics with each other or with a plane, as the contact kernel
 /// takes it. The velocity is that of the surfaces where they touch, and masses are what the contact feels,
 /// turning included, so that dashpots that are made for a restitution give that of the contact point.
@@ -43,6 +61,7 @@ public:
                          const Vector<Pack>& imageVelocity, std::atomic<std::uint64_t>& fallbacks);
     SuperquadricGeometry(const ContactTask& task, std::size_t block, const EightSuperquadrics& first,
                          const WallPointColumns& wall);
+    SuperquadricGeometry(const ContactTask& task, std::size_t block, const EightTouches& touches);
 
     static void prefetchBodies(const TranslationRecord* /*t*/, const RotationRecord* /*r*/,
                                const ContactBlock& /*b*/) {}

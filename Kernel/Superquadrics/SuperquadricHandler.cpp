@@ -44,7 +44,34 @@ const ExtremeContact& SuperquadricHandler::contactOf(const Superquadric& shape) 
     return extremes.emplace_back(shape, extremeContact(shape)).second;
 }
 
+void SuperquadricHandler::refuseBesideBlocks() const {
+    if (!blocks.empty())
+        throw InputError(
+            "SuperquadricHandler: superquadrics cannot be in a scene with blocks, because it is not known "
+            "how "
+            "these touch each other: take spheres or clumps beside blocks, or give superquadrics exponents "
+            "of "
+            "8 in place of blocks.");
+}
+
+BodyReference SuperquadricHandler::copyAndAddObject(const BlockGrain& grain) {
+    if (!shapes.empty())
+        throw InputError(
+            "SuperquadricHandler: blocks cannot be in a scene with superquadrics, because it is not known "
+            "how "
+            "these touch each other: take spheres or clumps beside blocks, or superquadrics with exponents "
+            "of "
+            "8 in place of blocks.");
+    return blocks.add(particles, grain);
+}
+
+const RoundedBox& SuperquadricHandler::boxOf(std::size_t body) const {
+    if (const RoundedBox* const box = blocks.ofBody(static_cast<std::uint32_t>(body))) return *box;
+    throw InputError(fmt::format("rigid body {} is no block.", body));
+}
+
 BodyReference SuperquadricHandler::copyAndAddObject(const SuperquadricGrain& grain) {
+    refuseBesideBlocks();
     const std::uint32_t identity = particles.copyAndAddObject(grain.around()).getId();
     ParticleStore& grains = particles.store();
     const double density = particles.massOf(grain.around().getRadius(), grain.around().getSpeciesIndex()) /
@@ -66,6 +93,8 @@ const Superquadric& SuperquadricHandler::shapeOf(std::uint32_t grain) const {
 }
 
 ShapeInSpace SuperquadricHandler::shapeAt(const ParticleStore& grains, std::uint32_t place) const {
+    if (!blocks.empty())
+        return blocks.shapeOf(blocks.partOf(grains, place), grains.translation[place].radius);
     const std::uint32_t number = grains.bodies.bodyOf(grains.identity[place]);
     if (const Superquadric* const shape = ofBody(number))
         return {*shape, Axes<double>(grains.bodies[grains.bodies.find(number)].orientation)};
@@ -76,11 +105,17 @@ ShapeInSpace SuperquadricHandler::shapeAt(const ParticleStore& grains, std::uint
 Vector<double> SuperquadricHandler::farthest(const ParticleStore& grains, std::uint32_t place,
                                              const Vector<double>& normal) const {
     const ShapeInSpace own = shapeAt(grains, place);
+    if (own.edgeRadius > 0)
+        return own.axes.turn(blocks.boxOf(blocks.partOf(grains, place)).support(own.axes.turnBack(normal)));
     return own.axes.turn(
         supportPoint(SuperquadricLanes<double>::from(own.shape), own.axes.turnBack(normal)).point);
 }
 
 double SuperquadricHandler::thickness(const ParticleStore& grains, std::uint32_t grain) const {
+    if (!blocks.empty()) {
+        const BlockPart part = blocks.partOf(grains, grain);
+        return part.body ? blocks.boxOf(part).radius : grains.translation[grain].radius;
+    }
     const Superquadric shape = shapeAt(grains, grain).shape;
     return std::min({shape.a, shape.b, shape.c});
 }
@@ -89,6 +124,7 @@ double SuperquadricHandler::thickness(const ParticleStore& grains, std::uint32_t
 /// sphere is alike everywhere, and its contacts turn it by sliding only.
 ShapeExtremes SuperquadricHandler::extremesAt(const ParticleStore& grains, std::uint32_t place) const {
     const double around = grains.translation[place].radius;
+    if (!blocks.empty()) return blocks.extremesOf(blocks.partOf(grains, place), around);
     if (!isShaped(grains, place)) return {around, around, 0, 0, 0};
     const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]), number = shapeOfBody[body];
     const Superquadric& s = shapes[number];
@@ -105,6 +141,12 @@ ShapeExtremes SuperquadricHandler::extremesAt(const ParticleStore& grains, std::
 
 ShapedTouch SuperquadricHandler::touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                        const Vector<double>& shift) const {
+    if (!blocks.empty()) {
+        const BoxTouch found =
+            blocks.touch(blocks.partOf(grains, first), grains.translation[first].radius,
+                         blocks.partOf(grains, second), grains.translation[second].radius, shift);
+        return {found.normal, found.depth, found.arm1, found.radius};
+    }
     const ShapeInSpace one = shapeAt(grains, first), two = shapeAt(grains, second);
     const SuperquadricPair<double> pair{SuperquadricLanes<double>::from(one.shape),
                                         SuperquadricLanes<double>::from(two.shape), one.axes, two.axes,
@@ -124,14 +166,21 @@ ShapeAtWall SuperquadricHandler::atWalls(const ParticleStore& grains, std::uint3
 void SuperquadricHandler::findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
                                      double range, std::span<const std::uint32_t> parts,
                                      std::span<WallPoint> points) const {
-    if (isShaped(grains, grain)) return atWalls(grains, grain).findPoints(wall, parts, points);
+    if (!blocks.empty() && !Blocks::touchesWalls(blocks.partOf(grains, grain))) {
+        for (WallPoint& point : points) point = {{0, 0, 1}, infinity, {0, 0, 0}};
+        return;
+    }
+    if (blocks.empty() && isShaped(grains, grain))
+        return atWalls(grains, grain).findPoints(wall, parts, points);
     const TranslationRecord& sphere = grains.translation[grain];
     wall.findPoints(sphere.position, sphere.radius + range, parts, points);
 }
 
 ShapedTouch SuperquadricHandler::touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
                                               const Vector<double>& normal, double distance) const {
-    const auto [shape, axes] = shapeAt(grains, grain);
+    const ShapeInSpace own = shapeAt(grains, grain);
+    const Superquadric& shape = own.shape;
+    const Axes<double>& axes = own.axes;
     const SupportPoint<double> lowest =
         supportPoint(SuperquadricLanes<double>::from(shape), axes.turnBack(normal));
     const double depth = lowest.height - distance;
@@ -175,6 +224,7 @@ void SuperquadricHandler::visitState(StateArchive& archive) {
     archive.column<std::uint32_t>("shapeOfBody", shapeOfBody);
     std::uint64_t count = fallbackCount;
     archive.value("fallbacks", count);
+    blocks.visitState(archive);
     if (!archive.isReading()) return;
     fallbackCount = count;
     archive.require(exponents.size() == 2 * halfLengths.size(), "exponents",
@@ -214,6 +264,8 @@ Vector<Pack> packsOf(const std::array<Pack, 8>& p, std::size_t first) {
 }  // namespace
 
 SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, std::size_t block) const {
+    if (!blocks.empty()) [[unlikely]]
+        return geometryOfBlocks(task, block);
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     const RigidBodies& bodies = grains.bodies;
     const auto eight = [&](const Places& places) {

@@ -4,10 +4,12 @@
 #include <array>
 #include <atomic>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Particles/BodyHandler.h"
+#include "Kernel/Superquadrics/Blocks.h"
 #include "Kernel/Superquadrics/ExtremeContact.h"
 #include "Kernel/Superquadrics/ShapeAtWall.h"
 #include "Kernel/Superquadrics/SuperquadricGeometry.h"
@@ -26,20 +28,26 @@ public:
 
     /// Adds a grain; returns its body. Throws InputError as copyAndAddObject() of grains does.
     BodyReference copyAndAddObject(const SuperquadricGrain& grain);
+    /// Adds a block, which may not be in one scene with superquadrics; returns its body.
+    BodyReference copyAndAddObject(const BlockGrain& grain);
+    /// The box of a body, by its number. Throws InputError if it is no block.
+    [[nodiscard]] const RoundedBox& boxOf(std::size_t body) const;
     /// The shape of a grain, by its identity. Throws InputError if it is none of these.
     [[nodiscard]] const Superquadric& shapeOf(std::uint32_t grain) const;
     /// The number of evaluations of a contact that acted in which Newton's method has not ended, and the
     /// search without derivatives went on.
     [[nodiscard]] std::uint64_t fallbacks() const { return fallbackCount; }
 
+    /// Of a block, its core.
     [[nodiscard]] bool isShaped(const ParticleStore& grains, std::uint32_t place) const override {
+        if (!blocks.empty()) return blocks.partOf(grains, place).kind == BlockPart::Kind::Core;
         return ofBody(grains.bodies.bodyOf(grains.identity[place])) != nullptr;
     }
     [[nodiscard]] Vector<double> farthest(const ParticleStore& grains, std::uint32_t place,
                                           const Vector<double>& normal) const override;
     [[nodiscard]] ShapeInSpace shapeAt(const ParticleStore& grains, std::uint32_t place) const override;
     [[nodiscard]] ShapeExtremes extremesAt(const ParticleStore& grains, std::uint32_t place) const override;
-    /// The smallest half length is the radius that overlaps are held against.
+    /// The smallest half length is the radius that overlaps are held against, that of its edges of a block.
     [[nodiscard]] double thickness(const ParticleStore& grains, std::uint32_t grain) const override;
     [[nodiscard]] ShapedTouch touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                     const Vector<double>& shift) const override;
@@ -48,11 +56,18 @@ public:
     void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall, double range,
                     std::span<const std::uint32_t> parts, std::span<WallPoint> points) const override;
 
+    [[nodiscard]] std::string objectionTo(const Wall& wall) const override {
+        return blocks.empty() ? std::string() : objectionToWallOfBlocks(wall);
+    }
+
     void add(const SuperquadricGrain& grain) override { static_cast<void>(copyAndAddObject(grain)); }
     void expect(const Superquadric& shape) override {
+        refuseBesideBlocks();
         largestRadii = std::max(largestRadii, contactOf(shape).radii);
     }
-    [[nodiscard]] double largestRadiusRatio() const override { return largestRadii; }
+    [[nodiscard]] double largestRadiusRatio() const override {
+        return std::max(largestRadii, blocks.largestRadiusRatio());
+    }
     /// The geometry of the eight contacts of a block.
     [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block) const;
     void visitState(StateArchive& archive);
@@ -63,6 +78,9 @@ private:
         if (number >= shapeOfBody.size() || shapeOfBody[number] == RigidBodies::none) return nullptr;
         return &shapes[shapeOfBody[number]];
     }
+    void refuseBesideBlocks() const;
+    /// As geometryOf(), in a scene with blocks.
+    [[nodiscard]] SuperquadricGeometry geometryOfBlocks(const ContactTask& task, std::size_t block) const;
     [[nodiscard]] ShapeAtWall atWalls(const ParticleStore& grains, std::uint32_t place) const;
     [[nodiscard]] std::uint32_t numberOf(const Superquadric& shape);
     void addShape(const Superquadric& shape);
@@ -74,6 +92,7 @@ private:
     }
 
     ParticleHandler& particles;
+    Blocks blocks;
     std::vector<Superquadric> shapes;                        // that differ
     std::vector<ExtremeContact> contacts;                    // of each of them
     std::vector<double> balls;                               // m, of each: see ShapeAtWall
