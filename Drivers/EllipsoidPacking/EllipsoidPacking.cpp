@@ -64,8 +64,7 @@ int main(int argc, char** argv) {
                     ->expected(1, 100);
                 app.add_option("--exponent", o.bed.exponent,
                                "of the shape, from 2 (ellipsoids) to 8 (blocks with rounded edges)");
-                addRunOptions(app, o.bed.run, "packing.csv", "aspect-RATIO");
-                app.remove_option(app.get_option("--restart"));  // several runs, each with a file of its own
+                addRunOptionsOfSeveral(app, o.bed.run, "packing.csv", "aspect-RATIO");
             },
         .numbers = {
             {"number", "", &o.bed.number, {1, 1e6}, "of grains in each bed"},

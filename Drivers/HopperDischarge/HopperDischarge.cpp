@@ -41,8 +41,7 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--begin-s", o.begin, "start of the steady part, s after the orifice is opened");
     app.add_option("--end-time-s", o.endTime, "end of each run, s after the orifice is opened");
     app.add_option("--interval-s", o.interval, "time between two rows of discharge.csv, s");
-    addRunOptions(app, o.run, "discharge.csv and flow.csv", "orifice-DIAMETER");
-    app.remove_option(app.get_option("--restart"));  // there are several runs, each with a file of its own
+    addRunOptionsOfSeveral(app, o.run, "discharge.csv and flow.csv", "orifice-DIAMETER");
 }
 
 void writeCurves(const Options& options, const std::vector<Discharge>& runs) {

@@ -22,8 +22,6 @@ struct Options {
     RunOptions run{.output = "MixedHopper-output"};
 };
 
-std::string nameOf(double orifice) { return fmt::format("orifice-{:g}", orifice); }
-
 void check(Options& o) {
     checkNumberOfGrains("MixedHopper", o.hopper.number);
     double sum = 0;
@@ -52,7 +50,7 @@ struct Discharge {
 
 Discharge discharge(const Options& o, double orifice, CsvFile& curves) {
     MixedHopperScene scene(o.hopper, orifice, o.interval);
-    o.run.apply(scene, nameOf(orifice));
+    o.run.apply(scene, dischargeName(orifice));
     scene.setTimeMax(o.hopper.fillingTime() + o.endTime);
     scene.solve();
     for (const CurvePoint& p : scene.getCurve()) curves.row(orifice, p.x, p.y);
@@ -114,8 +112,7 @@ int main(int argc, char** argv) {
                 app.add_option("--shares", o.shares,
                                "of spheres, clumps, ellipsoids and blocks, of the number of bodies")
                     ->expected(4);
-                addRunOptions(app, o.run, "discharge.csv and flow.csv", "orifice-DIAMETER");
-                app.remove_option(app.get_option("--restart"));  // several runs, each with a file of its own
+                addRunOptionsOfSeveral(app, o.run, "discharge.csv and flow.csv", "orifice-DIAMETER");
             },
         .numbers = {
             {"number", "", &o.hopper.number, {1, 1e6}, "of bodies"},

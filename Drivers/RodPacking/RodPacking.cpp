@@ -60,8 +60,7 @@ int main(int argc, char** argv) {
                 app.option_defaults()->always_capture_default();
                 app.add_option("--aspects", o.aspects, "length over diameter of the rods, one run for each")
                     ->expected(1, 100);
-                addRunOptions(app, o.bed.run, "packing.csv", "aspect-RATIO");
-                app.remove_option(app.get_option("--restart"));  // several runs, each with a file of its own
+                addRunOptionsOfSeveral(app, o.bed.run, "packing.csv", "aspect-RATIO");
             },
         .numbers = {
             {"number", "", &o.bed.number, {1, 1e6}, "of rods in each bed"},

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "Kernel/Base/InputError.h"
@@ -64,5 +67,8 @@ inline BeverlooLaw fitBeverloo(std::span<const CurvePoint> flows, double bulkDen
     return {std::pow(line.slope, 2.5) / (bulkDensity * std::sqrt(gravity)),
             -line.intercept / (line.slope * grainDiameter), bulkDensity, gravity, grainDiameter};
 }
+
+/// The beginning of the names of all files of the run through one orifice.
+inline std::string dischargeName(double orifice) { return fmt::format("orifice-{:g}", orifice); }
 
 }  // namespace pendular

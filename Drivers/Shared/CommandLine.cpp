@@ -49,6 +49,11 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
     app.add_flag("--quiet", o.quiet, "print nothing but errors");
 }
 
+void addRunOptionsOfSeveral(CLI::App& app, RunOptions& o, const std::string& files, const std::string& runs) {
+    addRunOptions(app, o, files, runs);
+    app.remove_option(app.get_option("--restart"));
+}
+
 static void addOptionsOf(const DriverProgram& driver, CLI::App& app) {
     if (driver.addOptions) driver.addOptions(app);
     for (const NumberOption& number : driver.numbers)

@@ -19,6 +19,10 @@ namespace pendular {
 /// @param run what the names of the files begin with that all drivers write
 void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const std::string& run = "run");
 
+/// The same of a driver that makes several runs, each with files of its own: --resume goes on with them, and
+/// there is no --restart.
+void addRunOptionsOfSeveral(CLI::App& app, RunOptions& o, const std::string& files, const std::string& runs);
+
 /// A number that a driver's command line can give, with its unit in its name: --end-time-s. --number is that
 /// of grains, for which there must be memory.
 struct NumberOption {

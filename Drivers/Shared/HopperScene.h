@@ -173,9 +173,6 @@ struct Discharge {
     double change;                  // of the flow from the first half of the steady part to the second, of 1
 };
 
-/// The beginning of the names of all files of the run through one orifice.
-inline std::string dischargeName(double orifice) { return fmt::format("orifice-{:g}", orifice); }
-
 /// Lets grains out of a hopper.
 /// @param begin s, of the steady part; @param end s, of the run; @param interval s, between points
 inline Discharge discharge(const Hopper& hopper, std::span<const GrainRow> grains, double orifice,

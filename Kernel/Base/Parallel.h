@@ -12,8 +12,7 @@ namespace pendular {
 /// the next call: for some microseconds awake, then asleep, so that they take no time from other programs.
 /// With more threads than processors they sleep at once. A part whose thread has not begun when this one is
 /// done with its own is done here: where other programs run, nobody waits for a thread that does not. A call
-/// within a call, or beside another one, does
-/// its parts one after the other.
+/// within a call, or beside another one, does its parts one after the other.
 void onThreads(int count, void (*call)(void* context, int part), void* context);
 
 /// How many processors this process may use.

@@ -9,7 +9,6 @@
 
 namespace pendular {
 
-class BodyHandler;
 class GrainShapes;
 struct InsertionScene;
 class ParticleHandler;

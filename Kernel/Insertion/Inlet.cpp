@@ -61,13 +61,13 @@ void addClump(ParticleStore& one, const ClumpTemplate& shape, double density) {
 }
 
 /// What the stability limit counts with for all clumps or superquadrics of a kind, whatever their sizes.
-/// @param density kg/m^3
-BodyResponse responseOf(const BodyKind& kind, double density) {
+/// @param density kg/m^3; @param turning of a superquadric's extreme contact
+BodyResponse responseOf(const BodyKind& kind, double density, double turning) {
     ParticleStore one;
     if (kind.clump()) addClump(one, kind.clump()->getTemplate(), density);
     else {
         const Superquadric& shape = kind.shaped()->getShape();
-        const RigidBody body = bodyOf(*kind.shaped(), density, extremeContact(shape).turning);
+        const RigidBody body = bodyOf(*kind.shaped(), density, turning);
         const BodyMember member{
             one.add({{0, 0, 0}, shape.boundingRadius(), {0, 0, 0}, 1 / body.mass}, {0, 0, 0}, 0), {0, 0, 0}};
         one.bodies.add(body, {&member, 1}, shape.volume());
@@ -136,7 +136,14 @@ std::size_t InletHandler::copyAndAddObject(const Inlet& inlet) {
         require(kind.species() >= 0, "the species of its grains",
                 inlet.mixture ? "setSpecies() of all in the mixture" : "setGrain()");
     require(isSet(inlet.massFlow) || isSet(inlet.numberFlow), "its flow", "setMassFlow() or setNumberFlow()");
-    inlets.push_back({.inlet = inlet, .bodies = std::move(bodies), .region = inlet.region, .count = {}});
+    std::vector<double> turnings;
+    for (const BodyKind& kind : bodies)
+        turnings.push_back(kind.shaped() ? extremeContact(kind.shaped()->getShape()).turning : 0);
+    inlets.push_back({.inlet = inlet,
+                      .bodies = std::move(bodies),
+                      .turnings = std::move(turnings),
+                      .region = inlet.region,
+                      .count = {}});
     return inlets.size() - 1;
 }
 
@@ -150,11 +157,13 @@ const InletCount& InletHandler::countOf(std::size_t number) const {
 std::vector<InletHandler::Sizes> InletHandler::sizes(const GrainSpecies& species) const {
     std::vector<Sizes> all;
     for (const Kept& kept : inlets)
-        for (const BodyKind& kind : kept.bodies) {
+        for (std::size_t k = 0; k < kept.bodies.size(); ++k) {
+            const BodyKind& kind = kept.bodies[k];
             Sizes sizes{kind.smallestSphere(0.5 * kind.sizes.smallest()),
                         kind.largestSphere(0.5 * kind.sizes.largest()), kind.species(), std::nullopt};
             if (!kind.grain())
-                sizes.response = responseOf(kind, species.density(static_cast<std::size_t>(kind.species())));
+                sizes.response = responseOf(kind, species.density(static_cast<std::size_t>(kind.species())),
+                                            kept.turnings[k]);
             all.push_back(sizes);
         }
     return all;

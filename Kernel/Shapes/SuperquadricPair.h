@@ -177,15 +177,12 @@ template <Number T>
 void searchAround(const SuperquadricPair<T>& pair, const MaskOf<T>& wanted, Vector<T>& normal,
                   SlabOverlap<T>& best) {
     constexpr int mostRounds = 80;
-    constexpr double diagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
-    constexpr double directions[8][2] = {{1, 0},  {diagonal, diagonal},   {0, 1},  {-diagonal, diagonal},
-                                         {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}};
     T step = 1e-2;  // rad
     for (int round = 0; round < mostRounds; ++round) {
         MaskOf<T> moved = normal.x != normal.x;  // none
         const TangentPlane<T> plane = best.plane;
         const Vector<T> middle = normal;
-        for (const auto& direction : directions) {
+        for (const auto& direction : superquadric::eightDirections) {
             const Vector<T> tried = superquadric::unit(middle + (step * direction[0]) * plane.u +
                                                        (step * direction[1]) * plane.v);
             const SlabOverlap<T> there(pair, tried);

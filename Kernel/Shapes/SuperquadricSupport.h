@@ -66,6 +66,12 @@ Farthest<T> farthest(const T& u, const T& v, const T& n) {
     return {larger * sum * big, select(first, big, small), select(first, small, big)};
 }
 
+inline constexpr double diagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
+/// Unit, in a tangent plane: where searches without derivatives look.
+inline constexpr double eightDirections[8][2] = {
+    {1, 0},  {diagonal, diagonal},   {0, 1},  {-diagonal, diagonal},
+    {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}};
+
 template <Number T>
 T withSign(const T& size, const T& sign) {
     return select(sign < 0.0, -size, size);

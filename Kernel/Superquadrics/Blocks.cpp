@@ -4,6 +4,7 @@
 
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
+#include "Kernel/Superquadrics/SuperquadricBody.h"
 #include "Kernel/Walls/InfiniteCylinder.h"
 #include "Kernel/Walls/InfiniteWall.h"
 
@@ -30,18 +31,10 @@ struct Parts {
     }
 };
 
-RigidBody bodyOf(const BlockGrain& grain, double density) {
-    const MassProperties solid = grain.getBox().mass();
-    const Eigen::Quaterniond& q = grain.getOrientation();
-    const SphericalParticle& around = grain.around();
-    RigidBody body{.mass = density * solid.volume,
-                   .inertia = toVector(Vec3D(density * solid.inertia.diagonal())),
-                   .position = toVector(around.getPosition()),
-                   .velocity = toVector(around.getVelocity()),
-                   .orientation = {q.w(), toVector(Vec3D(q.vec()))},
-                   // Negative: so does each of its grains count in the stability limit (GrainSizes).
-                   .largestFreeMass = -sphereMass(grain.getBox().radiusAtContacts(), density)};
-    body.setSpin(toVector(around.getAngularVelocity()));
+RigidBody bodyOfBlock(const BlockGrain& grain, double density) {
+    RigidBody body = bodyOf(grain, grain.getBox().mass(), density);
+    // Negative: so does each of its grains count in the stability limit (GrainSizes).
+    body.largestFreeMass = -sphereMass(grain.getBox().radiusAtContacts(), density);
     return body;
 }
 
@@ -81,7 +74,7 @@ BodyReference Blocks::add(ParticleHandler& particles, const BlockGrain& grain) {
     const double density =
         particles.massOf(around.getRadius(), around.getSpeciesIndex()) / sphereMass(around.getRadius(), 1);
     const std::uint32_t number =
-        grains.bodies.add(bodyOf(grain, density), members, grain.getBox().mass().volume);
+        grains.bodies.add(bodyOfBlock(grain, density), members, grain.getBox().mass().volume);
     grains.bodies.place(grains, grains.bodies.size() - 1);
     ParticleHandler::Inside::noteJoined(particles, identities);
     boxOfBody.resize(number, RigidBodies::none);

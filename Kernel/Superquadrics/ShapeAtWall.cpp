@@ -1,9 +1,7 @@
 #include "Kernel/Superquadrics/ShapeAtWall.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace pendular {
@@ -141,15 +139,12 @@ ShapeAtWall::Look ShapeAtWall::newton(const Wall& wall, std::uint32_t part,
 /// halved where none is better.
 ShapeAtWall::Look ShapeAtWall::searchAround(const Wall& wall, std::uint32_t part, Look best) const {
     constexpr int mostRounds = 100;
-    constexpr double diagonal = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2)
-    constexpr double directions[8][2] = {{1, 0},  {diagonal, diagonal},   {0, 1},  {-diagonal, diagonal},
-                                         {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}};
     double step = 0.1;  // rad
     for (int round = 0; round < mostRounds && step > 1e-9; ++round) {
         const TangentPlane<double> plane(best.normal);
         const Vector<double> middle = best.normal;
         bool isBetter = false;
-        for (const auto& [u, v] : directions) {
+        for (const auto& [u, v] : superquadric::eightDirections) {
             const Vector<double> tried = middle + (step * u) * plane.u + (step * v) * plane.v;
             const Look there = lookAlong(wall, part, (1 / norm(tried)) * tried);
             if (!(there.distance < best.distance)) continue;
@@ -184,8 +179,7 @@ bool ShapeAtWall::isSettled(const Wall& wall, std::uint32_t part, const Look& fo
 WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part) const {
     WallPoint point = nearest(wall, part, centre);
     if (!(point.distance < infinity)) return point;
-    if (supportAt(point.normal).height < point.distance && wall.hasConvexParts()) return point;  // apart
-    double gap = 0;                                                                              // m
+    double gap = 0;
     const Vector<double> start = nearNormal(wall, part, point, gap);
     if (gap > 0) {
         point.normal = start;

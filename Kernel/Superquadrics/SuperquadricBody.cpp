@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "Kernel/Shapes/MassProperties.h"
-
 namespace pendular {
 
 namespace {
@@ -20,8 +18,7 @@ double freeMass(const RigidBody& body, const Superquadric& shape, double turning
 
 }  // namespace
 
-RigidBody bodyOf(const SuperquadricGrain& grain, double density, double turning) {
-    const MassProperties solid = grain.getShape().mass();
+RigidBody bodyOf(const ShapedGrain& grain, const MassProperties& solid, double density) {
     const Eigen::Quaterniond& q = grain.getOrientation();
     const SphericalParticle& around = grain.around();
     RigidBody body{.mass = density * solid.volume,
@@ -30,7 +27,13 @@ RigidBody bodyOf(const SuperquadricGrain& grain, double density, double turning)
                    .velocity = toVector(around.getVelocity()),
                    .orientation = {q.w(), toVector(Vec3D(q.vec()))}};
     body.setSpin(toVector(around.getAngularVelocity()));
-    body.largestFreeMass = freeMass(body, grain.getShape(), turning, sphereMass(around.getRadius(), density));
+    return body;
+}
+
+RigidBody bodyOf(const SuperquadricGrain& grain, double density, double turning) {
+    RigidBody body = bodyOf(grain, grain.getShape().mass(), density);
+    body.largestFreeMass =
+        freeMass(body, grain.getShape(), turning, sphereMass(grain.around().getRadius(), density));
     return body;
 }
 

@@ -179,10 +179,9 @@ void SuperquadricHandler::findPoints(const ParticleStore& grains, std::uint32_t 
 ShapedTouch SuperquadricHandler::touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
                                               const Vector<double>& normal, double distance) const {
     const ShapeInSpace own = shapeAt(grains, grain);
-    const Superquadric& shape = own.shape;
     const Axes<double>& axes = own.axes;
     const SupportPoint<double> lowest =
-        supportPoint(SuperquadricLanes<double>::from(shape), axes.turnBack(normal));
+        supportPoint(SuperquadricLanes<double>::from(own.shape), axes.turnBack(normal));
     const double depth = lowest.height - distance;
     const TangentPlane<double> plane(normal);
     const double gauss = curvature(lowest, axes.turnBack(plane.u), axes.turnBack(plane.v)).determinant();
@@ -272,7 +271,6 @@ SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, st
         Places at{};
         std::array<LaneColumn, 5> numbers;
         LaneColumn moves;
-        Mask isShaped(false);
         std::uint8_t shaped = 0;
         for (std::size_t k = 0; k < Pack::lanes; ++k) {
             // Lanes of grains that have gone are of no meaning.
@@ -286,7 +284,7 @@ SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, st
             const double ofShape[5] = {s.a, s.b, s.c, static_cast<double>(s.n1), static_cast<double>(s.n2)};
             for (std::size_t c = 0; c < 5; ++c) numbers[c].lane[k] = ofShape[c];
         }
-        isShaped = maskFromBits(shaped);
+        const Mask isShaped = maskFromBits(shaped);
         const auto column = [&](std::size_t c) { return Pack::load(numbers[c].lane.data()); };
         const auto grain =
             loadRecords<8>(reinterpret_cast<const double*>(task.translation), 8, places.data());
