@@ -23,9 +23,11 @@ void forEachMembrane(const WallHandler& walls, Function&& function) {
 
 /// The force of a contact on a triangle.
 struct TriangleForce {
-    std::uint32_t grain, triangle;  // identity
-    Vector<double> point;           // m, of the triangle
-    Vector<double> force, couple;   // N, N m about the point
+    std::uint32_t grain;  // identity
+    std::uint32_t part;   // which tells images apart
+    std::uint32_t triangle;
+    Vector<double> point;          // m, of the triangle
+    Vector<double> force, couple;  // N, N m about the point
 };
 
 /// Puts the forces, and the accelerations that follow, into a state whose places and velocities are those of
@@ -40,9 +42,16 @@ void takeForces(const Membrane& membrane, std::size_t number, const ContactSyste
     state.ofPressure.assign(state.position.size(), none);
     net.addElasticForces(state.position, state.elastic);
     net.addPressureForces(state.position, membrane.getPressure(), state.ofPressure);
+    std::vector<double> mass = net.masses();
+    Column force(state.position.size(), none);
+    for (std::size_t v = 0; v < force.size(); ++v)
+        force[v] = state.ofGrains[v] + state.elastic[v] + state.ofPressure[v];
+    for (const MembraneNet::Copy& copy : net.copies())
+        mass[copy.of] += mass[copy.vertex], force[copy.of] += force[copy.vertex];
+    for (const MembraneNet::Copy& copy : net.copies())
+        mass[copy.vertex] = mass[copy.of], force[copy.vertex] = force[copy.of];
     for (std::size_t v = 0; v < state.position.size(); ++v) {
-        const Vector<double> force = state.ofGrains[v] + state.elastic[v] + state.ofPressure[v];
-        state.acceleration[v] = (1 / net.masses()[v]) * force;
+        state.acceleration[v] = (1 / mass[v]) * force[v];
         if (!membrane.getHeld()[v])
             state.acceleration[v] += gravity - membrane.getDamping() * state.velocity[v];
     }
@@ -133,8 +142,10 @@ Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& c
                                         columns.normal[2].lane[lane]};
             const double distance = columns.distance.lane[lane];
             const Vector<double> force = -store.forceOf(c);
+            const std::uint32_t part = store.secondOf(c);
             TriangleForce at{grains.identity[place],
-                             store.secondOf(c),
+                             part,
+                             membrane.partOfShape(part),
                              grain.position + distance * normal,
                              force,
                              {0, 0, 0}};
@@ -144,11 +155,12 @@ Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& c
                     (grain.radius - store.memory.records[slot].halfOverlap - distance) * cross(normal, force);
             if (layout.hasContactTorque) at.couple -= store.memory.torques[slot].torque;
             if (shapes) actAtShape(*shapes, grains, place, normal, distance, at);
+            at.point = at.point - membrane.imageShift(part, grain.position);
             found.push_back(at);
         }
     }
     std::sort(found.begin(), found.end(), [](const TriangleForce& a, const TriangleForce& b) {
-        return std::tie(a.grain, a.triangle) < std::tie(b.grain, b.triangle);
+        return std::tie(a.grain, a.part) < std::tie(b.grain, b.part);
     });
     Column forces(membrane.getNet().vertices().size(), {0, 0, 0});
     for (const TriangleForce& at : found) {
@@ -197,6 +209,10 @@ void MembraneMotion::begin(const WallHandler& walls, const Step& step) {
                             "take a smaller "
                             "time step, or a smaller pressure.",
                             step.time, number));
+        for (const MembraneNet::Copy& copy : membrane.getNet().copies()) {
+            next.position[copy.vertex] = next.position[copy.of] + copy.shift;
+            next.velocity[copy.vertex] = next.velocity[copy.of];
+        }
         const double farthest = std::sqrt(farthest2);
         if (farthest > step.smallestRadius)
             throw RunError(fmt::format(

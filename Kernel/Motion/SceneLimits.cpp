@@ -296,12 +296,6 @@ std::optional<std::string> objectionToLengths(const PeriodicBox& box, double rea
 
 double checkPeriodicLengths(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                             const PeriodicBox& box) {
-    for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (box.any() && !box.imagesMove && walls.getObject(w).membrane())
-            throw InputError(
-                fmt::format("wall {}, a membrane: it has no images, so that in a scene which repeats itself "
-                            "there can be none; leave setPeriodic() out.",
-                            w));
     double reach = 0;
     forEachExtremePair(species, grains, walls, [&](const PairLaws& laws, const Bodies& bodies, double) {
         if (bodies.radius2 < infinity)

@@ -100,25 +100,26 @@ std::string PeriodicWalls::sentence(std::size_t wall, std::size_t axis, const Su
                        high - low, names[axis], where, advice);
 }
 
-void PeriodicWalls::requireShort(const RigidWall& wall, std::size_t number) const {
+void PeriodicWalls::requireShort(const RepeatedWall& wall, std::size_t number) const {
     const Vector<double> half = wall.surroundings().half;
     for (std::size_t k = 0; k < 3; ++k) {
         const double length = 2 * half.*along[k], period = periodic.length.*along[k];
         if (period > 0 && length > WallImages::mostPeriods * period)
             throw InputError(fmt::format(
                 "wall {} is {:.6g} m long along {}, and it is not the same after a period of {:.6g} m: a "
-                "mesh "
-                "that is to be repeated with the scene is not longer than {} periods; make it shorter.",
+                "mesh or a membrane that is to be repeated with the scene is not longer than {} periods; "
+                "make "
+                "it shorter.",
                 number, length, names[k], period, WallImages::mostPeriods));
     }
 }
 
-void PeriodicWalls::repeat(RigidWall& wall, std::size_t number) {
+void PeriodicWalls::repeat(RepeatedWall& wall, std::size_t number) {
     requireShort(wall, number);
     if (wall.partCount() > WallImages::mostParts)
         throw InputError(fmt::format(
-            "wall {} has {} parts, and it is not the same after a period: a mesh that is to be repeated with "
-            "the scene has at most {}; take a coarser mesh.",
+            "wall {} has {} parts, and it is not the same after a period: what is to be repeated with the "
+            "scene has at most {}; take a coarser mesh.",
             number, wall.partCount(), WallImages::mostParts));
     wall.repeat(periodic.length);
     imagesAreNew = true;
@@ -135,8 +136,9 @@ void PeriodicWalls::takeAsRepeated(std::size_t number) {
 
 bool PeriodicWalls::mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen, const PeriodicFaces& faces,
                                    double met) {
-    const auto* const rigid = dynamic_cast<const RigidWall*>(&wall);
-    if (!rigid || !rigid->canBeRepeated()) return false;
+    const auto* const repeated = dynamic_cast<const RepeatedWall*>(&wall);
+    if (!repeated || !repeated->canBeRepeated()) return false;
+    if (wall.membrane()) return true;
     // What does not go through a face and lies beyond it is a piece of its own.
     if (!seen.passes && (seen.highest > faces.highest() || seen.lowest < faces.lowest)) return true;
     // Vertices move on each side as grains wear them there, so that two ends would no longer fit.
@@ -146,31 +148,31 @@ bool PeriodicWalls::mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen,
 bool PeriodicWalls::areKnownFor(const WallHandler& walls, const ContactLaws& laws, const GrainSizes& sizes,
                                 double widestBody) const {
     for (std::size_t w = 0; w < looks.size(); ++w) {
-        const auto* const mesh = dynamic_cast<const RigidWall*>(&walls.getObject(w));
-        if (!mesh || !mesh->canBeRepeated() || mesh->isRepeated()) continue;
-        const double needed = neededOf(*mesh, laws, sizes, 0.5 * widestBody);
+        const auto* const wall = dynamic_cast<const RepeatedWall*>(&walls.getObject(w));
+        if (!wall || !wall->canBeRepeated() || wall->isRepeated()) continue;
+        const double needed = neededOf(*wall, laws, sizes, 0.5 * widestBody);
         for (const Look& known : looks[w].along)
             if (!(needed + known.moved <= known.margin)) return false;
     }
     return looks.size() == walls.getSize();
 }
 
-std::vector<RigidWall*> PeriodicWalls::meshesToRepeat(const WallHandler& walls, const PeriodicBox& box,
-                                                      const ContactLaws& laws, const GrainSizes& sizes,
-                                                      double widestBody, double smallestRadius) {
+std::vector<RepeatedWall*> PeriodicWalls::wallsToRepeat(const WallHandler& walls, const PeriodicBox& box,
+                                                        const ContactLaws& laws, const GrainSizes& sizes,
+                                                        double widestBody, double smallestRadius) {
     PeriodicWalls own;
-    std::vector<RigidWall*> found;
+    std::vector<RepeatedWall*> found;
     if (!own.begin(box, widestBody, smallestRadius)) return found;
     for (std::size_t w = 0; w < walls.getSize(); ++w) {
-        auto* const mesh = dynamic_cast<RigidWall*>(&walls.getObject(w));
-        if (!mesh || !mesh->canBeRepeated() || mesh->isRepeated()) continue;
-        if (mesh->partCount() > WallImages::mostParts) continue;  // it will be refused
-        const double needed = neededOf(*mesh, laws, sizes, own.bodyReach);
+        auto* const wall = dynamic_cast<RepeatedWall*>(&walls.getObject(w));
+        if (!wall || !wall->canBeRepeated() || wall->isRepeated()) continue;
+        if (wall->partCount() > WallImages::mostParts) continue;  // it will be refused
+        const double needed = neededOf(*wall, laws, sizes, own.bodyReach);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (box.length.*along[axis] == 0) continue;
             const PeriodicFaces faces = own.facesOf(axis, needed);
-            if (!mustBeRepeated(*mesh, mesh->atFaces(faces), faces, needed)) continue;
-            found.push_back(mesh);
+            if (!mustBeRepeated(*wall, wall->atFaces(faces), faces, needed)) continue;
+            found.push_back(wall);
             break;
         }
     }
@@ -185,7 +187,7 @@ void PeriodicWalls::look(const WallHandler& walls, std::size_t number, std::size
     const PeriodicFaces faces = facesOf(axis, needed);
     const SurfaceAtFaces seen = wall.atFaces(faces);
     const double met = needed + outside;
-    if (mustBeRepeated(wall, seen, faces, met)) return repeat(*rigid, number);
+    if (mustBeRepeated(wall, seen, faces, met)) return repeat(dynamic_cast<RepeatedWall&>(wall), number);
     if (!isAlike(seen, met)) throw InputError(sentence(number, axis, seen, met));
     looks[number].along[axis] = {.isEndless = seen.isEndless,
                                  .passes = seen.passes,
@@ -214,7 +216,7 @@ void PeriodicWalls::check(const WallHandler& walls, bool haveChanged, const Peri
     const bool isOther = haveChanged || smallest != smallestRadius || looks.size() != walls.getSize();
     if (!(periodic.length == box.length))  // they were of another scene, or of an attempt that was refused
         for (std::size_t w = 0; w < walls.getSize(); ++w)
-            if (auto* const rigid = dynamic_cast<RigidWall*>(&walls.getObject(w))) rigid->repeat({0, 0, 0});
+            if (auto* const wall = dynamic_cast<RepeatedWall*>(&walls.getObject(w))) wall->repeat({0, 0, 0});
     if (!begin(box, widestBody, smallestRadius)) return forgetChecks(walls.getSize());
     looks.resize(walls.getSize());
     double spare = infinity;
@@ -245,7 +247,7 @@ void PeriodicWalls::visitState(StateArchive& archive, const WallHandler& walls) 
     archive.column<std::uint32_t>("repeatedWalls", repeated);
     for (const std::uint32_t number : repeated) {
         auto* const wall =
-            number < walls.getSize() ? dynamic_cast<RigidWall*>(&walls.getObject(number)) : nullptr;
+            number < walls.getSize() ? dynamic_cast<RepeatedWall*>(&walls.getObject(number)) : nullptr;
         archive.require(wall && wall->canBeRepeated(), "repeatedWalls", "has a wall that cannot be repeated");
         repeat(*wall, number);
     }
@@ -292,7 +294,7 @@ bool PeriodicWalls::mustBeLookedAt(const Wall& wall, std::size_t axis, WallLooks
 bool PeriodicWalls::followOne(const WallHandler& walls, std::size_t number, double shift) {
     const Wall& wall = walls.getObject(number);
     if (wall.isRepeated()) {
-        requireShort(dynamic_cast<const RigidWall&>(wall), number);
+        requireShort(dynamic_cast<const RepeatedWall&>(wall), number);
         return false;
     }
     bool looked = false;

@@ -18,11 +18,11 @@ struct GrainSizes;
 
 /// The walls of a scene that repeats itself. Grains that go through a face must see the same of them behind
 /// it: what a wall has within their reach of one face it must have at the other one, too. A mesh that has not
-/// is repeated with the scene; other shapes are refused. Where walls have ends, grains are brought back as
-/// soon as one of them is outside by more than a band, and nowhere else: so no wall is looked at from farther
-/// outside, and no bit depends on when contacts are listed. The band is a fifth of the smallest radius where
-/// walls are alike for so much farther, and twice that; where they are not, it is narrower, and contacts are
-/// listed more often.
+/// is repeated with the scene, and a membrane always; other shapes are refused. Where walls have ends, grains
+/// are brought back as soon as one of them is outside by more than a band, and nowhere else: so no wall is
+/// looked at from farther outside, and no bit depends on when contacts are listed. The band is a fifth of the
+/// smallest radius where walls are alike for so much farther, and twice that; where they are not, it is
+/// narrower, and contacts are listed more often.
 class PeriodicWalls {
 public:
     /// Looks at the walls. Throws InputError where one is not alike at both faces, and cannot be repeated.
@@ -30,15 +30,15 @@ public:
     /// smallestRadius m, infinite without grains
     void check(const WallHandler& walls, bool haveChanged, const PeriodicBox& box, const ContactLaws& laws,
                const GrainSizes& sizes, double widestBody, double smallestRadius);
-    /// Whether the meshes that are not repeated need not be for such grains either, by the last look.
+    /// Whether the walls that are not repeated need not be for such grains either, by the last look.
     [[nodiscard]] bool areKnownFor(const WallHandler& walls, const ContactLaws& laws, const GrainSizes& sizes,
                                    double widestBody) const;
-    /// The meshes that check() would repeat and that are not repeated yet.
-    [[nodiscard]] static std::vector<RigidWall*> meshesToRepeat(const WallHandler& walls,
-                                                                const PeriodicBox& box,
-                                                                const ContactLaws& laws,
-                                                                const GrainSizes& sizes, double widestBody,
-                                                                double smallestRadius);
+    /// The walls that check() would repeat and that are not repeated yet.
+    [[nodiscard]] static std::vector<RepeatedWall*> wallsToRepeat(const WallHandler& walls,
+                                                                  const PeriodicBox& box,
+                                                                  const ContactLaws& laws,
+                                                                  const GrainSizes& sizes, double widestBody,
+                                                                  double smallestRadius);
     /// Looks again where walls have moved by at most a shift (m) since the last time. Throws RunError.
     void follow(const WallHandler& walls, double shift, double time);
 
@@ -75,17 +75,17 @@ private:
     };
     /// Takes what looks are made with. Returns whether grains go through faces and see walls that may end.
     bool begin(const PeriodicBox& box, double widestBody, double smallestRadius);
-    /// Whether a mesh must be repeated, which is seen like this at a pair of faces.
+    /// Whether a wall must be repeated, which is seen like this at a pair of faces.
     /// @param met m, from a face, as far as grains meet it
     [[nodiscard]] static bool mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen,
                                              const PeriodicFaces& faces, double met);
     /// @param outside m, how far grains are outside
     void look(const WallHandler& walls, std::size_t wall, std::size_t axis, double outside);
     /// Repeats a wall with the scene. Throws InputError where it is too long, or has too many parts.
-    void repeat(RigidWall& wall, std::size_t number);
+    void repeat(RepeatedWall& wall, std::size_t number);
     void takeAsRepeated(std::size_t number);
     /// Throws InputError where a wall that is repeated reaches over too many periods.
-    void requireShort(const RigidWall& wall, std::size_t number) const;
+    void requireShort(const RepeatedWall& wall, std::size_t number) const;
     /// Returns whether it was looked at again.
     bool followOne(const WallHandler& walls, std::size_t number, double shift);
     [[nodiscard]] static bool isWhereItWas(const Wall& wall, const Look& last);
@@ -111,23 +111,23 @@ private:
     double nearest = 0;  // m, by which grains must move until one of them is too far outside
 };
 
-/// Repeats the meshes that a scene will repeat when it looks at its walls, for as long as this is there:
+/// Repeats the walls that a scene will repeat when it looks at its walls, for as long as this is there:
 /// grains that are put into the scene before that are to see the images, too.
 class ImagesForNow {
 public:
     ImagesForNow() = default;
-    ImagesForNow(std::vector<RigidWall*> meshes, const Vector<double>& periods)
-        : repeated(std::move(meshes)) {
-        for (RigidWall* const mesh : repeated) mesh->repeat(periods);
+    ImagesForNow(std::vector<RepeatedWall*> walls, const Vector<double>& periods)
+        : repeated(std::move(walls)) {
+        for (RepeatedWall* const wall : repeated) wall->repeat(periods);
     }
     ImagesForNow(ImagesForNow&& other) noexcept : repeated(std::exchange(other.repeated, {})) {}
     ImagesForNow& operator=(ImagesForNow&&) = delete;
     ~ImagesForNow() {
-        for (RigidWall* const mesh : repeated) mesh->repeat({0, 0, 0});
+        for (RepeatedWall* const wall : repeated) wall->repeat({0, 0, 0});
     }
 
 private:
-    std::vector<RigidWall*> repeated;
+    std::vector<RepeatedWall*> repeated;
 };
 
 }  // namespace pendular

@@ -50,11 +50,11 @@ static double addTo(GrainSizes& sizes, const BodyMixture& mixture) {
     return widest;
 }
 
-/// Whether there is a mesh that is not repeated, but may be.
-static bool haveMeshes(const WallHandler& walls) {
+/// Whether there is a wall that is not repeated, but may be.
+static bool mayRepeat(const WallHandler& walls) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (const auto* const rigid = dynamic_cast<const RigidWall*>(&walls.getObject(w)))
-            if (rigid->canBeRepeated() && !rigid->isRepeated()) return true;
+        if (const auto* const wall = dynamic_cast<const RepeatedWall*>(&walls.getObject(w)))
+            if (wall->canBeRepeated() && !wall->isRepeated()) return true;
     return false;
 }
 
@@ -63,7 +63,7 @@ ImagesForNow Scene::Inside::imagesFor(const BodyMixture& mixture) {
     const auto isOfThisScene = [&](const BodyKind& kind) {
         return kind.species() >= 0 && kind.species() < static_cast<int>(laws().speciesCount());
     };
-    if (!box.any() || box.imagesMove || !haveMeshes(walls) || !std::ranges::all_of(mixture, isOfThisScene))
+    if (!box.any() || box.imagesMove || !mayRepeat(walls) || !std::ranges::all_of(mixture, isOfThisScene))
         return {};
     if (laws().layout.interaction > 0) mixChangedLaws();
     const bool wasLookedAt = scene.hasBegun() && !walls.hasChanges();
@@ -73,8 +73,8 @@ ImagesForNow Scene::Inside::imagesFor(const BodyMixture& mixture) {
                              : std::max(scene.bodyHandler.refuseTooWide(), scene.inletHandler.widestBody()),
                  widest = std::max(known, addTo(sizes, mixture));
     if (wasLookedAt && periodicWalls.areKnownFor(walls, laws(), sizes, widest)) return {};
-    return {PeriodicWalls::meshesToRepeat(walls, box, laws(), sizes, widest,
-                                          std::min(context.smallestRadius, sizes.smallest())),
+    return {PeriodicWalls::wallsToRepeat(walls, box, laws(), sizes, widest,
+                                         std::min(context.smallestRadius, sizes.smallest())),
             box.length};
 }
 

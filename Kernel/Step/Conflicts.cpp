@@ -42,7 +42,6 @@ constexpr std::array table{
     Conflict{AdaptiveStep, EarlierAccelerations, stepsOfOneLength,
              "leave setAdaptiveTimeStep() out, or take integrators::predictedVelocityVerlet or "
              "velocityVerlet"},
-    Conflict{Membranes, PeriodicFaces, "a membrane has no images", "leave setPeriodic() out"},
 };
 
 bool isOf(const Conflict& conflict, Feature a, Feature b) {

@@ -89,14 +89,29 @@ public:
     }
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const {
-        for (std::size_t k = 0; k < parts.size(); ++k) points[k] = surface().pointOf(parts[k], centre, reach);
-        if (parts.size() < 2) return;
+        findPoints([&](std::size_t k) { return FaceSeen{parts[k], centre}; }, reach, points);
+    }
+    /// A face, and where the sphere is that it sees.
+    struct FaceSeen {
+        std::uint32_t part;
+        Vector<double> centre;  // m
+    };
+    /// @param seen seen(k): the face of the point k, and the sphere as this face sees it, which may be an
+    /// image of it
+    template <class Seen>
+    void findPoints(Seen&& seen, double reach, std::span<WallPoint> points) const {
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const FaceSeen of = seen(k);
+            points[k] = surface().pointOf(of.part, of.centre, reach);
+        }
+        if (points.size() < 2) return;
         const double tolerance = meshTolerance * size + 1e-7 * reach;
         leaveOutCovered(points, reach, [&](std::uint32_t near, std::uint32_t far) {
-            const Vector<double> point = centre + points[far].distance * points[far].normal;
-            return surface().faceOf(parts[near]).holds(point, tolerance) ||
+            const FaceSeen by = seen(near);
+            const Vector<double> point = by.centre + points[far].distance * points[far].normal;
+            return surface().faceOf(by.part).holds(point, tolerance) ||
                    (isSmooth(points[near].normal, points[far].normal) &&
-                    surface().meetSmoothly(parts[near], parts[far]));
+                    surface().meetSmoothly(by.part, seen(far).part));
         });
     }
     [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const {

@@ -19,14 +19,45 @@ void Membrane::set(std::span<const Triangle> triangles, const MembraneMaterial& 
     const MembraneState::Column none(count, {0, 0, 0});
     now = {net->vertices(), none, none, none, none, none, none, {0, 0, 0}};
     held.assign(count, false);
-    std::vector<std::array<std::uint32_t, 2>> neighbours;
-    for (const MembraneNet::Hinge& hinge : net->hinges()) neighbours.push_back(hinge.triangles);
-    shape = MembraneSurface(net->triangles(), neighbours, now.position);
+    heldAsRim.assign(count, false);
+    RepeatedWall::repeat({0, 0, 0});  // the scene looks at the new shape
+    makeShape();
     if (const auto found = crossing())
         throw InputError(
             fmt::format("Membrane: it goes through itself at ({:.6g}, {:.6g}, {:.6g}) m, at triangle {}; a "
                         "membrane does not touch itself, so its triangles must be apart.",
                         found->place.x, found->place.y, found->place.z, found->triangle));
+}
+
+void Membrane::makeShape() {
+    std::vector<std::array<std::uint32_t, 2>> neighbours;
+    for (const MembraneNet::Hinge& hinge : net->hinges()) neighbours.push_back(hinge.triangles);
+    shape = MembraneSurface(net->triangles(), neighbours, now.position);
+}
+
+void Membrane::repeat(const Vector<double>& lengths) {
+    if (!isRepeated() && lengths == Vector<double>{0, 0, 0}) return;
+    RepeatedWall::repeat(lengths);
+    const auto joined = std::make_shared<MembraneNet>(getNet());
+    joined->joinAcross(lengths);
+    net = joined;
+    makeShape();
+    holdCopies();
+}
+
+void Membrane::holdCopies() {
+    for (std::size_t v = 0; v < held.size(); ++v) {
+        if (!heldAsRim[v] || held[v] == net->rim()[v]) continue;
+        held[v] = net->rim()[v];
+        now.velocity[v] = held[v] ? rimVelocity : Vector<double>{0, 0, 0};
+    }
+    const auto holdAs = [&](std::uint32_t v, std::uint32_t other) {
+        if (held[v] || !held[other]) return;
+        held[v] = true;
+        now.velocity[v] = now.velocity[other];
+    };
+    for (const MembraneNet::Copy& copy : net->copies()) holdAs(copy.of, copy.vertex);
+    for (const MembraneNet::Copy& copy : net->copies()) holdAs(copy.vertex, copy.of);
 }
 
 std::optional<MembraneSurface::Crossing> Membrane::crossing() const {
@@ -48,16 +79,21 @@ void Membrane::hold(const std::function<bool(const Vec3D&)>& where, const Vec3D&
     for (std::size_t v = 0; v < held.size(); ++v) {
         if (!where(toEigen(now.position[v]))) continue;
         held[v] = true;
+        heldAsRim[v] = false;
         now.velocity[v] = moves;
         ++count;
     }
     if (count == 0) throw InputError("Membrane: hold(): none of its vertices is there.");
+    holdCopies();
 }
 
 void Membrane::holdRim(const Vec3D& velocity) {
     if (!isSet() || net->isClosed()) throw InputError("Membrane: holdRim(): it has no free edges.");
+    const std::vector<bool> before = held, asRim = heldAsRim;
     std::size_t v = 0;  // hold() asks in this order
     hold([&](const Vec3D&) { return net->rim()[v++]; }, velocity);
+    rimVelocity = toVector(velocity);
+    for (v = 0; v < held.size(); ++v) heldAsRim[v] = net->rim()[v] && (asRim[v] || !before[v]);
 }
 
 void Membrane::setPressure(double value) {
@@ -94,15 +130,34 @@ TriangleWeights Membrane::weightsAt(std::size_t triangle, const Vector<double>& 
     return {now.position[a], now.position[b], now.position[c], point};
 }
 
+Vector<double> Membrane::velocityAt(std::size_t triangle, const Vector<double>& point) const {
+    const TriangleWeights weights = weightsAt(triangle, point);
+    Vector<double> velocity{0, 0, 0};
+    for (std::size_t c = 0; c < 3; ++c)
+        velocity += weights.share[c] * now.velocity[net->triangles()[triangle][c]];
+    return velocity;
+}
+
+void Membrane::findOwn(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                       std::span<WallPoint> points) const {
+    shape.findPoints(centre, reach, parts, points);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        if (points[k].distance < reach)
+            points[k].velocity += velocityAt(parts[k], centre + points[k].distance * points[k].normal);
+}
+
+/// Faces of different images cover each other where they are joined.
 void Membrane::findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                           std::span<WallPoint> points) const {
-    shape.findPoints(centre, reach, parts, points);
+    if (!isRepeated()) return findOwn(centre, reach, parts, points);
+    const auto seen = [&](std::size_t k) {
+        return MembraneSurface::FaceSeen{partOfShape(parts[k]), centre - imageShift(parts[k], centre)};
+    };
+    shape.findPoints(seen, reach, points);
     for (std::size_t k = 0; k < parts.size(); ++k) {
-        WallPoint& point = points[k];
-        if (!(point.distance < reach)) continue;
-        const TriangleWeights weights = weightsAt(parts[k], centre + point.distance * point.normal);
-        for (std::size_t c = 0; c < 3; ++c)
-            point.velocity += weights.share[c] * now.velocity[net->triangles()[parts[k]][c]];
+        if (!(points[k].distance < reach)) continue;
+        const auto& [part, at] = seen(k);
+        points[k].velocity += velocityAt(part, at + points[k].distance * points[k].normal);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "Kernel/Walls/MembraneNet.h"
 #include "Kernel/Walls/MembraneSurface.h"
+#include "Kernel/Walls/RepeatedWall.h"
 
 namespace pendular {
 
@@ -35,8 +36,9 @@ struct MembraneWork {
 /// its triangles, as at a TriangleWall; their forces and torques go to the corners by barycentric weights.
 /// Its vertices are integrated with the grains. It has no thickness for contacts, and does not touch itself:
 /// a run ends where a triangle collapses or folds onto its neighbour, or where the membrane goes through
-/// itself.
-class Membrane final : public Wall {
+/// itself. A scene that repeats itself repeats it, and joins free edges that lie a period apart
+/// (MembraneNet::joinAcross()); whether it goes through its images is not looked at.
+class Membrane final : public RepeatedWall {
 public:
     /// Throws InputError as MembraneNet, and for triangles that go through each other.
     void set(std::span<const Triangle> triangles, const MembraneMaterial& material);
@@ -51,7 +53,7 @@ public:
     /// this velocity (m/s) and not by forces. It may be called in a run, too, and again for the same ones.
     /// Throws InputError if there is none.
     void hold(const std::function<bool(const Vec3D&)>& where, const Vec3D& velocity = Vec3D::Zero());
-    /// Holds all vertices at free edges, as hold() does.
+    /// Holds all vertices at free edges, as hold() does. Edges that a scene joins to its images are not free.
     void holdRim(const Vec3D& velocity = Vec3D::Zero());
     /// @param value Pa, pushes along the normals (of corners that run counter-clockwise towards the eye);
     /// negative against them. It may be called in a run: it acts from the end of the next step on.
@@ -88,17 +90,15 @@ public:
     [[nodiscard]] Membrane* membrane() override { return this; }
     [[nodiscard]] std::size_t partCount() const override { return getNet().triangles().size(); }
     [[nodiscard]] bool hasConvexParts() const override { return true; }
-    void listParts(const Vector<double>& centre, double reach,
-                   std::vector<std::uint32_t>& parts) const override {
-        shape.listParts(centre, reach, parts);
+    [[nodiscard]] bool canBeRepeated() const override { return true; }
+    void repeat(const Vector<double>& lengths) override;
+    [[nodiscard]] SurroundingBox surroundings() const override {
+        return {shape.around().middle(), 0.5 * (shape.around().highest - shape.around().lowest)};
     }
     void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const override;
-    [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const override {
-        return shape.isCrossed(from, to);
-    }
     [[nodiscard]] std::optional<Vector<double>> facetNormal(std::uint32_t part) const override {
-        return shape.normalOf(part);
+        return shape.normalOf(partOfShape(part));
     }
     double moveTo(double time) override;
     void join(double time);
@@ -120,15 +120,32 @@ public:
     [[nodiscard]] std::optional<MembraneSurface::Crossing> findCrossing();
     MembraneWork work;
 
+protected:
+    void listOwn(const Vector<double>& centre, double reach,
+                 std::vector<std::uint32_t>& parts) const override {
+        shape.listParts(centre, reach, parts);
+    }
+    void findOwn(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
+                 std::span<WallPoint> points) const override;
+    [[nodiscard]] bool isOwnCrossed(const Vector<double>& from, const Vector<double>& to) const override {
+        return shape.isCrossed(from, to);
+    }
+
 private:
     [[nodiscard]] std::optional<MembraneSurface::Crossing> crossing() const;
+    [[nodiscard]] Vector<double> velocityAt(std::size_t triangle, const Vector<double>& point) const;
+    void makeShape();
+    /// A vertex is held where one is that moves with it; those at edges that are joined are not rim.
+    void holdCopies();
 
     std::shared_ptr<const MembraneNet> net;  // copies share it
     MembraneMaterial material;
     double areaDensity = 0;  // kg/m^2
     std::vector<bool> held;
-    double pressure = 0;  // Pa
-    double damping = 0;   // 1/s
+    std::vector<bool> heldAsRim;          // by holdRim() alone
+    Vector<double> rimVelocity{0, 0, 0};  // m/s
+    double pressure = 0;                  // Pa
+    double damping = 0;                   // 1/s
     MembraneState now;
     MembraneSurface shape;
     double shifted = 0;    // m, by goOn()

@@ -35,6 +35,7 @@ void checkMaterial(const MembraneMaterial& m) {
 std::array<Point, 4> cornersOf(const MembraneNet::Hinge& hinge, MembraneNet::Points at) {
     std::array<Point, 4> corners;
     for (std::size_t k = 0; k < 4; ++k) corners[k] = at[hinge.corners[k]];
+    corners[3] += hinge.shift;
     return corners;
 }
 
@@ -57,14 +58,10 @@ HingeAngle hingeAngle(const std::array<Point, 4>& x) {
     return result;
 }
 
-MembraneNet::MembraneNet(std::span<const Triangle> given, const MembraneMaterial& material) {
+MembraneNet::MembraneNet(std::span<const Triangle> given, const MembraneMaterial& of) : material(of) {
     checkMaterial(material);
     join(given);
-    mass.assign(rest.size(), 0);
-    for (std::size_t t = 0; t < faces.size(); ++t)
-        for (const Index v : faces[t]) mass[v] += material.density * material.thickness * areas[t] / 3;
-    findEdges(material);
-    shortest = std::ranges::min_element(edges, {}, &Spring::length)->length;
+    measure();
     if (const int folded = collapsed(rest); folded >= 0)
         throw InputError(
             fmt::format("Membrane: triangle {} (counted from 0) is folded onto a neighbour, by more than 170 "
@@ -103,55 +100,66 @@ void MembraneNet::join(std::span<const Triangle> given) {
                             "least 1e-6 of their longest edge, better near to equilateral ones.",
                             t));
         faces.push_back(c);
-        areas.push_back(0.5 * twice);
     }
 }
 
-void MembraneNet::findEdges(const MembraneMaterial& material) {
-    struct Side {
-        std::size_t triangle, from;  // which corner it begins at
-        bool upwards;                // from the vertex of the lower number
-    };
-    std::map<std::pair<Index, Index>, std::vector<Side>> sides;
-    for (std::size_t t = 0; t < faces.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index a = faces[t][k], b = faces[t][(k + 1) % 3];
-            sides[std::minmax(a, b)].push_back({t, k, a < b});
-        }
-    const double stretching = material.youngsModulus * material.thickness;  // N/m
-    const double nu = 1.0 / 3, bending = stretching * material.thickness * material.thickness /
-                                         (12 * (1 - nu * nu));  // N m
+void MembraneNet::refuseSenses(Index one, Index other) {
+    throw InputError(fmt::format(
+        "Membrane: the corners of triangles {} and {} (counted from 0) run in opposite senses, so "
+        "that their normals point to different sides; turn one of them round.",
+        one, other));
+}
+
+void MembraneNet::measure() {
+    areas.clear(), edges.clear(), folds.clear(), freeSides.clear();
+    mass.assign(rest.size(), 0);
     atRim.assign(rest.size(), false);
-    for (const auto& [edge, at] : sides) {
-        if (at.size() > 2)
-            throw InputError(
-                fmt::format("Membrane: triangles {}, {} and {} (counted from 0) share an edge; a membrane "
-                            "has at most two "
-                            "at each.",
-                            at[0].triangle, at[1].triangle, at[2].triangle));
-        double area = 0;
-        for (const Side& side : at) area += areas[side.triangle];
-        const double length = norm(rest[edge.second] - rest[edge.first]);
-        edges.push_back({{edge.first, edge.second}, length, stretching * area / (length * length)});
-        if (at.size() == 1) {
-            atRim[edge.first] = atRim[edge.second] = true;
-            continue;
+    std::map<std::array<Index, 2>, std::vector<Side>> sides;
+    for (Index t = 0; t < faces.size(); ++t) {
+        const auto& [a, b, c] = faces[t];
+        areas.push_back(0.5 * norm(twiceArea(rest[a], rest[b], rest[c])));
+        for (Index k = 0; k < 3; ++k) {
+            const Index from = faces[t][k], to = faces[t][(k + 1) % 3];
+            mass[from] += material.density * material.thickness * areas[t] / 3;
+            sides[{std::min(from, to), std::max(from, to)}].push_back({t, k, from < to});
         }
-        if (at[0].upwards == at[1].upwards)
-            throw InputError(
-                fmt::format("Membrane: the corners of triangles {} and {} (counted from 0) run in opposite "
-                            "senses, so that "
-                            "their normals point to different sides; turn one of them round.",
-                            at[0].triangle, at[1].triangle));
-        const Side &first = at[0].upwards ? at[0] : at[1], &second = at[0].upwards ? at[1] : at[0];
-        Hinge hinge{{edge.first, edge.second, faces[first.triangle][(first.from + 2) % 3],
-                     faces[second.triangle][(second.from + 2) % 3]},
-                    {static_cast<Index>(first.triangle), static_cast<Index>(second.triangle)},
-                    0,
-                    bending * length * length / area};
-        hinge.angle = hingeAngle(cornersOf(hinge, rest)).angle;
-        folds.push_back(hinge);
     }
+    for (const auto& [ends, at] : sides) addEdge(ends, at);
+    shortest = std::ranges::min_element(edges, {}, &Spring::length)->length;
+}
+
+void MembraneNet::addEdge(const std::array<Index, 2>& ends, std::span<const Side> at) {
+    if (at.size() > 2)
+        throw InputError(
+            fmt::format("Membrane: triangles {}, {} and {} (counted from 0) share an edge; a membrane has at "
+                        "most two at each.",
+                        at[0].triangle, at[1].triangle, at[2].triangle));
+    double area = 0;
+    for (const Side& side : at) area += areas[side.triangle];
+    const double length = norm(rest[ends[1]] - rest[ends[0]]);
+    edges.push_back({ends, length, material.youngsModulus * material.thickness * area / (length * length)});
+    if (at.size() == 1) {
+        atRim[ends[0]] = atRim[ends[1]] = true;
+        return freeSides.push_back(at[0]);
+    }
+    if (at[0].isUpwards == at[1].isUpwards) refuseSenses(at[0].triangle, at[1].triangle);
+    addHinge(at[0].isUpwards ? at[0] : at[1], at[0].isUpwards ? at[1] : at[0], {0, 0, 0});
+}
+
+/// @param shift m, from the second triangle to where it is for the hinge
+void MembraneNet::addHinge(const Side& first, const Side& second, const Point& shift) {
+    Hinge hinge{.corners = {cornerOf(first), cornerOf(first, 1), cornerOf(first, 2), cornerOf(second, 2)},
+                .triangles = {first.triangle, second.triangle},
+                .angle = 0,
+                .stiffness = 0,
+                .shift = shift};
+    const double nu = 1.0 / 3, thickness = material.thickness,
+                 bending = material.youngsModulus * thickness * thickness * thickness /
+                           (12 * (1 - nu * nu));  // N m
+    hinge.stiffness = bending * squaredNorm(rest[hinge.corners[1]] - rest[hinge.corners[0]]) /
+                      (areas[first.triangle] + areas[second.triangle]);
+    hinge.angle = hingeAngle(cornersOf(hinge, rest)).angle;
+    folds.push_back(hinge);
 }
 
 bool MembraneNet::isClosed() const {
@@ -277,6 +285,28 @@ std::vector<Triangle> membraneSheet(int columns, int rows, double edge) {
             else triangles.push_back({lower[k + 1], upper[k + 1], upper[k]});
         }
     }
+    return triangles;
+}
+
+std::vector<Triangle> membranePeriodicSheet(int columns, int rows, double edge) {
+    checkValue("membranePeriodicSheet()", "columns", columns, "", {1, 1e5});
+    checkValue("membranePeriodicSheet()", "rows", rows, "", {2, 1e5});
+    checkValue("membranePeriodicSheet()", "edge", edge, "m", positive);
+    if (rows % 2 != 0)
+        throw InputError(fmt::format(
+            "membranePeriodicSheet(): rows = {}; it must be an even number, so that the last row fits the "
+            "first one.",
+            rows));
+    const double height = 0.5 * std::sqrt(3.0) * edge;
+    const auto at = [&](int row, int k) { return Point{(k + 0.5 * (row % 2)) * edge, row * height, 0}; };
+    std::vector<Triangle> triangles;
+    for (int row = 0; row < rows; ++row)
+        for (int k = 0; k < columns; ++k) {
+            const int ahead =
+                row % 2;  // the upper line is half an edge ahead of an even row, behind an odd one
+            triangles.push_back({at(row, k), at(row, k + 1), at(row + 1, k + ahead)});
+            triangles.push_back({at(row, k + 1 - ahead), at(row + 1, k + 1), at(row + 1, k)});
+        }
     return triangles;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,8 +49,14 @@ public:
     struct Hinge {
         std::array<std::uint32_t, 4> corners;
         std::array<std::uint32_t, 2> triangles;
-        double angle;      // rad, without moment: positive where the side of the normals is the outside
-        double stiffness;  // N m
+        double angle;          // rad, without moment: positive where the side of the normals is the outside
+        double stiffness;      // N m
+        Point shift{0, 0, 0};  // m, from corner 3 to where it is for the hinge: periods
+    };
+    /// A vertex that moves as another one does, whole periods away from it.
+    struct Copy {
+        std::uint32_t vertex, of;
+        Point shift;  // m, from that one to it
     };
 
     MembraneNet() = default;
@@ -59,12 +66,19 @@ public:
     /// that is smaller than 1e-12 m.
     MembraneNet(std::span<const Triangle> given, const MembraneMaterial& material);
 
+    /// Joins the net to its images in a scene that repeats itself: vertices at free edges that lie a period
+    /// apart, to 1e-4 of the shortest edge, become one, and edges between them get hinges. Undoes what it
+    /// joined before. Throws InputError for edges whose triangles run in opposite senses.
+    /// @param periods m; 0 along an axis without one
+    void joinAcross(const Point& periods);
+
     [[nodiscard]] const std::vector<Point>& vertices() const { return rest; }  // m, without force
     [[nodiscard]] const std::vector<double>& masses() const { return mass; }   // kg, of the vertices
+    [[nodiscard]] const std::vector<Copy>& copies() const { return repeats; }
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return faces; }
     [[nodiscard]] const std::vector<Spring>& springs() const { return edges; }
     [[nodiscard]] const std::vector<Hinge>& hinges() const { return folds; }
-    /// Whether each vertex lies at a free edge.
+    /// Whether each vertex lies at a free edge that is not joined to another one.
     [[nodiscard]] const std::vector<bool>& rim() const { return atRim; }
     [[nodiscard]] bool isClosed() const;
     [[nodiscard]] double diagonal() const { return extent; }        // m, the diagonal of the box around it
@@ -92,16 +106,37 @@ public:
     [[nodiscard]] int collapsed(Points at) const;
 
 private:
-    void join(std::span<const Triangle> given);
-    void findEdges(const MembraneMaterial& material);
+    /// A side of a triangle, from one of its corners to the next.
+    struct Side {
+        std::uint32_t triangle, from;
+        bool isUpwards;  // from the vertex of the lower number
+    };
+    /// For each vertex the one that lies a period farther along x, y and z.
+    using Partners = std::array<std::vector<std::optional<std::uint32_t>>, 3>;
 
+    void join(std::span<const Triangle> given);
+    /// Finds all that follows from where the vertices are without force.
+    void measure();
+    [[noreturn]] static void refuseSenses(std::uint32_t triangle, std::uint32_t other);
+    void addEdge(const std::array<std::uint32_t, 2>& ends, std::span<const Side> sides);
+    void addHinge(const Side& first, const Side& second, const Point& shift);
+    [[nodiscard]] Partners partnersAcross(const Point& periods) const;
+    void findCopies(const Partners& partners, const Point& periods);
+    void joinEdges(const Partners& partners, const Point& periods);
+    [[nodiscard]] std::uint32_t cornerOf(const Side& side, std::uint32_t after = 0) const {
+        return faces[side.triangle][(side.from + after) % 3];
+    }
+
+    MembraneMaterial material;
     std::vector<Point> rest;
     std::vector<double> mass;
     std::vector<std::array<std::uint32_t, 3>> faces;
     std::vector<double> areas;  // m^2, without force
     std::vector<Spring> edges;
     std::vector<Hinge> folds;
+    std::vector<Side> freeSides;
     std::vector<bool> atRim;
+    std::vector<Copy> repeats;
     double extent = 0, shortest = 0;
 };
 
@@ -116,6 +151,11 @@ struct HingeAngle {
 /// normals along z.
 /// @param columns of whole triangles along x, each as wide as an edge; @param rows along y; @param edge m
 [[nodiscard]] std::vector<Triangle> membraneSheet(int columns, int rows, double edge);
+/// A flat sheet of equilateral triangles whose sides are zigzag lines, so that it goes on without a seam
+/// after columns x edge along x and rows x sqrt(3)/2 x edge along y; in the plane z = 0, from the origin;
+/// normals along z.
+/// @param columns along x; @param rows along y, an even number; @param edge m
+[[nodiscard]] std::vector<Triangle> membranePeriodicSheet(int columns, int rows, double edge);
 /// A tube about z of triangles that are nearly equilateral, from z = 0 on; normals outwards.
 /// @param radius m; @param height m; @param around number of edges around it, at least 3
 [[nodiscard]] std::vector<Triangle> membraneTube(double radius, double height, int around);

@@ -41,7 +41,7 @@ MembraneSurface::MembraneSurface(std::vector<Corners> triangles,
 
 void MembraneSurface::update(std::span<const Point> at) {
     faces.clear(), boxes.clear();
-    Box all;
+    all = {};
     for (const auto& [a, b, c] : corners) {
         faces.push_back(faceBetween(at[a], at[b], at[c]));
         Box& box = boxes.emplace_back();

@@ -40,6 +40,8 @@ public:
 
     /// The vertices have moved.
     void update(std::span<const Point> at);
+    /// A box around it.
+    [[nodiscard]] const Box& around() const { return all; }
     /// The unit normal of a triangle.
     [[nodiscard]] const Point& normalOf(std::uint32_t part) const { return faces[part].normal; }
     [[nodiscard]] ConvexFace faceOf(std::uint32_t part) const {
@@ -70,6 +72,7 @@ private:
     std::vector<std::array<std::uint32_t, 2>> pairs;  // of neighbours, lower first, sorted
     std::vector<Face> faces;
     std::vector<Box> boxes;
+    Box all;
 };
 
 }  // namespace pendular

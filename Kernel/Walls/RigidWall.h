@@ -6,9 +6,8 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Walls/Pose.h"
-#include "Kernel/Walls/Wall.h"
+#include "Kernel/Walls/RepeatedWall.h"
 #include "Kernel/Walls/WallBody.h"
-#include "Kernel/Walls/WallImages.h"
 
 namespace pendular {
 
@@ -16,7 +15,7 @@ namespace pendular {
 /// forces drive (WallBody.h). The shape is given in the body's own frame, which is that of the scene at time
 /// 0 unless setMotion() says otherwise; it never changes but by wear, so that a mesh is searched by one tree
 /// for long. The motion may be set again during a run: the wall goes on from where it is.
-class RigidWall : public Wall {
+class RigidWall : public RepeatedWall {
 public:
     [[nodiscard]] bool isSet() const { return given; }
 
@@ -77,33 +76,13 @@ public:
     /// The wall is added to a run at this time (s): its motion begins now.
     void join(double time);
     void visitState(StateArchive& archive) override;
-    void listParts(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
-    void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
-                    std::span<WallPoint> points) const final;
     [[nodiscard]] std::optional<PlaneAtRest> planeAtRest() const final;
     [[nodiscard]] Vector<double> angularVelocity() const final { return velocity.spin; }
-    [[nodiscard]] bool isCrossed(const Vector<double>& from, const Vector<double>& to) const final;
     [[nodiscard]] WallSurface surface(const SceneSphere& around) const final;
     /// The answer is by the wall's extent: one that goes through a face is not looked at closer.
     [[nodiscard]] SurfaceAtFaces atFaces(const PeriodicFaces& faces) const override;
 
-    /// Whether a scene can repeat it: a surface with ends, that grains may meet from both sides.
-    [[nodiscard]] virtual bool canBeRepeated() const { return false; }
-    /// It stands there again after each period, from now on.
-    /// @param lengths m, of the periods; 0 along an axis without one
-    void repeat(const Vector<double>& lengths) { images.repeat(lengths); }
-    [[nodiscard]] bool isRepeated() const final { return images.areThere(); }
-    [[nodiscard]] bool hasPart(std::uint32_t part) const final {
-        return (isRepeated() ? WallImages::partOf(part) : part) < partCount();
-    }
-    [[nodiscard]] Vector<double> imageShift(std::uint32_t part, const Vector<double>& centre) const final {
-        return isRepeated() ? images.shiftOf(part, centre, surroundings()) : Vector<double>{0, 0, 0};
-    }
-    [[nodiscard]] std::uint32_t partAfter(const Vector<double>& way, std::uint32_t part) const final {
-        return isRepeated() ? images.partAfter(way, part) : part;
-    }
-    /// A box along the axes of the scene around a mesh.
-    [[nodiscard]] SurroundingBox surroundings() const;
+    [[nodiscard]] SurroundingBox surroundings() const final;
 
 protected:
     // These functions do what those of Wall do, in the body's own frame and at rest.
@@ -134,10 +113,6 @@ protected:
     virtual void visitShape(StateArchive& /*archive*/) const {}
 
     [[nodiscard]] bool isInRun() const { return !std::isnan(now); }
-    /// The part of the shape that a part is, which may be one of an image.
-    [[nodiscard]] std::uint32_t partOfShape(std::uint32_t part) const {
-        return isRepeated() ? WallImages::partOf(part) : part;
-    }
     /// The shape has been given. Throws InputError in a run, where the wall would jump.
     void takePlace();
 
@@ -152,14 +127,10 @@ private:
     void requireSameMotion(const StateArchive& archive) const;
     void beginSteadyMotion();
     double placeAt(double time);
-    // The same as the functions without `Own`, of the wall itself and not of its images.
-    void listOwn(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const;
+    void listOwn(const Vector<double>& centre, double reach, std::vector<std::uint32_t>& parts) const final;
     void findOwn(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
-                 std::span<WallPoint> points) const;
-    [[nodiscard]] bool isOwnCrossed(const Vector<double>& from, const Vector<double>& to) const;
-    /// The points of parts of one image.
-    void findAtImage(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
-                     std::span<WallPoint> points) const;
+                 std::span<WallPoint> points) const final;
+    [[nodiscard]] bool isOwnCrossed(const Vector<double>& from, const Vector<double>& to) const final;
 
     void setVelocitiesOfBody(const RigidVelocity& before);
     void visitBody(StateArchive& archive);
@@ -178,7 +149,6 @@ private:
     Vector<double> surfaceVelocity{0, 0, 0};  // m/s, in the body's frame
     Pose pose;
     RigidVelocity velocity;
-    WallImages images;
 };
 
 /// A unit vector along the given one. Throws InputError unless it is finite and not zero.

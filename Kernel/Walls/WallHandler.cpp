@@ -43,7 +43,7 @@ void WallHandler::requireComplete(const Wall& wall, bool isPlaced) const {
 void WallHandler::add(std::unique_ptr<Wall> wall) {
     if (keepsForces) wall->keepForcesFromNowOn();
     // It may be a copy of a wall that another scene repeats.
-    if (auto* const rigid = dynamic_cast<RigidWall*>(wall.get())) rigid->repeat({0, 0, 0});
+    if (auto* const repeated = dynamic_cast<RepeatedWall*>(wall.get())) repeated->repeat({0, 0, 0});
     walls.push_back(std::move(wall));
     ++changes;
 }

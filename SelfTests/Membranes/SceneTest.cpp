@@ -281,15 +281,6 @@ TEST(Membrane, refusesWhatItCannotDo) {
     EXPECT_TRUE(support::contains(refusalOf([&] { sheared.initialise(); }), "and walls cannot be combined"));
 }
 
-TEST(Membrane, isRefusedInAPeriodicScene) {
-    MembraneScene scene(fallingGrains());
-    scene.add(wavySheet());
-    scene.setPeriodic(0, -0.05, 0.05);
-    const std::string refused = support::refusal([&] { scene.initialise(); });
-    EXPECT_TRUE(support::isOneSentence(refused));
-    EXPECT_TRUE(support::contains(refused, "membranes (wall 0) and periodic faces"));
-}
-
 TEST(Membrane, isDrawnAsItIs) {
     Trampoline scene;
     scene.run(500);

@@ -1,4 +1,6 @@
 // Walls of triangles, what grains wear off them, and membranes.
+#include <numbers>
+
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
@@ -89,8 +91,15 @@ void addMembrane(Making& making) {
     const Vec3D width = making.highest - making.lowest;
     const int columns = static_cast<int>(width.x() / edge) + 2, rows = static_cast<int>(width.y() / edge) + 2;
     std::vector<Triangle> triangles = membraneSheet(columns, rows, edge);
-    const Vec3D corner =
-        making.draw.give("corner", Vec3D(making.lowest - Vec3D(edge, edge, 0.05 * making.scales.radius)));
+    Vec3D corner = making.lowest - Vec3D(edge, edge, 0.05 * making.scales.radius);
+    if (making.scene.getPeriodicBox().any()) {  // fitted to the periods, so that it goes on at its images
+        triangles = membranePeriodicSheet(columns, 2 * rows, 1);
+        corner += Vec3D(edge, edge, 0);
+        for (Triangle& triangle : triangles)
+            for (Vector<double>& point : triangle)
+                point.x *= width.x() / columns, point.y *= width.y() / (std::numbers::sqrt3 * rows);
+    }
+    corner = making.draw.give("corner", corner);
     for (Triangle& triangle : triangles)
         for (Vector<double>& point : triangle) point += toVector(corner);
     Membrane sheet;
