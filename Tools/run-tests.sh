@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Pendular and runs its tests, except those labelled `long` (for these: ctest
 # --preset long) and those of the studies (preset studies). With CI=true, format and faults that clang-tidy finds are
-# checked first, warnings are errors, the tests run a second time under the address and undefined-behaviour sanitizers,
-# the readers of files read random files, 20 s each (libFuzzer), and those of threads run under the thread sanitizer.
+# checked first, warnings are errors, random scenes and the tests of folders that these do not cover run a second time
+# under the address and undefined-behaviour sanitizers (all tests: preset asan-ubsan), the readers of files read random
+# files, 8 s each (libFuzzer), and the tests of threads run under the thread sanitizer.
 # At the end it says what each stage took.
 #   Tools/run-tests.sh
 set -euo pipefail
