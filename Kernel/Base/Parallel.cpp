@@ -1,5 +1,6 @@
 #include "Kernel/Base/Parallel.h"
 
+#include <sched.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -43,10 +44,13 @@ public:
     /// False, and nothing is done, where the threads are at work already.
     bool run(int count, void (*call)(void*, int), void* context) {
         if (busy.test_and_set(std::memory_order_acquire)) return false;
-        const bool areThere = hasWorkers(static_cast<std::size_t>(count - 1));
-        if (areThere) share(count, call, context);
-        busy.clear(std::memory_order_release);
-        return areThere;
+        struct Release {
+            std::atomic_flag& flag;
+            ~Release() { flag.clear(std::memory_order_release); }
+        } const release{busy};
+        if (!hasWorkers(static_cast<std::size_t>(count - 1))) return false;
+        share(count, call, context);
+        return true;
     }
 
 private:
@@ -136,8 +140,16 @@ ThreadPool& pool() {
 
 }  // namespace
 
+/// hardware_concurrency() does not know to which processors a process has been bound (taskset, a batch
+/// system).
 int processorCount() {
-    static const int count = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    static const int count = [] {
+#ifdef __linux__
+        cpu_set_t own;
+        if (sched_getaffinity(0, sizeof own, &own) == 0) return CPU_COUNT(&own);
+#endif
+        return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    }();
     return count;
 }
 

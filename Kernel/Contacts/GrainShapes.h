@@ -64,6 +64,9 @@ public:
     /// @param shift m, centre 2 - centre 1
     [[nodiscard]] virtual ShapedTouch touch(const ParticleStore& grains, std::uint32_t first,
                                             std::uint32_t second, const Vector<double>& shift) const = 0;
+    /// m, by which the solids of two grains go through each other where no contact tells of it; else 0.
+    [[nodiscard]] virtual double hiddenOverlap(const ParticleStore& grains, std::uint32_t first,
+                                               std::uint32_t second, const Vector<double>& shift) const = 0;
     /// How a grain touches a plane.
     /// @param normal unit, into the plane; @param distance m, of the centre
     [[nodiscard]] virtual ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,

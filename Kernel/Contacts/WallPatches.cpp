@@ -2,6 +2,7 @@
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactPatch.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Walls/PartCover.h"
 
@@ -75,8 +76,9 @@ double gapBetween(const Facet& nearFacet, const Facet& farFacet, const Vector<do
 
 void WallPatches::listed(const ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains) {
     several.clear(), members.clear(), ranges.clear();
-    if (contacts.wallPoints.empty() || laws.shapes()) return;  // shapes are not told by distances
-    std::vector<std::uint32_t> next(grains.size() + 1);        // first counts, then where members go
+    if (contacts.wallPoints.empty()) return;
+    const GrainShapes* const shapes = laws.shapes();
+    std::vector<std::uint32_t> next(grains.size() + 1);  // first counts, then where members go
     const auto forEachAtWalls = [&](auto&& function) {
         for (std::size_t k = 0; k < contacts.buckets.size(); ++k) {
             const Bucket& bucket = contacts.buckets[k];
@@ -91,7 +93,7 @@ void WallPatches::listed(const ContactStore& contacts, const ContactLaws& laws, 
     constexpr std::uint32_t alone = ~std::uint32_t{0};
     for (std::uint32_t place = 0; place < grains.size(); ++place) {
         const std::uint32_t own = std::exchange(next[place], alone);
-        if (own < 2) continue;
+        if (own < 2 || (shapes && shapes->isShaped(grains, place))) continue;  // no spheres: not by distances
         several.push_back({place, count});
         next[place] = count;
         count += own;

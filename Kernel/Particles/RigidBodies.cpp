@@ -280,9 +280,9 @@ void RigidBodies::requireWhole(const StateArchive& archive, const ParticleStore&
     for (const RigidBody& body : bodies) {
         const Vector<double>& inertia = body.inertia;
         const Quaternion& q = body.orientation;
-        archive.require(
-            body.mass > 0 && body.largestFreeMass != 0 && inertia.x > 0 && inertia.y > 0 && inertia.z > 0,
-            "motion", "has a mass or a moment of inertia that is not positive");
+        archive.require(body.mass > 0 && std::isfinite(body.largestFreeMass) && body.largestFreeMass != 0 &&
+                            inertia.x > 0 && inertia.y > 0 && inertia.z > 0,
+                        "motion", "has a mass or a moment of inertia that is not positive");
         archive.require(std::abs(q.real * q.real + squaredNorm(q.imaginary) - 1) < 1e-6, "motion",
                         "has an orientation that is no rotation");
     }

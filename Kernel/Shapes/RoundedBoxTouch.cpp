@@ -1,6 +1,7 @@
 #include "Kernel/Shapes/RoundedBoxTouch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pendular {
@@ -108,6 +109,30 @@ BoxTouch touchOfEdges(const BoxEdge& first, const BoxEdge& second, const Vector<
     const Vector<double> normal = (1 / distance) * way;
     return {normal, depth, from + (first.radius - 0.5 * depth) * normal,
             std::sqrt(first.radius * second.radius)};
+}
+
+double overlapOfCuboids(const RoundedBox& first, const Axes<double>& firstAxes, const RoundedBox& second,
+                        const Axes<double>& secondAxes, const Vector<double>& shift) {
+    const std::array ofFirst{firstAxes.x, firstAxes.y, firstAxes.z},
+        ofSecond{secondAxes.x, secondAxes.y, secondAxes.z};
+    const auto reach = [](const RoundedBox& box, const auto& axes, const Vector<double>& along) {
+        return box.half.x * std::abs(dot(axes[0], along)) + box.half.y * std::abs(dot(axes[1], along)) +
+               box.half.z * std::abs(dot(axes[2], along));
+    };
+    double least = infinity;
+    const auto look = [&](const Vector<double>& along) {
+        const double length = norm(along);
+        if (length < 1e-6) return;  // of parallel edges
+        least = std::min(least, (reach(first, ofFirst, along) + reach(second, ofSecond, along) -
+                                 std::abs(dot(shift, along))) /
+                                    length);
+    };
+    for (const Vector<double>& a : ofFirst) {
+        look(a);
+        for (const Vector<double>& b : ofSecond) look(cross(a, b));
+    }
+    for (const Vector<double>& b : ofSecond) look(b);
+    return std::max(least, 0.0);
 }
 
 }  // namespace pendular

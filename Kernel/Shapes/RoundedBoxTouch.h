@@ -49,7 +49,15 @@ struct BoxEdge {
 /// @param shift m, from the middle of edge 1 to that of edge 2
 [[nodiscard]] BoxTouch touchOfEdges(const BoxEdge& first, const BoxEdge& second, const Vector<double>& shift);
 
-/// The same with the bodies in the other order.
+/// m, by which the cuboids of two boxes go through each other: the shortest way along a normal of a face or
+/// across two edges that takes them apart (separating axes: Gottschalk, Lin and Manocha (1996), SIGGRAPH
+/// '96); 0 where they are apart.
+/// @param shift m, centre 2 - centre 1
+[[nodiscard]] double overlapOfCuboids(const RoundedBox& first, const Axes<double>& firstAxes,
+                                      const RoundedBox& second, const Axes<double>& secondAxes,
+                                      const Vector<double>& shift);
+
+/// A touch with the bodies in the other order.
 /// @param shift m, centre 2 - centre 1 of what comes out
 [[nodiscard]] inline BoxTouch reversed(const BoxTouch& touch, const Vector<double>& shift) {
     return {-touch.normal, touch.depth, touch.arm1 + shift, touch.radius};

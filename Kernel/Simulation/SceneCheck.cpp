@@ -31,6 +31,22 @@ static double radiusOrThickness(const ContactLaws& laws, const ParticleStore& gr
     return laws.shapes() ? laws.shapes()->thickness(grains, place) : grains.translation[place].radius;
 }
 
+/// Two solids that go through each other without a contact that tells of it.
+static void refuseHiddenOverlap(const ContactLaws& laws, const ParticleStore& grains, std::uint32_t first,
+                                std::uint32_t second, const PeriodicBox& box) {
+    if (!laws.shapes() || first == second) return;
+    const Vector<double> shift =
+        box.nearest(grains.translation[second].position - grains.translation[first].position);
+    const double overlap = laws.shapes()->hiddenOverlap(grains, first, second, shift);
+    if (!(overlap > 0)) return;
+    throw InputError(
+        fmt::format("rigid bodies {} and {}, two blocks: they go through each other by {:.4g} m more than "
+                    "their edges are "
+                    "rounded; blocks may overlap no deeper than that at the start.",
+                    grains.bodies.bodyOf(grains.identity[first]),
+                    grains.bodies.bodyOf(grains.identity[second]), overlap));
+}
+
 void refuseInitialOverlaps(
     const ContactSystem& contacts, const ParticleStore& grains, double accepted,
     const std::function<bool(const Bucket&, std::uint32_t, std::uint32_t)>& isLookedAt) {
@@ -41,6 +57,7 @@ void refuseInitialOverlaps(
         const double smaller = std::min(radiusOrThickness(contacts.laws(), grains, first),
                                         radiusOrThickness(contacts.laws(), grains, second));
         refuseOverlap(contacts.observe(grains, bucket, contact), smaller, accepted);
+        refuseHiddenOverlap(contacts.laws(), grains, first, second, contacts.periodicBox());
     });
 }
 

@@ -209,8 +209,9 @@ void Scene::Inside::warnOfSeams() const {
     const ParticleStore& grains = scene.particleHandler.store();
     double largest = 0;
     for (const std::uint32_t place : grains.place)
-        largest = std::max(largest, grains.translation[place].radius);
-    if (!(largest > 0) || laws().shapes()) return;
+        if (!laws().shapes() || !laws().shapes()->isShaped(grains, place))
+            largest = std::max(largest, grains.translation[place].radius);
+    if (!(largest > 0)) return;
     for (const std::string& sentence : doubtfulSeams(scene.wallHandler, context.smallestRadius, largest))
         scene.logger(LogLevel::Warn, "{}.", sentence);
 }

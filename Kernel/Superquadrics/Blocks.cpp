@@ -128,6 +128,25 @@ BoxTouch Blocks::touch(const BlockPart& first, double radius1, const BlockPart& 
     return {};
 }
 
+double Blocks::hiddenOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
+                             const Vector<double>& shift) const {
+    const BlockPart one = partOf(grains, first), two = partOf(grains, second);
+    if (one.kind != BlockPart::Kind::Core || two.kind != BlockPart::Kind::Core) return 0;
+    return overlapOfCuboids(boxOf(one), Axes<double>(one.body->orientation), boxOf(two),
+                            Axes<double>(two.body->orientation), shift);
+}
+
+bool Blocks::areWhole(const RigidBodies& bodies) const {
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        if (!ofBody(bodies.numberOf(k))) continue;
+        const std::span<const BodyMember> members = bodies.membersOf(k);
+        if (members.size() != firstEdge + RoundedBox::edges) return false;
+        for (std::size_t m = 1; m < members.size(); ++m)
+            if (members[m].grain != members[0].grain + m) return false;
+    }
+    return true;
+}
+
 ShapeExtremes Blocks::extremesOf(const BlockPart& part, double radius) const {
     if (!part.body) return {radius, radius, 0, 0, 0};
     const double lever = boxOf(part).boundingRadius(), largest = contactRadii[part.box];

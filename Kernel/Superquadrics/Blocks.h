@@ -14,7 +14,7 @@ class StateArchive;
 /// What a grain of a scene with blocks is. A block is a rigid body of 21 grains, in this order: its core,
 /// which is the whole box and touches spheres and the corners of other blocks; its 8 corners, spheres that
 /// touch the cores of other blocks, and walls; and its 12 edges, which touch those of other blocks. Nothing
-/// else touches, so each place of two blocks or of a block and a sphere has one contact.
+/// else touches.
 struct BlockPart {
     enum class Kind : std::uint8_t { Sphere, Core, Corner, Edge };
     Kind kind = Kind::Sphere;         // Sphere: a grain of its own, or of a clump
@@ -47,6 +47,12 @@ public:
     /// How two grains touch. @param radius1, radius2 m, in the store; @param shift m, centre 2 - centre 1
     [[nodiscard]] BoxTouch touch(const BlockPart& first, double radius1, const BlockPart& second,
                                  double radius2, const Vector<double>& shift) const;
+    /// m, by which the cuboids of two blocks go through each other, of their cores; 0 of other grains. No
+    /// contact need tell of it: that of two beams that cross is with their edges.
+    [[nodiscard]] double hiddenOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
+                                       const Vector<double>& shift) const;
+    /// Whether all bodies that are to be blocks have the grains of one.
+    [[nodiscard]] bool areWhole(const RigidBodies& bodies) const;
     /// Whether a grain touches walls.
     static bool touchesWalls(const BlockPart& part) {
         return part.kind == BlockPart::Kind::Sphere || part.kind == BlockPart::Kind::Corner;

@@ -225,6 +225,8 @@ void SuperquadricHandler::visitState(StateArchive& archive) {
     archive.value("fallbacks", count);
     blocks.visitState(archive);
     if (!archive.isReading()) return;
+    archive.require(blocks.areWhole(particles.store().bodies), "blockOfBody",
+                    "has a body without the 21 grains of a block");
     fallbackCount = count;
     archive.require(exponents.size() == 2 * halfLengths.size(), "exponents",
                     "does not have two of each shape");

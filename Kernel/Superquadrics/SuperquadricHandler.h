@@ -51,6 +51,10 @@ public:
     [[nodiscard]] double thickness(const ParticleStore& grains, std::uint32_t grain) const override;
     [[nodiscard]] ShapedTouch touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                     const Vector<double>& shift) const override;
+    [[nodiscard]] double hiddenOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
+                                       const Vector<double>& shift) const override {
+        return blocks.empty() ? 0 : blocks.hiddenOverlap(grains, first, second, shift);
+    }
     [[nodiscard]] ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
                                            const Vector<double>& normal, double distance) const override;
     void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall, double range,

@@ -212,6 +212,16 @@ TEST(BlockCollision, refusesWhatItDoesNotKnow) {
     };
     EXPECT_EQ(withCylinder(CylinderSide::Inside, 5e-3), "");
     EXPECT_TRUE(contains(withCylinder(CylinderSide::Outside, 5e-3), "blocks touch walls by their corners"));
+    // A beam across the block: their cuboids, 1.8 and 0.8 mm high from the middle, meet at 2.6 mm.
+    const auto crossed = [&](double height) {
+        return sentence([&](FewBlocks& scene) {
+            scene.add({{4e-3, 1e-3, 1e-3}, 2e-4, {0, 0.5e-3, height}});
+        });
+    };
+    EXPECT_TRUE(contains(crossed(2.5e-3),
+                         "rigid bodies 0 and 1, two blocks: they go through each other by "
+                         "0.0001 m more"));
+    EXPECT_EQ(crossed(2.995e-3), "");
     // A corner of one is in the other by half its radius.
     EXPECT_TRUE(contains(sentence([](FewBlocks& scene) {
                              scene.add({{1e-3, 1e-3, 1e-3}, 2e-4, {0.5e-3, 0, 2.9e-3}});

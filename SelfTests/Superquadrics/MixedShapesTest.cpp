@@ -8,6 +8,7 @@
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 
@@ -77,6 +78,46 @@ TEST(MixedShapes, plainGrainsMoveAsInASceneOfSpheres) {
     }
     EXPECT_GT((spheres.bodyHandler.getObject(0).getVelocity() - Vec3D(0.5, 0, 0)).norm(),
               0.1);  // it has met one
+}
+
+/// A sphere that crosses the seam of two meshes in one plane, and a pair that lies on it.
+template <class Scene>
+void addGrainsOnASeam(Scene& scene) {
+    const auto* const own = scene.speciesHandler.getObject(0);
+    for (const double end : {-0.02, 0.02}) {
+        TriangleWall mesh;
+        const Vector<double> a{0, -0.02, 0}, b{end, -0.02, 0}, c{end, 0.02, 0}, d{0, 0.02, 0};
+        mesh.set(std::vector<Triangle>{{a, b, c}, {a, c, d}});
+        mesh.setSpecies(own);
+        scene.wallHandler.copyAndAddObject(mesh);
+    }
+    SphericalParticle grain;
+    grain.setSpecies(own);
+    grain.setRadius(r);
+    grain.setPosition({-1e-3, 0, 0.9999 * r});
+    grain.setVelocity({1, 0.2, 0});
+    scene.particleHandler.copyAndAddObject(grain);
+    Clump clump(ClumpTemplate({{{-0.7 * r, 0, 0}, r}, {{0.7 * r, 0, 0}, r}}));
+    clump.setSpecies(own);
+    clump.setPosition({0.7 * r, 8 * r, 0.9999 * r});
+    scene.bodyHandler.copyAndAddObject(clump);
+    scene.setGravity({0, 0, -9.81});
+}
+
+// Two contacts on the seam would have twice the force: a jump by some 1e-3 m/s.
+TEST(MixedShapes, aSeamOfWallsIsNoneToPlainGrains) {
+    FewGrains<Mindlins> spheres(material(), {}, 2e-7);
+    FewSuperquadrics<Mindlins> mixed(material(), {}, 2e-7);
+    addGrainsOnASeam(spheres), addGrainsOnASeam(mixed);
+    mixed.add({{1e-3, 2e-3, 1e-3}, {0, 0, 0.1}});  // far away
+    spheres.setQuiet(), mixed.setQuiet();
+    spheres.run(10000), mixed.run(10000);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto one = spheres.particleHandler.getObject(k), two = mixed.particleHandler.getObject(k);
+        EXPECT_LT((one.getPosition() - two.getPosition()).norm(), 1e-8 * r) << k;
+        EXPECT_LT((one.getVelocity() - two.getVelocity()).norm(), 1e-7) << k;
+    }
+    EXPECT_GT(spheres.particleHandler.getObject(0).getPosition().x(), 0);  // it has crossed
 }
 
 /// An ellipsoid, a rounded block, a sphere and a dumbbell that meet.
