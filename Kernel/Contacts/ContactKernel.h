@@ -106,6 +106,7 @@ public:
         Pack adhesive = 0, range = 0;  // N; m, of an attraction that jumps at its end
         Mask bridged = touching & !touching;
         if constexpr (Adhesion::acts) {
+            if constexpr (ShapedGeometry<Geometry>) geometry.prepareAdhesion(memory, block, joined);
             const auto interaction = memory.interaction.load<Interaction>(block);
             const Pack separation = separationFor<Adhesion>(g.overlap);
             if constexpr (HasDynamicRupture<Adhesion>) {
@@ -150,8 +151,16 @@ public:
             tangential = tangential + computeDrag(block, g, last.leverless, lastTorque, bridged,
                                                   normal.resistance, tangential);
 
-        if constexpr (ShapedGeometry<Geometry>) geometry.writeRecords(memory, block, normalForce, tangential);
-        else writeRecords(block, g.normal, normal.lever, normalForce, tangential);
+        if constexpr (ShapedGeometry<Geometry>) {
+            Vector<Pack> couple = zero();
+            if constexpr (S::hasContactTorque) {
+                couple = loadTorques(block);
+                geometry.keepTorque(memory, block, couple);
+            }
+            geometry.writeRecords(memory, block, touching | bridged, normalForce, tangential, couple);
+        } else {
+            writeRecords(block, g.normal, normal.lever, normalForce, tangential);
+        }
         state.touching = bits(touching);
         state.bridged = bits(bridged);
         state.closing = bits(normal.closing);
@@ -329,7 +338,8 @@ private:
                         copyOf(force.force.z), copyOf(force.spring.x), copyOf(force.spring.y),
                         copyOf(force.spring.z), copyOf(force.stiffness), force.slides | force.slips,
                         touching);
-        if constexpr (HasContactTorque<Friction>) computeRotation(block, g, touching, normal, slip, history);
+        if constexpr (HasContactTorque<Friction>)
+            computeRotation(block, geometry, g, touching, normal, slip, history);
         memory.history.store<History>(block, selectColumns<History>(touching, history));
         return select(touching, force.force, zero());
     }
@@ -392,11 +402,15 @@ private:
     /// Writes the contact's own torque. Velocity and response are those of R* times the relative spin, as in
     /// computeFriction.
     /// @param sliding the times of its Slip are those of the rotation
-    template <class History>
-    void computeRotation(std::size_t block, const ContactGeometry<Pack>& g, Mask touching,
-                         const NormalPart& normal, const Slip<Pack>& sliding, History& history) {
+    template <class Geometry, class History>
+    void computeRotation(std::size_t block, [[maybe_unused]] const Geometry& geometry,
+                         const ContactGeometry<Pack>& g, Mask touching, const NormalPart& normal,
+                         const Slip<Pack>& sliding, History& history) {
         const Pack response = Pack(0.5 * implicitStep) * g.rotationResponse;
-        const Vector<Pack> last = (Pack(1) / g.effectiveRadius) * loadTorques(block);
+        Vector<Pack> torque;
+        if constexpr (ShapedGeometry<Geometry>) torque = geometry.lastTorque(memory, block);
+        else torque = loadTorques(block);
+        const Vector<Pack> last = (Pack(1) / g.effectiveRadius) * torque;
         const Slip<Pack> turning{.velocity = g.effectiveRadius * g.spinDifference - response * last,
                                  .timeBefore = sliding.timeBefore,
                                  .timeAfter = sliding.timeAfter,

@@ -22,18 +22,19 @@ Vector<double> wallVelocityAt(const ContactSample& s) {
 
 RelativeMotion relativeMotion(const ContactSample& sample, const BodyMotion& first, const BodyMotion& second,
                               bool isWall) {
+    const Vector<double> turning =
+        sample.effectiveRadius * (first.spin - (isWall ? sample.wallSpin : second.spin));
     if (sample.isShaped()) {
         Vector<double> velocity = first.velocity + cross(first.spin, sample.arm1);
         velocity -= isWall ? wallVelocityAt(sample)
                            : second.velocity + second.slide + cross(second.spin, sample.arm2);
-        return {dot(velocity, sample.normal), velocity, {0, 0, 0}};
+        return {dot(velocity, sample.normal), velocity, turning};
     }
     const Vector<double> velocity =
         first.velocity - (isWall ? sample.wallVelocity : second.velocity + second.slide);
     Vector<double> lever = (first.radius - sample.halfOverlap) * first.spin;
     if (!isWall) lever += (second.radius - sample.halfOverlap) * second.spin;
-    return {dot(velocity, sample.normal), velocity + cross(lever, sample.normal),
-            sample.effectiveRadius * (first.spin - (isWall ? sample.wallSpin : second.spin))};
+    return {dot(velocity, sample.normal), velocity + cross(lever, sample.normal), turning};
 }
 
 Vector<double> tangentialForce(const ContactSample& s) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "Kernel/Math/Quaternion.h"
 #include "Kernel/Shapes/SuperquadricSupport.h"
 
@@ -150,8 +152,9 @@ Vector<T> firstNormal(const SuperquadricPair<T>& pair) {
 
 /// Whether a plane at right angles to an axis of one of the two lies between their oriented boxes: six of the
 /// fifteen planes of Gottschalk, Lin and Manocha (1996), the others are left to the first normal.
+/// @param gap m, by which they are apart at least
 template <Number T>
-MaskOf<T> boxesAreApart(const SuperquadricPair<T>& pair) {
+MaskOf<T> boxesAreApart(const SuperquadricPair<T>& pair, const std::type_identity_t<T>& gap = T(0)) {
     const auto reach = [](const SuperquadricLanes<T>& s, const Axes<T>& axes, const Vector<T>& along) {
         return fma(s.a, abs(dot(axes.x, along)),
                    fma(s.b, abs(dot(axes.y, along)), s.c * abs(dot(axes.z, along))));
@@ -160,7 +163,7 @@ MaskOf<T> boxesAreApart(const SuperquadricPair<T>& pair) {
     MaskOf<T> areApart = pair.shift.x != pair.shift.x;  // none
     const auto look = [&](const Vector<T>& axis, const T& own, const SuperquadricLanes<T>& other,
                           const Axes<T>& axes) {
-        const MaskOf<T> here = abs(dot(axis, pair.shift)) > own + reach(other, axes, axis);
+        const MaskOf<T> here = abs(dot(axis, pair.shift)) > own + reach(other, axes, axis) + gap;
         areApart = areApart | here;
     };
     look(pair.axes1.x, s.a, t, pair.axes2), look(pair.axes1.y, s.b, t, pair.axes2);
@@ -203,17 +206,17 @@ void searchAround(const SuperquadricPair<T>& pair, const MaskOf<T>& wanted, Vect
 /// The point and the overlap of Podlozhnyuk et al. (2017), Comput. Part. Mech. 4, 101, which other codes
 /// take, agree with it for light contacts; but they depend on how f is scaled, and part from it in deep ones.
 /// @param start unit
-/// @param onlyTouching lanes that are found to be apart are left as they are: no nearest points
+/// @param gap m; lanes that are found to be apart by more are left as they are: no nearest points
 template <Number T>
-SuperquadricTouch<T> findTouch(const SuperquadricPair<T>& pair, const Vector<T>& start, bool onlyTouching) {
+SuperquadricTouch<T> findTouch(const SuperquadricPair<T>& pair, const Vector<T>& start,
+                               const std::type_identity_t<T>& gap) {
     constexpr int mostSteps = 60;
     const T size = norm(pair.shift) + pair.shape1.a + pair.shape2.a;
     const T roundOff = 4e-16 * size;
     Vector<T> normal = start;
     SlabOverlap<T> now(pair, normal);
     T damping = 0.0, idleSteps = 0.0;
-    MaskOf<T> done = normal.x != normal.x;  // none
-    if (onlyTouching) done = now.value < 0.0;
+    MaskOf<T> done = now.value < -gap;
     for (int k = 0; k < mostSteps && !all(done); ++k) {
         const auto step = now.newtonStep(pair, normal, damping, size);
         const SlabOverlap<T> there(pair, step.normal);
@@ -226,8 +229,7 @@ SuperquadricTouch<T> findTouch(const SuperquadricPair<T>& pair, const Vector<T>&
         normal = select(better, step.normal, normal);
         now.takeWhere(better, there);
         damping = select(better, select(damping > 0.1, 0.25 * damping, T(0)), max(4.0 * damping, T(1)));
-        done = done | small | (idleSteps >= 3.0);
-        if (onlyTouching) done = done | (now.value < 0.0);
+        done = done | small | (idleSteps >= 3.0) | (now.value < -gap);
     }
     if (!all(done)) searchAround(pair, !done, normal, now);
     const T gauss = (now.first + now.second).determinant();

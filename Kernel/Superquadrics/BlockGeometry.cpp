@@ -25,6 +25,13 @@ struct Side {
                              &inertia = part.body->inertia;
         return 1 / part.body->mass + (l.x * l.x / inertia.x + l.y * l.y / inertia.y + l.z * l.z / inertia.z);
     }
+    /// As EightSuperquadrics::turningResponse().
+    [[nodiscard]] double turningResponse() const {
+        if (!part.body) return grain.inverseMass / (0.4 * grain.radius * grain.radius);
+        if (part.isHeld) return 0;
+        const Vector<double>& inertia = part.body->inertia;
+        return (1 / inertia.x + 1 / inertia.y + 1 / inertia.z) / 3;
+    }
     [[nodiscard]] Vector<double> velocityAt(const Vector<double>& arm) const {
         return grain.velocity + cross(spin, arm);
     }
@@ -42,7 +49,8 @@ void complete(EightTouches::Lane& lane, const BoxTouch& touch, const Side& first
     lane.inverseMass = first.response(point, touch.normal);
     lane.response = 0.5 * (first.response(point, plane.u) + first.response(point, plane.v));
     lane.velocity = first.velocityAt(touch.arm1);
-    lane.spinSum = first.spin;
+    lane.spinSum = lane.spinDifference = first.spin;
+    lane.turningResponse = first.turningResponse();
 }
 
 void addSecond(EightTouches::Lane& lane, const Side& second, const Vector<double>& shift) {
@@ -53,6 +61,8 @@ void addSecond(EightTouches::Lane& lane, const Side& second, const Vector<double
     lane.response += 0.5 * (second.response(point, plane.u) + second.response(point, plane.v));
     lane.velocity -= second.velocityAt(lane.arm2);
     lane.spinSum += second.spin;
+    lane.spinDifference -= second.spin;
+    lane.turningResponse += second.turningResponse();
 }
 
 BoxTouch touchOfWall(const WallPointColumns& points, std::size_t k, double radius) {
@@ -94,6 +104,7 @@ SuperquadricGeometry SuperquadricHandler::geometryOfBlocks(const ContactTask& ta
                                             points.velocity[2].lane[k]} +
                              cross(spin, lane.arm1 - distance * lane.normal);
             lane.spinSum += spin;
+            lane.spinDifference -= spin;
             continue;
         }
         const TranslationRecord& grain2 = task.translation[two];

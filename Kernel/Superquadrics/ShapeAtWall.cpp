@@ -45,7 +45,7 @@ ShapeAtWall::Look ShapeAtWall::lookAlong(const Wall& wall, std::uint32_t part,
 /// Gilbert's method: x is a point in the core, and goes towards the core's farthest point along the way to
 /// the wall as long as it comes nearer.
 Vector<double> ShapeAtWall::nearNormal(const Wall& wall, std::uint32_t part, const WallPoint& first,
-                                       double& gap) const {
+                                       double range, double& gap) const {
     constexpr int mostRounds = 30, mostHalvings = 8;
     const bool isConvex = wall.hasConvexParts();
     Vector<double> x = centre, n = first.normal;
@@ -55,7 +55,7 @@ Vector<double> ShapeAtWall::nearNormal(const Wall& wall, std::uint32_t part, con
         const Vector<double> farthest = coreAt(supportAt(n), n), way = farthest - x;
         const double gain = dot(n, way);
         // The part is beyond a plane across n, at this distance from x at least.
-        if (isConvex && distance - gain > ballRadius) {
+        if (isConvex && distance - gain > ballRadius + range) {
             gap = distance - gain - ballRadius;
             return n;
         }
@@ -156,10 +156,10 @@ ShapeAtWall::Look ShapeAtWall::searchAround(const Wall& wall, std::uint32_t part
     return best;
 }
 
-ShapeAtWall::Look ShapeAtWall::settle(const Wall& wall, std::uint32_t part,
+ShapeAtWall::Look ShapeAtWall::settle(const Wall& wall, std::uint32_t part, double range,
                                       const Vector<double>& start) const {
     const Look found = newton(wall, part, start);
-    const bool isFound = !(found.distance > 0) || !(found.distance < 2 * ballRadius) ||
+    const bool isFound = !(found.distance > 0) || !(found.distance < 2 * ballRadius + range) ||
                          dot(found.normal, found.towards) > 1 - 1e-12;
     return isFound ? found : searchAround(wall, part, found);
 }
@@ -176,20 +176,20 @@ bool ShapeAtWall::isSettled(const Wall& wall, std::uint32_t part, const Look& fo
     return dot(found.normal, found.towards) > 1 - 1e-12 && isAlike(plane.u) && isAlike(plane.v);
 }
 
-WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part) const {
+WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part, double range) const {
     WallPoint point = nearest(wall, part, centre);
     if (!(point.distance < infinity)) return point;
     double gap = 0;
-    const Vector<double> start = nearNormal(wall, part, point, gap);
+    const Vector<double> start = nearNormal(wall, part, point, range, gap);
     if (gap > 0) {
         point.normal = start;
         point.distance = supportAt(start).height + gap;
         return point;
     }
-    Look found = settle(wall, part, start);
+    Look found = settle(wall, part, range, start);
     if (!wall.hasConvexParts())  // the wall may be as near elsewhere: from each end of the grain
         for (const Vector<double>& end : {axes.x, -axes.x, axes.y, -axes.y, axes.z, -axes.z}) {
-            const Look other = settle(wall, part, end);
+            const Look other = settle(wall, part, range, end);
             if (other.distance < found.distance) found = other;
         }
     if (!isSettled(wall, part, found)) return point;  // it is left by the way to its nearest point
@@ -203,7 +203,7 @@ WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part) const {
 }
 
 /// A part is left out where the ball that touches it finds another part that stands for it, as a sphere does.
-void ShapeAtWall::leaveOutCovered(const Wall& wall, std::span<const std::uint32_t> parts,
+void ShapeAtWall::leaveOutCovered(const Wall& wall, double range, std::span<const std::uint32_t> parts,
                                   std::span<WallPoint> points) const {
     thread_local std::vector<std::uint32_t> order;
     thread_local std::vector<double> depth;
@@ -213,7 +213,7 @@ void ShapeAtWall::leaveOutCovered(const Wall& wall, std::span<const std::uint32_
     for (std::uint32_t k = 0; k < points.size(); ++k) {
         if (!(points[k].distance < infinity)) continue;
         depth[k] = supportAt(points[k].normal).height - points[k].distance;
-        if (depth[k] > 0) order.push_back(k);
+        if (depth[k] > -range) order.push_back(k);
     }
     if (order.size() < 2) return;
     std::sort(order.begin(), order.end(), [](std::uint32_t a, std::uint32_t b) {
@@ -222,7 +222,7 @@ void ShapeAtWall::leaveOutCovered(const Wall& wall, std::span<const std::uint32_
     seen.resize(parts.size());
     for (std::size_t rank = 1; rank < order.size(); ++rank) {
         WallPoint& point = points[order[rank]];
-        wall.findPoints(coreAt(supportAt(point.normal), point.normal), ballRadius, parts, seen);
+        wall.findPoints(coreAt(supportAt(point.normal), point.normal), ballRadius + range, parts, seen);
         int by = seen[order[rank]].coveredBy;
         if (by < 0) continue;
         if (points[static_cast<std::size_t>(by)].coveredBy >= 0)
@@ -234,10 +234,10 @@ void ShapeAtWall::leaveOutCovered(const Wall& wall, std::span<const std::uint32_
     }
 }
 
-void ShapeAtWall::findPoints(const Wall& wall, std::span<const std::uint32_t> parts,
+void ShapeAtWall::findPoints(const Wall& wall, double range, std::span<const std::uint32_t> parts,
                              std::span<WallPoint> points) const {
-    for (std::size_t k = 0; k < parts.size(); ++k) points[k] = pointOf(wall, parts[k]);
-    if (parts.size() > 1) leaveOutCovered(wall, parts, points);
+    for (std::size_t k = 0; k < parts.size(); ++k) points[k] = pointOf(wall, parts[k], range);
+    if (parts.size() > 1) leaveOutCovered(wall, range, parts, points);
 }
 
 }  // namespace pendular

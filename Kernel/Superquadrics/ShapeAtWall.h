@@ -29,8 +29,9 @@ public:
         : shape(superquadric), axes(inSpace), centre(place), ballRadius(ball) {}
 
     /// As Wall::findPoints(), but the distance is that of the plane across the normal through the point of
-    /// the wall; of parts that do not touch the grain, of a plane that lies between.
-    void findPoints(const Wall& wall, std::span<const std::uint32_t> parts,
+    /// the wall; of parts that are apart by more than the range, of a plane that lies between.
+    /// @param range m
+    void findPoints(const Wall& wall, double range, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const;
 
 private:
@@ -54,14 +55,15 @@ private:
     [[nodiscard]] Look lookAlong(const Wall& wall, std::uint32_t part, const Vector<double>& normal) const;
     /// A normal that is near the wanted one. @param gap m, above 0 if a plane across it parts grain and wall
     [[nodiscard]] Vector<double> nearNormal(const Wall& wall, std::uint32_t part, const WallPoint& first,
-                                            double& gap) const;
+                                            double range, double& gap) const;
     [[nodiscard]] Look newton(const Wall& wall, std::uint32_t part, const Vector<double>& start) const;
     [[nodiscard]] Look searchAround(const Wall& wall, std::uint32_t part, Look best) const;
-    [[nodiscard]] Look settle(const Wall& wall, std::uint32_t part, const Vector<double>& start) const;
+    [[nodiscard]] Look settle(const Wall& wall, std::uint32_t part, double range,
+                              const Vector<double>& start) const;
     [[nodiscard]] Vector<double> newtonShift(const Wall& wall, std::uint32_t part, const Look& now) const;
     [[nodiscard]] bool isSettled(const Wall& wall, std::uint32_t part, const Look& found) const;
-    [[nodiscard]] WallPoint pointOf(const Wall& wall, std::uint32_t part) const;
-    void leaveOutCovered(const Wall& wall, std::span<const std::uint32_t> parts,
+    [[nodiscard]] WallPoint pointOf(const Wall& wall, std::uint32_t part, double range) const;
+    void leaveOutCovered(const Wall& wall, double range, std::span<const std::uint32_t> parts,
                          std::span<WallPoint> points) const;
 
     SuperquadricLanes<double> shape;

@@ -2,46 +2,102 @@
 
 #include <bit>
 
+#include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactStore.h"
 
 namespace pendular {
 
 namespace {
 
-/// The columns of the last normal are behind those of the normal law.
-LaneColumn* normalColumns(ContactMemory& memory, std::size_t block) {
+/// The columns of the last normal are behind those of the normal law, and those of the last torque between.
+LaneColumn* columnsFromEnd(ContactMemory& memory, std::size_t block, std::size_t fromEnd) {
     const std::size_t count = memory.normalHistory.count;
-    return &memory.normalHistory.columns[block * count + count - 3];
+    return &memory.normalHistory.columns[block * count + count - fromEnd];
+}
+LaneColumn* normalColumns(ContactMemory& memory, std::size_t block) {
+    return columnsFromEnd(memory, block, 3);
+}
+LaneColumn* torqueColumns(ContactMemory& memory, std::size_t block) {
+    return columnsFromEnd(memory, block, 6);
 }
 
 Vector<Pack> load(const LaneColumn* from) {
     return {Pack::load(from[0].lane.data()), Pack::load(from[1].lane.data()),
             Pack::load(from[2].lane.data())};
 }
+void store(const Vector<Pack>& v, LaneColumn* to) {
+    v.x.store(to[0].lane.data()), v.y.store(to[1].lane.data()), v.z.store(to[2].lane.data());
+}
 
 }  // namespace
 
 ContactAcceleration<Pack> SuperquadricGeometry::accelerations(const Vector<double>* acceleration,
                                                               Pack /*lever*/) const {
-    const auto ofSurface = [&](const std::array<std::uint32_t, Pack::lanes>& grains,
-                               const Vector<Pack>& arm) {
+    using Places = std::array<std::uint32_t, Pack::lanes>;
+    const auto angular = [&](const Places& grains) {
         auto [x, y, z] = loadRecords<3>(reinterpret_cast<const double*>(rotation) + 4, 8, grains.data());
-        return gatherVectors(acceleration, grains.data()) + cross(Vector<Pack>{x, y, z}, arm);
+        return Vector<Pack>{x, y, z};
     };
-    Vector<Pack> own = ofSurface(contacts->first, arm1);
-    if (!isAtWall) own = own - ofSurface(contacts->second, arm2);
-    return {own, zero(), zero()};
+    const auto ofSurface = [&](const Places& grains, const Vector<Pack>& spin, const Vector<Pack>& arm) {
+        return gatherVectors(acceleration, grains.data()) + cross(spin, arm);
+    };
+    Vector<Pack> turning = angular(contacts->first);
+    Vector<Pack> own = ofSurface(contacts->first, turning, arm1);
+    if (!isAtWall) {
+        const Vector<Pack> other = angular(contacts->second);
+        own = own - ofSurface(contacts->second, other, arm2);
+        turning = turning - other;
+    }
+    return {own, zero(), turning};
 }
 
 void SuperquadricGeometry::takeLast(const ContactTask& task, std::size_t block) {
     rotation = task.rotation;
     contacts = &task.store.blocks[block];
-    touched = Mask(false);
+    acted = Mask(false);
     normalBefore = zero();
     const std::uint32_t slot = task.store.slots[block];
     if (slot == ContactStore::asleep || slot == ContactStore::waking) return;
-    touched = maskFromBits(task.store.states[block].touching);
-    normalBefore = select(touched, load(normalColumns(task.store.memory, slot)), zero());
+    const BlockState& state = task.store.states[block];
+    const Vector<Pack> last = load(normalColumns(task.store.memory, slot));
+    // One that joinAtStart() has joined has no normal yet.
+    acted = maskFromBits(static_cast<std::uint8_t>(state.touching | state.bridged)) &
+            (squaredNorm(last) > Pack(0.5));
+    normalBefore = select(acted, last, zero());
+}
+
+/// m, up to which contacts are to be known though they are apart: the range of what attracts, where it can be
+/// largest on their surfaces. One that begins with a touch acts on bridges only.
+Pack SuperquadricGeometry::reachOf(const ContactTask& task, std::size_t block) const {
+    const BlockState& state = task.store.states[block];
+    const unsigned lanes = !adhesive ? 0u : adhesive->actsApart ? state.listed : state.bridged;
+    if (lanes == 0) return Pack(0);
+    LaneColumn reach;
+    for (std::size_t k = 0; k < Pack::lanes; ++k)
+        if ((lanes >> k & 1) != 0)
+            reach.lane[k] = adhesive->range(species1, species2,
+                                            {radius1[static_cast<int>(k)], radius2[static_cast<int>(k)]});
+    return Pack::load(reach.lane.data());
+}
+
+Vector<Pack> SuperquadricGeometry::lastTorque(ContactMemory& memory, std::size_t block) const {
+    return select(acted, load(torqueColumns(memory, block)), zero());
+}
+void SuperquadricGeometry::keepTorque(ContactMemory& memory, std::size_t block,
+                                      const Vector<Pack>& torque) const {
+    store(torque, torqueColumns(memory, block));
+}
+
+/// A dry law knows the bodies by their effective radius only, so that two of any radii that give it will do.
+void SuperquadricGeometry::prepareAdhesion(ContactMemory& memory, std::size_t block, Mask joined) const {
+    const auto lanes = bits(joined & known);
+    for (std::size_t k = 0; k < Pack::lanes; ++k) {
+        if ((lanes >> k & 1) == 0) continue;
+        ContactNumbers prepared{};
+        adhesive->prepareAdhesion(species1, species2, {effectiveRadius[static_cast<int>(k)]},
+                                  prepared.data());
+        memory.interaction.set(block * Pack::lanes + k, prepared.data());
+    }
 }
 
 void SuperquadricGeometry::setRadius(const Pack& gauss, const Pack& around) {
@@ -51,23 +107,30 @@ void SuperquadricGeometry::setRadius(const Pack& gauss, const Pack& around) {
 SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t block,
                                            const EightSuperquadrics& first, const EightSuperquadrics& second,
                                            const Vector<Pack>& shift, const Vector<Pack>& imageVelocity,
-                                           std::atomic<std::uint64_t>& fallbacks)
-    : isAtWall(false), radius1(first.radius), radius2(second.radius), fallbackCount(&fallbacks) {
+                                           const ContactLaws* adhesion, std::atomic<std::uint64_t>& fallbacks)
+    : adhesive(adhesion),
+      species1(task.store.buckets[task.bucket].species1),
+      species2(task.store.buckets[task.bucket].species2),
+      isAtWall(false),
+      radius1(first.radius),
+      radius2(second.radius),
+      fallbackCount(&fallbacks) {
     takeLast(task, block);
     SuperquadricPair<Pack> pair{first.shape, second.shape, first.axes, second.axes, shift};
-    const Pack sum = radius1 + radius2;
-    const Mask isNear = maskFromBits(task.store.states[block].listed) & (squaredNorm(shift) < sum * sum);
-    const Mask apart = none(isNear) ? Mask(true) : (!isNear) | boxesAreApart(pair);
+    const Pack reach = reachOf(task, block), sum = radius1 + radius2, most = sum + reach;
+    const Mask isNear = maskFromBits(task.store.states[block].listed) & (squaredNorm(shift) < most * most);
+    const Mask apart = none(isNear) ? Mask(true) : (!isNear) | boxesAreApart(pair, reach);
     fellBack = Mask(false);
+    known = !apart;
     normal = {Pack(1), Pack(0), Pack(0)};
-    depth = Pack(-1);
+    depth = Pack(-1) - reach;
     if (all(apart)) return;
     // Bodies that are apart are done at once.
-    pair.shift = select(apart, {Pack(3) * sum, Pack(0), Pack(0)}, shift);
-    const Vector<Pack> start = select(apart, normal, select(touched, normalBefore, firstNormal(pair)));
-    const SuperquadricTouch<Pack> touch = findTouch(pair, start, true);
+    pair.shift = select(apart, {Pack(3) * sum + reach, Pack(0), Pack(0)}, shift);
+    const Vector<Pack> start = select(apart, normal, select(acted, normalBefore, firstNormal(pair)));
+    const SuperquadricTouch<Pack> touch = findTouch(pair, start, reach);
     normal = touch.normal;
-    depth = select(apart, Pack(-1), touch.depth);
+    depth = select(apart, depth, touch.depth);
     fellBack = !touch.isFound;
     arm1 = touch.arm1;
     arm2 = arm1 - pair.shift;
@@ -82,11 +145,21 @@ SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t 
     velocity = first.velocity + cross(first.spin, arm1) - (second.velocity + cross(second.spin, arm2)) +
                imageVelocity;
     spinSum = first.spin + second.spin;
+    spinDifference = first.spin - second.spin;
+    turningResponse = first.turningResponse() + second.turningResponse();
 }
 
 SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t block,
-                                           const EightSuperquadrics& first, const WallPointColumns& wall)
-    : isAtWall(true), fellBack(false), radius1(first.radius), radius2(first.radius) {
+                                           const EightSuperquadrics& first, const WallPointColumns& wall,
+                                           const ContactLaws* adhesion)
+    : adhesive(adhesion),
+      species1(task.store.buckets[task.bucket].species1),
+      species2(task.store.buckets[task.bucket].species2),
+      isAtWall(true),
+      fellBack(false),
+      known(true),
+      radius1(first.radius),
+      radius2(first.radius) {
     takeLast(task, block);
     normal = load(wall.normal.data());
     const Pack distance = Pack::load(wall.distance.lane.data());
@@ -105,11 +178,13 @@ SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t 
     const Vector<Pack> surface = load(wall.velocity.data()) + cross(spin, arm1 - distance * normal);
     velocity = first.velocity + cross(first.spin, arm1) - surface;
     spinSum = first.spin + spin;
+    spinDifference = first.spin - spin;
+    turningResponse = first.turningResponse();
 }
 
 SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t block,
                                            const EightTouches& touches)
-    : isAtWall(task.store.buckets[task.bucket].wall >= 0), fellBack(false) {
+    : isAtWall(task.store.buckets[task.bucket].wall >= 0), fellBack(false), known(true) {
     takeLast(task, block);
     std::array<LaneColumn, EightTouches::numbers> columns;
     for (std::size_t k = 0; k < Pack::lanes; ++k) {
@@ -127,7 +202,8 @@ SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t 
     depth = number(), effectiveRadius = number();
     radius1 = number(), radius2 = number();
     inverseMass = number(), response = number();
-    arm1 = vector(), arm2 = vector(), velocity = vector(), spinSum = vector();
+    arm1 = vector(), arm2 = vector(), velocity = vector(), spinSum = vector(), spinDifference = vector();
+    turningResponse = number();
 }
 
 ContactGeometry<Pack> SuperquadricGeometry::complete() const {
@@ -140,32 +216,30 @@ ContactGeometry<Pack> SuperquadricGeometry::complete() const {
     g.effectiveMass = Pack(1) / inverseMass;
     g.velocity = velocity;
     g.spinSum = spinSum;
-    g.spinLever = g.spinDifference = zero();
-    g.asymmetry = g.rotationResponse = Pack(0);
+    g.spinLever = zero();
+    g.spinDifference = spinDifference;
+    g.asymmetry = Pack(0);
+    g.rotationResponse = effectiveRadius * effectiveRadius * turningResponse;
     return g;
 }
 
-void SuperquadricGeometry::writeRecords(ContactMemory& memory, std::size_t block, const Pack& normalForce,
-                                        const Vector<Pack>& tangential) const {
-    // Where nothing touches, arms may be of no meaning, and forces are zero.
-    const Mask touching = depth > Pack(0);
-    const Vector<Pack> force = select(touching, fma(-normalForce, normal, tangential), zero());
-    const Vector<Pack> torque1 = select(touching, cross(arm1, force), zero());
+void SuperquadricGeometry::writeRecords(ContactMemory& memory, std::size_t block, Mask acts,
+                                        const Pack& normalForce, const Vector<Pack>& tangential,
+                                        const Vector<Pack>& torque) const {
+    // Where nothing acts, arms may be of no meaning, and forces are zero.
+    const Vector<Pack> force = select(acts, fma(-normalForce, normal, tangential), zero());
+    const Vector<Pack> torque1 = select(acts, cross(arm1, force), zero());
     Vector<Pack> leverless = cross(normal, force);
     if (!isAtWall)
-        leverless =
-            (Pack(1) / (radius1 + radius2)) * (torque1 - select(touching, cross(arm2, force), zero()));
-    const Vector<Pack> own = torque1 - radius1 * leverless;
+        leverless = (Pack(1) / (radius1 + radius2)) * (torque1 - select(acts, cross(arm2, force), zero()));
+    const Vector<Pack> own = torque1 - radius1 * leverless + torque;
     storeRecords(reinterpret_cast<double*>(&memory.records[block * Pack::lanes]),
                  std::array<Pack, 8>{force.x, force.y, force.z, Pack(0), leverless.x, leverless.y,
                                      leverless.z, normalForce});
     storeRecords(reinterpret_cast<double*>(&memory.torques[block * Pack::lanes]),
                  std::array<Pack, 4>{own.x, own.y, own.z, Pack(0)});
-    LaneColumn* const columns = normalColumns(memory, block);
-    normal.x.store(columns[0].lane.data());
-    normal.y.store(columns[1].lane.data());
-    normal.z.store(columns[2].lane.data());
-    if (const auto failed = bits(fellBack & touching); failed != 0)
+    store(normal, normalColumns(memory, block));
+    if (const auto failed = bits(fellBack & acts); failed != 0)
         fallbackCount->fetch_add(static_cast<std::uint64_t>(std::popcount(failed)),
                                  std::memory_order_relaxed);
 }

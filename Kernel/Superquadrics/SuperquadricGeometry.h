@@ -8,6 +8,7 @@
 
 namespace pendular {
 
+class ContactLaws;
 struct ContactTask;
 
 /// Eight superquadrics, each of its own shape.
@@ -26,6 +27,10 @@ struct EightSuperquadrics {
         const Vector<Pack> l = axes.turnBack(cross(arm, along));
         return inverseMass + (l.x * l.x / inertia.x + l.y * l.y / inertia.y + l.z * l.z / inertia.z);
     }
+    /// 1/(kg m^2), how much a torque turns it about its own axis: the mean over all directions.
+    [[nodiscard]] Pack turningResponse() const {
+        return (Pack(1) / inertia.x + Pack(1) / inertia.y + Pack(1) / inertia.z) * Pack(1.0 / 3);
+    }
 };
 
 /// Eight contacts that were found one by one, as those of blocks are. Of one that does not touch, only the
@@ -40,6 +45,8 @@ struct EightTouches {
         Vector<double> arm1{0, 0, 0}, arm2{0, 0, 0};  // m
         Vector<double> velocity{0, 0, 0};             // m/s, of the surfaces
         Vector<double> spinSum{0, 0, 0};              // rad/s
+        Vector<double> spinDifference{0, 0, 0};       // rad/s
+        double turningResponse = 0;                   // 1/(kg m^2)
     };
     static constexpr std::size_t numbers = sizeof(Lane) / sizeof(double);
     std::array<Lane, Pack::lanes> lanes;
@@ -55,12 +62,14 @@ public:
     /// stiff as that of the spheres.
     static constexpr double mostRadii = 4;
 
-    /// @param wall points of it, or null
+    /// @param adhesion laws that attract; null if there are none. Bodies apart within their range are known,
+    /// too: by their nearest points, and the curvatures there.
     SuperquadricGeometry(const ContactTask& task, std::size_t block, const EightSuperquadrics& first,
                          const EightSuperquadrics& second, const Vector<Pack>& shift,
-                         const Vector<Pack>& imageVelocity, std::atomic<std::uint64_t>& fallbacks);
+                         const Vector<Pack>& imageVelocity, const ContactLaws* adhesion,
+                         std::atomic<std::uint64_t>& fallbacks);
     SuperquadricGeometry(const ContactTask& task, std::size_t block, const EightSuperquadrics& first,
-                         const WallPointColumns& wall);
+                         const WallPointColumns& wall, const ContactLaws* adhesion);
     SuperquadricGeometry(const ContactTask& task, std::size_t block, const EightTouches& touches);
 
     static void prefetchBodies(const TranslationRecord* /*t*/, const RotationRecord* /*r*/,
@@ -76,18 +85,26 @@ public:
 
     /// The response (1/kg) of the tangential velocity to a tangential force: the mean over all directions.
     [[nodiscard]] const Pack& slidingResponse() const { return response; }
-    /// The normal of the last step, if they touched in it; else zero.
+    /// The normal of the last step, if they acted in it; else zero.
     [[nodiscard]] const Vector<Pack>& lastNormal() const { return normalBefore; }
+    /// N m, the contact's own torque on body 1 in the last step, for laws that have one.
+    [[nodiscard]] Vector<Pack> lastTorque(ContactMemory& memory, std::size_t block) const;
     /// The change of the normal since the last step, in the tangent plane of today.
     [[nodiscard]] Vector<Pack> normalShift() const {
         const Vector<Pack> shift = normal - normalBefore;
-        return select(touched, shift - dot(normal, shift) * normal, zero());
+        return select(acted, shift - dot(normal, shift) * normal, zero());
     }
+
+    /// Prepares the adhesion of these contacts for the radius that they have in this step.
+    void prepareAdhesion(ContactMemory& memory, std::size_t block, Mask joined) const;
 
     /// The forces, with a lever arm and a torque of the contact's own that make the torques arm x force of
     /// both bodies, as the particle sum adds them up: (radius - halfOverlap) leverless +- torque.
-    void writeRecords(ContactMemory& memory, std::size_t block, const Pack& normalForce,
-                      const Vector<Pack>& tangential) const;
+    /// @param acts contacts that act; @param torque N m, of the contact's own, on body 1
+    void writeRecords(ContactMemory& memory, std::size_t block, Mask acts, const Pack& normalForce,
+                      const Vector<Pack>& tangential, const Vector<Pack>& torque) const;
+    /// Keeps the contact's own torque for the next step.
+    void keepTorque(ContactMemory& memory, std::size_t block, const Vector<Pack>& torque) const;
 
     /// Writes the arms, which the ledger of the energy reads, too.
     void writeArms(ContactMemory& memory, std::size_t block) const;
@@ -95,18 +112,23 @@ public:
 private:
     static Vector<Pack> zero() { return {Pack(0), Pack(0), Pack(0)}; }
     void takeLast(const ContactTask& task, std::size_t block);
+    [[nodiscard]] Pack reachOf(const ContactTask& task, std::size_t block) const;
     void setRadius(const Pack& gauss, const Pack& around);
 
     const RotationRecord* rotation = nullptr;  // of all grains
     const ContactBlock* contacts = nullptr;
+    const ContactLaws* adhesive = nullptr;
+    int species1 = 0, species2 = 0;
     bool isAtWall;
-    Mask touched, fellBack;
+    Mask acted, fellBack, known;  // in the last step; of which more than that they are apart is known
     Vector<Pack> normalBefore, normal;
-    Pack depth, effectiveRadius;     // m
-    Vector<Pack> arm1, arm2;         // m, from the centres to the middle of the overlap
-    Pack radius1, radius2;           // m, of the spheres around
-    Vector<Pack> velocity, spinSum;  // m/s, rad/s
-    Pack inverseMass, response;      // 1/kg
+    Pack depth, effectiveRadius = 1;            // m
+    Vector<Pack> arm1 = zero(), arm2 = zero();  // m, from the centres to the middle of the overlap
+    Pack radius1, radius2;                      // m, of the spheres around
+    Vector<Pack> velocity = zero();             // m/s
+    Vector<Pack> spinSum = zero(), spinDifference = zero();  // rad/s
+    Pack inverseMass = 1, response = 1;                      // 1/kg
+    Pack turningResponse = 0;                                // 1/(kg m^2)
     std::atomic<std::uint64_t>* fallbackCount = nullptr;
 };
 

@@ -27,7 +27,16 @@ void SuperquadricHandler::addShape(const Superquadric& shape) {
     balls.push_back(extreme.smallestRadius * shape.boundingRadius());
     areEllipsoids &= shape.isEllipsoid();
     contacts.push_back(extreme);
+    noteExtremes(shape, extreme);
+}
+
+/// A sphere of this mass around the shape has the moment 2/5 m r^2.
+void SuperquadricHandler::noteExtremes(const Superquadric& shape, const ExtremeContact& extreme) {
     largestRadii = std::max(largestRadii, extreme.radii);
+    const MassProperties solid = shape.mass();
+    const double around = shape.boundingRadius(),
+                 least = solid.inertia.diagonal().minCoeff() / solid.volume;  // m^2
+    largestTurning = std::max(largestTurning, 0.4 * around * around / least * extreme.radii * extreme.radii);
 }
 
 const ExtremeContact& SuperquadricHandler::contactOf(const Superquadric& shape) {
@@ -171,7 +180,7 @@ void SuperquadricHandler::findPoints(const ParticleStore& grains, std::uint32_t 
         return;
     }
     if (blocks.empty() && isShaped(grains, grain))
-        return atWalls(grains, grain).findPoints(wall, parts, points);
+        return atWalls(grains, grain).findPoints(wall, range, parts, points);
     const TranslationRecord& sphere = grains.translation[grain];
     wall.findPoints(sphere.position, sphere.radius + range, parts, points);
 }
@@ -264,7 +273,8 @@ Vector<Pack> packsOf(const std::array<Pack, 8>& p, std::size_t first) {
 
 }  // namespace
 
-SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, std::size_t block) const {
+SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, std::size_t block,
+                                                     const ContactLaws* adhesion) const {
     if (!blocks.empty()) [[unlikely]]
         return geometryOfBlocks(task, block);
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
@@ -321,13 +331,13 @@ SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, st
     const ContactBlock& contacts = task.store.blocks[block];
     const EightSuperquadrics first = eight(contacts.first);
     if (task.store.buckets[task.bucket].wall >= 0)
-        return {task, block, first, task.store.wallPoints[block - task.store.firstWallBlock()]};
+        return {task, block, first, task.store.wallPoints[block - task.store.firstWallBlock()], adhesion};
     const EightSuperquadrics second = eight(contacts.second);
     const Vector<Pack> apart = second.position - first.position;
     Vector<Pack> shift = apart, imageVelocity{Pack(0), Pack(0), Pack(0)};
     if (task.box.any()) shift = task.box.nearest(apart);
     if (task.box.imagesMove) imageVelocity = task.box.velocityBetweenImages(apart, shift);
-    return {task, block, first, second, shift, imageVelocity, fallbackCount};
+    return {task, block, first, second, shift, imageVelocity, adhesion, fallbackCount};
 }
 
 }  // namespace pendular

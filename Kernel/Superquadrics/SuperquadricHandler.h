@@ -67,13 +67,18 @@ public:
     void add(const SuperquadricGrain& grain) override { static_cast<void>(copyAndAddObject(grain)); }
     void expect(const Superquadric& shape) override {
         refuseBesideBlocks();
-        largestRadii = std::max(largestRadii, contactOf(shape).radii);
+        noteExtremes(shape, contactOf(shape));
     }
     [[nodiscard]] double largestRadiusRatio() const override {
         return std::max(largestRadii, blocks.largestRadiusRatio());
     }
+    /// The factor by which a torque at a contact turns a shape faster than the sphere around, at most: of the
+    /// effective radius times the spin.
+    [[nodiscard]] double largestTurningRatio() const { return largestTurning; }
     /// The geometry of the eight contacts of a block.
-    [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block) const;
+    /// @param adhesion laws that attract; null if there are none
+    [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block,
+                                                  const ContactLaws* adhesion) const;
     void visitState(StateArchive& archive);
 
 private:
@@ -83,6 +88,7 @@ private:
         return &shapes[shapeOfBody[number]];
     }
     void refuseBesideBlocks() const;
+    void noteExtremes(const Superquadric& shape, const ExtremeContact& extreme);
     /// As geometryOf(), in a scene with blocks.
     [[nodiscard]] SuperquadricGeometry geometryOfBlocks(const ContactTask& task, std::size_t block) const;
     [[nodiscard]] ShapeAtWall atWalls(const ParticleStore& grains, std::uint32_t place) const;
@@ -104,7 +110,7 @@ private:
     std::vector<std::uint32_t> shapeOfBody;                  // by the number of the body
     bool areEllipsoids = true;  // all: one way for a whole scene, so that no bit depends on
                                 // which contacts are in a block
-    double largestRadii = 1;
+    double largestRadii = 1, largestTurning = 1;
     /// Of shapes that are not scaled others. Restart files have them: found again for another size of a
     /// shape, they would differ by round-off.
     std::vector<std::pair<Superquadric, ExtremeContact>> extremes;

@@ -6,18 +6,19 @@
 namespace pendular {
 
 /// The laws of one species type for superquadrics. Contacts remember the normal of the last step, with which
-/// the search for the next one begins, behind what the normal law remembers.
+/// the search for the next one begins, behind what the normal law remembers; and before it the torque of
+/// rolling and torsion.
 template <class S>
 class SuperquadricLaws final : public SpeciesLaws<S> {
     static_assert(!S::Adhesion::acts, "Superquadrics do not adhere: take a species without adhesion.");
-    static_assert(!S::hasContactTorque,
-                  "Superquadrics have no rolling or torsion torque: take a species with SlidingFriction or "
-                  "without friction.");
+
+    static constexpr std::size_t kept = S::hasContactTorque ? 6 : 3;  // numbers of the last step
+    static_assert(layoutOf<S>.normalHistory + kept <= std::tuple_size_v<ContactNumbers>);
 
 public:
     SuperquadricLaws(SpeciesHandler<S>& speciesHandler, SuperquadricHandler& superquadricHandler)
         : SpeciesLaws<S>(speciesHandler), superquadrics(superquadricHandler) {
-        this->layout.normalHistory += 3;
+        this->layout.normalHistory += kept;
         this->layout.hasTorque = this->layout.hasContactTorque = true;
     }
 
@@ -25,7 +26,11 @@ public:
     /// that is a share of the radius, goes with the root of R when both lengths do.
     [[nodiscard]] ContactStiffness stiffness(int a, int b, const Bodies& bodies, double mass) const override {
         const double factor = std::sqrt(superquadrics.largestRadiusRatio());
-        return SpeciesLaws<S>::stiffness(a, b, {factor * bodies.radius1, factor * bodies.radius2}, mass);
+        ContactStiffness found =
+            SpeciesLaws<S>::stiffness(a, b, {factor * bodies.radius1, factor * bodies.radius2}, mass);
+        found.rolling = superquadrics.largestTurningRatio() * found.rolling;
+        found.torsion = superquadrics.largestTurningRatio() * found.torsion;
+        return found;
     }
     [[nodiscard]] GrainShapes* shapes() const override { return &superquadrics; }
     void visitState(StateArchive& archive, bool& changedInRun) override {
@@ -33,8 +38,9 @@ public:
         archive.group("superquadrics", [&] { superquadrics.visitState(archive); });
     }
     bool compute(const ContactTask& task) const override {
-        return this->computeBlocks(task,
-                                   [&](std::size_t block) { return superquadrics.geometryOf(task, block); });
+        return this->computeBlocks(task, [&](std::size_t block) {
+            return superquadrics.geometryOf(task, block, S::Adhesion::acts ? this : nullptr);
+        });
     }
 
 private:

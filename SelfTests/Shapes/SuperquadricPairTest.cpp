@@ -29,7 +29,7 @@ SuperquadricPair<double> pairOf(const Body& a, const Body& b) {
             toVector(Eigen::Vector3d(b.centre - a.centre))};
 }
 SuperquadricTouch<double> touchOf(const SuperquadricPair<double>& pair) {
-    return findTouch(pair, firstNormal(pair), false);
+    return findTouch(pair, firstNormal(pair), infinity);
 }
 
 struct Row {
@@ -252,15 +252,44 @@ TEST(SuperquadricPair, givesTheSameBitsForEightAndForOne) {
                                        axes1,
                                        axes2,
                                        vector(6)};
-    const auto found = findTouch(eight, firstNormal(eight), true);
+    const auto found = findTouch(eight, firstNormal(eight), 0.0);
     for (std::size_t lane = 0; lane < 8; ++lane) {
-        const auto one = findTouch(pairs[lane], firstNormal(pairs[lane]), true);
+        const auto one = findTouch(pairs[lane], firstNormal(pairs[lane]), 0.0);
         const int k = static_cast<int>(lane);
         EXPECT_EQ(found.depth[k], one.depth);
         EXPECT_EQ(found.normal.x[k], one.normal.x);
         EXPECT_EQ(found.arm1.y[k], one.arm1.y);
         EXPECT_EQ(found.radius[k], one.radius);
     }
+}
+
+/// Up to a gap the nearest points are known; beyond it only that the shapes are farther apart.
+TEST(SuperquadricPair, isKnownUpToAGap) {
+    support::Random random(11);
+    int apart = 0, farther = 0;
+    for (int k = 0; k < 300; ++k) {
+        const Body a = randomBody(random, false, 5);
+        Body b = randomBody(random, false, 5);
+        b.centre = random.uniform(1.5, 4) * random.direction();
+        const auto pair = pairOf(a, b);
+        const double gap = random.uniform(0, 1.5);
+        const auto whole = findTouch(pair, firstNormal(pair), infinity),
+                   near = findTouch(pair, firstNormal(pair), gap);
+        if (boxesAreApart(pair, gap)) {
+            EXPECT_LT(whole.depth, -gap);
+        }
+        if (whole.depth < -gap) {
+            EXPECT_LT(near.depth, -gap);
+            ++farther;
+            continue;
+        }
+        apart += whole.depth < 0 ? 1 : 0;
+        EXPECT_EQ(near.depth, whole.depth);
+        EXPECT_EQ(near.normal.z, whole.normal.z);
+        EXPECT_EQ(near.radius, whole.radius);
+    }
+    EXPECT_GT(apart, 30);
+    EXPECT_GT(farther, 30);
 }
 
 /// A box that is between two shapes proves them apart; touching shapes are never told to be.
@@ -274,7 +303,7 @@ TEST(SuperquadricPair, boxesAreApartOnlyWhereShapesAre) {
         const auto pair = pairOf(a, b);
         if (!boxesAreApart(pair)) continue;
         ++told;
-        EXPECT_LT(findTouch(pair, firstNormal(pair), true).depth, 0);
+        EXPECT_LT(findTouch(pair, firstNormal(pair), 0.0).depth, 0);
     }
     EXPECT_GT(told, 30);
     EXPECT_LT(told, 270);

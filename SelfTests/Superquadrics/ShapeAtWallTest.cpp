@@ -172,7 +172,7 @@ std::vector<WallPoint> pointsOf(const ShapeAtWall& grain, const Wall& wall) {
     std::vector<std::uint32_t> parts;
     wall.listParts({0, 0, 0}, 100, parts);
     std::vector<WallPoint> points(parts.size());
-    grain.findPoints(wall, parts, points);
+    grain.findPoints(wall, 0, parts, points);
     return points;
 }
 template <class Look>

@@ -4,15 +4,15 @@
 #include <numbers>
 
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Math/CountedRandom.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Restart/StateContent.h"
-#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Superquadrics/BoxOfShapes.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
+#include "SelfTests/Superquadrics/SameAsSpheres.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -21,9 +21,11 @@
 namespace pendular::superquadricSceneTest {
 namespace {
 
-using scenes::FewGrains;
+using scenes::BoxOfShapes;
+using scenes::expectForcesOfSpheres;
 using scenes::FewSuperquadrics;
 using scenes::SuperquadricMotion;
+using scenes::turnedOver;
 using support::contains;
 using support::refusal;
 
@@ -64,64 +66,8 @@ Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
 }
 
-/// Two spheres that overlap by 1 % of a radius, one of which also touches a plane, in oblique motion: by
-/// either kernel.
-template <class Scene, class Add>
-void addTouching(Scene& scene, Add&& add) {
-    constexpr double r = 1e-3;
-    add(Superquadric{r, r, r}, Vec3D(0, 0, 0), Vec3D(0.1, 0.05, -0.02), Vec3D(30, -20, 10));
-    add(Superquadric{1.5 * r, 1.5 * r, 1.5 * r}, Vec3D(2.485 * r * Vec3D(0.6, 0, 0.8)), Vec3D(-0.2, 0.1, 0),
-        Vec3D(-10, 40, 25));
-    scene.addPlane({0, 0, -1}, {0, 0, -0.992 * r});
-}
-struct Spheres : FewGrains<Mindlins> {
-    explicit Spheres(double step) : FewGrains(mindlins(), {}, step) {
-        addTouching(*this, [&](const Superquadric& s, const Vec3D& at, const Vec3D& v, const Vec3D& w) {
-            SphericalParticle grain;
-            grain.setSpecies(speciesHandler.getObject(0)), grain.setRadius(s.a);
-            grain.setPosition(at), grain.setVelocity(v), grain.setAngularVelocity(w);
-            particleHandler.copyAndAddObject(grain);
-        });
-    }
-    void addPlane(const Vec3D& normal, const Vec3D& point) {
-        InfiniteWall wall;
-        wall.setSpecies(speciesHandler.getObject(0));
-        wall.set(normal, point);
-        wallHandler.copyAndAddObject(wall);
-    }
-};
-struct SphericalSuperquadrics : FewSuperquadrics<Mindlins> {
-    explicit SphericalSuperquadrics(double step) : FewSuperquadrics(mindlins(), {}, step) {
-        addTouching(*this, [&](const Superquadric& s, const Vec3D& at, const Vec3D& v, const Vec3D& w) {
-            add({s, at, v, w, turned(1.1, {1, 2, 3})});
-        });
-    }
-};
-
-// Depths are round-off of the radius, 2^-53 r, so those of 1 % of it are right to 1e-14, and forces to some
-// tens of that. Springs are turned with the change of the normal, by the sphere kernel with its velocity:
-// that differs by a dt^2 / 2 r = 2e-8 rad in a step (a = 3000 m/s^2), and springs, which are kept in the
-// tangential plane, by its square.
 TEST(SuperquadricScene, spheresHaveTheForcesOfTheSphereKernel) {
-    Spheres spheres(1e-7);
-    SphericalSuperquadrics shapes(1e-7);
-    spheres.initialise(), shapes.initialise();
-    for (int step = 0; step < 20; ++step) {
-        const auto expected = spheres.interactions(), found = shapes.interactions();
-        ASSERT_EQ(expected.size(), 2u);
-        ASSERT_EQ(found.size(), 2u);
-        for (std::size_t k = 0; k < 2; ++k) {
-            EXPECT_LT(norm(found[k].force - expected[k].force), 1e-12 * norm(expected[k].force));
-            EXPECT_NEAR(found[k].overlap(), expected[k].overlap(), 1e-12 * expected[k].overlap());
-        }
-        for (std::size_t k = 0; k < 2; ++k) {
-            const auto one = spheres.particleHandler.getObject(k), two = shapes.particleHandler.getObject(k);
-            EXPECT_LT((one.getVelocity() - two.getVelocity()).norm(), 1e-12 * one.getVelocity().norm());
-            EXPECT_LT((one.getAngularVelocity() - two.getAngularVelocity()).norm(),
-                      1e-12 * one.getAngularVelocity().norm());
-        }
-        spheres.step(), shapes.step();
-    }
+    expectForcesOfSpheres(mindlins(), {-15e-6, -8e-6}, 1e-7, 20);
 }
 
 // The law of impact of a rigid body, J = (1 + e) v_n / (1/m + (arm x n) I^-1 (arm x n)). The contact lasts,
@@ -273,31 +219,8 @@ TEST(SuperquadricScene, aBlockLiesOnItsFace) {
     EXPECT_LT(scene.kinetic(), 0.1 * weight * sinking);
 }
 
-/// Blocks, lenses and rods that fall into a box.
-struct Box : FewSuperquadrics<Rough> {
-    explicit Box(int perSide) : FewSuperquadrics(rough(), {}, 4e-6) {
-        const double spacing = 3.4e-3, edge = perSide * spacing;
-        const std::vector<Superquadric> all{{1e-3, 1e-3, 0.6e-3, 2, 2},
-                                            {0.9e-3, 0.9e-3, 0.9e-3, 6, 6},
-                                            {0.7e-3, 0.7e-3, 1.4e-3, 4, 2},
-                                            {1e-3, 1e-3, 1e-3, 2, 2}};
-        const CountedRandom random(7);
-        std::uint32_t k = 0;
-        for (int x = 0; x < perSide; ++x)
-            for (int y = 0; y < perSide; ++y)
-                for (int z = 0; z < perSide; ++z, ++k) {
-                    const auto even = [&](std::uint32_t n) { return random.uniform(-1, 1, k, n); };
-                    add({all[k % all.size()],
-                         spacing * Vec3D(x + 0.5, y + 0.5, z + 0.5),
-                         0.3 * Vec3D(even(0), even(1), even(2)),
-                         100 * Vec3D(even(3), even(4), even(5)),
-                         {even(6), even(7), even(8), even(9)}});
-                }
-        for (int axis = 0; axis < 3; ++axis)
-            for (const double sign : {-1.0, 1.0})
-                addPlane(sign * Vec3D::Unit(axis), (sign > 0 ? edge : 0) * Vec3D::Unit(axis));
-        setGravity({0, 0, -9.81});
-    }
+struct Box : BoxOfShapes<Rough> {
+    explicit Box(int perSide) : BoxOfShapes(rough(), perSide, 4e-6) {}
 };
 
 TEST(HeavySuperquadricScene, givesTheSameBitsForAnyThreadsAndRestarts) {
@@ -321,14 +244,6 @@ TEST(HeavySuperquadricScene, givesTheSameBitsForAnyThreadsAndRestarts) {
     EXPECT_EQ(half.superquadricHandler.fallbacks(), threaded.superquadricHandler.fallbacks());
 }
 
-double turnedOver(const EnergyLedger& ledger) {
-    double sum = 0;
-    for (const auto& entry : EnergyLedger::entries()) sum += std::abs(ledger.*entry.member);
-    return sum;
-}
-
-// The error is as for clumps (SelfTests/Motion/ClumpMotionTest.cpp): five times sqrt(N) 2^-53 of all that was
-// turned over.
 TEST(SuperquadricScene, closesTheEnergyLedgerToRoundOff) {
     Box scene(3);
     scene.keepEnergyLedger();

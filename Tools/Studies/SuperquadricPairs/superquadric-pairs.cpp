@@ -51,7 +51,7 @@ Pair randomPair(UniformRandom& random, int exponent, double aspect, double overl
     for (int step = 0; step < 40; ++step) {
         const double middle = 0.5 * (touching + apart);
         pair.shift = middle * way;
-        (findTouch(pair, firstNormal(pair), true).depth > 0 ? touching : apart) = middle;
+        (findTouch(pair, firstNormal(pair), 0.0).depth > 0 ? touching : apart) = middle;
     }
     pair.shift = (1 - overlap) * touching * way;
     return pair;
@@ -102,11 +102,11 @@ void measure(const Options& options, int exponent, double aspect) {
     for (std::size_t k = 0; k < options.pairs; k += lanes) {
         eights.push_back(together(&pairs[k]));
         cold.push_back(firstNormal(eights.back()));
-        const auto found = findTouch(eights.back(), cold.back(), true);
+        const auto found = findTouch(eights.back(), cold.back(), 0.0);
         // A normal of the step before: a thousandth of a radian off. Both starts must lead to one depth.
         const TangentPlane<Pack> plane(found.normal);
         warm.push_back(superquadric::unit(found.normal + Pack(1e-3) * plane.u));
-        const auto again = findTouch(eights.back(), warm.back(), true);
+        const auto again = findTouch(eights.back(), warm.back(), 0.0);
         const Pack off = abs(found.depth - again.depth) / norm(eights.back().shift);
         for (int lane = 0; lane < static_cast<int>(lanes); ++lane) {
             failures += (bits(found.isFound) >> lane & 1) != 0 ? 0 : 1;
@@ -120,7 +120,7 @@ void measure(const Options& options, int exponent, double aspect) {
                            [&] {
                                for (int r = 0; r < repeats; ++r)
                                    for (std::size_t k = 0; k < eights.size(); ++k)
-                                       sum = sum + findTouch(eights[k], starts[k], true).depth;
+                                       sum = sum + findTouch(eights[k], starts[k], 0.0).depth;
                            }) /
                (repeats * static_cast<double>(options.pairs)) * 1e9;
     };
