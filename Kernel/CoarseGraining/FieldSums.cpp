@@ -283,8 +283,9 @@ void FieldSums::addLine(const GrainState& state, Vector<double> end, Vector<doub
             addSquare(-contact.adhesiveForce * norm(branch) / squaredNorm(contact.shift), contact.shift,
                       values.data() + 9);
         else
-            addSymmetric((contact.adhesiveForce / norm(contact.shift)) * contact.shift, branch,
-                         values.data() + 9);
+            addSymmetric(contact.normal ? contact.adhesiveForce * *contact.normal
+                                        : (contact.adhesiveForce / norm(contact.shift)) * contact.shift,
+                         branch, values.data() + 9);
         items.isAdhesive = true;
     }
     const Vector<double> other = end + branch;

@@ -35,6 +35,8 @@ struct GrainState {
         bool touching = true;
         /// m, from the centre of the first to the contact, where grains may be no spheres
         std::optional<Vector<double>> toPoint{};
+        /// Unit, from the first to the second, where grains may be no spheres; else that of the shift.
+        std::optional<Vector<double>> normal{};
     };
 
     /// The branches (m) of a contact: from its point to the centres of its two bodies. Between two single

@@ -143,7 +143,9 @@ void appendContacts(const ContactSystem& contacts, const ParticleStore& grains, 
         const ObservedContact seen = contacts.observe(grains, bucket, contact);
         found.push_back({number[place], second, seen.shift, seen.force, seen.adhesiveForce, seen.bridgeVolume,
                          seen.touching});
-        if (contacts.laws().shapes()) found.back().toPoint = seen.point - grains.translation[place].position;
+        if (!contacts.laws().shapes()) return;
+        found.back().toPoint = seen.point - grains.translation[place].position;
+        found.back().normal = seen.normal();
     });
 }
 

@@ -71,13 +71,14 @@ public:
     /// @param normal unit, into the plane; @param distance m, of the centre
     [[nodiscard]] virtual ShapedTouch touchAtPlane(const ParticleStore& grains, std::uint32_t grain,
                                                    const Vector<double>& normal, double distance) const = 0;
-    /// How a grain touches a part of a wall.
+    /// How a grain touches a part of a wall, or is apart from it by less than a range (m).
     [[nodiscard]] ShapedTouch touchAtWall(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
-                                          std::uint32_t part) const;
+                                          std::uint32_t part, double range) const;
     /// What Wall::findPoints() is for spheres, for the grain at a place: of each listed part the normal at
     /// which they touch, and how far (m) the plane across it through the point of the wall is from the
-    /// grain's centre. Of parts that are apart from a shape, a plane that lies between.
-    /// @param range m, beyond the surface of a sphere, up to which parts are told apart
+    /// grain's centre. Of parts that are apart from a shape by more than the range, a plane that lies
+    /// between.
+    /// @param range m, beyond the surface of a grain, up to which parts are told apart
     virtual void findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall, double range,
                             std::span<const std::uint32_t> parts, std::span<WallPoint> points) const = 0;
     [[nodiscard]] virtual ShapeExtremes extremesAt(const ParticleStore& grains,

@@ -43,18 +43,23 @@ ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& 
         seen.shift = point.distance * point.normal;
         seen.point = first.position + seen.shift;
     }
-    if (const GrainShapes* const shapes = laws.shapes()) {
+    const GrainShapes* const shapes = laws.shapes();
+    double localRadius = 0;  // m
+    if (shapes) {
+        const double range = seen.bridged ? laws.range(bucket.species1, bucket.species2, {first.radius}) : 0;
         const ShapedTouch touch =
-            wall ? shapes->touchAtWall(grains, block.first[lane], *wall, block.second[lane])
+            wall ? shapes->touchAtWall(grains, block.first[lane], *wall, block.second[lane], range)
                  : shapes->touch(grains, block.first[lane], block.second[lane], seen.shift);
         seen.separation = -touch.depth;
         seen.ownNormal = touch.normal;
+        localRadius = touch.radius;
         seen.point = first.position + touch.arm1;
         if (wall) seen.shift = touch.arm1 - (0.5 * touch.depth) * touch.normal;
     }
     if (seen.bridged) {
         ContactNumbers interaction;
-        contacts.memory.interaction.get(contacts.slotOf(contact), interaction.data());
+        if (shapes) laws.prepareAdhesion(bucket.species1, bucket.species2, {localRadius}, interaction.data());
+        else contacts.memory.interaction.get(contacts.slotOf(contact), interaction.data());
         seen.adhesiveForce =
             laws.adhesiveForce(bucket.species1, bucket.species2, interaction.data(), seen.separation);
     }

@@ -64,6 +64,10 @@ void SuperquadricHandler::refuseBesideBlocks() const {
 }
 
 BodyReference SuperquadricHandler::copyAndAddObject(const BlockGrain& grain) {
+    if (isAdhesive)
+        throw InputError(
+            "SuperquadricHandler: blocks do not adhere, because flat faces attract each other by their area, "
+            "of which corners and edges know nothing: take a species without adhesion, or superquadrics.");
     if (!shapes.empty())
         throw InputError(
             "SuperquadricHandler: blocks cannot be in a scene with superquadrics, because it is not known "

@@ -75,6 +75,8 @@ public:
     /// The factor by which a torque at a contact turns a shape faster than the sphere around, at most: of the
     /// effective radius times the spin.
     [[nodiscard]] double largestTurningRatio() const { return largestTurning; }
+    /// The scene's species attract: blocks, which do not, are refused.
+    void setAdhesive() { isAdhesive = true; }
     /// The geometry of the eight contacts of a block.
     /// @param adhesion laws that attract; null if there are none
     [[nodiscard]] SuperquadricGeometry geometryOf(const ContactTask& task, std::size_t block,
@@ -111,6 +113,7 @@ private:
     bool areEllipsoids = true;  // all: one way for a whole scene, so that no bit depends on
                                 // which contacts are in a block
     double largestRadii = 1, largestTurning = 1;
+    bool isAdhesive = false;
     /// Of shapes that are not scaled others. Restart files have them: found again for another size of a
     /// shape, they would differ by round-off.
     std::vector<std::pair<Superquadric, ExtremeContact>> extremes;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Contacts/SpeciesLaws.h"
+#include "Kernel/Superquadrics/DryAdhesion.h"
 #include "Kernel/Superquadrics/SuperquadricHandler.h"
 
 namespace pendular {
@@ -10,7 +11,9 @@ namespace pendular {
 /// rolling and torsion.
 template <class S>
 class SuperquadricLaws final : public SpeciesLaws<S> {
-    static_assert(!S::Adhesion::acts, "Superquadrics do not adhere: take a species without adhesion.");
+    static_assert(knowsRadiusOnly<typename S::Adhesion>,
+                  "Superquadrics have no liquid bridges: take a species with JKR, DMT, ReversibleAdhesive or "
+                  "IrreversibleAdhesive, or without adhesion.");
 
     static constexpr std::size_t kept = S::hasContactTorque ? 6 : 3;  // numbers of the last step
     static_assert(layoutOf<S>.normalHistory + kept <= std::tuple_size_v<ContactNumbers>);
@@ -20,6 +23,14 @@ public:
         : SpeciesLaws<S>(speciesHandler), superquadrics(superquadricHandler) {
         this->layout.normalHistory += kept;
         this->layout.hasTorque = this->layout.hasContactTorque = true;
+        if constexpr (S::Adhesion::acts) superquadrics.setAdhesive();
+    }
+
+    /// Where Gauss' radius is largest: sqrt(det(K1 + K2)) >= sqrt(det K1) + sqrt(det K2) (Minkowski), so that
+    /// the radius of a pair is at most that of two spheres of the largest radii.
+    [[nodiscard]] double range(int a, int b, const Bodies& bodies) const override {
+        const double factor = superquadrics.largestRadiusRatio();
+        return SpeciesLaws<S>::range(a, b, {factor * bodies.radius1, factor * bodies.radius2});
     }
 
     /// At Gauss' radius R where it is largest: a stiffness that goes with sqrt(R x overlap), of an overlap

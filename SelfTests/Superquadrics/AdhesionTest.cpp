@@ -1,0 +1,297 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Species/Adhesion/DMT.h"
+#include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
+#include "Kernel/Species/Adhesion/JKR.h"
+#include "Kernel/Species/Adhesion/ReversibleAdhesive.h"
+#include "Kernel/Species/Friction/Mindlin.h"
+#include "Kernel/Species/Friction/MindlinRollingTorsion.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "Kernel/Walls/TriangleWall.h"
+#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Superquadrics/BoxOfShapes.h"
+#include "SelfTests/Superquadrics/SameAsSpheres.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
+
+// Dry adhesion of superquadrics: the laws of spheres with Gauss' radius of the contact, also while the bodies
+// are apart.
+
+namespace pendular::superquadricAdhesionTest {
+namespace {
+
+using scenes::BoxOfShapes;
+using scenes::expectForcesOfSpheres;
+using scenes::FewSuperquadrics;
+using scenes::turnedOver;
+using std::numbers::pi;
+
+template <class Law>
+using Sticky = Species<HertzianViscoelastic, MindlinRollingTorsion, Law>;
+
+constexpr double density = 2500, modulus = 1e7, work = 0.5;  // kg/m^3, Pa, J/m^2
+constexpr double surfaceDistance = 2e-6;                     // m
+
+template <class Law>
+Sticky<Law> sticky() {
+    Sticky<Law> s;
+    s.setDensity(density);
+    s.setEffectiveElasticModulus(modulus), s.setDissipation(0.3);
+    s.setEffectiveShearModulus(3e6), s.setSlidingDissipation(0.2);
+    s.setSlidingFrictionCoefficient(0.4);
+    s.setRollingStiffness(300), s.setTorsionStiffness(300);
+    s.setRollingDissipation(1e-3), s.setTorsionDissipation(1e-3);
+    s.setRollingFrictionCoefficient(0.1), s.setTorsionFrictionCoefficient(0.1);
+    if constexpr (requires { s.setWorkOfAdhesion(work); }) s.setWorkOfAdhesion(work);
+    if constexpr (requires { s.setSurfaceDistance(surfaceDistance); }) s.setSurfaceDistance(surfaceDistance);
+    if constexpr (requires { s.setAdhesionForceMax(1e-3); })
+        s.setAdhesionForceMax(1e-3), s.setAdhesionStiffness(200);
+    return s;
+}
+Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+template <class Law>
+class SuperquadricAdhesion : public testing::Test {};
+using Laws = testing::Types<JKR, DMT, ReversibleAdhesive, IrreversibleAdhesive>;
+TYPED_TEST_SUITE(SuperquadricAdhesion, Laws);
+
+// In contact, and at gaps that are within all ranges.
+TYPED_TEST(SuperquadricAdhesion, spheresHaveTheForcesOfTheSphereKernel) {
+    expectForcesOfSpheres(sticky<TypeParam>(), {-15e-6, -8e-6}, 1e-7, 20);
+    expectForcesOfSpheres(sticky<TypeParam>(), {0.9e-6, 0.6e-6}, 1e-7, 4);
+}
+
+/// An ellipsoid and a plane above it, apart by a gap: the force between them at the start.
+template <class Law>
+ObservedContact underPlane(const Superquadric& shape, const Eigen::Quaterniond& orientation, double height,
+                           double gap) {
+    FewSuperquadrics<Sticky<Law>> scene(
+        sticky<Law>(), {{shape, {0, 0, -height - gap}, {0, 0, 0}, {0, 0, 0}, orientation}}, 1e-8);
+    scene.addPlane({0, 0, 1}, {0, 0, 0});
+    if constexpr (Law::formsAtContact) scene.joinAtStart(1e-4);
+    scene.initialise();
+    const auto contacts = scene.interactions();
+    EXPECT_EQ(contacts.size(), 1u);
+    return contacts.at(0);
+}
+
+/// m, where JKR's pull is largest: x^3 = 1/2 and d R* / a_0^2 = x^4 - 2 x / 3 = -x / 6.
+double gapOfLargestPull(double radius) {
+    const double a0 = std::cbrt(4.5 * pi * work * radius * radius / modulus);
+    return std::cbrt(0.5) / 6 * a0 * a0 / radius;
+}
+
+/// The two places of an ellipsoid of half lengths a, a, c, with their radii of curvature: both a^2 / c at a
+/// pole; c^2 / a and a on the equator.
+struct Place {
+    Eigen::Quaterniond orientation;
+    double height, radius;  // m
+};
+std::array<Place, 2> placesOf(double a, double c) {
+    return {Place{Eigen::Quaterniond::Identity(), c, a * a / c},
+            Place{turned(0.5 * pi, {1, 0, 0}), a, std::sqrt(c * c / a * a)}};
+}
+
+// Pull-off at 3/2 pi w R* of JKR, and half of it where Hertz's part and the neck's are at rest without a
+// plane: the law's own root is right to 3e-11.
+TEST(SuperquadricNeck, pullsAtPoleAndEquatorByTheirRadii) {
+    for (const auto& [a, c] : {std::pair{1e-3, 1.5e-3}, {1.5e-3, 1e-3}})
+        for (const Place& place : placesOf(a, c)) {
+            const double pullOff = 1.5 * pi * work * place.radius, gap = gapOfLargestPull(place.radius);
+            const auto at = [&](double factor) {
+                return underPlane<JKR>({a, a, c}, place.orientation, place.height, factor * gap);
+            };
+            EXPECT_NEAR(at(1).force.z / pullOff, 1, 1e-9) << c;
+            EXPECT_NEAR(at(1).adhesiveForce / pullOff, 1, 1e-9) << c;
+            for (const double other : {0.9, 1.1}) EXPECT_LT(at(other).force.z, pullOff);
+        }
+}
+
+// F_0 = 2 pi w R* at the touch, less by (1 + S / z_0)^2 apart, without what is left at 9 z_0.
+TEST(SuperquadricForceApart, isThatOfDMTByTheirRadii) {
+    for (const auto& [a, c] : {std::pair{1e-3, 1.5e-3}, {1.5e-3, 1e-3}})
+        for (const Place& place : placesOf(a, c))
+            for (const double gap : {0.0, 1.0, 5.0}) {
+                const double expected =
+                    2 * pi * work * place.radius * (1 / ((1 + gap) * (1 + gap)) - 0.01) / 0.99;
+                EXPECT_NEAR(underPlane<DMT>({a, a, c}, place.orientation, place.height, gap * surfaceDistance)
+                                    .force.z /
+                                expected,
+                            1, 1e-9)
+                    << c << " " << gap;
+            }
+}
+
+// Two prolate ellipsoids crossed at right angles: K1 + K2 = (1/a + a/c^2) 1. Along each other: that of two
+// radii R = c, c / 2.
+TEST(SuperquadricNeck, pullsTwoEllipsoidsByGaussRadius) {
+    const double a = 1e-3, c = 1.5e-3;
+    for (const double angle : {0.0, 0.5 * pi}) {
+        const double radius = angle == 0 ? 0.5 * c : 1 / (1 / a + a / (c * c));
+        const double gap = gapOfLargestPull(radius);
+        FewSuperquadrics<Sticky<JKR>> scene(
+            sticky<JKR>(),
+            {{{c, a, a}, {0, 0, 0}},
+             {{c, a, a}, {0, 0, 2 * a + gap}, {0, 0, 0}, {0, 0, 0}, turned(angle, {0, 0, 1})}},
+            1e-8);
+        scene.joinAtStart(1e-5);
+        scene.initialise();
+        ASSERT_EQ(scene.interactions().size(), 1u);
+        EXPECT_NEAR(scene.interactions()[0].force.z / (1.5 * pi * work * radius), 1, 1e-9) << angle;
+    }
+}
+
+// An ellipsoid hangs below a plane by its end until gravity, which grows slowly, is more than the pull-off
+// force. What hangs by its long axis comes back to it.
+double weightAtPullOff(double a, double c, const Place& place) {
+    const double mass = density * 4 / 3 * pi * a * a * c, pullOff = 1.5 * pi * work * place.radius;
+    FewSuperquadrics<Sticky<JKR>> scene(
+        sticky<JKR>(), {{{a, a, c}, {0, 0, -place.height}, {0, 0, 0}, {0, 0, 0}, place.orientation}}, 1e-6);
+    scene.addPlane({0, 0, 1}, {0, 0, 0});
+    scene.joinAtStart(1e-6);
+    scene.initialise();
+    double weight = 0;  // N
+    for (int k = 0; k < 60000 && !scene.interactions().empty(); ++k) {
+        weight = (0.9 + 0.15 * k / 60000) * pullOff * std::min(1.0, k / 5000.0);
+        scene.setGravity({0, 0, -weight / mass});
+        scene.step();
+    }
+    return weight / pullOff;
+}
+TEST(SuperquadricNeck, holdsAWeightUpToThePullOffForce) {
+    EXPECT_NEAR(weightAtPullOff(1e-3, 1.5e-3, placesOf(1e-3, 1.5e-3)[0]), 1, 0.01);
+    EXPECT_NEAR(weightAtPullOff(1.5e-3, 1e-3, placesOf(1.5e-3, 1e-3)[1]), 1, 0.01);
+}
+
+/// A tilted superquadric flies at a floor, which is a plane or two triangles, sticks for a while and leaves.
+template <class Law>
+struct Bouncing : FewSuperquadrics<Sticky<Law>> {
+    explicit Bouncing(bool mesh)
+        : FewSuperquadrics<Sticky<Law>>(sticky<Law>(),
+                                        {{{1e-3, 1.4e-3, 0.8e-3, 3, 3},
+                                          {0.1e-3, 0.2e-3, 1.25e-3},
+                                          {0.02, 0, -0.2},
+                                          {5, 0, 3},
+                                          turned(0.5, {1, 2, 0})}},
+                                        1e-6) {
+        if (!mesh) {
+            this->addPlane({0, 0, -1}, {0, 0, 0});
+            return;
+        }
+        constexpr double w = 5e-3;
+        const Triangle one{{{-w, -w, 0}, {w, -w, 0}, {w, w, 0}}}, two{{{-w, -w, 0}, {w, w, 0}, {-w, w, 0}}};
+        const std::vector<Triangle> triangles{one, two};
+        TriangleWall floor;
+        floor.setSpecies(this->speciesHandler.getObject(0));
+        floor.set(triangles);
+        this->wallHandler.copyAndAddObject(floor);
+    }
+};
+// Where the ball of its search touches is exact to some 1e-12 of the size, and so are paths.
+template <class Law>
+void expectMeshAsPlane() {
+    Bouncing<Law> plane(false), mesh(true);
+    plane.initialise(), mesh.initialise();
+    int apart = 0;
+    for (int k = 0; k < 2500; ++k) {
+        plane.step(), mesh.step();
+        const auto expected = plane.interactions(), found = mesh.interactions();
+        ASSERT_EQ(found.size(), expected.size()) << k;
+        if (!expected.empty() && expected[0].separation > 0) ++apart;
+    }
+    EXPECT_GT(apart, 5);
+    const Vec3D way = plane.body(0).getPosition() - mesh.body(0).getPosition();
+    EXPECT_LT(way.norm(), 1e-9);
+}
+TEST(SuperquadricAdhesionAtWalls, isOnAMeshAsOnAPlane) {
+    expectMeshAsPlane<JKR>();
+    expectMeshAsPlane<DMT>();
+}
+
+template <class Law>
+struct Box : BoxOfShapes<Sticky<Law>> {
+    explicit Box(int perSide) : BoxOfShapes<Sticky<Law>>(material(), perSide, 8e-7) {}
+    static Sticky<Law> material() {
+        auto s = sticky<Law>();
+        s.setEffectiveElasticModulus(2e6), s.setEffectiveShearModulus(6e5);
+        s.setRollingStiffness(3), s.setTorsionStiffness(3);
+        s.setRollingDissipation(3e-5), s.setTorsionDissipation(3e-5);
+        if constexpr (requires { s.setWorkOfAdhesion(work); }) s.setWorkOfAdhesion(0.2 * work);
+        return s;
+    }
+};
+
+/// Steps until something attracts bodies that are apart.
+template <class Scene>
+int stepsToGap(Scene& scene) {
+    for (int steps = 0; steps < 20000; steps += 10) {
+        for (const ObservedContact& contact : scene.interactions())
+            if (contact.separation > 0) return steps;
+        for (int k = 0; k < 10; ++k) scene.step();
+    }
+    ADD_FAILURE() << "nothing attracts";
+    return 20000;
+}
+
+template <class Law>
+void expectSameBits() {
+    const support::TestFolder folder;
+    Box<Law> half(3);
+    half.initialise();
+    const int before = stepsToGap(half);
+    half.writeRestart(folder.path() / "half.h5");
+    for (int k = 0; k < 2000; ++k) half.step();
+    half.writeRestart(folder.path() / "whole.h5");
+    Box<Law> resumed(3);
+    resumed.restartFrom(folder.path() / "half.h5");
+    resumed.run(2000);
+    resumed.writeRestart(folder.path() / "resumed.h5");
+    support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
+    Box<Law> threaded(3);
+    threaded.setNumberOfThreads(3);
+    threaded.run(before + 2000);
+    threaded.writeRestart(folder.path() / "threaded.h5");
+    support::expectSameState(folder.path() / "whole.h5", folder.path() / "threaded.h5");
+}
+TEST(HeavySuperquadricAdhesion, givesTheSameBitsForAnyThreadsAndRestarts) {
+    expectSameBits<JKR>();
+    expectSameBits<DMT>();
+}
+
+template <class Law>
+EnergyLedger expectClosedLedger() {
+    Box<Law> scene(3);
+    scene.keepEnergyLedger();
+    scene.initialise();
+    const double start = scene.energyLedger().closed();
+    for (int n = 1; n <= 10000; ++n) {
+        scene.step();
+        if (n % 500 != 0) continue;
+        EXPECT_LT(std::abs(scene.energyLedger().closed() - start),
+                  5 * std::sqrt(n) * 0x1p-53 * turnedOver(scene.energyLedger()));
+    }
+    return scene.energyLedger();
+}
+TEST(HeavySuperquadricAdhesion, closesTheEnergyLedgerToRoundOff) {
+    const EnergyLedger necks = expectClosedLedger<JKR>(), forces = expectClosedLedger<DMT>();
+    EXPECT_GT(necks.brokenAdhesion, 1e-3 * necks.lost());  // necks that have snapped
+    EXPECT_LT(std::abs(necks.stepError), 0.02 * necks.lost());
+    EXPECT_LT(std::abs(forces.stepError), 0.02 * forces.lost());
+}
+
+TEST(SuperquadricAdhesionAtSetUp, refusesBlocks) {
+    FewSuperquadrics<Sticky<JKR>> scene(sticky<JKR>(), {}, 1e-6);
+    BlockGrain block({1e-3, 1e-3, 1e-3}, 1e-4);
+    block.setSpecies(scene.speciesHandler.getObject(0));
+    const std::string sentence = support::refusal([&] { scene.superquadricHandler.copyAndAddObject(block); });
+    EXPECT_TRUE(support::contains(sentence, "blocks do not adhere")) << sentence;
+}
+
+}  // namespace
+}  // namespace pendular::superquadricAdhesionTest
