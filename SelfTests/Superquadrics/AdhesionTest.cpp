@@ -104,8 +104,10 @@ TEST(SuperquadricNeck, pullsAtPoleAndEquatorByTheirRadii) {
     for (const auto& [a, c] : {std::pair{1e-3, 1.5e-3}, {1.5e-3, 1e-3}})
         for (const Place& place : placesOf(a, c)) {
             const double pullOff = 1.5 * pi * work * place.radius, gap = gapOfLargestPull(place.radius);
+            const std::array lengths{a, a, c};  // clang 14 does not capture bindings
             const auto at = [&](double factor) {
-                return underPlane<JKR>({a, a, c}, place.orientation, place.height, factor * gap);
+                return underPlane<JKR>({lengths[0], lengths[1], lengths[2]}, place.orientation, place.height,
+                                       factor * gap);
             };
             EXPECT_NEAR(at(1).force.z / pullOff, 1, 1e-9) << c;
             EXPECT_NEAR(at(1).adhesiveForce / pullOff, 1, 1e-9) << c;
