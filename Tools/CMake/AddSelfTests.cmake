@@ -23,7 +23,7 @@ set(selfTests "${PROJECT_SOURCE_DIR}/SelfTests")
 # The kernel, the species of the lists and the programs keep -O3; the tests themselves take no longer with -O1. With it
 # g++ 12 follows the lengths of strings and arrays only half, and warns of what cannot be.
 set(quickTests $<AND:$<BOOL:${PENDULAR_QUICK_TEST_BUILD}>,$<CONFIG:Release>>)
-set(testOptimisation $<${quickTests}:-O1> ${unoptimised})
+set(testOptimisation $<${quickTests}:-O1>)
 foreach(warning array-bounds restrict stringop-overflow stringop-overread)
     list(APPEND testOptimisation $<$<AND:${quickTests},$<CXX_COMPILER_ID:GNU>>:-Wno-${warning}>)
 endforeach()
