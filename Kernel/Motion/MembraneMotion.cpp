@@ -42,18 +42,13 @@ void takeForces(const Membrane& membrane, std::size_t number, const ContactSyste
     state.ofPressure.assign(state.position.size(), none);
     net.addElasticForces(state.position, state.elastic);
     net.addPressureForces(state.position, membrane.getPressure(), state.ofPressure);
-    std::vector<double> mass = net.masses();
-    Column force(state.position.size(), none);
-    for (std::size_t v = 0; v < force.size(); ++v)
-        force[v] = state.ofGrains[v] + state.elastic[v] + state.ofPressure[v];
-    for (const MembraneNet::Copy& copy : net.copies())
-        mass[copy.of] += mass[copy.vertex], force[copy.of] += force[copy.vertex];
-    for (const MembraneNet::Copy& copy : net.copies())
-        mass[copy.vertex] = mass[copy.of], force[copy.vertex] = force[copy.of];
-    for (std::size_t v = 0; v < state.position.size(); ++v) {
-        state.acceleration[v] = (1 / mass[v]) * force[v];
-        if (!membrane.getHeld()[v])
-            state.acceleration[v] += gravity - membrane.getDamping() * state.velocity[v];
+    Column& acceleration = state.acceleration;  // first the force
+    for (std::size_t v = 0; v < acceleration.size(); ++v)
+        acceleration[v] = state.ofGrains[v] + state.elastic[v] + state.ofPressure[v];
+    net.sumOverCopies(acceleration);
+    for (std::size_t v = 0; v < acceleration.size(); ++v) {
+        acceleration[v] = (1 / net.movedMasses()[v]) * acceleration[v];
+        if (!membrane.getHeld()[v]) acceleration[v] += gravity - membrane.getDamping() * state.velocity[v];
     }
 }
 

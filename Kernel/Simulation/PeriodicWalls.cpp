@@ -33,6 +33,7 @@ constexpr double rounded = 1 - 1e-6;  // what a sentence asks for is
 bool isAlike(const SurfaceAtFaces& seen, double met) { return seen.margin >= met * rounded; }
 
 bool movesVertices(const Wall& wall) {
+    if (wall.membrane()) return true;
     const auto* const worn = dynamic_cast<const WornWall*>(&wall);
     return worn && worn->keepsWear() && worn->movesVertices();
 }
@@ -108,8 +109,7 @@ void PeriodicWalls::requireShort(const RepeatedWall& wall, std::size_t number) c
             throw InputError(fmt::format(
                 "wall {} is {:.6g} m long along {}, and it is not the same after a period of {:.6g} m: a "
                 "mesh or a membrane that is to be repeated with the scene is not longer than {} periods; "
-                "make "
-                "it shorter.",
+                "make it shorter.",
                 number, length, names[k], period, WallImages::mostPeriods));
     }
 }
@@ -138,10 +138,9 @@ bool PeriodicWalls::mustBeRepeated(const Wall& wall, const SurfaceAtFaces& seen,
                                    double met) {
     const auto* const repeated = dynamic_cast<const RepeatedWall*>(&wall);
     if (!repeated || !repeated->canBeRepeated()) return false;
-    if (wall.membrane()) return true;
     // What does not go through a face and lies beyond it is a piece of its own.
     if (!seen.passes && (seen.highest > faces.highest() || seen.lowest < faces.lowest)) return true;
-    // Vertices move on each side as grains wear them there, so that two ends would no longer fit.
+    // Vertices move on each side as grains wear or press them there, so that two ends would no longer fit.
     return !isAlike(seen, met) || (seen.passes && movesVertices(wall));
 }
 

@@ -41,8 +41,7 @@ static void refuseHiddenOverlap(const ContactLaws& laws, const ParticleStore& gr
     if (!(overlap > 0)) return;
     throw InputError(
         fmt::format("rigid bodies {} and {}, two blocks: they go through each other by {:.4g} m more than "
-                    "their edges are "
-                    "rounded; blocks may overlap no deeper than that at the start.",
+                    "their edges are rounded; blocks may overlap no deeper than that at the start.",
                     grains.bodies.bodyOf(grains.identity[first]),
                     grains.bodies.bodyOf(grains.identity[second]), overlap));
 }

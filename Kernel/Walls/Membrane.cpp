@@ -150,13 +150,14 @@ void Membrane::findOwn(const Vector<double>& centre, double reach, std::span<con
 void Membrane::findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                           std::span<WallPoint> points) const {
     if (!isRepeated()) return findOwn(centre, reach, parts, points);
-    const auto seen = [&](std::size_t k) {
-        return MembraneSurface::FaceSeen{partOfShape(parts[k]), centre - imageShift(parts[k], centre)};
-    };
-    shape.findPoints(seen, reach, points);
+    thread_local std::vector<MembraneSurface::FaceSeen> seen;
+    seen.clear();
+    for (const std::uint32_t part : parts)
+        seen.push_back({partOfShape(part), centre - imageShift(part, centre)});
+    shape.findPoints([](std::size_t k) { return seen[k]; }, reach, points);
     for (std::size_t k = 0; k < parts.size(); ++k) {
         if (!(points[k].distance < reach)) continue;
-        const auto& [part, at] = seen(k);
+        const auto& [part, at] = seen[k];
         points[k].velocity += velocityAt(part, at + points[k].distance * points[k].normal);
     }
 }

@@ -124,6 +124,8 @@ void MembraneNet::measure() {
             sides[{std::min(from, to), std::max(from, to)}].push_back({t, k, from < to});
         }
     }
+    moved = mass;
+    sumOverCopies(moved);
     for (const auto& [ends, at] : sides) addEdge(ends, at);
     shortest = std::ranges::min_element(edges, {}, &Spring::length)->length;
 }
@@ -288,6 +290,20 @@ std::vector<Triangle> membraneSheet(int columns, int rows, double edge) {
     return triangles;
 }
 
+/// Rows of triangles between lines of points, of which each odd one is half an edge ahead of the even ones.
+/// @param at at(line, k): the place (m) of a point
+template <class At>
+static std::vector<Triangle> zigzagRows(int rows, int columns, const At& at) {
+    std::vector<Triangle> triangles;
+    for (int row = 0; row < rows; ++row)
+        for (int k = 0; k < columns; ++k) {
+            const int ahead = row % 2;  // the upper line is ahead of an even row, behind an odd one
+            triangles.push_back({at(row, k), at(row, k + 1), at(row + 1, k + ahead)});
+            triangles.push_back({at(row, k + 1 - ahead), at(row + 1, k + 1), at(row + 1, k)});
+        }
+    return triangles;
+}
+
 std::vector<Triangle> membranePeriodicSheet(int columns, int rows, double edge) {
     checkValue("membranePeriodicSheet()", "columns", columns, "", {1, 1e5});
     checkValue("membranePeriodicSheet()", "rows", rows, "", {2, 1e5});
@@ -299,15 +315,7 @@ std::vector<Triangle> membranePeriodicSheet(int columns, int rows, double edge) 
             rows));
     const double height = 0.5 * std::sqrt(3.0) * edge;
     const auto at = [&](int row, int k) { return Point{(k + 0.5 * (row % 2)) * edge, row * height, 0}; };
-    std::vector<Triangle> triangles;
-    for (int row = 0; row < rows; ++row)
-        for (int k = 0; k < columns; ++k) {
-            const int ahead =
-                row % 2;  // the upper line is half an edge ahead of an even row, behind an odd one
-            triangles.push_back({at(row, k), at(row, k + 1), at(row + 1, k + ahead)});
-            triangles.push_back({at(row, k + 1 - ahead), at(row + 1, k + 1), at(row + 1, k)});
-        }
-    return triangles;
+    return zigzagRows(rows, columns, at);
 }
 
 std::vector<Triangle> membraneTube(double radius, double height, int around) {
@@ -320,15 +328,7 @@ std::vector<Triangle> membraneTube(double radius, double height, int around) {
         const double angle = turn * (k % around + 0.5 * (row % 2));
         return Point{radius * std::cos(angle), radius * std::sin(angle), height * row / rows};
     };
-    std::vector<Triangle> triangles;
-    for (int row = 0; row < rows; ++row)
-        for (int k = 0; k < around; ++k) {
-            const int shift =
-                row % 2;  // the upper line is half an edge ahead of an even row, behind an odd one
-            triangles.push_back({at(row, k), at(row, k + 1), at(row + 1, k + shift)});
-            triangles.push_back({at(row, k + 1 - shift), at(row + 1, k + 1), at(row + 1, k)});
-        }
-    return triangles;
+    return zigzagRows(rows, around, at);
 }
 
 }  // namespace pendular

@@ -74,6 +74,14 @@ public:
 
     [[nodiscard]] const std::vector<Point>& vertices() const { return rest; }  // m, without force
     [[nodiscard]] const std::vector<double>& masses() const { return mass; }   // kg, of the vertices
+    /// kg, of each vertex and those that move with it
+    [[nodiscard]] const std::vector<double>& movedMasses() const { return moved; }
+    /// Gives each vertex the sum over it and those that move with it, of something that vertices have.
+    template <class T>
+    void sumOverCopies(std::vector<T>& values) const {
+        for (const Copy& copy : repeats) values[copy.of] += values[copy.vertex];
+        for (const Copy& copy : repeats) values[copy.vertex] = values[copy.of];
+    }
     [[nodiscard]] const std::vector<Copy>& copies() const { return repeats; }
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return faces; }
     [[nodiscard]] const std::vector<Spring>& springs() const { return edges; }
@@ -129,7 +137,7 @@ private:
 
     MembraneMaterial material;
     std::vector<Point> rest;
-    std::vector<double> mass;
+    std::vector<double> mass, moved;
     std::vector<std::array<std::uint32_t, 3>> faces;
     std::vector<double> areas;  // m^2, without force
     std::vector<Spring> edges;

@@ -10,6 +10,7 @@
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/LedgerError.h"
 
 // Beds on a floor that shakes: grains of two sizes, six walls, thousands of touches that begin, slide and
 // end. However many steps, what the floor has given is found again, to round-off.
@@ -34,13 +35,6 @@ struct ShakenBed : scenes::SettlingBox<S> {
     }
 };
 
-/// All numbers of an account, without their signs, J.
-double turnedOver(const EnergyLedger& ledger) {
-    double sum = 0;
-    for (const auto& entry : EnergyLedger::entries()) sum += std::abs(ledger.*entry.member);
-    return sum;
-}
-
 // Each step rounds each number of the account, and the motion of each grain, by up to 2^-53 of it; the signs
 // are at random. After N steps that is sqrt(N) 2^-53 of all that was turned over, five times of which the
 // account must never exceed.
@@ -50,7 +44,7 @@ void expectCloses(int steps) {
     const EnergyLedger& ledger = bed.energyLedger();
     const double start = ledger.closed();
     const auto drift = [&](int n) {
-        return std::abs(ledger.closed() - start) / (std::sqrt(n) * 0x1p-53 * turnedOver(ledger));
+        return std::abs(ledger.closed() - start) / (std::sqrt(n) * 0x1p-53 * support::turnedOver(ledger));
     };
     double largest = 0;
     for (int n = 1; n <= steps; ++n) {
@@ -65,7 +59,7 @@ void expectCloses(int steps) {
     EXPECT_GT(ledger.lost(), 0.9 * (ledger.walls + start - ledger.kinetic - ledger.potential));
     EXPECT_LT(std::abs(ledger.stepError), 0.01 * ledger.lost());
     for (const double lost : {ledger.normalDashpots, ledger.sliding})
-        EXPECT_GT(lost, 5 * std::sqrt(steps) * 0x1p-53 * turnedOver(ledger));
+        EXPECT_GT(lost, support::roundOff(ledger, steps));
     if constexpr (S::Adhesion::acts) {
         EXPECT_GT(ledger.brokenAdhesion, 0);
     }

@@ -11,6 +11,7 @@
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/LedgerError.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/TestFolder.h"
 
@@ -97,12 +98,6 @@ struct CubeOfClumps : FewGrains<S> {
     }
 };
 
-double turnedOver(const EnergyLedger& ledger) {
-    double sum = 0;
-    for (const auto& entry : EnergyLedger::entries()) sum += std::abs(ledger.*entry.member);
-    return sum;
-}
-
 /// Over N steps, each of which rounds each entry by up to 2^-53 with signs at random: five times sqrt(N)
 /// 2^-53 of all that was turned over, as for beds of spheres (SelfTests/Energy/BedTest.cpp).
 void expectCloses(Scene& scene, int steps) {
@@ -111,8 +106,9 @@ void expectCloses(Scene& scene, int steps) {
     for (int n = 1; n <= steps; ++n) {
         scene.step();
         if (n % 500 == 0)
-            largest = std::max(largest, std::abs(scene.energyLedger().closed() - start) /
-                                            (std::sqrt(n) * 0x1p-53 * turnedOver(scene.energyLedger())));
+            largest =
+                std::max(largest, std::abs(scene.energyLedger().closed() - start) /
+                                      (std::sqrt(n) * 0x1p-53 * support::turnedOver(scene.energyLedger())));
     }
     EXPECT_LT(largest, 5);
 }
@@ -386,7 +382,7 @@ TEST(ClumpMotion, collidesAcrossSlidingImagesAsInTheMiddle) {
     }
     EXPECT_NE(across.energyLedger().images, 0);
     EXPECT_LT(std::abs(across.energyLedger().closed() - start),
-              5 * std::sqrt(steps) * 0x1p-53 * turnedOver(across.energyLedger()));
+              support::roundOff(across.energyLedger(), steps));
 }
 
 // In strain a body goes with the flow at its centre: alone, it stays at its place of the box, and keeps its

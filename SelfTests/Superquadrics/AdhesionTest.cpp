@@ -12,11 +12,11 @@
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Walls/TriangleWall.h"
-#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Superquadrics/BoxOfShapes.h"
 #include "SelfTests/Superquadrics/SameAsSpheres.h"
+#include "SelfTests/Support/LedgerError.h"
 #include "SelfTests/Support/Refusal.h"
-#include "SelfTests/Support/TestFolder.h"
 
 // Dry adhesion of superquadrics: the laws of spheres with Gauss' radius of the contact, also while the bodies
 // are apart.
@@ -27,7 +27,6 @@ namespace {
 using scenes::BoxOfShapes;
 using scenes::expectForcesOfSpheres;
 using scenes::FewSuperquadrics;
-using scenes::turnedOver;
 using std::numbers::pi;
 
 template <class Law>
@@ -243,23 +242,9 @@ int stepsToGap(Scene& scene) {
 
 template <class Law>
 void expectSameBits() {
-    const support::TestFolder folder;
-    Box<Law> half(3);
+    Box<Law> half(3), resumed(3), threaded(3);
     half.initialise();
-    const int before = stepsToGap(half);
-    half.writeRestart(folder.path() / "half.h5");
-    for (int k = 0; k < 2000; ++k) half.step();
-    half.writeRestart(folder.path() / "whole.h5");
-    Box<Law> resumed(3);
-    resumed.restartFrom(folder.path() / "half.h5");
-    resumed.run(2000);
-    resumed.writeRestart(folder.path() / "resumed.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
-    Box<Law> threaded(3);
-    threaded.setNumberOfThreads(3);
-    threaded.run(before + 2000);
-    threaded.writeRestart(folder.path() / "threaded.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "threaded.h5");
+    support::expectSameBits(half, resumed, threaded, stepsToGap(half), 2000);
 }
 TEST(HeavySuperquadricAdhesion, givesTheSameBitsForAnyThreadsAndRestarts) {
     expectSameBits<JKR>();
@@ -269,15 +254,7 @@ TEST(HeavySuperquadricAdhesion, givesTheSameBitsForAnyThreadsAndRestarts) {
 template <class Law>
 EnergyLedger expectClosedLedger() {
     Box<Law> scene(3);
-    scene.keepEnergyLedger();
-    scene.initialise();
-    const double start = scene.energyLedger().closed();
-    for (int n = 1; n <= 10000; ++n) {
-        scene.step();
-        if (n % 500 != 0) continue;
-        EXPECT_LT(std::abs(scene.energyLedger().closed() - start),
-                  5 * std::sqrt(n) * 0x1p-53 * turnedOver(scene.energyLedger()));
-    }
+    support::expectClosedLedger(scene, 10000);
     return scene.energyLedger();
 }
 TEST(HeavySuperquadricAdhesion, closesTheEnergyLedgerToRoundOff) {

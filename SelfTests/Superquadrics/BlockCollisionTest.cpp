@@ -6,10 +6,10 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/ShapeFields.h"
 #include "Kernel/Walls/InfiniteCylinder.h"
-#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Superquadrics/FewBlocks.h"
+#include "SelfTests/Support/LedgerError.h"
 #include "SelfTests/Support/Refusal.h"
-#include "SelfTests/Support/TestFolder.h"
 
 // Blocks that collide: what is conserved, bits, restart, and what is refused.
 
@@ -109,32 +109,12 @@ struct Mixture : FewBlocks {
 };
 
 TEST(BlockCollision, givesTheSameBitsForAnyThreadsAndRestarts) {
-    const support::TestFolder folder;
-    Mixture half;
+    Mixture half, resumed, threaded;
     half.run(3000);
-    half.writeRestart(folder.path() / "half.h5");
-    half.step(3000);
-    half.writeRestart(folder.path() / "whole.h5");
+    support::expectSameBits(half, resumed, threaded, 3000, 3000);
     EXPECT_GT(half.contacts().store().blocks.size(), 10u);
-    Mixture resumed;
-    resumed.restartFrom(folder.path() / "half.h5");
-    resumed.run(3000);
-    resumed.writeRestart(folder.path() / "resumed.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
-    Mixture threaded;
-    threaded.setNumberOfThreads(3);
-    threaded.run(6000);
-    threaded.writeRestart(folder.path() / "threaded.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "threaded.h5");
 }
 
-double turnedOver(const EnergyLedger& ledger) {
-    double sum = 0;
-    for (const auto& entry : EnergyLedger::entries()) sum += std::abs(ledger.*entry.member);
-    return sum;
-}
-
-// The error is as for superquadrics: five times sqrt(N) 2^-53 of all that was turned over.
 TEST(BlockCollision, closesTheEnergyLedgerOfAMixture) {
     Mixture scene;
     scene.keepEnergyLedger();
@@ -142,7 +122,7 @@ TEST(BlockCollision, closesTheEnergyLedgerOfAMixture) {
     const double start = scene.energyLedger().closed();
     scene.step(6000);
     const EnergyLedger& ledger = scene.energyLedger();
-    EXPECT_LT(std::abs(ledger.closed() - start), 5 * std::sqrt(6000) * 0x1p-53 * turnedOver(ledger));
+    EXPECT_LT(std::abs(ledger.closed() - start), support::roundOff(ledger, 6000));
     EXPECT_GT(ledger.normalDashpots, 0.1 * ledger.kinetic);
     EXPECT_GT(ledger.sliding, 0.01 * ledger.kinetic);
     EXPECT_LT(std::abs(ledger.stepError), 0.01 * ledger.lost());

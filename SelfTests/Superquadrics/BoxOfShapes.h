@@ -35,12 +35,4 @@ struct BoxOfShapes : FewSuperquadrics<S> {
     }
 };
 
-/// J, all that a ledger has turned over: its error is as for clumps (SelfTests/Motion/ClumpMotionTest.cpp),
-/// five times sqrt(steps) 2^-53 of this.
-inline double turnedOver(const EnergyLedger& ledger) {
-    double sum = 0;
-    for (const auto& entry : EnergyLedger::entries()) sum += std::abs(ledger.*entry.member);
-    return sum;
-}
-
 }  // namespace pendular::scenes

@@ -8,10 +8,10 @@
 #include "Kernel/Species/Friction/SlidingRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Superquadrics/BoxOfShapes.h"
 #include "SelfTests/Superquadrics/SameAsSpheres.h"
-#include "SelfTests/Support/TestFolder.h"
+#include "SelfTests/Support/LedgerError.h"
 
 // Rolling and torsion resistance of superquadrics: its torque is the coefficient times the normal force and
 // Gauss' radius R* of the contact.
@@ -22,7 +22,6 @@ namespace {
 using scenes::BoxOfShapes;
 using scenes::expectForcesOfSpheres;
 using scenes::FewSuperquadrics;
-using scenes::turnedOver;
 
 using Linear = Species<LinearViscoelastic, SlidingRollingTorsion>;
 using Hertz = Species<HertzianViscoelastic, MindlinRollingTorsion>;
@@ -178,36 +177,15 @@ struct Box : BoxOfShapes<Linear> {
 };
 
 TEST(HeavySuperquadricRolling, givesTheSameBitsForAnyThreadsAndRestarts) {
-    const support::TestFolder folder;
-    Box half(4);
+    Box half(4), resumed(4), threaded(4);
     half.run(9000);
-    half.writeRestart(folder.path() / "half.h5");
     EXPECT_GT(half.interactions().size(), 0u);
-    for (int k = 0; k < 1000; ++k) half.step();
-    half.writeRestart(folder.path() / "whole.h5");
-    Box resumed(4);
-    resumed.restartFrom(folder.path() / "half.h5");
-    resumed.run(1000);
-    resumed.writeRestart(folder.path() / "resumed.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
-    Box threaded(4);
-    threaded.setNumberOfThreads(3);
-    threaded.run(10000);
-    threaded.writeRestart(folder.path() / "threaded.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "threaded.h5");
+    support::expectSameBits(half, resumed, threaded, 9000, 1000);
 }
 
 TEST(SuperquadricRolling, closesTheEnergyLedgerToRoundOff) {
     Box scene(3);
-    scene.keepEnergyLedger();
-    scene.initialise();
-    const double start = scene.energyLedger().closed();
-    for (int n = 1; n <= 10000; ++n) {
-        scene.step();
-        if (n % 500 != 0) continue;
-        EXPECT_LT(std::abs(scene.energyLedger().closed() - start),
-                  5 * std::sqrt(n) * 0x1p-53 * turnedOver(scene.energyLedger()));
-    }
+    support::expectClosedLedger(scene, 10000);
     const EnergyLedger& ledger = scene.energyLedger();
     EXPECT_GT(ledger.rolling, 0.01 * ledger.lost());
     EXPECT_GT(ledger.torsion, 0.001 * ledger.lost());

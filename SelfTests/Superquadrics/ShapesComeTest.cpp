@@ -7,11 +7,10 @@
 #include "Kernel/Sizes/SizeTable.h"
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Support/Refusal.h"
-#include "SelfTests/Support/TestFolder.h"
 
 // Superquadrics that insert() and inlets bring.
 
@@ -117,25 +116,10 @@ TEST(ShapesCome, throughAnInletExactToOneBody) {
 }
 
 TEST(HeavyShapesCome, withTheSameBitsForAnyThreadsAndThroughARestart) {
-    const support::TestFolder folder;
-    Stream half;
+    Stream half, resumed, threaded(3);
     half.run(3000);
-    half.writeRestart(folder.path() / "half.h5");
-    half.step(3000);
-    half.writeRestart(folder.path() / "whole.h5");
+    support::expectSameBits(half, resumed, threaded, 3000, 3000);
     EXPECT_GT(half.particleHandler.getSize(), 90u);
-    Stream resumed;
-    resumed.restartFrom(folder.path() / "half.h5");
-    resumed.run(3000);
-    resumed.writeRestart(folder.path() / "resumed.h5");
-    {
-        SCOPED_TRACE("resumed");
-        support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
-    }
-    Stream threaded(3);
-    threaded.run(6000);
-    threaded.writeRestart(folder.path() / "threaded.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "threaded.h5");
 }
 
 struct SceneOfSpheres : scenes::FewGrains<Rough> {

@@ -9,12 +9,12 @@
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
-#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Superquadrics/BoxOfShapes.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
 #include "SelfTests/Superquadrics/SameAsSpheres.h"
+#include "SelfTests/Support/LedgerError.h"
 #include "SelfTests/Support/Refusal.h"
-#include "SelfTests/Support/TestFolder.h"
 
 // Superquadrics as grains of a scene: their contacts, motion, restart.
 
@@ -25,7 +25,6 @@ using scenes::BoxOfShapes;
 using scenes::expectForcesOfSpheres;
 using scenes::FewSuperquadrics;
 using scenes::SuperquadricMotion;
-using scenes::turnedOver;
 using support::contains;
 using support::refusal;
 
@@ -224,37 +223,16 @@ struct Box : BoxOfShapes<Rough> {
 };
 
 TEST(HeavySuperquadricScene, givesTheSameBitsForAnyThreadsAndRestarts) {
-    const support::TestFolder folder;
-    Box half(4);
+    Box half(4), resumed(4), threaded(4);
     half.run(3000);
-    half.writeRestart(folder.path() / "half.h5");
-    for (int k = 0; k < 3000; ++k) half.step();
-    half.writeRestart(folder.path() / "whole.h5");
+    support::expectSameBits(half, resumed, threaded, 3000, 3000);
     EXPECT_GT(half.contacts().store().blocks.size(), 10u);
-    Box resumed(4);
-    resumed.restartFrom(folder.path() / "half.h5");
-    resumed.run(3000);
-    resumed.writeRestart(folder.path() / "resumed.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
-    Box threaded(4);
-    threaded.setNumberOfThreads(3);
-    threaded.run(6000);
-    threaded.writeRestart(folder.path() / "threaded.h5");
-    support::expectSameState(folder.path() / "whole.h5", folder.path() / "threaded.h5");
     EXPECT_EQ(half.superquadricHandler.fallbacks(), threaded.superquadricHandler.fallbacks());
 }
 
 TEST(SuperquadricScene, closesTheEnergyLedgerToRoundOff) {
     Box scene(3);
-    scene.keepEnergyLedger();
-    scene.initialise();
-    const double start = scene.energyLedger().closed();
-    for (int n = 1; n <= 6000; ++n) {
-        scene.step();
-        if (n % 500 != 0) continue;
-        EXPECT_LT(std::abs(scene.energyLedger().closed() - start),
-                  5 * std::sqrt(n) * 0x1p-53 * turnedOver(scene.energyLedger()));
-    }
+    support::expectClosedLedger(scene, 6000);
     const EnergyLedger& ledger = scene.energyLedger();
     EXPECT_GT(ledger.normalDashpots, 0.01 * ledger.kinetic);  // collisions there were
     EXPECT_GT(ledger.sliding, 0.001 * ledger.kinetic);

@@ -8,6 +8,7 @@
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/Plate.h"
+#include "SelfTests/Support/LedgerError.h"
 
 // The torque of superquadrics on walls, and walls that they turn.
 
@@ -89,14 +90,8 @@ FreeBodySettings asFreeBody() {
     settings.inertia *= 1e-9;  // kg m^2
     return settings;
 }
-double turnedOver(const EnergyLedger& ledger) {
-    double sum = 0;
-    for (const auto& entry : EnergyLedger::entries()) sum += std::abs(ledger.*entry.member);
-    return sum;
-}
 
-// A step rounds momenta by 2^-53 of their parts, with signs at random; the energy as in
-// SuperquadricSceneTest.cpp.
+// A step rounds momenta by 2^-53 of their parts, with signs at random, and so the energy.
 template <class Momenta>
 void expectKept(SuperquadricsAtPlates<Rough>& scene, const Momenta& momenta, double size) {
     scene.keepEnergyLedger();
@@ -110,7 +105,7 @@ void expectKept(SuperquadricsAtPlates<Rough>& scene, const Momenta& momenta, dou
         for (std::size_t n = 0; n < start.size(); ++n)
             ASSERT_LT((momenta()[n] - start[n]).norm(), 1e-13 * size * (n == 0 ? 1 : 3e-3)) << n << " " << k;
         ASSERT_LT(std::abs(scene.energyLedger().closed() - energy),
-                  5 * std::sqrt(k) * 0x1p-53 * turnedOver(scene.energyLedger()));
+                  support::roundOff(scene.energyLedger(), k));
     }
     EXPECT_GT(touched, 20);
     EXPECT_GT(scene.energyLedger().sliding, 1e-3 * scene.energyLedger().kinetic);
