@@ -6,6 +6,7 @@
 
 #include "Kernel/Math/Quaternion.h"
 #include "Kernel/Shapes/Superquadric.h"
+#include "Kernel/Species/Bodies.h"
 
 namespace pendular {
 
@@ -21,6 +22,7 @@ struct ShapedTouch {
     double depth;           // m; negative: a gap
     Vector<double> arm1;    // m, from the centre of body 1 to the middle of the overlap
     double radius;          // m, the effective radius as the laws take it
+    Bodies own{radius};     // m, Gauss' radius of each; infinite of what is flat
 };
 
 /// What the contacts of a grain can be at most, wherever on its surface they are.

@@ -1,8 +1,11 @@
 #include "Kernel/Contacts/ObservedContact.h"
 
+#include <optional>
+
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/Contacts/LocalBodies.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Walls/Wall.h"
@@ -44,22 +47,25 @@ ObservedContact observeContact(const ContactStore& contacts, const ContactLaws& 
         seen.point = first.position + seen.shift;
     }
     const GrainShapes* const shapes = laws.shapes();
-    double localRadius = 0;  // m
+    std::optional<ShapedTouch> touch;
     if (shapes) {
         const double range = seen.bridged ? laws.range(bucket.species1, bucket.species2, {first.radius}) : 0;
-        const ShapedTouch touch =
-            wall ? shapes->touchAtWall(grains, block.first[lane], *wall, block.second[lane], range)
-                 : shapes->touch(grains, block.first[lane], block.second[lane], seen.shift);
-        seen.separation = -touch.depth;
-        seen.ownNormal = touch.normal;
-        localRadius = touch.radius;
-        seen.point = first.position + touch.arm1;
-        if (wall) seen.shift = touch.arm1 - (0.5 * touch.depth) * touch.normal;
+        touch = wall ? shapes->touchAtWall(grains, block.first[lane], *wall, block.second[lane], range)
+                     : shapes->touch(grains, block.first[lane], block.second[lane], seen.shift);
+        seen.separation = -touch->depth;
+        seen.ownNormal = touch->normal;
+        seen.point = first.position + touch->arm1;
+        if (wall) seen.shift = touch->arm1 - (0.5 * touch->depth) * touch->normal;
     }
     if (seen.bridged) {
         ContactNumbers interaction;
-        if (shapes) laws.prepareAdhesion(bucket.species1, bucket.species2, {localRadius}, interaction.data());
-        else contacts.memory.interaction.get(contacts.slotOf(contact), interaction.data());
+        if (touch) {
+            Bodies around{first.radius};
+            if (!wall) around.radius2 = grains.translation[block.second[lane]].radius;
+            const LocalBodies local(around, laws.bridgeVolume(bucket.species1, bucket.species2).value_or(0));
+            laws.prepareAdhesion(bucket.species1, bucket.species2, local.with(touch->radius, touch->own),
+                                 interaction.data());
+        } else contacts.memory.interaction.get(contacts.slotOf(contact), interaction.data());
         seen.adhesiveForce =
             laws.adhesiveForce(bucket.species1, bucket.species2, interaction.data(), seen.separation);
     }

@@ -22,6 +22,7 @@ struct SuperquadricTouch {
     T depth;           // m, how far they must be moved apart, along the normal; negative: a gap
     Vector<T> arm1;    // m, from centre 1 to the middle of the overlap
     T radius;          // m, Gauss' radius of the pair, 1 / sqrt(det(K1 + K2)); infinite if both are flat
+    T own1, own2;      // m, of each body, 1 / sqrt(det K)
     MaskOf<T>
         isFound;  // false: Newton's method has not ended; the fallback has gone on from the best it had seen
 };
@@ -232,11 +233,15 @@ SuperquadricTouch<T> findTouch(const SuperquadricPair<T>& pair, const Vector<T>&
         done = done | small | (idleSteps >= 3.0) | (now.value < -gap);
     }
     if (!all(done)) searchAround(pair, !done, normal, now);
-    const T gauss = (now.first + now.second).determinant();
     // The point of a flat surface is badly known where its normal is known well; that of the other is not.
     const Vector<T> half = 0.5 * now.value * normal;
-    return {normal, now.value, select(now.firstIsFlatter(), now.point1 - now.slope + half, now.point1 - half),
-            select(gauss > 0.0, 1.0 / sqrt(max(gauss, T(1e-300))), T(infinity)), done};
+    return {normal,
+            now.value,
+            select(now.firstIsFlatter(), now.point1 - now.slope + half, now.point1 - half),
+            gaussRadius(now.first + now.second),
+            gaussRadius(now.first),
+            gaussRadius(now.second),
+            done};
 }
 
 }  // namespace pendular

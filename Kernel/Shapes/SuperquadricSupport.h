@@ -153,6 +153,13 @@ struct Curvature {
     }
 };
 
+/// m, 1 / sqrt(det K): that of a sphere; infinite on what is flat in a direction.
+template <Number T>
+T gaussRadius(const Curvature<T>& k) {
+    const T gauss = k.determinant();
+    return select(gauss > 0.0, 1.0 / sqrt(max(gauss, T(1e-300))), T(infinity));
+}
+
 /// @param u, v unit, at right angles to each other and to the normal, in the body's axes
 template <Number T>
 Curvature<T> curvature(const SupportPoint<T>& at, const Vector<T>& u, const Vector<T>& v) {

@@ -4,6 +4,7 @@
 
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/LocalBodies.h"
 
 namespace pendular {
 
@@ -88,15 +89,17 @@ void SuperquadricGeometry::keepTorque(ContactMemory& memory, std::size_t block,
     store(torque, torqueColumns(memory, block));
 }
 
-/// A dry law knows the bodies by their effective radius only, so that two of any radii that give it will do.
 void SuperquadricGeometry::prepareAdhesion(ContactMemory& memory, std::size_t block, Mask joined) const {
     const auto lanes = bits(joined & known);
-    for (std::size_t k = 0; k < Pack::lanes; ++k) {
+    if (lanes == 0) return;
+    const double volume = adhesive->bridgeVolume(species1, species2).value_or(0);
+    for (int k = 0; k < Pack::lanes; ++k) {
         if ((lanes >> k & 1) == 0) continue;
+        const LocalBodies local({radius1[k], isAtWall ? infinity : radius2[k]}, volume);
         ContactNumbers prepared{};
-        adhesive->prepareAdhesion(species1, species2, {effectiveRadius[static_cast<int>(k)]},
+        adhesive->prepareAdhesion(species1, species2, local.with(effectiveRadius[k], {own1[k], own2[k]}),
                                   prepared.data());
-        memory.interaction.set(block * Pack::lanes + k, prepared.data());
+        memory.interaction.set(block * Pack::lanes + static_cast<std::size_t>(k), prepared.data());
     }
 }
 
@@ -135,6 +138,7 @@ SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t 
     arm1 = touch.arm1;
     arm2 = arm1 - pair.shift;
     setRadius(touch.radius, radius1 * radius2 / sum);
+    own1 = touch.own1, own2 = touch.own2;
     // Responses are those of the points of the surfaces, half the overlap from the middle: so they are those
     // of the sphere kernel for spheres.
     const Vector<Pack> half = (Pack(0.5) * depth) * normal, point1 = arm1 + half, point2 = arm2 - half;
@@ -166,9 +170,9 @@ SuperquadricGeometry::SuperquadricGeometry(const ContactTask& task, std::size_t 
     const SupportPoint<Pack> lowest = supportPoint(first.shape, first.axes.turnBack(normal));
     depth = lowest.height - distance;
     const TangentPlane<Pack> plane(normal);
-    const Pack gauss =
-        curvature(lowest, first.axes.turnBack(plane.u), first.axes.turnBack(plane.v)).determinant();
-    setRadius(select(gauss > Pack(0), Pack(1) / sqrt(max(gauss, Pack(1e-300))), Pack(infinity)), radius1);
+    own1 = gaussRadius(curvature(lowest, first.axes.turnBack(plane.u), first.axes.turnBack(plane.v)));
+    own2 = Pack(infinity);
+    setRadius(own1, radius1);
     const Vector<Pack> point = first.axes.turn(lowest.point);
     arm1 = point - (Pack(0.5) * depth) * normal;
     inverseMass = first.response(point, normal);

@@ -123,6 +123,7 @@ private:
     Mask acted, fellBack, known;  // in the last step; of which more than that they are apart is known
     Vector<Pack> normalBefore, normal;
     Pack depth, effectiveRadius = 1;            // m
+    Pack own1 = 1, own2 = 1;                    // m, Gauss' radius of each body there
     Vector<Pack> arm1 = zero(), arm2 = zero();  // m, from the centres to the middle of the overlap
     Pack radius1, radius2;                      // m, of the spheres around
     Vector<Pack> velocity = zero();             // m/s

@@ -33,6 +33,7 @@ void SuperquadricHandler::addShape(const Superquadric& shape) {
 /// A sphere of this mass around the shape has the moment 2/5 m r^2.
 void SuperquadricHandler::noteExtremes(const Superquadric& shape, const ExtremeContact& extreme) {
     largestRadii = std::max(largestRadii, extreme.radii);
+    smallestRadius = std::min(smallestRadius, extreme.smallestRadius);
     const MassProperties solid = shape.mass();
     const double around = shape.boundingRadius(),
                  least = solid.inertia.diagonal().minCoeff() / solid.volume;  // m^2
@@ -166,7 +167,7 @@ ShapedTouch SuperquadricHandler::touch(const ParticleStore& grains, std::uint32_
                                         shift};
     const SuperquadricTouch<double> found = findTouch(pair, firstNormal(pair), false);
     const Bodies around{grains.translation[first].radius, grains.translation[second].radius};
-    return {found.normal, found.depth, found.arm1, radiusOf(found.radius, around)};
+    return {found.normal, found.depth, found.arm1, radiusOf(found.radius, around), {found.own1, found.own2}};
 }
 
 ShapeAtWall SuperquadricHandler::atWalls(const ParticleStore& grains, std::uint32_t place) const {
@@ -197,9 +198,12 @@ ShapedTouch SuperquadricHandler::touchAtPlane(const ParticleStore& grains, std::
         supportPoint(SuperquadricLanes<double>::from(own.shape), axes.turnBack(normal));
     const double depth = lowest.height - distance;
     const TangentPlane<double> plane(normal);
-    const double gauss = curvature(lowest, axes.turnBack(plane.u), axes.turnBack(plane.v)).determinant();
-    return {normal, depth, axes.turn(lowest.point) - (0.5 * depth) * normal,
-            radiusOf(gauss > 0 ? 1 / std::sqrt(gauss) : infinity, {grains.translation[grain].radius})};
+    const double gauss = gaussRadius(curvature(lowest, axes.turnBack(plane.u), axes.turnBack(plane.v)));
+    return {normal,
+            depth,
+            axes.turn(lowest.point) - (0.5 * depth) * normal,
+            radiusOf(gauss, {grains.translation[grain].radius}),
+            {gauss}};
 }
 
 void SuperquadricHandler::visitExtremes(StateArchive& archive) {

@@ -72,6 +72,8 @@ public:
     [[nodiscard]] double largestRadiusRatio() const override {
         return std::max(largestRadii, blocks.largestRadiusRatio());
     }
+    /// The smallest principal radius of curvature of all shapes over that of the sphere around.
+    [[nodiscard]] double smallestRadiusRatio() const { return smallestRadius; }
     /// The factor by which a torque at a contact turns a shape faster than the sphere around, at most: of the
     /// effective radius times the spin.
     [[nodiscard]] double largestTurningRatio() const { return largestTurning; }
@@ -112,7 +114,7 @@ private:
     std::vector<std::uint32_t> shapeOfBody;                  // by the number of the body
     bool areEllipsoids = true;  // all: one way for a whole scene, so that no bit depends on
                                 // which contacts are in a block
-    double largestRadii = 1, largestTurning = 1;
+    double largestRadii = 1, smallestRadius = 1, largestTurning = 1;
     bool isAdhesive = false;
     /// Of shapes that are not scaled others. Restart files have them: found again for another size of a
     /// shape, they would differ by round-off.

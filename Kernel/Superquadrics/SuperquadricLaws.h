@@ -1,7 +1,14 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "Kernel/Contacts/LocalBodies.h"
 #include "Kernel/Contacts/SpeciesLaws.h"
-#include "Kernel/Superquadrics/DryAdhesion.h"
+#include "Kernel/Superquadrics/AdhesionOfShapes.h"
 #include "Kernel/Superquadrics/SuperquadricHandler.h"
 
 namespace pendular {
@@ -11,9 +18,11 @@ namespace pendular {
 /// rolling and torsion.
 template <class S>
 class SuperquadricLaws final : public SpeciesLaws<S> {
-    static_assert(knowsRadiusOnly<typename S::Adhesion>,
-                  "Superquadrics have no liquid bridges: take a species with JKR, DMT, ReversibleAdhesive or "
-                  "IrreversibleAdhesive, or without adhesion.");
+    static_assert(
+        actsBetweenShapes<typename S::Adhesion>,
+        "Superquadrics have only adhesion that is prepared quickly for new radii, of liquid that does not "
+        "move: JKR, DMT, ReversibleAdhesive, IrreversibleAdhesive, or LiquidBridge... Willett, "
+        "ClassicalWillett, Bagheri, Lambert, Mikami, LianSeville, YoungLaplace.");
 
     static constexpr std::size_t kept = S::hasContactTorque ? 6 : 3;  // numbers of the last step
     static_assert(layoutOf<S>.normalHistory + kept <= std::tuple_size_v<ContactNumbers>);
@@ -26,11 +35,38 @@ public:
         if constexpr (S::Adhesion::acts) superquadrics.setAdhesive();
     }
 
-    /// Where Gauss' radius is largest: sqrt(det(K1 + K2)) >= sqrt(det K1) + sqrt(det K2) (Minkowski), so that
-    /// the radius of a pair is at most that of two spheres of the largest radii.
+    /// The largest of the bodies as they can be seen: dry laws reach farthest where the bodies are flat,
+    /// bridges where they are sharp.
     [[nodiscard]] double range(int a, int b, const Bodies& bodies) const override {
-        const double factor = superquadrics.largestRadiusRatio();
-        return SpeciesLaws<S>::range(a, b, {factor * bodies.radius1, factor * bodies.radius2});
+        if constexpr (!S::Adhesion::acts) return SpeciesLaws<S>::range(a, b, bodies);
+        double largest = 0;
+        for (const Bodies& seen : extremes(a, b, bodies))
+            largest = std::max(largest, SpeciesLaws<S>::range(a, b, seen));
+        return largest;
+    }
+    [[nodiscard]] std::optional<std::string> objection(int a, int b, const Bodies& bodies) const override {
+        if (auto found = SpeciesLaws<S>::objection(a, b, bodies)) return found;
+        if constexpr (S::Adhesion::acts)
+            for (const Bodies& seen : extremes(a, b, bodies))
+                if (const auto found = SpeciesLaws<S>::objection(a, b, seen))
+                    return fmt::format(
+                        "{} Where these superquadrics are {}, their effective radius is {:.6g} m; it is "
+                        "{:.6g} m of "
+                        "the spheres around them.",
+                        *found, seen.effectiveRadius() > bodies.effectiveRadius() ? "flat" : "sharp",
+                        seen.effectiveRadius(), bodies.effectiveRadius());
+        return {};
+    }
+    /// Of bodies that can be seen so that they are out of the domain.
+    [[nodiscard]] std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
+        int a, int b, const Bodies& bodies) const override {
+        auto found = SpeciesLaws<S>::brokenLimits(a, b, bodies);
+        if constexpr (S::Adhesion::acts)
+            for (const Bodies& seen : extremes(a, b, bodies)) {
+                auto more = SpeciesLaws<S>::brokenLimits(a, b, seen);
+                found.insert(found.end(), more.begin(), more.end());
+            }
+        return found;
     }
 
     /// At Gauss' radius R where it is largest: a stiffness that goes with sqrt(R x overlap), of an overlap
@@ -55,6 +91,19 @@ public:
     }
 
 private:
+    /// Bodies as flat, and as sharp, as adhesion can see them, alike and one flat beside the other.
+    ///
+    /// Flat: sqrt(det(K1 + K2)) >= sqrt(det K1) + sqrt(det K2) (Minkowski), so that Gauss' radius of a pair
+    /// is at most that of two spheres of the largest radii. Sharp: no principal curvature of K1 + K2 is above
+    /// the sum of the largest ones.
+    [[nodiscard]] std::array<Bodies, 4> extremes(int a, int b, const Bodies& around) const {
+        const LocalBodies local(around, this->bridgeVolume(a, b).value_or(0));
+        const double radius = around.effectiveRadius(), flat = superquadrics.largestRadiusRatio() * radius,
+                     sharp = superquadrics.smallestRadiusRatio() * radius;
+        const Bodies oneFlat{1}, alike = std::isinf(around.radius2) ? oneFlat : Bodies{1, 1};
+        return {local.with(flat, alike), local.with(sharp, alike), local.with(flat, oneFlat),
+                local.with(sharp, oneFlat)};
+    }
     SuperquadricHandler& superquadrics;
 };
 

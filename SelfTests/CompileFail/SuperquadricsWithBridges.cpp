@@ -1,10 +1,10 @@
-// expect: Superquadrics have no liquid bridges
-// With JKR in place of the bridge it compiles: SelfTests/Superquadrics/AdhesionTest.cpp.
+// expect: Superquadrics have only adhesion that is prepared quickly
+// With LiquidBridgeWillett in place of it it compiles: SelfTests/Superquadrics/BridgeTest.cpp.
 
 #include "Kernel/Simulation/SuperquadricSimulation.h"
-#include "Kernel/Species/Adhesion/LiquidBridgeWillett.h"
+#include "Kernel/Species/Adhesion/LiquidBridgeRabinovich.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
 
 pendular::SuperquadricSimulation<
-    pendular::Species<pendular::HertzianViscoelastic, pendular::NoFriction, pendular::LiquidBridgeWillett>>
+    pendular::Species<pendular::HertzianViscoelastic, pendular::NoFriction, pendular::LiquidBridgeRabinovich>>
     scene;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Species/Adhesion/DMT.h"
 #include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
 #include "Kernel/Species/Adhesion/JKR.h"
@@ -11,8 +10,8 @@
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Restart/SameBits.h"
+#include "SelfTests/Superquadrics/AdhesionScenes.h"
 #include "SelfTests/Superquadrics/BoxOfShapes.h"
 #include "SelfTests/Superquadrics/SameAsSpheres.h"
 #include "SelfTests/Support/LedgerError.h"
@@ -25,8 +24,13 @@ namespace pendular::superquadricAdhesionTest {
 namespace {
 
 using scenes::BoxOfShapes;
+using scenes::ellipsoids;
 using scenes::expectForcesOfSpheres;
 using scenes::FewSuperquadrics;
+using scenes::Place;
+using scenes::placesOf;
+using scenes::turned;
+using scenes::underPlane;
 using std::numbers::pi;
 
 template <class Law>
@@ -51,10 +55,6 @@ Sticky<Law> sticky() {
         s.setAdhesionForceMax(1e-3), s.setAdhesionStiffness(200);
     return s;
 }
-Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 template <class Law>
 class SuperquadricAdhesion : public testing::Test {};
 using Laws = testing::Types<JKR, DMT, ReversibleAdhesive, IrreversibleAdhesive>;
@@ -66,47 +66,22 @@ TYPED_TEST(SuperquadricAdhesion, spheresHaveTheForcesOfTheSphereKernel) {
     expectForcesOfSpheres(sticky<TypeParam>(), {0.9e-6, 0.6e-6}, 1e-7, 4);
 }
 
-/// An ellipsoid and a plane above it, apart by a gap: the force between them at the start.
-template <class Law>
-ObservedContact underPlane(const Superquadric& shape, const Eigen::Quaterniond& orientation, double height,
-                           double gap) {
-    FewSuperquadrics<Sticky<Law>> scene(
-        sticky<Law>(), {{shape, {0, 0, -height - gap}, {0, 0, 0}, {0, 0, 0}, orientation}}, 1e-8);
-    scene.addPlane({0, 0, 1}, {0, 0, 0});
-    if constexpr (Law::formsAtContact) scene.joinAtStart(1e-4);
-    scene.initialise();
-    const auto contacts = scene.interactions();
-    EXPECT_EQ(contacts.size(), 1u);
-    return contacts.at(0);
-}
-
 /// m, where JKR's pull is largest: x^3 = 1/2 and d R* / a_0^2 = x^4 - 2 x / 3 = -x / 6.
 double gapOfLargestPull(double radius) {
     const double a0 = std::cbrt(4.5 * pi * work * radius * radius / modulus);
     return std::cbrt(0.5) / 6 * a0 * a0 / radius;
 }
 
-/// The two places of an ellipsoid of half lengths a, a, c, with their radii of curvature: both a^2 / c at a
-/// pole; c^2 / a and a on the equator.
-struct Place {
-    Eigen::Quaterniond orientation;
-    double height, radius;  // m
-};
-std::array<Place, 2> placesOf(double a, double c) {
-    return {Place{Eigen::Quaterniond::Identity(), c, a * a / c},
-            Place{turned(0.5 * pi, {1, 0, 0}), a, std::sqrt(c * c / a * a)}};
-}
-
 // Pull-off at 3/2 pi w R* of JKR, and half of it where Hertz's part and the neck's are at rest without a
 // plane: the law's own root is right to 3e-11.
 TEST(SuperquadricNeck, pullsAtPoleAndEquatorByTheirRadii) {
-    for (const auto& [a, c] : {std::pair{1e-3, 1.5e-3}, {1.5e-3, 1e-3}})
+    for (const auto& [a, c] : ellipsoids)
         for (const Place& place : placesOf(a, c)) {
             const double pullOff = 1.5 * pi * work * place.radius, gap = gapOfLargestPull(place.radius);
             const std::array lengths{a, a, c};  // clang 14 does not capture bindings
             const auto at = [&](double factor) {
-                return underPlane<JKR>({lengths[0], lengths[1], lengths[2]}, place.orientation, place.height,
-                                       factor * gap);
+                return underPlane(sticky<JKR>(), {lengths[0], lengths[1], lengths[2]}, place.orientation,
+                                  place.height, factor * gap);
             };
             EXPECT_NEAR(at(1).force.z / pullOff, 1, 1e-9) << c;
             EXPECT_NEAR(at(1).adhesiveForce / pullOff, 1, 1e-9) << c;
@@ -116,12 +91,13 @@ TEST(SuperquadricNeck, pullsAtPoleAndEquatorByTheirRadii) {
 
 // F_0 = 2 pi w R* at the touch, less by (1 + S / z_0)^2 apart, without what is left at 9 z_0.
 TEST(SuperquadricForceApart, isThatOfDMTByTheirRadii) {
-    for (const auto& [a, c] : {std::pair{1e-3, 1.5e-3}, {1.5e-3, 1e-3}})
+    for (const auto& [a, c] : ellipsoids)
         for (const Place& place : placesOf(a, c))
             for (const double gap : {0.0, 1.0, 5.0}) {
                 const double expected =
                     2 * pi * work * place.radius * (1 / ((1 + gap) * (1 + gap)) - 0.01) / 0.99;
-                EXPECT_NEAR(underPlane<DMT>({a, a, c}, place.orientation, place.height, gap * surfaceDistance)
+                EXPECT_NEAR(underPlane(sticky<DMT>(), {a, a, c}, place.orientation, place.height,
+                                       gap * surfaceDistance)
                                     .force.z /
                                 expected,
                             1, 1e-9)
@@ -148,8 +124,8 @@ TEST(SuperquadricNeck, pullsTwoEllipsoidsByGaussRadius) {
     }
 }
 
-// An ellipsoid hangs below a plane by its end until gravity, which grows slowly, is more than the pull-off
-// force. What hangs by its long axis comes back to it.
+/// An ellipsoid hangs below a plane by its end until gravity, which grows slowly, is more than the pull-off
+/// force. What hangs by its long axis comes back to it.
 double weightAtPullOff(double a, double c, const Place& place) {
     const double mass = density * 4 / 3 * pi * a * a * c, pullOff = 1.5 * pi * work * place.radius;
     FewSuperquadrics<Sticky<JKR>> scene(
@@ -170,49 +146,9 @@ TEST(SuperquadricNeck, holdsAWeightUpToThePullOffForce) {
     EXPECT_NEAR(weightAtPullOff(1.5e-3, 1e-3, placesOf(1.5e-3, 1e-3)[1]), 1, 0.01);
 }
 
-/// A tilted superquadric flies at a floor, which is a plane or two triangles, sticks for a while and leaves.
-template <class Law>
-struct Bouncing : FewSuperquadrics<Sticky<Law>> {
-    explicit Bouncing(bool mesh)
-        : FewSuperquadrics<Sticky<Law>>(sticky<Law>(),
-                                        {{{1e-3, 1.4e-3, 0.8e-3, 3, 3},
-                                          {0.1e-3, 0.2e-3, 1.25e-3},
-                                          {0.02, 0, -0.2},
-                                          {5, 0, 3},
-                                          turned(0.5, {1, 2, 0})}},
-                                        1e-6) {
-        if (!mesh) {
-            this->addPlane({0, 0, -1}, {0, 0, 0});
-            return;
-        }
-        constexpr double w = 5e-3;
-        const Triangle one{{{-w, -w, 0}, {w, -w, 0}, {w, w, 0}}}, two{{{-w, -w, 0}, {w, w, 0}, {-w, w, 0}}};
-        const std::vector<Triangle> triangles{one, two};
-        TriangleWall floor;
-        floor.setSpecies(this->speciesHandler.getObject(0));
-        floor.set(triangles);
-        this->wallHandler.copyAndAddObject(floor);
-    }
-};
-// Where the ball of its search touches is exact to some 1e-12 of the size, and so are paths.
-template <class Law>
-void expectMeshAsPlane() {
-    Bouncing<Law> plane(false), mesh(true);
-    plane.initialise(), mesh.initialise();
-    int apart = 0;
-    for (int k = 0; k < 2500; ++k) {
-        plane.step(), mesh.step();
-        const auto expected = plane.interactions(), found = mesh.interactions();
-        ASSERT_EQ(found.size(), expected.size()) << k;
-        if (!expected.empty() && expected[0].separation > 0) ++apart;
-    }
-    EXPECT_GT(apart, 5);
-    const Vec3D way = plane.body(0).getPosition() - mesh.body(0).getPosition();
-    EXPECT_LT(way.norm(), 1e-9);
-}
 TEST(SuperquadricAdhesionAtWalls, isOnAMeshAsOnAPlane) {
-    expectMeshAsPlane<JKR>();
-    expectMeshAsPlane<DMT>();
+    scenes::expectMeshAsPlane(sticky<JKR>());
+    scenes::expectMeshAsPlane(sticky<DMT>());
 }
 
 template <class Law>
@@ -228,23 +164,11 @@ struct Box : BoxOfShapes<Sticky<Law>> {
     }
 };
 
-/// Steps until something attracts bodies that are apart.
-template <class Scene>
-int stepsToGap(Scene& scene) {
-    for (int steps = 0; steps < 20000; steps += 10) {
-        for (const ObservedContact& contact : scene.interactions())
-            if (contact.separation > 0) return steps;
-        for (int k = 0; k < 10; ++k) scene.step();
-    }
-    ADD_FAILURE() << "nothing attracts";
-    return 20000;
-}
-
 template <class Law>
 void expectSameBits() {
     Box<Law> half(3), resumed(3), threaded(3);
     half.initialise();
-    support::expectSameBits(half, resumed, threaded, stepsToGap(half), 2000);
+    support::expectSameBits(half, resumed, threaded, scenes::stepsToGap(half), 2000);
 }
 TEST(HeavySuperquadricAdhesion, givesTheSameBitsForAnyThreadsAndRestarts) {
     expectSameBits<JKR>();
