@@ -245,7 +245,7 @@ TEST(HeavyWetWall, obliqueCollisionsAreThoseOfTheForceBalance) {
         }
 }
 
-TEST(HeavyWetWall, followsAllObliqueCollisionsOfTheReferenceData) {
+TEST(LongWetWall, followsAllObliqueCollisionsOfTheReferenceData) {
     const std::string file = "wet/given_wall_oblique.csv";
     if (!support::hasSharedData(file)) GTEST_SKIP() << support::withoutSharedData(file);
     int compared = 0;
@@ -265,8 +265,8 @@ TEST(HeavyWetWall, followsAllObliqueCollisionsOfTheReferenceData) {
 
 TEST(HeavyWetWall, normalMotionDoesNotFeelTheTangentialOne) {
     double least = 1, largest = 0;
-    for (const double angle : {0.0, 20.0, 60.0, 85.0})
-        for (const double spin : {0.0, -960.0, 500.0}) {
+    for (const double angle : {0.0, 60.0})
+        for (const double spin : {-960.0, 500.0}) {
             const double e = collide(oblique(true, spin, angle)).normalRestitution;
             least = std::min(least, e), largest = std::max(largest, e);
         }

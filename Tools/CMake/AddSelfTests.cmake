@@ -81,9 +81,9 @@ endif()
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(REMOVE_ITEM testFolders Capillary HowDoI Papers PartialSlip Species Species/Adhesion Species/Friction
          Species/Normal Stability WetCollisions)
-    if(PENDULAR_QUICK_TEST_BUILD)
-        list(REMOVE_ITEM testFolders Benchmark CoarseGraining Drivers Energy InFlow Insertion Liquid Membranes Motion
-             Periodic Programs Simulation Walls Walls/Bodies)
+    if(isQuickSanitizer)
+        list(REMOVE_ITEM testFolders Benchmark CoarseGraining Contacts Drivers Energy Hosts InFlow Insertion Liquid
+             Membranes Motion Output Periodic Programs Restart SeveralSpecies Simulation Superquadrics Walls Walls/Bodies)
     endif()
 endif()
 # The precompiled header of all tests, in a target of its own: a test program depends on no other one.
@@ -104,16 +104,18 @@ endif()
 
 # A library of species that a test loads: compiled as a driver is, and not linked to the kernel, which is in the
 # program, whole and with its symbols shown, so that nothing is there twice.
-add_library(QuadraticSpring MODULE "${selfTests}/Hosts/Library/QuadraticSpring.cpp")
-target_compile_features(QuadraticSpring PRIVATE cxx_std_20)
-target_include_directories(QuadraticSpring PRIVATE $<TARGET_PROPERTY:PendularKernel,INTERFACE_INCLUDE_DIRECTORIES>)
-target_compile_options(QuadraticSpring PRIVATE $<TARGET_PROPERTY:PendularKernel,INTERFACE_COMPILE_OPTIONS>)
-target_link_libraries(QuadraticSpring PRIVATE Eigen3::Eigen fmt::fmt)
-set_target_properties(QuadraticSpring PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
-add_warnings(QuadraticSpring)
-set_target_properties(SelfTestHosts PROPERTIES ENABLE_EXPORTS ON DEFINE_SYMBOL ""
-                      LINK_LIBRARY_OVERRIDE "WHOLE_ARCHIVE,PendularKernel,Pendular::Kernel")
-add_dependencies(SelfTestHosts QuadraticSpring)
+if(TARGET SelfTestHosts)
+    add_library(QuadraticSpring MODULE "${selfTests}/Hosts/Library/QuadraticSpring.cpp")
+    target_compile_features(QuadraticSpring PRIVATE cxx_std_20)
+    target_include_directories(QuadraticSpring PRIVATE $<TARGET_PROPERTY:PendularKernel,INTERFACE_INCLUDE_DIRECTORIES>)
+    target_compile_options(QuadraticSpring PRIVATE $<TARGET_PROPERTY:PendularKernel,INTERFACE_COMPILE_OPTIONS>)
+    target_link_libraries(QuadraticSpring PRIVATE Eigen3::Eigen fmt::fmt)
+    set_target_properties(QuadraticSpring PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
+    add_warnings(QuadraticSpring)
+    set_target_properties(SelfTestHosts PROPERTIES ENABLE_EXPORTS ON DEFINE_SYMBOL ""
+                          LINK_LIBRARY_OVERRIDE "WHOLE_ARCHIVE,PendularKernel,Pendular::Kernel")
+    add_dependencies(SelfTestHosts QuadraticSpring)
+endif()
 
 # What must not compile: the flags of a driver, in a file for the compiler.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" configuration)
