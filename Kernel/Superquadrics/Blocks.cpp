@@ -46,6 +46,7 @@ std::uint32_t Blocks::numberOf(const RoundedBox& box) {
     if (found != boxes.end()) return static_cast<std::uint32_t>(found - boxes.begin());
     boxes.push_back(box);
     contactRadii.push_back(box.largestContactRadius());
+    largestEdge = std::max(largestEdge, box.radius);
     // Hertz's law takes half the radius at contacts for two such grains.
     largestRatio = std::max(largestRatio, 2 * contactRadii.back() / box.radiusAtContacts());
     return static_cast<std::uint32_t>(boxes.size() - 1);
@@ -149,11 +150,16 @@ bool Blocks::areWhole(const RigidBodies& bodies) const {
 
 ShapeExtremes Blocks::extremesOf(const BlockPart& part, double radius) const {
     if (!part.body) return {radius, radius, 0, 0, 0};
-    const double lever = boxOf(part).boundingRadius(), largest = contactRadii[part.box];
+    const double lever = boxOf(part).boundingRadius();
     const Vector<double>& inertia = part.body->inertia;
     const double turning = part.body->mass * lever * lever / std::min({inertia.x, inertia.y, inertia.z});
-    const bool isCorner = part.kind == BlockPart::Kind::Corner;
-    return {isCorner ? radius : infinity, isCorner ? radius : largest, turning, turning, lever};
+    // A core takes the radius of what touches it, and two edges the mean of theirs, which is at most the
+    // larger one.
+    using Kind = BlockPart::Kind;
+    const double around = part.kind == Kind::Corner ? radius
+                          : part.kind == Kind::Edge ? 2 * largestEdge
+                                                    : infinity;
+    return {part.kind == Kind::Corner ? radius : infinity, around, turning, turning, lever};
 }
 
 ShapeInSpace Blocks::shapeOf(const BlockPart& part, double radius) const {

@@ -70,10 +70,10 @@ public:
 private:
     std::uint32_t numberOf(const RoundedBox& box);
 
-    std::vector<RoundedBox> boxes;         // that differ
-    std::vector<double> contactRadii;      // m, of each: RoundedBox::largestContactRadius()
-    std::vector<std::uint32_t> boxOfBody;  // by the number of the body
-    double largestRatio = 1;
+    std::vector<RoundedBox> boxes;             // that differ
+    std::vector<double> contactRadii;          // m, of each: RoundedBox::largestContactRadius()
+    std::vector<std::uint32_t> boxOfBody;      // by the number of the body
+    double largestRatio = 1, largestEdge = 0;  // largestEdge: m, radius
 };
 
 /// Why a wall cannot stand beside blocks; empty if it can.

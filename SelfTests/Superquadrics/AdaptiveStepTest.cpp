@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "Kernel/Math/CountedRandom.h"
 #include "Kernel/Parts/AdaptiveStep.h"
@@ -68,6 +69,40 @@ TEST(AdaptiveSuperquadrics, isBelowTheBoundAtEachStepOfAnImpact) {
             EXPECT_LE(largestShare(scene, 6e-3 / speed), 0.8) << shape.a << " " << shape.n1 << " " << speed;
             EXPECT_GT(scene.adaptiveTimeStep().largestStep(), 2 * scene.adaptiveTimeStep().smallestStep());
             EXPECT_GT(scene.body(0).getVelocity().z(), -0.9 * speed);  // it has touched
+        }
+}
+
+/// Two blocks that fly at each other: a corner at a face, or an edge across an edge.
+struct BlocksThatMeet : FewSuperquadrics<Rough> {
+    BlocksThatMeet(bool edges, double speed, double edge, double secondEdge)
+        : FewSuperquadrics(hertz<Rough>(), {}, 1e-7) {
+        constexpr double quarter = 0.25 * std::numbers::pi;
+        addBlock(edge, {0, 0, 0}, speed, edges ? turned(quarter, {1, 0, 0}) : Eigen::Quaterniond::Identity());
+        addBlock(secondEdge, {3e-4, 2e-4, 5.5e-3}, -speed,
+                 edges ? turned(2 * quarter + 0.1, {0, 0, 1}) * turned(quarter, {1, 0, 0})
+                       : turned(0.9, {1, 1.2, 0.3}));
+    }
+
+private:
+    static Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
+        return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+    }
+    void addBlock(double edge, const Vec3D& place, double speed, const Eigen::Quaterniond& orientation) {
+        BlockGrain block({2e-3, 1.5e-3, 1e-3}, edge);
+        block.setSpecies(speciesHandler.getObject(0));
+        block.setPosition(place), block.setVelocity({0, 0, speed}), block.setOrientation(orientation);
+        superquadricHandler.copyAndAddObject(block);
+    }
+};
+TEST(AdaptiveSuperquadrics, isBelowTheBoundAtEachStepOfAnImpactOfBlocks) {
+    constexpr double speed = 0.3;
+    for (const bool edges : {false, true})
+        for (const double edge : {3e-4, 9e-4}) {
+            BlocksThatMeet scene(edges, speed, edge, 9e-4);
+            scene.setAdaptiveTimeStep(0.8, 1);  // nothing else bounds it
+            EXPECT_LE(largestShare(scene, 3e-3 / speed), 0.8) << edges << " " << edge;
+            EXPECT_GT(scene.body(0).getVelocity().z(), -speed);  // they have touched
+            EXPECT_LT(scene.body(0).getVelocity().z(), 0.9 * speed);
         }
 }
 
