@@ -221,6 +221,9 @@ void SuperquadricHandler::visitExtremes(StateArchive& archive) {
     extremes.clear();
     for (std::size_t k = 0; k < numbersOfAll.size(); k += count) {
         const double* const own = numbersOfAll.data() + k;
+        for (const double n : {own[3], own[4]})
+            archive.require(n >= Superquadric::smallestExponent && n <= Superquadric::largestExponent,
+                            "extremes", "has an exponent that is not from 2 to 8");
         extremes.emplace_back(
             Superquadric{own[0], own[1], own[2], static_cast<int>(own[3]), static_cast<int>(own[4])},
             ExtremeContact{own[5], own[6], own[7], own[8]});
