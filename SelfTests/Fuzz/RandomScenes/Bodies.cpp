@@ -1,4 +1,4 @@
-// Grains, held ones, clumps, and grains that are joined.
+// Grains, held ones, clumps, shapes, and grains that are joined.
 #include <algorithm>
 
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
@@ -59,6 +59,29 @@ void addSuperquadrics(Making& making) {
         const double x = half("half length x"), y = half("half length y"), z = half("half length z");
         const int exponent = making.draw.oneIn(2) ? 2 : making.draw.whole(2, 6);
         SuperquadricGrain grain(Superquadric{x, y, z, exponent, exponent});
+        grain.setSpecies(making.anyMaterial());
+        grain.setPosition(*cell);
+        const Vec3D axis = making.draw.direction();
+        grain.setOrientation({making.draw.even(-1, 1), axis.x(), axis.y(), axis.z()});
+        grain.setVelocity(making.scales.speed * making.draw.inCube(1));
+        grain.setAngularVelocity(making.draw.inCube(making.scales.speed / making.scales.radius));
+        making.shapes->copyAndAddObject(grain);
+    }
+}
+
+/// Their edges are as round as their overlaps of a collision ask for.
+void addBlocks(Making& making) {
+    if (!making.shapes) return;
+    const int count = std::min(making.draw.whole(4, 24), making.recipe.grains);
+    for (int k = 0; k < count; ++k) {
+        const auto cell = making.takeCell();
+        if (!cell) return;
+        const auto half = [&](std::string_view name) {
+            return making.draw.give(name, making.draw.even(0.6, 1) * 0.28 * making.scales.cell);
+        };
+        const double x = half("half length x"), y = half("half length y"), z = half("half length z");
+        BlockGrain grain({x, y, z},
+                         making.draw.give("radius", making.draw.even(0.3, 0.6) * std::min({x, y, z})));
         grain.setSpecies(making.anyMaterial());
         grain.setPosition(*cell);
         const Vec3D axis = making.draw.direction();
@@ -187,7 +210,8 @@ std::vector<Feature> bodyFeatures() {
          .loses = both | places,
          .kinds = {"body", "held"}},
         // A scene has them only by name, as it has one type of species then.
-        {.name = "Superquadrics", .share = 0, .add = addSuperquadrics, .kinds = {"body"}},
+        {.name = "Superquadrics", .share = 0, .add = addSuperquadrics, .kinds = {"body", "shape"}},
+        {.name = "Blocks", .share = 0, .add = addBlocks, .kinds = {"body", "shape"}},
         {.name = "Clumps", .share = 0.2, .add = addClumps, .kinds = {"body"}},
         {.name = "Joined", .share = 0.08, .add = addJoined, .kinds = {"body"}},
         {.name = "JoinInRun",

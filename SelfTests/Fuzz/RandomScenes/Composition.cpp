@@ -17,7 +17,7 @@ namespace {
 
 using support::contains;
 
-constexpr std::array<std::string_view, 63> composed{
+constexpr std::array<std::string_view, 64> composed{
     // materials
     "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticMindlinLiquidBridgeWillett",
     "HertzianViscoelasticMindlinViscousLiquidBridgeWillett",
@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 63> composed{
     "Periods", "Shear", "ShearServo", "Strain", "StressServo", "Oedometer", "Gravity", "GravityChange",
     "Domain",
     // bodies
-    "HeldGrains", "HeldAxes", "HeldBodies", "Clumps", "Superquadrics", "JoinInRun", "BodyChange",
+    "HeldGrains", "HeldAxes", "HeldBodies", "Clumps", "Superquadrics", "Blocks", "JoinInRun", "BodyChange",
     // walls
     "Planes", "Cylinder", "Rod", "Tube", "Funnel", "MovingPlane", "VibratingPlane", "Belt", "WallThatComes",
     "Mesh", "MovingMesh", "Wear", "WornVertices", "Membrane", "Piston", "ForceServo", "Rotor", "FreeWall",
@@ -56,6 +56,10 @@ constexpr std::array refusedElsewhere{
     RefusedElsewhere{"is above the stability limit", "a matter of the numbers of a scene"},
     RefusedElsewhere{"and wall 0: initial overlap",
                      "a wall comes where a grain has gone: a matter of places"},
+    RefusedElsewhere{"blocks cannot be in a scene with superquadrics", "a matter of what touches what"},
+    RefusedElsewhere{"superquadrics cannot be in a scene with blocks", "a matter of what touches what"},
+    RefusedElsewhere{"blocks do not adhere", "faces attract by their area"},
+    RefusedElsewhere{"blocks touch walls by their corners", "edges and faces do not touch walls"},
     RefusedElsewhere{"only meshes are repeated", "a shape that is no mesh has no images"},
 };
 
@@ -89,6 +93,14 @@ void addNeeded(std::vector<std::string>& features, const Feature& feature) {
     }
 }
 
+/// Whether a feature is a liquid, or is there with one only.
+bool isWet(const Feature& feature) {
+    const auto needs = [&](std::string_view word) {
+        return std::ranges::find(feature.needs, word) != feature.needs.end();
+    };
+    return (feature.is("material") && !feature.is("dry")) || needs("moving liquid") || needs("bridges");
+}
+
 bool isConflict(const std::string& sentence) {
     return std::ranges::any_of(conflicts(), [&](const Conflict& conflict) {
         return contains(sentence, "cannot be combined") && contains(sentence, conflict.why) &&
@@ -109,10 +121,22 @@ std::string_view whyNoPair(std::string_view a, std::string_view b) {
         return (first.is(word) && second.is(other)) || (first.is(other) && second.is(word));
     };
     if (are("driven wall", "room")) return "a lid stands where grains would come";
-    const auto isOneOf = [&](std::string_view word) { return first.is(word) || second.is(word); };
-    if (isOneOf("Superquadrics") &&
-        (isOneOf("material") || isOneOf("moving liquid") || !first.needs.empty() || !second.needs.empty()))
-        return "superquadrics have one type of species, which has no liquid";
+    if ((first.is("shape") && isWet(second)) || (second.is("shape") && isWet(first)))
+        return "superquadrics have no liquid";
+    return {};
+}
+
+std::string_view whyNotTogether(std::span<const std::string_view> names) {
+    const auto count = [&](std::string_view word) {
+        return std::ranges::count_if(names,
+                                     [&](std::string_view name) { return featureNamed(name).is(word); });
+    };
+    if (count("shape") > 0 && count("material") > 1) return "a scene of shapes has one type of species";
+    for (std::size_t a = 0; a < names.size(); ++a)
+        for (std::size_t b = a + 1; b < names.size(); ++b) {
+            if (names[a] == names[b]) return "it is the same one";
+            if (const std::string_view why = whyNoPair(names[a], names[b]); !why.empty()) return why;
+        }
     return {};
 }
 

@@ -34,21 +34,32 @@ TEST_P(HeavyComposition, ofEachWithTheLaterOnes) {
 INSTANTIATE_TEST_SUITE_P(Pairs, HeavyComposition, testing::Range<std::size_t>(0, composedFeatures().size()),
                          [](const auto& feature) { return std::string(composedFeatures()[feature.param]); });
 
+/// Superquadrics that adhere with each of the others, by one of the laws of dry adhesion after the other.
+TEST(HeavyCompositionOfShapesThatAdhere, withEach) {
+    constexpr std::array<std::string_view, 4> laws{
+        "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticDMT", "HertzianViscoelasticReversibleAdhesive",
+        "HertzianViscoelasticIrreversibleAdhesive"};
+    int scenes = 0, ended = 0;
+    for (const std::string_view other : composedFeatures()) {
+        const std::array names{laws[static_cast<std::size_t>(scenes) % laws.size()],
+                               std::string_view("Superquadrics"), other};
+        if (!whyNotTogether(names).empty()) continue;
+        ++scenes;
+        ended += judgeOne(names, 1) ? 1 : 0;
+    }
+    EXPECT_GE(4 * ended, 3 * scenes);
+}
+
 /// Triples at random; each failure names its seed and its recipe.
 void judgeTriples(std::uint64_t first, std::uint64_t count) {
     const std::span<const std::string_view> all = composedFeatures();
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         support::Random random(seed);
         std::array<std::string_view, 3> names;
-        const auto isNone = [&](std::size_t k) {
-            for (std::size_t other = 0; other < k; ++other)
-                if (names[k] == names[other] || !whyNoPair(names[k], names[other]).empty()) return true;
-            return false;
-        };
         for (std::size_t k = 0; k < 3; ++k) do
                 names[k] =
                     all[static_cast<std::size_t>(random.uniform(0, 1) * static_cast<double>(all.size()))];
-            while (isNone(k));
+            while (!whyNotTogether(std::span(names).first(k + 1)).empty());
         SCOPED_TRACE(fmt::format("triple of the seed {}", seed));
         judgeOne(names, seed);
     }

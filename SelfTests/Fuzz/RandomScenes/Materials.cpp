@@ -1,6 +1,7 @@
-// Species: one feature for each type that is compiled into the kernel.
+// Species: one feature for each type that is compiled into the kernel, and for other laws of dry adhesion.
 #include <numbers>
 
+#include "Kernel/Contacts/SpeciesRegistry.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
 
 namespace pendular::fuzz {
@@ -48,6 +49,9 @@ std::optional<double> valueOf(const NamedField& field, const Scales& scales, Dra
     if (name == "viscosity")
         return scales.force() * draw.decades(1e-4, 1e-2) /
                (6 * std::numbers::pi * scales.radius * scales.speed);
+    if (name == "surfaceDistance") return 1e-3 * scales.radius * draw.decades(0.5, 5);
+    if (name == "adhesionForceMax") return scales.force() * draw.decades(0.003, 0.1);
+    if (name == "adhesionStiffness") return 0.1 * stiffness * draw.decades(0.5, 1);
     if (name == "workOfAdhesion") return often(scales.force() * draw.decades(0.001, 0.05) / scales.radius);
     return std::nullopt;
 }
@@ -84,14 +88,25 @@ std::vector<std::string_view> kindsOf(std::string_view type) {
     if (has("LiquidBridge")) kinds.push_back("bridges");
     if (has("ViscousLiquid")) kinds.push_back("viscous bridges");
     if (has("JKR")) kinds.push_back("JKR");
+    if (!has("Liquid")) kinds.push_back("dry");
     return kinds;
+}
+
+/// The types of the kernel, and some that are made known here.
+std::vector<std::string_view> allTypes() {
+    static const RegisteredSpecies<HertzianViscoelasticDMTSpecies> one;
+    static const RegisteredSpecies<HertzianViscoelasticReversibleAdhesiveSpecies> two;
+    static const RegisteredSpecies<HertzianViscoelasticIrreversibleAdhesiveSpecies> three;
+    std::vector<std::string_view> types = instantiatedSpecies();
+    for (const std::string_view type : registeredSpecies()) types.push_back(type);
+    return types;
 }
 
 }  // namespace
 
 std::vector<Feature> materialFeatures() {
     std::vector<Feature> table;
-    for (const std::string_view type : instantiatedSpecies()) {
+    for (const std::string_view type : allTypes()) {
         std::string name(type.substr(0, type.size() - std::string_view("Species").size()));
         table.push_back({.name = std::move(name),
                          .share = 0,  // a scene gets one, two or three of them

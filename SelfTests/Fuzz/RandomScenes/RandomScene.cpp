@@ -63,6 +63,20 @@ public:
     SuperquadricHandler* shapes() override { return &this->superquadricHandler; }
 };
 
+/// Those of scenes with superquadrics or blocks, which have one type each.
+using TypesOfShapes = TypeList<HertzianViscoelasticMindlinSpecies, HertzianViscoelasticMindlinJKRSpecies,
+                               HertzianViscoelasticDMTSpecies, HertzianViscoelasticReversibleAdhesiveSpecies,
+                               HertzianViscoelasticIrreversibleAdhesiveSpecies>;
+
+std::unique_ptr<RandomScene> sceneOfShapes(std::string_view type) {
+    std::unique_ptr<RandomScene> made;
+    TypesOfShapes::forEach([&]<class S>() {
+        if (type == S::name) made = std::make_unique<SceneOfShapes<S>>();
+    });
+    if (!made) made = std::make_unique<SceneOfShapes<HertzianViscoelasticMindlinSpecies>>();
+    return made;
+}
+
 /// Those of which most of the others are made: dry and wet, with a spin and without, liquid at rest and in
 /// motion.
 using OneTypes =
@@ -79,8 +93,8 @@ std::unique_ptr<RandomScene> sceneOf(const Recipe& recipe) {
     for (const std::string& name : recipe.features)
         if (featureNamed(name).is("material")) types.push_back(name + "Species");
     std::unique_ptr<RandomScene> made;
-    if (recipe.has("Superquadrics"))
-        return std::make_unique<SceneOfShapes<HertzianViscoelasticMindlinSpecies>>();
+    if (recipe.has("Superquadrics") || recipe.has("Blocks"))
+        return sceneOfShapes(types.empty() ? std::string() : types[0]);
     if (types.size() == 1 && Scales(recipe).isOneType)
         OneTypes::forEach([&]<class S>() {
             if (types[0] == S::name) made = std::make_unique<SceneOfOne<S>>();

@@ -48,7 +48,8 @@ public:
     [[nodiscard]] bool continueSolve() const override { return this->getNumberOfTimeSteps() < stopAfter; }
 };
 
-/// A SuperquadricSimulation where the recipe asks for one. A Simulation<S> where the recipe has one type of
+/// A SuperquadricSimulation where the recipe asks for one, of its first type of species that can be, else of
+/// HertzianViscoelasticMindlin. A Simulation<S> where the recipe has one type of
 /// species that there is such a one for, and its seed says so; else a Simulation<>.
 std::unique_ptr<RandomScene> sceneOf(const Recipe& recipe);
 
