@@ -81,7 +81,7 @@ void addBlocks(Making& making) {
         };
         const double x = half("half length x"), y = half("half length y"), z = half("half length z");
         BlockGrain grain({x, y, z},
-                         making.draw.give("radius", making.draw.even(0.3, 0.6) * std::min({x, y, z})));
+                         making.draw.give("radius", making.draw.even(0.6, 0.9) * std::min({x, y, z})));
         grain.setSpecies(making.anyMaterial());
         grain.setPosition(*cell);
         const Vec3D axis = making.draw.direction();

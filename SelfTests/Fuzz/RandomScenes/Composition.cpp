@@ -17,10 +17,11 @@ namespace {
 
 using support::contains;
 
+constexpr std::string_view wetShapes = "HertzianViscoelasticMindlinLiquidBridgeWillett";
+
 constexpr std::array<std::string_view, 64> composed{
     // materials
-    "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticMindlinLiquidBridgeWillett",
-    "HertzianViscoelasticMindlinViscousLiquidBridgeWillett",
+    "HertzianViscoelasticMindlinJKR", wetShapes, "HertzianViscoelasticMindlinViscousLiquidBridgeWillett",
     "LinearViscoelasticSlidingFrictionLiquidMigrationWillett",
     // methods
     "VelocityVerlet", "SpringsInStep", "AdamsMoulton", "AdaptiveStep", "Ledger", "Events", "ContactColumn",
@@ -93,12 +94,13 @@ void addNeeded(std::vector<std::string>& features, const Feature& feature) {
     }
 }
 
-/// Whether a feature is a liquid, or is there with one only.
-bool isWet(const Feature& feature) {
+/// Whether a feature is a liquid that shapes do not have, or is there with one only.
+bool isOtherLiquid(const Feature& feature) {
     const auto needs = [&](std::string_view word) {
         return std::ranges::find(feature.needs, word) != feature.needs.end();
     };
-    return (feature.is("material") && !feature.is("dry")) || needs("moving liquid") || needs("bridges");
+    if (feature.is("material")) return !feature.is("dry") && feature.name != wetShapes;
+    return needs("moving liquid") || needs("bridges");
 }
 
 bool isConflict(const std::string& sentence) {
@@ -121,8 +123,8 @@ std::string_view whyNoPair(std::string_view a, std::string_view b) {
         return (first.is(word) && second.is(other)) || (first.is(other) && second.is(word));
     };
     if (are("driven wall", "room")) return "a lid stands where grains would come";
-    if ((first.is("shape") && isWet(second)) || (second.is("shape") && isWet(first)))
-        return "superquadrics have no liquid";
+    if ((first.is("shape") && isOtherLiquid(second)) || (second.is("shape") && isOtherLiquid(first)))
+        return "superquadrics have no liquid that moves or resists";
     return {};
 }
 

@@ -14,7 +14,7 @@ namespace pendular::fuzz {
 std::span<const std::string_view> composedFeatures();
 
 /// Why two of them are not run together; empty: they are. Settings that replace each other (two integrators)
-/// are no pair, and superquadrics have no liquid.
+/// are no pair, and superquadrics have no liquid that moves or resists.
 std::string_view whyNoPair(std::string_view a, std::string_view b);
 /// The same of more of them: each two are a pair, and a scene of shapes has one type of species.
 std::string_view whyNotTogether(std::span<const std::string_view> names);

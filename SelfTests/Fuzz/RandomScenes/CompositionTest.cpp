@@ -34,11 +34,11 @@ TEST_P(HeavyComposition, ofEachWithTheLaterOnes) {
 INSTANTIATE_TEST_SUITE_P(Pairs, HeavyComposition, testing::Range<std::size_t>(0, composedFeatures().size()),
                          [](const auto& feature) { return std::string(composedFeatures()[feature.param]); });
 
-/// Superquadrics that adhere with each of the others, by one of the laws of dry adhesion after the other.
+/// Superquadrics that adhere with each of the others, by one law of adhesion after the other.
 TEST(HeavyCompositionOfShapesThatAdhere, withEach) {
-    constexpr std::array<std::string_view, 4> laws{
+    constexpr std::array<std::string_view, 5> laws{
         "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticDMT", "HertzianViscoelasticReversibleAdhesive",
-        "HertzianViscoelasticIrreversibleAdhesive"};
+        "HertzianViscoelasticIrreversibleAdhesive", "HertzianViscoelasticMindlinLiquidBridgeWillett"};
     int scenes = 0, ended = 0;
     for (const std::string_view other : composedFeatures()) {
         const std::array names{laws[static_cast<std::size_t>(scenes) % laws.size()],

@@ -66,7 +66,8 @@ public:
 /// Those of scenes with superquadrics or blocks, which have one type each.
 using TypesOfShapes = TypeList<HertzianViscoelasticMindlinSpecies, HertzianViscoelasticMindlinJKRSpecies,
                                HertzianViscoelasticDMTSpecies, HertzianViscoelasticReversibleAdhesiveSpecies,
-                               HertzianViscoelasticIrreversibleAdhesiveSpecies>;
+                               HertzianViscoelasticIrreversibleAdhesiveSpecies,
+                               HertzianViscoelasticMindlinLiquidBridgeWillettSpecies>;
 
 std::unique_ptr<RandomScene> sceneOfShapes(std::string_view type) {
     std::unique_ptr<RandomScene> made;
