@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Particles/GrainName.h"
 
 namespace pendular {
 
@@ -82,10 +83,10 @@ void FacePassage::arrive(const Grains& grains, double reach, double time) {
             if (walls.getObject(wall).isRepeated()) goOnAtImages(grains, passing, wall);
             else if (isFollowed[wall] && !findPartners(grains, passing, wall, reach))
                 throw RunError(fmt::format(
-                    "At time {:.6g} s particle {} goes through a face of the periodic scene where wall {} is "
+                    "At time {:.6g} s {} goes through a face of the periodic scene where wall {} is "
                     "not the same on both sides: only meshes are repeated, so let this one go on through the "
                     "faces, or keep grains away from where it does not.",
-                    time, grains.identity[passing.place], wall));
+                    time, nameOfGrain(grains, grains.identity[passing.place]), wall));
     }
 }
 

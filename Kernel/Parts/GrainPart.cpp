@@ -1,13 +1,12 @@
 #include "Kernel/Parts/GrainPart.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Motion/RigidBodyMotion.h"
 #include "Kernel/Motion/TimeIntegration.h"
+#include "Kernel/Particles/GrainName.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Step/StepTimes.h"
 
@@ -18,7 +17,7 @@ Features GrainPart::features(const StepContext& scene) const {
     const ParticleStore& grains = scene.grains();
     for (const std::uint32_t place : grains.place)
         if (grains.translation[place].inverseMass == 0 || grains.heldAt(place).areAlong()) {
-            found.add(Feature::HeldGrains, fmt::format("particle {}", grains.identity[place]));
+            found.add(Feature::HeldGrains, nameOfGrain(grains, grains.identity[place]));
             break;
         }
     return found;

@@ -7,20 +7,22 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/Particles/GrainName.h"
 #include "Kernel/Particles/Resolution.h"
 
 namespace pendular {
 
 /// Throws InputError if two bodies overlap by more than a share of the smaller radius (m).
-static void refuseOverlap(const ObservedContact& contact, double smallerRadius, double accepted) {
+static void refuseOverlap(const ParticleStore& grains, const ObservedContact& contact, double smallerRadius,
+                          double accepted) {
     const double share = -contact.separation / smallerRadius;
     if (!(share > accepted * (1 + 1e-9))) return;  // positions are rounded
-    const std::string other = contact.wall < 0 ? fmt::format("particle {}", contact.particle2)
-                                               : fmt::format("wall {}", contact.wall);
+    const std::string other =
+        contact.wall < 0 ? nameOfGrain(grains, contact.particle2) : fmt::format("wall {}", contact.wall);
     throw InputError(fmt::format(
-        "particle {} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
+        "{} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
         "most {:g} %{}.",
-        contact.particle1, other, -contact.separation, 100 * share, 100 * accepted,
+        nameOfGrain(grains, contact.particle1), other, -contact.separation, 100 * share, 100 * accepted,
         accepted < largestOverlapInRun
             ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * largestOverlapInRun)
             : ""));
@@ -55,7 +57,7 @@ void refuseInitialOverlaps(
         if (!isLookedAt(bucket, first, second)) return;
         const double smaller = std::min(radiusOrThickness(contacts.laws(), grains, first),
                                         radiusOrThickness(contacts.laws(), grains, second));
-        refuseOverlap(contacts.observe(grains, bucket, contact), smaller, accepted);
+        refuseOverlap(grains, contacts.observe(grains, bucket, contact), smaller, accepted);
         refuseHiddenOverlap(contacts.laws(), grains, first, second, contacts.periodicBox());
     });
 }
@@ -113,9 +115,10 @@ std::string remarkOnFarGrains(const ParticleStore& grains) {
             worst = &grain, largest = roundingOf(grain.position, grain.radius);
     if (!worst) return {};
     return fmt::format(
-        "particle {} is so far from the origin that its position is rounded to {:.1g} of its radius; a step "
+        "{} is so far from the origin that its position is rounded to {:.1g} of its radius; a step "
         "should move grains by much more than that, or the scene be nearer to the origin",
-        grains.identity[static_cast<std::size_t>(worst - grains.translation.data())], largest);
+        nameOfGrain(grains, grains.identity[static_cast<std::size_t>(worst - grains.translation.data())]),
+        largest);
 }
 
 void refuseFarGrains(const ParticleStore& grains, double time) {
@@ -125,8 +128,8 @@ void refuseFarGrains(const ParticleStore& grains, double time) {
     const auto far = std::ranges::find_if(grains.translation, isFar);
     if (far == grains.translation.end()) return;
     throw RunError(fmt::format(
-        "At time {:.6g} s particle {}: position {}: remove grains that fly away, by an outlet or in a hook.",
-        time, grains.identity[static_cast<std::size_t>(far - grains.translation.begin())],
+        "At time {:.6g} s {}: position {}: remove grains that fly away, by an outlet or in a hook.", time,
+        nameOfGrain(grains, grains.identity[static_cast<std::size_t>(far - grains.translation.begin())]),
         objectionToPlace(far->position, far->radius)));
 }
 
@@ -136,15 +139,15 @@ RunError runawayError(const ParticleStore& grains, double smallestRadius, double
         if (speed * step <= smallestRadius) continue;
         if (!std::isfinite(speed))
             return RunError(
-                fmt::format("At time {:.6g} s the speed of particle {} is {} m/s, which is not a number: "
+                fmt::format("At time {:.6g} s the speed of {} is {} m/s, which is not a number: "
                             "take a smaller time "
                             "step, or look at what the driver has set, spins too.",
-                            time, grains.identity[k], std::abs(speed)));
+                            time, nameOfGrain(grains, grains.identity[k]), std::abs(speed)));
         return RunError(
-            fmt::format("At time {:.6g} s particle {} moves at {:.4g} m/s, farther in a step of {:.4g} s "
+            fmt::format("At time {:.6g} s {} moves at {:.4g} m/s, farther in a step of {:.4g} s "
                         "than the smallest radius, {:.4g} m: "
                         "take a smaller time step, stiffer grains, or lower speeds.",
-                        time, grains.identity[k], speed, step, smallestRadius));
+                        time, nameOfGrain(grains, grains.identity[k]), speed, step, smallestRadius));
     }
     return RunError(
         fmt::format("At time {:.6g} s a particle moved farther in a step than the smallest radius, {:.4g} m.",

@@ -211,6 +211,13 @@ TEST(BlockCollision, refusesWhatItDoesNotKnow) {
                   scene.add({{1e-3, 1e-3, 1e-3}, 2e-4, {0.5e-3, 0, 3e-3}});
               }),
               "");
+    // The block is named, of whose grains nobody need know.
+    const std::string atWall = sentence([](FewBlocks& scene) {
+        scene.add({{1e-3, 1e-3, 1e-3}, 2e-4, {0.02, 0, -1.1e-3}});
+        scene.addPlane({0, 0, -1}, {0, 0, -2e-3});
+    });
+    EXPECT_TRUE(contains(atWall, "rigid body 1 (its particle ")) << atWall;
+    EXPECT_TRUE(contains(atWall, "and wall 0: initial overlap = 0.0001 m is 50 %")) << atWall;
 }
 
 }  // namespace
