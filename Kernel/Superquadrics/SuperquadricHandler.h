@@ -34,8 +34,8 @@ public:
     [[nodiscard]] const RoundedBox& boxOf(std::size_t body) const;
     /// The shape of a grain, by its identity. Throws InputError if it is none of these.
     [[nodiscard]] const Superquadric& shapeOf(std::uint32_t grain) const;
-    /// The number of evaluations of a contact that acted in which Newton's method has not ended, and the
-    /// search without derivatives went on.
+    /// The number of evaluations of contacts of two grains that acted in which Newton's method has not ended,
+    /// and the search without derivatives went on. That of contacts with walls is not counted.
     [[nodiscard]] std::uint64_t fallbacks() const { return fallbackCount; }
 
     /// Of a block, its core.
