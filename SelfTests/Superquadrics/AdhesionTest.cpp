@@ -3,6 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/CoarseGraining/FieldSums.h"
+#include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Species/Adhesion/DMT.h"
 #include "Kernel/Species/Adhesion/IrreversibleAdhesive.h"
 #include "Kernel/Species/Adhesion/JKR.h"
@@ -103,6 +107,38 @@ TEST(SuperquadricForceApart, isThatOfDMTByTheirRadii) {
                             1, 1e-9)
                     << c << " " << gap;
             }
+}
+
+// What attracts has the direction of the normal, not that of the line of centres: a tilted ellipsoid below a
+// plane. The point of the surface with the normal n is p = A^2 n / h, h^2 = n.A^2 n, with Gauss' radius a b c
+// / h^2 there, and the contact point is half the gap farther along n.
+TEST(SuperquadricForceApart, isAlongTheNormalInStresses) {
+    const double a = 1e-3, c = 1.5e-3, gap = surfaceDistance, volume = 8e-9;
+    const Eigen::Quaterniond tilt = turned(0.6, {1, 2, 0});
+    const Eigen::Matrix3d axes = tilt.toRotationMatrix(),
+                          squares =
+                              axes * Eigen::Vector3d(a * a, a * a, c * c).asDiagonal() * axes.transpose();
+    const double h = std::sqrt(squares(2, 2)), radius = a * a * c / (h * h);
+    const double pull = 2 * pi * work * radius * (0.25 - 0.01) / 0.99;
+    const Eigen::Vector3d branch = -squares.col(2) / h - 0.5 * gap * Eigen::Vector3d::UnitZ();
+    Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
+    expected.row(2) = pull / volume * branch.transpose();
+    ASSERT_GT(std::abs(expected(2, 0)), 0.1 * std::abs(expected(2, 2)));
+
+    FewSuperquadrics<Sticky<DMT>> scene(sticky<DMT>(),
+                                        {{{a, a, c}, {0, 0, -h - gap}, {0, 0, 0}, {0, 0, 0}, tilt}}, 1e-8);
+    scene.addPlane({0, 0, 1}, {0, 0, 0});
+    scene.initialise();
+    const double size = expected.cwiseAbs().maxCoeff();
+    EXPECT_LT((meanStress(scene, volume).capillary - expected).cwiseAbs().maxCoeff(), 1e-9 * size);
+    FieldSums sums(FieldGrid("O", {-1e-3, -1e-3, -2e-3}, {1e-3, 1e-3, 0}, 1),
+                   SmoothingKernel(KernelShape::Gauss, 0, 1));
+    sums.add(stateOf(scene));
+    const Eigen::Matrix3d symmetric = 0.5 * (expected + expected.transpose());
+    std::size_t part = FieldSums::AdhesiveStress;
+    for (Eigen::Index i = 0; i < 3; ++i)
+        for (Eigen::Index j = i; j < 3; ++j)
+            EXPECT_NEAR(sums.ofAll(part++, 0), symmetric(i, j), 1e-9 * size) << i << j;
 }
 
 // Two prolate ellipsoids crossed at right angles: K1 + K2 = (1/a + a/c^2) 1. Along each other: that of two
