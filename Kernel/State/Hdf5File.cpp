@@ -42,6 +42,7 @@ Hdf5File::Hdf5File(std::filesystem::path path, Access access) : place(std::move(
 }
 
 Hdf5File::~Hdf5File() {
+    closeDataset();
     if (file >= 0) H5Fclose(file);
 }
 
@@ -97,11 +98,14 @@ std::vector<std::string> Hdf5File::names() const {
 bool Hdf5File::isOwn(const std::string& name) const {
     for (std::size_t end = name.find('/');; end = name.find('/', end + 1)) {
         const std::string part = name.substr(0, end);
-        H5L_info_t link{};
-        if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0) return false;
-        if (link.type != H5L_TYPE_HARD) {
-            errno = 0;
-            fail(fmt::format("has a link to another place at {}, which Pendular does not follow", part));
+        if (!own.contains(part)) {
+            H5L_info_t link{};
+            if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0) return false;
+            if (link.type != H5L_TYPE_HARD) {
+                errno = 0;
+                fail(fmt::format("has a link to another place at {}, which Pendular does not follow", part));
+            }
+            own.insert(part);
         }
         if (end == std::string::npos) return true;
     }
@@ -110,26 +114,30 @@ bool Hdf5File::isOwn(const std::string& name) const {
 bool Hdf5File::holds(const std::string& name) const {
     const std::size_t last = name.rfind('/');
     if (last != std::string::npos && !isOwn(name.substr(0, last))) return false;
-    return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
+    return own.contains(name) || H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+void Hdf5File::closeDataset() const {
+    if (openSet >= 0) H5Dclose(std::exchange(openSet, -1));
 }
 
 Hdf5File::Id Hdf5File::openDataset(const std::string& name) const {
+    if (openSet >= 0 && openName == name) return openSet;
+    closeDataset();
     const bool isThere = isOwn(name);
     errno = 0;
-    const Id set =
-        check(isThere ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1, fmt::format("has no {}", name));
-    // Numbers that lie together in this file have a place in it; to ask for more takes longer than to read.
-    if (H5Dget_offset(set) != HADDR_UNDEF) return set;
-    const Object creation(H5Dget_create_plist(set), H5Pclose);
-    if (H5Pget_layout(creation) != H5D_VIRTUAL && H5Pget_external_count(creation) == 0) return set;
-    H5Dclose(set);
+    openSet = check(isThere ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1, fmt::format("has no {}", name));
+    openName = name;
+    const Object creation(H5Dget_create_plist(openSet), H5Pclose);
+    if (H5Pget_layout(creation) != H5D_VIRTUAL && H5Pget_external_count(creation) == 0) return openSet;
+    closeDataset();
     errno = 0;
     fail(fmt::format("keeps {} in another file, which Pendular does not read", name));
 }
 
 std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
-    const Object set(openDataset(name), H5Dclose), type(H5Dget_type(set), H5Tclose),
-        space(H5Dget_space(set), H5Sclose);
+    const Id set = openDataset(name);
+    const Object type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
     std::array<hsize_t, 2> extent{0, 1};
     if (const int axes = H5Sget_simple_extent_ndims(space); axes != 1 && axes != 2) return {};
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
@@ -153,15 +161,15 @@ std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
 }
 
 void Hdf5File::read(const std::string& name, const TableShape& shape, void* numbers) const {
-    const Object set(openDataset(name), H5Dclose);
+    const Id set = openDataset(name);
     if (shape.rows > 0)
         check(H5Dread(set, nativeType(shape.kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers),
               fmt::format("cannot be read at {}", name));
 }
 
 std::string Hdf5File::readText(const std::string& name) const {
-    const Object set(openDataset(name), H5Dclose), type(H5Dget_type(set), H5Tclose);
-    const Object space(H5Dget_space(set), H5Sclose);
+    const Id set = openDataset(name);
+    const Object type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
     constexpr std::size_t longest = std::size_t{1} << 20;  // bytes
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
         H5Sget_simple_extent_npoints(space) != 1 || H5Tget_size(type) > longest)
@@ -173,6 +181,7 @@ std::string Hdf5File::readText(const std::string& name) const {
 }
 
 void Hdf5File::close() {
+    closeDataset();
     errno = 0;
     check(H5Fclose(std::exchange(file, -1)), "cannot be completed");
 }

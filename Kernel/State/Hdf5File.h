@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,10 +63,15 @@ private:
     void writeDataset(const std::string& name, Id type, Id space, const void* data);
     /// Whether all parts of a name are there, without opening any; throws where one is a link elsewhere.
     [[nodiscard]] bool isOwn(const std::string& name) const;
+    /// It stays open until another one is: its shape is asked for before it is read.
     [[nodiscard]] Id openDataset(const std::string& name) const;
+    void closeDataset() const;
 
     std::filesystem::path place;
     Id file = -1;
+    mutable std::set<std::string, std::less<>> own;  // names that isOwn() has looked at
+    mutable std::string openName;
+    mutable Id openSet = -1;
 };
 
 }  // namespace pendular
