@@ -165,7 +165,7 @@ ShapedTouch SuperquadricHandler::touch(const ParticleStore& grains, std::uint32_
     const SuperquadricPair<double> pair{SuperquadricLanes<double>::from(one.shape),
                                         SuperquadricLanes<double>::from(two.shape), one.axes, two.axes,
                                         shift};
-    const SuperquadricTouch<double> found = findTouch(pair, firstNormal(pair), false);
+    const SuperquadricTouch<double> found = findTouch(pair, firstNormal(pair), infinity);
     const Bodies around{grains.translation[first].radius, grains.translation[second].radius};
     return {found.normal, found.depth, found.arm1, radiusOf(found.radius, around), {found.own1, found.own2}};
 }
