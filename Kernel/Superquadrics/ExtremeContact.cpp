@@ -32,12 +32,10 @@ ExtremeContact extremeContact(const Superquadric& shape) {
             most.sliding =
                 std::max(most.sliding, 0.5 * (uu + vv + std::hypot(uu - vv, 2 * turning(plane.u, plane.v))));
             const Curvature<double> k = curvature(at, plane.u, plane.v);
-            const double gauss = k.determinant(), mean = 0.5 * (k.uu + k.vv),
-                         largest = mean + std::hypot(0.5 * (k.uu - k.vv), k.uv);
+            const double mean = 0.5 * (k.uu + k.vv), largest = mean + std::hypot(0.5 * (k.uu - k.vv), k.uv);
             if (largest > 0)
                 most.smallestRadius = std::min(most.smallestRadius, 1 / (largest * shape.boundingRadius()));
-            const double radius = gauss > 0 ? 1 / std::sqrt(gauss) : infinity;
-            most.radii = std::max(most.radii, radius / shape.boundingRadius());
+            most.radii = std::max(most.radii, gaussRadius(k) / shape.boundingRadius());
         }
     return {1.01 * most.turning, std::min(1.01 * most.radii, SuperquadricGeometry::mostRadii),
             1.01 * most.sliding, 0.8 * most.smallestRadius};

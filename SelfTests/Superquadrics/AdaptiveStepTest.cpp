@@ -21,6 +21,7 @@ namespace {
 using scenes::FewGrains;
 using scenes::FewSuperquadrics;
 using scenes::SuperquadricMotion;
+using scenes::turnedBy;
 
 using Smooth = Species<HertzianViscoelastic>;
 using Rough = Species<HertzianViscoelastic, Mindlin>;
@@ -77,16 +78,14 @@ struct BlocksThatMeet : FewSuperquadrics<Rough> {
     BlocksThatMeet(bool edges, double speed, double edge, double secondEdge)
         : FewSuperquadrics(hertz<Rough>(), {}, 1e-7) {
         constexpr double quarter = 0.25 * std::numbers::pi;
-        addBlock(edge, {0, 0, 0}, speed, edges ? turned(quarter, {1, 0, 0}) : Eigen::Quaterniond::Identity());
+        addBlock(edge, {0, 0, 0}, speed,
+                 edges ? turnedBy(quarter, {1, 0, 0}) : Eigen::Quaterniond::Identity());
         addBlock(secondEdge, {3e-4, 2e-4, 5.5e-3}, -speed,
-                 edges ? turned(2 * quarter + 0.1, {0, 0, 1}) * turned(quarter, {1, 0, 0})
-                       : turned(0.9, {1, 1.2, 0.3}));
+                 edges ? turnedBy(2 * quarter + 0.1, {0, 0, 1}) * turnedBy(quarter, {1, 0, 0})
+                       : turnedBy(0.9, {1, 1.2, 0.3}));
     }
 
 private:
-    static Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
-        return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-    }
     void addBlock(double edge, const Vec3D& place, double speed, const Eigen::Quaterniond& orientation) {
         BlockGrain block({2e-3, 1.5e-3, 1e-3}, edge);
         block.setSpecies(speciesHandler.getObject(0));

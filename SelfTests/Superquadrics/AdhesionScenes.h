@@ -15,10 +15,6 @@
 
 namespace pendular::scenes {
 
-inline Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 /// The half lengths a, a, c (m) of the ellipsoids that are tried.
 inline constexpr std::array<std::pair<double, double>, 2> ellipsoids{{{1e-3, 1.5e-3}, {1.5e-3, 1e-3}}};
 
@@ -31,7 +27,7 @@ struct Place {
 /// A pole, where both radii are a^2 / c, and a point of the equator, where they are c^2 / a and a.
 inline std::array<Place, 2> placesOf(double a, double c) {
     return {Place{Eigen::Quaterniond::Identity(), c, a * a / c},
-            Place{turned(0.5 * std::numbers::pi, {1, 0, 0}), a, std::sqrt(c * c / a * a)}};
+            Place{turnedBy(0.5 * std::numbers::pi, {1, 0, 0}), a, std::sqrt(c * c / a * a)}};
 }
 
 /// A superquadric and a plane above it, apart by a gap (m): the force between them at the start.
@@ -58,7 +54,7 @@ struct Bouncing : FewSuperquadrics<S> {
                                 {0.1e-3, 0.2e-3, 1.25e-3},
                                 {0.02, 0, -0.2},
                                 {5, 0, 3},
-                                turned(0.5, {1, 2, 0})}},
+                                turnedBy(0.5, {1, 2, 0})}},
                               1e-6) {
         if (!mesh) {
             this->addPlane({0, 0, -1}, {0, 0, 0});

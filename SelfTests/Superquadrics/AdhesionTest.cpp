@@ -33,7 +33,7 @@ using scenes::expectForcesOfSpheres;
 using scenes::FewSuperquadrics;
 using scenes::Place;
 using scenes::placesOf;
-using scenes::turned;
+using scenes::turnedBy;
 using scenes::underPlane;
 using std::numbers::pi;
 
@@ -114,7 +114,7 @@ TEST(SuperquadricForceApart, isThatOfDMTByTheirRadii) {
 // / h^2 there, and the contact point is half the gap farther along n.
 TEST(SuperquadricForceApart, isAlongTheNormalInStresses) {
     const double a = 1e-3, c = 1.5e-3, gap = surfaceDistance, volume = 8e-9;
-    const Eigen::Quaterniond tilt = turned(0.6, {1, 2, 0});
+    const Eigen::Quaterniond tilt = turnedBy(0.6, {1, 2, 0});
     const Eigen::Matrix3d axes = tilt.toRotationMatrix(),
                           squares =
                               axes * Eigen::Vector3d(a * a, a * a, c * c).asDiagonal() * axes.transpose();
@@ -151,7 +151,7 @@ TEST(SuperquadricNeck, pullsTwoEllipsoidsByGaussRadius) {
         FewSuperquadrics<Sticky<JKR>> scene(
             sticky<JKR>(),
             {{{c, a, a}, {0, 0, 0}},
-             {{c, a, a}, {0, 0, 2 * a + gap}, {0, 0, 0}, {0, 0, 0}, turned(angle, {0, 0, 1})}},
+             {{c, a, a}, {0, 0, 2 * a + gap}, {0, 0, 0}, {0, 0, 0}, turnedBy(angle, {0, 0, 1})}},
             1e-8);
         scene.joinAtStart(1e-5);
         scene.initialise();

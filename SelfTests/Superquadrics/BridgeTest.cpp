@@ -24,7 +24,7 @@ namespace {
 
 using scenes::FewGrains;
 using scenes::FewSuperquadrics;
-using scenes::turned;
+using scenes::turnedBy;
 using scenes::underPlane;
 using std::numbers::pi;
 
@@ -134,7 +134,7 @@ TEST(SuperquadricBridgeOfTwo, hasTheForceOfTheTrueGap) {
             FewSuperquadrics<Wet<LiquidBridgeLambert>> scene(
                 wet<LiquidBridgeLambert>(volume),
                 {{{c, a, a}, {0, 0, 0}},
-                 {{c, a, a}, {0, 0, 2 * a + gap}, {0, 0, 0}, {0, 0, 0}, turned(turn, {0, 0, 1})}},
+                 {{c, a, a}, {0, 0, 2 * a + gap}, {0, 0, 0}, {0, 0, 0}, turnedBy(turn, {0, 0, 1})}},
                 1e-8);
             scene.joinAtStart(1e-5);
             scene.initialise();

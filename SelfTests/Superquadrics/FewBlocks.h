@@ -57,8 +57,4 @@ public:
     }
 };
 
-inline Eigen::Quaterniond turnedBy(double angle, const Vec3D& axis) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 }  // namespace pendular::scenes

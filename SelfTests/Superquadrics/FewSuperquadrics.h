@@ -6,6 +6,10 @@
 
 namespace pendular::scenes {
 
+inline Eigen::Quaterniond turnedBy(double angle, const Vec3D& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
 /// The motion of one superquadric.
 struct SuperquadricMotion {
     Superquadric shape;              // m

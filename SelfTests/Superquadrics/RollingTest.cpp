@@ -148,12 +148,10 @@ TEST(SuperquadricRolling, anEllipsoidThatSpinsOnItsPoleStopsByTorsion) {
 
 /// Two that hit each other off their middles, and spin.
 std::vector<scenes::SuperquadricMotion> collision() {
-    const auto turned = [](double angle, const Vec3D& axis) {
-        return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-    };
     const Superquadric shape{1e-3, 1.4e-3, 0.8e-3, 4, 4}, other{1.2e-3, 0.9e-3, 1.1e-3, 3, 5};
-    return {{shape, {-1.5e-3, 0, 0}, {0.2, 0.02, 0}, {20, 0, -30}, turned(0.7, {1, 1, 0})},
-            {other, {1.5e-3, 0.5e-3, 0.3e-3}, {-0.2, 0, 0.01}, {0, 15, 10}, turned(1.3, {0, 1, 2})}};
+    return {
+        {shape, {-1.5e-3, 0, 0}, {0.2, 0.02, 0}, {20, 0, -30}, scenes::turnedBy(0.7, {1, 1, 0})},
+        {other, {1.5e-3, 0.5e-3, 0.3e-3}, {-0.2, 0, 0.01}, {0, 15, 10}, scenes::turnedBy(1.3, {0, 1, 2})}};
 }
 
 // A step rounds momenta by 2^-53 of their parts, with signs at random.

@@ -16,6 +16,7 @@ namespace {
 
 using scenes::FewSuperquadrics;
 using scenes::SuperquadricMotion;
+using scenes::turnedBy;
 
 using Rough = Species<LinearViscoelastic, SlidingFriction>;
 
@@ -64,16 +65,12 @@ public:
     }
 };
 
-Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 // The plane of the mesh has the depth and the normal of the plane to round-off: with an overlap of 1e-5 of
 // the size, forces differ by 1e-16 / 1e-5 = 1e-11, and so does the motion in a time in which nothing hits
 // again.
 TEST(ShapesOnWalls, anEllipsoidRollsOnAMeshAsOnAPlane) {
     const SuperquadricMotion motion{
-        {2e-3, 1.2e-3, 1.5e-3}, {0, 0, 1.6e-3}, {0.1, 0.05, 0}, {5, 30, 2}, turned(0.4, {1, 2, 0.5})};
+        {2e-3, 1.2e-3, 1.5e-3}, {0, 0, 1.6e-3}, {0.1, 0.05, 0}, {5, 30, 2}, turnedBy(0.4, {1, 2, 0.5})};
     Rolling onPlane(motion, 3000, 2e-6, 0.2), onMesh(motion, 3000, 2e-6, 0.2),
         onParts(motion, 3000, 2e-6, 0.2);
     onPlane.addPlane({0, 0, -1}, {0, 0, 0});
@@ -108,8 +105,8 @@ TEST(ShapesOnWalls, anEllipsoidOnAMeshRollsByTheEquationsOfRolling) {
     const double slope = 5 * std::numbers::pi / 180;
     const Superquadric shape{a, 0.01, 0.01};
     const double weight = 2500 * shape.volume() * 9.81 * std::cos(slope), sunk = weight / stiffness;
-    Rolling scene({shape, {0, 0, 0.01 - sunk}, {0, 0, 0}, {0, 0, 0}, turned(0.4, {0, 0, 1})}, stiffness, 2e-6,
-                  slope);
+    Rolling scene({shape, {0, 0, 0.01 - sunk}, {0, 0, 0}, {0, 0, 0}, turnedBy(0.4, {0, 0, 1})}, stiffness,
+                  2e-6, slope);
     scene.addFloor(3, 0.1);
     scene.initialise();
     for (const Found& at : found) {
@@ -149,7 +146,7 @@ TEST(ShapesOnWalls, aGrooveIsTouchedOnBothSides) {
                    {0, 0, 0.999e-3 * std::numbers::sqrt2},
                    {0, 0, 0},
                    {0, 0, 0},
-                   turned(0.25 * std::numbers::pi, {1, 0, 0})},
+                   turnedBy(0.25 * std::numbers::pi, {1, 0, 0})},
                   3000, 2e-6, 0);
     scene.addWall(groove);
     scene.initialise();
@@ -165,7 +162,7 @@ TEST(ShapesOnWalls, aMovingMeshIsSeenFromItsFrame) {
                                     {0, 0, 1.9e-3},
                                     {0.1, 0.05, -0.2},
                                     {5, 30, 2},
-                                    turned(0.4, {1, 2, 0.5})};
+                                    turnedBy(0.4, {1, 2, 0.5})};
     SuperquadricMotion moving = motion;
     moving.velocity += drift;
     Rolling atRest(motion, 3000, 2e-6, 0.1), moved(moving, 3000, 2e-6, 0.1);
@@ -182,7 +179,7 @@ TEST(ShapesOnWalls, aMovingMeshIsSeenFromItsFrame) {
 // In a periodic scene a floor of triangles goes on as a plane does, also one that is moved by half a period.
 TEST(ShapesOnWalls, imagesOfAMeshCarryShapes) {
     const SuperquadricMotion motion{
-        {2e-3, 1.2e-3, 1.5e-3}, {0, 0, 1.6e-3}, {0.8, 0.5, 0}, {5, 30, 2}, turned(0.4, {1, 2, 0.5})};
+        {2e-3, 1.2e-3, 1.5e-3}, {0, 0, 1.6e-3}, {0.8, 0.5, 0}, {5, 30, 2}, turnedBy(0.4, {1, 2, 0.5})};
     const auto placeOn = [&](bool isPlane, double shift) {
         Rolling scene(motion, 3000, 2e-6, 0.2);
         scene.setPeriodic(0, -5e-3, 5e-3);

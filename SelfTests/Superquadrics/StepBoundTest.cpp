@@ -20,6 +20,7 @@ namespace {
 using scenes::FewGrains;
 using scenes::FewSuperquadrics;
 using scenes::SuperquadricMotion;
+using scenes::turnedBy;
 
 using Smooth = Species<LinearViscoelastic>;
 using Rough = Species<LinearViscoelastic, SlidingFriction>;
@@ -42,9 +43,6 @@ Rough rough() {
     s.setSlidingFrictionCoefficient(100);  // it sticks
     return s;
 }
-Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
 double massOf(const Superquadric& s) { return density * s.volume(); }
 
 // An ellipsoid that touches a plane, inclined by an angle: the spring moves the centre and turns the body, so
@@ -58,7 +56,7 @@ struct Tip {
     double squaredFrequency = k * (1 / mass + x * x / (mass * (a * a + c * c) / 5));
 
     [[nodiscard]] SuperquadricMotion at(double depth, double speed) const {
-        return {{a, c, c}, {0, 0, height - depth}, {0, 0, -speed}, {0, 0, 0}, turned(angle, {0, 1, 0})};
+        return {{a, c, c}, {0, 0, height - depth}, {0, 0, -speed}, {0, 0, 0}, turnedBy(angle, {0, 1, 0})};
     }
 };
 TEST(StepBound, ofATipIsThatOfItsFrequency) {
@@ -239,7 +237,7 @@ TEST(StepBound, ofEqualHalfLengthsIsThatOfSpheres) {
     std::vector<SuperquadricMotion> shapes;
     std::vector<scenes::GrainMotion> spheres;
     for (const auto& [r, place] : touching) {
-        shapes.push_back({{r, r, r}, place, {0, 0, 0}, {0, 0, 0}, turned(1.1, {1, 2, 3})});
+        shapes.push_back({{r, r, r}, place, {0, 0, 0}, {0, 0, 0}, turnedBy(1.1, {1, 2, 3})});
         spheres.push_back({.radius = r, .position = place});
     }
     FewGrains<Hertz> one(species, spheres, 1e-7, {{{0, 0, -1}, {0, 0, -0.992e-3}}});

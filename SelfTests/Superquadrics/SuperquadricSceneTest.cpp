@@ -25,6 +25,7 @@ using scenes::BoxOfShapes;
 using scenes::expectForcesOfSpheres;
 using scenes::FewSuperquadrics;
 using scenes::SuperquadricMotion;
+using scenes::turnedBy;
 using support::contains;
 using support::refusal;
 
@@ -61,10 +62,6 @@ Mindlins mindlins() {
     s.setSlidingFrictionCoefficient(0.4);
     return s;
 }
-Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 TEST(SuperquadricScene, spheresHaveTheForcesOfTheSphereKernel) {
     expectForcesOfSpheres(mindlins(), {-15e-6, -8e-6}, 1e-7, 20);
 }
@@ -84,8 +81,8 @@ Impact impact(double modulus, double restitution) {
     const double height = std::hypot(a * std::sin(angle), c * std::cos(angle));
     const double step = 5e-7 * std::pow(modulus / 1e7, -0.5);
     FewSuperquadrics<Hertz> scene(
-        species, {{{a, c, c}, {0, 0, 1.0001 * height}, {0, 0, -before}, {0, 0, 0}, turned(angle, {0, 1, 0})}},
-        step);
+        species,
+        {{{a, c, c}, {0, 0, 1.0001 * height}, {0, 0, -before}, {0, 0, 0}, turnedBy(angle, {0, 1, 0})}}, step);
     scene.addPlane({0, 0, -1}, {0, 0, 0});
     scene.initialise();
     int touched = 0;
@@ -117,8 +114,8 @@ TEST(SuperquadricScene, aTiltedEllipsoidLeavesAPlaneByTheLawOfImpact) {
 /// Two blocks with rounded edges that hit each other off their middles.
 std::vector<SuperquadricMotion> collision() {
     const Superquadric shape{1e-3, 1.4e-3, 0.8e-3, 4, 4}, other{1.2e-3, 0.9e-3, 1.1e-3, 3, 5};
-    return {{shape, {-1.5e-3, 0, 0}, {0.2, 0.02, 0}, {20, 0, -30}, turned(0.7, {1, 1, 0})},
-            {other, {1.5e-3, 0.5e-3, 0.3e-3}, {-0.2, 0, 0.01}, {0, 15, 10}, turned(1.3, {0, 1, 2})}};
+    return {{shape, {-1.5e-3, 0, 0}, {0.2, 0.02, 0}, {20, 0, -30}, turnedBy(0.7, {1, 1, 0})},
+            {other, {1.5e-3, 0.5e-3, 0.3e-3}, {-0.2, 0, 0.01}, {0, 15, 10}, turnedBy(1.3, {0, 1, 2})}};
 }
 
 // A step rounds momenta by 2^-53 of their parts, with signs at random.
@@ -171,7 +168,7 @@ TEST(SuperquadricScene, anEllipsoidRocksWithItsPeriod) {
     FewSuperquadrics<Rough> scene(species, {}, 1e-6);
     const double m = density * 4 / 3 * std::numbers::pi * a * c * c, sinking = m * g / 2e4;
     const double height = std::hypot(a * std::sin(amplitude), c * std::cos(amplitude)) - sinking;
-    scene.add({{a, c, c}, {0, 0, height}, {0, 0, 0}, {0, 0, 0}, turned(amplitude, {0, 1, 0})});
+    scene.add({{a, c, c}, {0, 0, height}, {0, 0, 0}, {0, 0, 0}, turnedBy(amplitude, {0, 1, 0})});
     scene.addPlane({0, 0, -1}, {0, 0, 0});
     scene.setGravity({0, 0, -g});
     scene.initialise();
@@ -197,7 +194,7 @@ TEST(SuperquadricScene, anEllipsoidRocksWithItsPeriod) {
 TEST(SuperquadricScene, aBlockLiesOnItsFace) {
     const Superquadric shape{1e-3, 1.5e-3, 0.8e-3, 8, 8};
     FewSuperquadrics<Rough> scene(
-        rough(), {{shape, {0, 0, 0.85e-3}, {0, 0, 0}, {0, 0, 0}, turned(0.02, {1, 2, 0})}}, 5e-6);
+        rough(), {{shape, {0, 0, 0.85e-3}, {0, 0, 0}, {0, 0, 0}, turnedBy(0.02, {1, 2, 0})}}, 5e-6);
     scene.addPlane({0, 0, -1}, {0, 0, 0});
     scene.setGravity({0, 0, -9.81});
     scene.run(50000);
@@ -268,7 +265,8 @@ TEST(SuperquadricScene, refusesWhatItDoesNotKnow) {
     // The spheres around them overlap by half, but they do not; and they do if they are turned.
     const auto beside = [&](double angle) {
         return sentence([&](auto& scene) {
-            scene.add({{1e-3, 1e-3, 2e-3}, {2.05e-3, 0, 0}, {0, 0, 0}, {0, 0, 0}, turned(angle, {0, 1, 0})});
+            scene.add(
+                {{1e-3, 1e-3, 2e-3}, {2.05e-3, 0, 0}, {0, 0, 0}, {0, 0, 0}, turnedBy(angle, {0, 1, 0})});
         });
     };
     EXPECT_EQ(beside(0), "");

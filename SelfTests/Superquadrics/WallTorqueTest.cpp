@@ -20,6 +20,7 @@ using scenes::FewSuperquadrics;
 using scenes::Plate;
 using scenes::SuperquadricMotion;
 using scenes::SuperquadricsAtPlates;
+using scenes::turnedBy;
 
 using Rough = Species<LinearViscoelastic, SlidingFriction>;
 using Hertz = Species<HertzianViscoelastic>;
@@ -36,14 +37,10 @@ Rough rough() {
     s.setSlidingFrictionCoefficient(0.4);
     return s;
 }
-Eigen::Quaterniond turned(double angle, const Vec3D& axis) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 constexpr double a = 2e-3, b = 1e-3, c = 1.3e-3;  // m
 /// An ellipsoid that comes down obliquely.
 SuperquadricMotion falling(const Superquadric& shape = {a, b, c}) {
-    return {shape, {1e-3, -5e-4, 2.8e-3}, {0.1, 0.05, -0.3}, {40, -30, 60}, turned(0.6, {1, 2, 0.5})};
+    return {shape, {1e-3, -5e-4, 2.8e-3}, {0.1, 0.05, -0.3}, {40, -30, 60}, turnedBy(0.6, {1, 2, 0.5})};
 }
 
 // The lowest point of an ellipsoid follows from the gradient of its support function,
@@ -167,7 +164,7 @@ TEST(WallTorque, ofEqualHalfLengthsIsThatOfSpheres) {
     const Vec3D place(1e-3, 0, 0.995 * r), velocity(0.05, 0.02, -0.2);
     FewGrains<Hertz> spheres(species, {{.radius = r, .position = place, .velocity = velocity}}, 5e-7);
     SuperquadricsAtPlates<Hertz> shapes(
-        species, {{{r, r, r}, place, velocity, {0, 0, 0}, turned(1.1, {1, 2, 3})}}, 5e-7);
+        species, {{{r, r, r}, place, velocity, {0, 0, 0}, turnedBy(1.1, {1, 2, 3})}}, 5e-7);
     const auto expected = spinsOfRotor(spheres, [&](Plate wall) {
         wall.setSpecies(spheres.speciesHandler.getObject(0));
         return spheres.wallHandler.copyAndAddObject(wall);

@@ -45,8 +45,9 @@ void addHeldAxes(Making& making) {
     }
 }
 
-/// Ellipsoids and rounded blocks.
-void addSuperquadrics(Making& making) {
+/// Bodies with a shape, in cells of their own. @param shapeOf (x, y, z) one of these half lengths (m)
+template <class ShapeOf>
+void addShapes(Making& making, const ShapeOf& shapeOf) {
     if (!making.shapes) return;
     const int count = std::min(making.draw.whole(4, 24), making.recipe.grains);
     for (int k = 0; k < count; ++k) {
@@ -57,8 +58,7 @@ void addSuperquadrics(Making& making) {
             return making.draw.give(name, making.draw.even(0.6, 1) * size);
         };
         const double x = half("half length x"), y = half("half length y"), z = half("half length z");
-        const int exponent = making.draw.oneIn(2) ? 2 : making.draw.whole(2, 6);
-        SuperquadricGrain grain(Superquadric{x, y, z, exponent, exponent});
+        auto grain = shapeOf(x, y, z);
         grain.setSpecies(making.anyMaterial());
         grain.setPosition(*cell);
         const Vec3D axis = making.draw.direction();
@@ -69,27 +69,20 @@ void addSuperquadrics(Making& making) {
     }
 }
 
+/// Ellipsoids and rounded blocks.
+void addSuperquadrics(Making& making) {
+    addShapes(making, [&](double x, double y, double z) {
+        const int exponent = making.draw.oneIn(2) ? 2 : making.draw.whole(2, 6);
+        return SuperquadricGrain(Superquadric{x, y, z, exponent, exponent});
+    });
+}
+
 /// Their edges are as round as their overlaps of a collision ask for.
 void addBlocks(Making& making) {
-    if (!making.shapes) return;
-    const int count = std::min(making.draw.whole(4, 24), making.recipe.grains);
-    for (int k = 0; k < count; ++k) {
-        const auto cell = making.takeCell();
-        if (!cell) return;
-        const auto half = [&](std::string_view name) {
-            return making.draw.give(name, making.draw.even(0.6, 1) * 0.28 * making.scales.cell);
-        };
-        const double x = half("half length x"), y = half("half length y"), z = half("half length z");
-        BlockGrain grain({x, y, z},
-                         making.draw.give("radius", making.draw.even(0.6, 0.9) * std::min({x, y, z})));
-        grain.setSpecies(making.anyMaterial());
-        grain.setPosition(*cell);
-        const Vec3D axis = making.draw.direction();
-        grain.setOrientation({making.draw.even(-1, 1), axis.x(), axis.y(), axis.z()});
-        grain.setVelocity(making.scales.speed * making.draw.inCube(1));
-        grain.setAngularVelocity(making.draw.inCube(making.scales.speed / making.scales.radius));
-        making.shapes->copyAndAddObject(grain);
-    }
+    addShapes(making, [&](double x, double y, double z) {
+        const double radius = making.draw.even(0.6, 0.9) * std::min({x, y, z});
+        return BlockGrain({x, y, z}, making.draw.give("radius", radius));
+    });
 }
 
 /// Two to four spheres in a row that overlap, or at random places.
