@@ -144,6 +144,28 @@ TEST(SuperquadricBridgeOfTwo, hasTheForceOfTheTrueGap) {
         }
 }
 
+// Two tilted rods that a bridge holds apart. What is observed of them must be what acts: only the bridge,
+// along the normal, so that nothing is left of the force but its round-off; the search ends where the normal
+// is known to 1e-8.
+TEST(SuperquadricBridgeOfTwo, isObservedWhereTheyAreNearest) {
+    const Superquadric rod{0.5e-3, 0.5e-3, 2e-3, 4, 2};
+    FewSuperquadrics<Wet<LiquidBridgeLambert>> scene(
+        wet<LiquidBridgeLambert>(5e-12),
+        {{rod, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, turnedBy(0.5, {1, 0.3, 0})},
+         {rod, {1.1e-3, 0.4e-3, 0.5e-3}, {0, 0, 0}, {0, 0, 0}, turnedBy(-0.4, {0.2, 1, 0.1})}},
+        1e-8);
+    scene.joinAtStart(3e-4);
+    scene.initialise();
+    const auto contacts = scene.interactions();
+    ASSERT_EQ(contacts.size(), 1u);
+    const ObservedContact& seen = contacts[0];
+    ASSERT_GT(seen.separation, 1e-5);
+    const double force = norm(seen.force);
+    ASSERT_GT(force, 0);
+    EXPECT_NEAR(dot(seen.normal(), seen.force) / force, 1, 1e-12);
+    EXPECT_LT(std::abs(seen.normalForce), 1e-7 * force);
+}
+
 /// N, between two bodies above each other at the start.
 template <class Scene>
 double forceBetween(Scene& scene) {
