@@ -89,6 +89,8 @@ public:
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     [[nodiscard]] AnySpecies* getObject(std::size_t index) const { return all[checked(index)].species.get(); }
 
+    [[nodiscard]] AnySpecies* getLastObject() const { return getObject(all.size() - 1); }
+
     /// The contacts between the two species have the laws of this type.
     template <class Type, class First, class Second>
     void setPairType(const First* a, const Second* b) {

@@ -63,7 +63,7 @@ void MercuryOutput::write(const Scene& scene) {
         writeInto();
         file.finish();
     };
-    frame(data, [&] { writeData(grains, box, scene.getTime()); });
+    if (dataToo) frame(data, [&] { writeData(grains, box, scene.getTime()); });
     if (contactsToo)
         frame(contacts,
               [&] { writeContacts(scene.contacts(), grains, scene.wallHandler, box, scene.getTime()); });
@@ -77,7 +77,7 @@ void MercuryOutput::write(const Scene& scene) {
 
 void MercuryOutput::visitState(StateArchive& archive, const Scene& scene) {
     const std::string beginning = nameIn(scene);
-    data.visitState(archive, beginning);
+    if (dataToo) data.visitState(archive, beginning);
     if (contactsToo) contacts.visitState(archive, beginning);
     if (energiesToo) energies.visitState(archive, beginning);
 }

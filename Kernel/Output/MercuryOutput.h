@@ -23,6 +23,8 @@ public:
 
     /// NAME.ene, on by default.
     MercuryOutput& withEnergies(bool yes = true) { return energiesToo = yes, *this; }
+    /// NAME.data, on by default.
+    MercuryOutput& withData(bool yes = true) { return dataToo = yes, *this; }
     /// NAME.fstat, on by default.
     MercuryOutput& withContacts(bool yes = true) { return contactsToo = yes, *this; }
     /// The box in the headers, m; if not given that of the scene (setDomain()), or else that of the grains.
@@ -53,7 +55,7 @@ private:
 
     std::string name;
     std::optional<Domain> domain;
-    bool energiesToo = true, contactsToo = true;
+    bool dataToo = true, energiesToo = true, contactsToo = true;
     FrameFile data{".data"}, contacts{".fstat"},
         energies{".ene", "time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM\n"};
 };

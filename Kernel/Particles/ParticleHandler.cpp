@@ -279,6 +279,11 @@ GrainReference ParticleHandler::getObject(std::size_t identity) {
     return {*this, static_cast<std::uint32_t>(identity)};
 }
 
+GrainReference ParticleHandler::getLastObject() {
+    if (isEmpty()) throw InputError("ParticleHandler: getLastObject() needs a grain, and there is none.");
+    return {*this, grains.place.last()};
+}
+
 GrainColumnReference ParticleHandler::addColumn(const std::string& name, const std::string& unit,
                                                 double initial) {
     if (columnsAreClosed)

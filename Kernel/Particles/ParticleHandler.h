@@ -22,6 +22,10 @@ public:
     GrainReference(ParticleHandler& particles, std::uint32_t identity)
         : handler(&particles), number(identity) {}
 
+    /// MercuryDPM's drivers have pointers to grains: grain->getPosition().
+    [[nodiscard]] GrainReference* operator->() { return this; }
+    [[nodiscard]] const GrainReference* operator->() const { return this; }
+
     [[nodiscard]] std::uint32_t getId() const { return number; }
     [[nodiscard]] Vec3D getPosition() const { return toEigen(record().position); }
     [[nodiscard]] Vec3D getVelocity() const { return toEigen(record().velocity); }
@@ -126,11 +130,15 @@ public:
 
     /// How many grains there are.
     [[nodiscard]] std::size_t getSize() const { return grains.count(); }
+    /// The same, under MercuryDPM's name.
+    [[nodiscard]] std::size_t getNumberOfObjects() const { return getSize(); }
     [[nodiscard]] bool isEmpty() const { return getSize() == 0; }
     /// The grain with this identity. Throws InputError if there is none.
     [[nodiscard]] GrainReference getObject(std::size_t identity);
     /// The same, under MercuryDPM's name.
     [[nodiscard]] GrainReference getParticleById(std::size_t identity) { return getObject(identity); }
+    /// The grain that was added last, of those that there are. Throws InputError if there is none.
+    [[nodiscard]] GrainReference getLastObject();
     [[nodiscard]] bool contains(std::size_t identity) const;
     /// The place at which the store keeps a grain, until the next list of contacts. Throws InputError if
     /// there is no such grain.

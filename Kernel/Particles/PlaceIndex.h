@@ -24,6 +24,13 @@ public:
     /// How many grains there are.
     [[nodiscard]] std::size_t size() const { return count; }
     [[nodiscard]] bool empty() const { return count == 0; }
+    /// The highest identity of all grains; `none` without any.
+    [[nodiscard]] std::uint32_t last() const {
+        for (std::size_t page = pages.size(); page-- > 0;)
+            for (std::size_t within = pages[page].size(); within-- > 0;)
+                if (pages[page][within] != none) return static_cast<std::uint32_t>(page * pageSize + within);
+        return none;
+    }
 
     void set(std::uint32_t identity, std::uint32_t place);
     void erase(std::uint32_t identity);

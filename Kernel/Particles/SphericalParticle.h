@@ -24,6 +24,11 @@ inline double sphereMass(double radius, double density) {
 /// A grain as a driver describes it, before it is added to a scene.
 class SphericalParticle {
 public:
+    SphericalParticle() = default;
+    template <class S>
+    explicit SphericalParticle(const S* species) {
+        setSpecies(species);
+    }
     /// @param radius m
     void setRadius(double radius) {
         checkValue("SphericalParticle", "radius", radius, "m", radiusRange);

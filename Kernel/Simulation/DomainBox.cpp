@@ -17,10 +17,10 @@ void requireFinite(const char* which, const Vec3D& point) {
 
 void requireOrder(const Vec3D& low, const Vec3D& high) {
     for (int axis = 0; axis < 3; ++axis)
-        if (!(low[axis] < high[axis]))
+        if (!(low[axis] <= high[axis]))
             throw InputError(
                 fmt::format("Domain: along {} the lowest point is {} m and the highest {} m; "
-                            "the highest one must be greater.",
+                            "the highest one must not be less.",
                             axes[axis], low[axis], high[axis]));
 }
 

@@ -10,7 +10,8 @@ namespace pendular {
 /// by it. It holds nothing back by itself, and periods are set by setPeriodic().
 class DomainBox {
 public:
-    /// Throw InputError for what is not finite, and where the lowest point is not below the highest one.
+    /// Throw InputError for what is not finite, and where the lowest point is above the highest one; a box
+    /// may be flat.
     void setDomain(const Vec3D& low, const Vec3D& high);
     void setMin(const Vec3D& low);
     void setMax(const Vec3D& high);

@@ -38,7 +38,14 @@ void Run::setTimeMax(double end) {
     timeMaxIsSet = true;
 }
 
-void Run::requireTimeStep() const { checkValue("Simulation", "time step", timeStep, "s", timeStepRange); }
+void Run::requireTimeStep() const {
+    checkValue("Simulation", "time step", timeStep, "s", timeStepRange);
+    if ((underWay & Within::Whole) != 0 && !timeMaxIsSet)
+        throw InputError(
+            "Simulation: maximum time is not set; call setTimeMax(), in s, before solve(), with infinity for "
+            "a "
+            "run that continueSolve() ends, and with 0 for one of no step.");
+}
 
 void Run::keepRestartFile(bool keep) {
     if (keep) requireRestartFiles();

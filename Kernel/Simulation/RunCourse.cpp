@@ -44,7 +44,7 @@ void Run::solve() {
             "Simulation: the run has begun already; solve() runs a scene once, from its start or from a "
             "restart file.");
     const Within solving(*this, Within::Solving, Within::Any, "solve()");
-    timeMaxIsSet = true;  // 0 is a time, too
+    const Within whole(*this, Within::Whole, 0, {});
     beginRun();
     runPart({});
 }

@@ -20,7 +20,8 @@ public:
         Writing = 8,
         Completing = 16,
         Saving = 32,
-        Any = 63
+        Whole = 64,  // the run of solve(), which has an end
+        Any = 127
     };
 
     Within(Run& of, Call call, unsigned refusedIn, std::string_view name) : run(of), before(of.underWay) {

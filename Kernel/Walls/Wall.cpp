@@ -1,10 +1,27 @@
 #include "Kernel/Walls/Wall.h"
 
+#include <algorithm>
+
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/PlaneDrive.h"
 #include "Kernel/Walls/WallBody.h"
 
 namespace pendular {
+
+bool Wall::getDistanceAndNormal(const SphericalParticle& grain, double& distance, Vec3D& normal) const {
+    const Vector<double> centre = toVector(grain.getPosition());
+    const double radius = grain.getRadius();
+    checkValue("SphericalParticle", "radius", radius, "m", radiusRange);
+    std::vector<std::uint32_t> parts;
+    listParts(centre, radius, parts);
+    std::vector<WallPoint> points(parts.size());
+    if (!parts.empty()) findPoints(centre, radius, parts, points);
+    const auto nearest = std::ranges::min_element(points, {}, &WallPoint::distance);
+    if (nearest == points.end() || !(nearest->distance < radius)) return false;
+    distance = nearest->distance;
+    normal = toEigen(nearest->normal);
+    return true;
+}
 
 void Wall::keepForces(bool keep, const Vec3D& about) {
     forcesKept = keep;

@@ -85,6 +85,10 @@ public:
     virtual void findPoints(const Vector<double>& centre, double reach, std::span<const std::uint32_t> parts,
                             std::span<WallPoint> points) const = 0;
 
+    /// Whether the grain touches the wall where it is now; if so, the distance (m) of its centre from the
+    /// nearest point of it, and the unit normal there, from the centre into the wall.
+    bool getDistanceAndNormal(const SphericalParticle& grain, double& distance, Vec3D& normal) const;
+
     /// A wall that is nothing but a plane at rest: its points are found for eight grains at once, which gives
     /// the same bits as findPoints().
     [[nodiscard]] virtual std::optional<PlaneAtRest> planeAtRest() const { return {}; }

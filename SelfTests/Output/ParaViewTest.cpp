@@ -142,6 +142,7 @@ TEST(ParaView, seesTheMassOfAHeldGrainAndNoFrictionOfSmoothOnes) {
                             1e-6);
     scene.setName(folder.name());
     scene.addOutput(ParaViewOutput());
+    scene.setTimeMax(0);
     scene.solve();
     const PolyData grains = readPolyData(folder.name() + "-particles-000000000.vtp"),
                    contacts = readPolyData(folder.name() + "-contacts-000000000.vtp");
@@ -207,6 +208,7 @@ TEST(ParaView, seesACylinderOnItsFloor) {
     scene.wallHandler.copyAndAddObject(fin);
     scene.setName(folder.name());
     scene.addOutput(ParaViewOutput());
+    scene.setTimeMax(0);
     scene.solve();
     const PolyData walls = readPolyData(folder.name() + "-walls-000000000.vtp");
     const double corner = 2 * std::numbers::pi / 64;
@@ -231,6 +233,7 @@ TEST(ParaView, seesTheStressOfASqueezedGrain) {
             .addField("twice_identity", [](std::size_t k) { return 2.0 * static_cast<double>(k); })
             .addField("place_m",
                       [&scene](std::size_t k) { return scene.particleHandler.getObject(k).getPosition(); }));
+    scene.setTimeMax(0);
     scene.solve();
     const PolyData grains = readPolyData(folder.name() + "-particles-000000000.vtp");
     // The branch ends in the middle of the overlap.
@@ -253,6 +256,7 @@ TEST(ParaView, seesAContactThroughAPeriodicFaceAsAShortLine) {
     scene.setPeriodic(0, 0, 10 * r);
     scene.setName(folder.name());
     scene.addOutput(ParaViewOutput());
+    scene.setTimeMax(0);
     scene.solve();
     const PolyData contacts = readPolyData(folder.name() + "-contacts-000000000.vtp");
     ASSERT_EQ(contacts.ends.size(), 1u);
@@ -314,6 +318,7 @@ TEST(ParaView, thatCannotBeWrittenEndsTheRunInOneSentence) {
     FewGrains<Smooth> scene(scenes::boxMaterial<Smooth>(0), {{.radius = 1e-3}}, 1e-6);
     scene.setName("/dev/null/run");
     scene.addOutput(ParaViewOutput());
+    scene.setTimeMax(0);
     EXPECT_THROW(scene.solve(), InputError);
 }
 

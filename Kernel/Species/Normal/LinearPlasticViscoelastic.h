@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "Kernel/Species/Normal/Shared/ContactTime.h"
 #include "Kernel/Species/Normal/Shared/PlasticBranches.h"
 #include "Kernel/Species/Setter.h"
 
@@ -65,6 +66,13 @@ struct LinearPlasticViscoelastic {
         setUnloadingStiffnessMax(unloadingMax);
         setCohesionStiffness(cohesion);
         setPenetrationDepthMax(depth);
+    }
+
+    /// A fiftieth (s) of the shortest collision time of two grains of the given mass (kg) each, that of k_p.
+    [[nodiscard]] double computeTimeStep(double mass) const {
+        checkValue(name, "unloadingStiffnessMax", unloadingStiffnessMax, "N/m", positive);
+        checkValue(name, "mass", mass, "kg", positive);
+        return 0.02 * linearContactTime(unloadingStiffnessMax, dissipation, 0.5 * mass);
     }
 
     static std::vector<Setter<LinearPlasticViscoelastic>> setters() {

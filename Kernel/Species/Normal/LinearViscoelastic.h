@@ -80,6 +80,8 @@ struct LinearViscoelastic {
         checkValue(name, "mass", mass, "kg", positive);
         return linearContactTime(stiffnessConstant, dissipation, 0.5 * mass);
     }
+    /// A fiftieth (s) of the collision time of two grains of the given mass (kg) each.
+    [[nodiscard]] double computeTimeStep(double mass) const { return 0.02 * getCollisionTime(mass); }
     /// e of two grains of the given mass (kg) each, at every speed: exp(-g t / (2 m*)), t the collision time.
     [[nodiscard]] double getRestitutionCoefficient(double mass) const {
         return dissipation > 0 ? std::exp(-dissipation / mass * getCollisionTime(mass)) : 1;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "Kernel/Species/Friction/Shared/SlidingSpring.h"
 #include "Kernel/Species/Friction/Shared/StickSlip.h"
@@ -30,6 +32,22 @@ struct LinearSpring : SlidingSpring<Law> {
 
     void setSlidingStiffness(double value) { this->set(&LinearSpring::slidingStiffness, value); }
     [[nodiscard]] double getSlidingStiffness() const { return slidingStiffness; }
+
+    /// Sets k_t and g_t so that the surfaces of two grains of the given mass (kg) each, which stick, swing
+    /// back once in collisionTime (s), with this share (0 to 1, 0 excluded) of their tangential speed: the
+    /// damped oscillator of 2/7 of the reduced mass, as the rims of spheres turn. Source: Luding (1998), in
+    /// Herrmann et al. (eds.), Physics of dry granular media, p. 285.
+    void setCollisionTimeAndTangentialRestitutionCoefficient(double collisionTime, double restitution,
+                                                             double mass) {
+        checkValue(Law::name, "collision time", collisionTime, "s", positive);
+        checkValue(Law::name, "tangential restitution coefficient", restitution, "", positiveUpTo(1));
+        checkValue(Law::name, "mass", mass, "kg", positive);
+        const double swinging = mass / 7;
+        const double rate = -std::log(restitution) / collisionTime;
+        const double frequency = std::numbers::pi / collisionTime;
+        setSlidingStiffness(swinging * (frequency * frequency + rate * rate));
+        this->setSlidingDissipation(2 * swinging * rate);
+    }
 
     struct PreparedSpring {
         double stiffness;    // k_t, N/m

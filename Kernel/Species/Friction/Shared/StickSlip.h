@@ -1,7 +1,11 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Species/Friction/Shared/SpringSlider.h"
 #include "Kernel/Species/Friction/Shared/TangentialSpring.h"
 
@@ -30,6 +34,22 @@ struct StickSlip {
         setField(static_cast<Law&>(*this), &StickSlip::staticFrictionRatio, value);
     }
     [[nodiscard]] double getStaticFrictionRatio() const { return staticFrictionRatio; }
+
+    /// mu_s itself, at least the dynamic coefficient, which must have been set before.
+    void setSlidingFrictionCoefficientStatic(double value) {
+        const double dynamic = static_cast<const Law&>(*this).slidingFrictionCoefficient;
+        if (!(dynamic > 0))
+            throw InputError(fmt::format(
+                "{}: slidingFrictionCoefficientStatic needs the dynamic coefficient, which is {}; "
+                "call setSlidingFrictionCoefficient() before it, with more than 0.",
+                Law::name, dynamic));
+        checkValue(Law::name, "slidingFrictionCoefficientStatic", value, "",
+                   Range{dynamic, infinity, true, false});
+        setStaticFrictionRatio(std::max(value / dynamic, 1.0));
+    }
+    [[nodiscard]] double getSlidingFrictionCoefficientStatic() const {
+        return staticFrictionRatio * static_cast<const Law&>(*this).slidingFrictionCoefficient;
+    }
 
     /// @param limit of the sliding contact, N
     template <class T>
