@@ -1,7 +1,7 @@
 #pragma once
 
 /// MercuryDPM's names for what a driver's species block uses, so that such a block compiles after a change of
-/// its include.
+/// its include. MercuryScene.h has those of the rest of a driver.
 
 #include <numbers>
 

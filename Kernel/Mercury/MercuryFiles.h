@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "Kernel/Output/MercuryOutput.h"
+#include "Kernel/State/Random.h"
+
+namespace pendular {
+
+/// How MercuryDPM writes a file. A file of frames is always one here; pictures for ParaView are always many.
+enum class FileType { NO_FILE, ONE_FILE, MULTIPLE_FILES, MULTIPLE_FILES_PADDED };
+
+/// A file of a scene: scene.dataFile.setFileType(FileType::NO_FILE).
+class MercuryFile {
+public:
+    MercuryFile(std::string_view ofName, FileType given) : name(ofName), type(given) {}
+    /// Throws InputError for the types that would be many files.
+    void setFileType(FileType asked);
+    [[nodiscard]] FileType getFileType() const { return type; }
+    [[nodiscard]] bool isWritten() const { return type != FileType::NO_FILE; }
+
+private:
+    std::string_view name;
+    FileType type;
+};
+
+/// Numbers as MercuryDPM's `random` gives them; the same in each run, and other numbers than there.
+class MercuryRandom {
+public:
+    void setRandomSeed(unsigned long seed) { numbers = UniformRandom(seed); }
+    /// Evenly in [lowest, highest).
+    double getRandomNumber(double lowest, double highest) { return numbers.uniform(lowest, highest); }
+    double getRandomNumber() { return numbers.uniform(0, 1); }
+    void visitState(StateArchive& archive) { numbers.visitState(archive); }
+
+private:
+    UniformRandom numbers{0};
+};
+
+/// What a MercuryScene writes by itself and remembers.
+struct MercurySettings {
+    MercuryFile data{"dataFile", FileType::ONE_FILE}, fStat{"fStatFile", FileType::ONE_FILE},
+        energies{"eneFile", FileType::ONE_FILE}, restart{"restartFile", FileType::NO_FILE};
+    bool pictures = false;
+    MercuryRandom random;
+};
+
+/// The output of a MercuryScene: what its settings ask for when the scene has been set up. The files
+/// NAME.data, NAME.fstat and NAME.ene of a scene without setName() are not written.
+class MercuryFiles {
+public:
+    explicit MercuryFiles(std::shared_ptr<MercurySettings> of) : settings(std::move(of)) {}
+
+    void prepare(Scene& scene);
+    void write(const Scene& scene);
+    void visitState(StateArchive& archive, const Scene& scene);
+
+private:
+    std::shared_ptr<MercurySettings> settings;
+    bool isAdded = false;  // to the scene, which is then set up
+    bool isDone = false;
+    std::optional<MercuryOutput> frames;
+};
+
+}  // namespace pendular

@@ -1,0 +1,133 @@
+#pragma once
+
+/// A scene by MercuryDPM's names, so that one of its drivers compiles with few changes. Each name hands over
+/// to the kernel's own word; HOW-DO-I.md lists both side by side ("Port a driver from MercuryDPM").
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "Kernel/Mercury/MercuryArguments.h"
+#include "Kernel/Mercury/MercuryBoundaries.h"
+#include "Kernel/Mercury/MercuryData.h"
+#include "Kernel/Mercury/MercuryFiles.h"
+#include "Kernel/Mercury/MercuryHelpers.h"
+#include "Kernel/Mercury/MercuryInteractions.h"
+#include "Kernel/Mercury/MercuryLogger.h"
+#include "Kernel/Mercury/MercuryPSD.h"
+#include "Kernel/Mercury/MercuryWalls.h"
+#include "Kernel/MercuryNames.h"
+
+namespace pendular {
+
+/// `class X : public MercuryScene<SPECIES>`; with species of several types MercuryScene<A, B>, of any
+/// MercuryScene<>, which is Mercury3D. It moves grains as MercuryDPM does (integrators::velocityVerlet).
+template <class... Types>
+class MercuryScene : public Simulation<Types...> {
+public:
+    MercuryScene() {
+        this->setIntegrator(integrators::velocityVerlet);
+        this->addOutput(MercuryFiles(settings));
+    }
+
+    /// Texts with a % for each value, through the scene's own logger.
+    MercuryLogger logger{Run::logger};
+
+    /// Called whenever output is due: at the start, after every saveCount steps and at the end.
+    virtual void printTime() const {}
+    void writeOutput() override { printTime(); }
+
+    using Run::solve;
+    /// The arguments of main(): takeArguments() says which.
+    void solve(int argc, const char* const* argv) {
+        takeArguments(*this, argc, argv);
+        solve();
+    }
+
+    // The box, m: each bound by itself, 0 where it is not set.
+    void setXMin(double value) { domain.setLowest(0, value); }
+    void setYMin(double value) { domain.setLowest(1, value); }
+    void setZMin(double value) { domain.setLowest(2, value); }
+    void setXMax(double value) { domain.setHighest(0, value); }
+    void setYMax(double value) { domain.setHighest(1, value); }
+    void setZMax(double value) { domain.setHighest(2, value); }
+    void setMin(const Vec3D& low) { domain.set(low, domain.getHighest()); }
+    void setMax(const Vec3D& high) { domain.set(domain.getLowest(), high); }
+    void setMin(double x, double y, double z) { setMin({x, y, z}); }
+    void setMax(double x, double y, double z) { setMax({x, y, z}); }
+    void setDomain(const Vec3D& low, const Vec3D& high) { domain.set(low, high); }
+    [[nodiscard]] Vec3D getMin() const { return domain.getLowest(); }
+    [[nodiscard]] Vec3D getMax() const { return domain.getHighest(); }
+    [[nodiscard]] double getXMin() const { return getMin().x(); }
+    [[nodiscard]] double getYMin() const { return getMin().y(); }
+    [[nodiscard]] double getZMin() const { return getMin().z(); }
+    [[nodiscard]] double getXMax() const { return getMax().x(); }
+    [[nodiscard]] double getYMax() const { return getMax().y(); }
+    [[nodiscard]] double getZMax() const { return getMax().z(); }
+
+    /// Scenes have three dimensions here: throws InputError for another number.
+    void setSystemDimensions(int dimensions) { requireThree("system", dimensions); }
+    void setParticleDimensions(int dimensions) { requireThree("particle", dimensions); }
+
+    /// All files at once: NAME.data, NAME.fstat, NAME.ene, and the kernel's restart file.
+    void setFileType(FileType type) {
+        for (MercuryFile* file : {&dataFile, &fStatFile, &eneFile, &restartFile}) file->setFileType(type);
+    }
+    /// Files for ParaView, of grains, contacts and walls together.
+    void setParticlesWriteVTK(bool write) { settings->pictures |= write; }
+    void setWallsWriteVTK(bool write) { settings->pictures |= write; }
+    void setWallsWriteVTK(FileType type) { setWallsWriteVTK(type != FileType::NO_FILE); }
+
+    /// Goes on from the kernel's restart file of this name, for a scene that is set up as it was.
+    void readRestartFile() { this->restartFrom(Run::restartFile()); }
+    void readRestartFile(const std::filesystem::path& file) { this->restartFrom(file); }
+    /// Adds the grains of a .data file, and takes its box: readMercuryData(). Their species must be there.
+    void readDataFile(const std::filesystem::path& file);
+
+    /// J, what is stored in the contacts, their adhesion included; with keepEnergyLedger() or the file
+    /// NAME.ene.
+    [[nodiscard]] double getElasticEnergy() const { return this->energyLedger().stored(); }
+
+private:
+    static void requireThree(const char* what, int dimensions) {
+        if (dimensions != 3)
+            throw InputError(
+                fmt::format("Simulation: {} dimensions = {}; here all scenes have 3, so leave it "
+                            "out, and hold grains in a plane by setHeldAxes().",
+                            what, dimensions));
+    }
+
+    std::shared_ptr<MercurySettings> settings = std::make_shared<MercurySettings>();
+    MercuryDomain domain{*this};
+
+public:
+    MercuryFile& dataFile = settings->data;
+    MercuryFile& fStatFile = settings->fStat;
+    MercuryFile& eneFile = settings->energies;
+    MercuryFile& restartFile = settings->restart;
+    MercuryRandom& random = settings->random;
+    MercuryWallHandler wallHandler{Scene::wallHandler, domain, settings};
+    MercuryBoundaryHandler boundaryHandler{*this};
+    MercuryInteractionHandler interactionHandler{*this};
+};
+
+template <class... Types>
+void MercuryScene<Types...>::readDataFile(const std::filesystem::path& file) {
+    const MercuryFrame frame = readMercuryData(file);
+    std::vector<SphericalParticle> ofTypes(this->speciesHandler.getSize());
+    for (std::size_t k = 0; k < ofTypes.size(); ++k) ofTypes[k].setSpecies(this->speciesHandler.getObject(k));
+    addGrains(this->particleHandler, frame.grains, ofTypes);
+    setDomain(frame.lowest, frame.highest);
+}
+
+/// Species of any types, as there.
+using Mercury3D = MercuryScene<>;
+using DPMBase = MercuryScene<>;
+
+}  // namespace pendular
+
+/// The levels that end a program: they throw a RunError with the text.
+inline constexpr pendular::LevelThatEnds ERROR, FATAL;
+/// The logger of main(); in a scene it is the scene's.
+inline pendular::MercuryLogger logger;

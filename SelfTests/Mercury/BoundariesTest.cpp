@@ -1,0 +1,276 @@
+// Programs of MercuryDPM's public self-tests with boundaries, walls of several planes, sizes and restart, by
+// its names, and what they give there or a closed form. README.md lists them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "Kernel/MercuryScene.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular::mercuryBoundariesTest {
+namespace {
+
+using support::TestFolder;
+
+// Three grains go through a plane, two forwards and one backwards.
+class FluxOfThree : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    FluxOfThree() {
+        LinearViscoelasticSpecies species;
+        species.setDensity(1.0);
+        species.setCollisionTimeAndRestitutionCoefficient(.01, .1, 1.);
+        speciesHandler.copyAndAddObject(species);
+    }
+
+    void setupInitialConditions() override {
+        setMax(Vec3D(1, 0.5, 0.5));
+        setMin(Vec3D(-1, -0.5, -0.5));
+        SphericalParticle grain;
+        grain.setSpecies(speciesHandler.getObject(0));
+        grain.setRadius(0.1);
+        grain.setPosition(Vec3D(-0.1, 0.0, 0.0));
+        grain.setVelocity(Vec3D(0.2, 0.0, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        grain.setPosition(Vec3D(-0.1, 0.3, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        grain.setPosition(Vec3D(0.1, -0.3, 0.0));
+        grain.setVelocity(Vec3D(-0.2, 0.0, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        FluxBoundary plane;
+        plane.set(Vec3D(1, 0, 0), 0.0);
+        boundaryHandler.copyAndAddObject(plane);
+    }
+};
+
+TEST(MercuryPrograms, fluxBoundary) {
+    FluxOfThree scene;
+    scene.setTimeMax(1);
+    scene.setTimeStep(0.1);
+    scene.acceptUnstableTimeStep();  // nothing touches
+    scene.setQuiet();
+    scene.solve();
+    auto* const plane = static_cast<FluxBoundary*>(scene.boundaryHandler.getObject(0));
+    EXPECT_EQ(plane->getNumberOfParticlesCrossedNet(), 1);
+    EXPECT_EQ(plane->getNumberOfParticlesCrossedForw(), 2u);
+    EXPECT_EQ(plane->getNumberOfParticlesCrossedBack(), 1u);
+    const Mdouble mass = scene.particleHandler.getObject(0)->getMass();
+    // To the last bits: a sum of two masses, and a difference of that and one.
+    EXPECT_DOUBLE_EQ(plane->getMassOfParticlesCrossedForw(), 2 * mass);
+    EXPECT_DOUBLE_EQ(plane->getMassOfParticlesCrossedBack(), mass);
+    EXPECT_DOUBLE_EQ(plane->getMassOfParticlesCrossedNet(), mass);
+}
+
+// A grain falls from a height of 4 and is deleted where it is below 1.
+template <class Boundary>
+class Deletion : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    Boundary boundary;
+    Boundary* added = nullptr;
+    Mdouble wentAt = 0;
+    mutable int printed = 0;
+
+    void setupInitialConditions() override {
+        setGravity(Vec3D(0, 0, -1));
+        setDomain(Vec3D(-1, -1, 0), Vec3D(1, 1, 5));
+        setTimeStep(1e-3);
+        setTimeMax(3.0);
+        setSaveCount(100);
+        fStatFile.setFileType(FileType::NO_FILE);
+        LinearViscoelasticSpecies s;
+        s.setDensity(6.0 / constants::pi);
+        s.setStiffness(2e5);
+        auto species = speciesHandler.copyAndAddObject(s);
+        SphericalParticle grain(species);
+        grain.setRadius(.5);
+        grain.setPosition(Vec3D(0, 0, 4));
+        particleHandler.copyAndAddObject(grain);
+        added = boundaryHandler.copyAndAddObject(boundary);
+    }
+    void actionsAfterTimeStep() override {
+        if (particleHandler.getSize() == 0 && wentAt == 0) wentAt = getTime();
+    }
+    void printTime() const override { ++printed; }
+};
+
+template <class Boundary>
+void expectDeletion(const Boundary& boundary) {
+    Deletion<Boundary> scene;
+    scene.boundary = boundary;
+    scene.setQuiet();
+    scene.solve();
+    EXPECT_TRUE(scene.particleHandler.isEmpty());
+    // z = 4 - t^2 / 2 = 1, at the end of a step; it may be seen one step later.
+    EXPECT_GE(scene.wentAt, std::sqrt(6.0));
+    EXPECT_LE(scene.wentAt, std::sqrt(6.0) + 2.1e-3);
+    EXPECT_EQ(scene.added->getNumberOfParticlesDeleted(), 1u);
+    EXPECT_NEAR(scene.added->getMassOfParticlesDeleted(), 1, 1e-15);
+    EXPECT_EQ(scene.printed, 31);  // at the start and after each hundred of the 3000 steps
+}
+
+TEST(MercuryPrograms, cubeDeletionBoundary) {
+    CubeDeletionBoundary box;
+    box.set(Vec3D(-1, -1, -1), Vec3D(1, 1, 1));
+    expectDeletion(box);
+}
+
+TEST(MercuryPrograms, deletionBoundary) {
+    DeletionBoundary plane;
+    plane.set(Vec3D(0, 0, -1), -1);
+    expectDeletion(plane);
+}
+
+// Grains of a distribution of sizes that fill a volume.
+class SizedInsertion : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    CubeInsertionBoundary* added = nullptr;
+
+    void setupInitialConditions() override {
+        setDomain(Vec3D(0, 0, 0), Vec3D(.5, .5, .5));
+        setTimeStep(1e-5);
+        setTimeMax(0);
+        LinearViscoelasticSpecies species;
+        species.setDensity(2000);
+        species.setStiffness(10000);
+        auto s = speciesHandler.copyAndAddObject(species);
+        CubeInsertionBoundary insertion;
+        SphericalParticle grain(s);
+        insertion.set(&grain, 10, getMin(), getMax(), Vec3D(0, 0, 0), Vec3D(0, 0, 0), 0.02, 0.02);
+        insertion.setInitialVolume(0.02);
+        PSD sizes;
+        sizes.setPSDFromVector({{0.01, 0}, {0.015, 0.5}, {0.03, 1}},
+                               PSD::TYPE::CUMULATIVE_NUMBER_DISTRIBUTION);
+        insertion.setPSD(sizes);
+        added = boundaryHandler.copyAndAddObject(insertion);
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, insertionOfSizes) {
+    SizedInsertion scene;
+    scene.solve();
+    double volume = 0;
+    std::size_t small = 0;
+    for (auto grain : scene.particleHandler) {
+        EXPECT_GE(grain->getRadius(), 0.01);
+        EXPECT_LE(grain->getRadius(), 0.03);
+        small += grain->getRadius() < 0.015 ? 1 : 0;
+        volume += 4.0 / 3.0 * constants::pi * mathsFunc::cubic(grain->getRadius());
+    }
+    const std::size_t number = scene.particleHandler.getNumberOfObjects();
+    // Whole grains, so that the last one may miss: of at most the largest radius.
+    EXPECT_LE(volume, 0.02 * (1 + 1e-12));
+    EXPECT_GT(volume, 0.02 - 4.0 / 3.0 * constants::pi * mathsFunc::cubic(0.03));
+    EXPECT_NEAR(static_cast<double>(small), 0.5 * static_cast<double>(number), 1.5);
+    EXPECT_EQ(scene.added->getNumberOfParticlesInserted(), number);
+    EXPECT_NEAR(scene.added->getMassOfParticlesInserted(), 2000 * volume, 1e-9 * 2000 * volume);
+}
+
+// A volume flow into a box, from which the grains fall away.
+class FlowInto : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    CubeInsertionBoundary* added = nullptr;
+
+    void setupInitialConditions() override {
+        setDomain(Vec3D(0, 0, 0), Vec3D(.1, .1, .1));
+        setGravity({0, 0, -9.8});
+        LinearViscoelasticSpecies species;
+        species.setDensity(2000);
+        species.setStiffness(1000);
+        auto s = speciesHandler.copyAndAddObject(species);
+        SphericalParticle grain(s);
+        grain.setRadius(0.004);
+        CubeInsertionBoundary insertion;
+        insertion.set(grain, 100, getMin(), getMax());
+        insertion.setVolumeFlowRate(1e-4);
+        added = boundaryHandler.copyAndAddObject(insertion);
+        setTimeStep(1e-4);
+        setTimeMax(0.2);
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, volumeFlowRate) {
+    FlowInto scene;
+    scene.solve();
+    const double one = 4.0 / 3.0 * constants::pi * mathsFunc::cubic(0.004);
+    // The largest number of whole grains that is not above the rate times the time.
+    EXPECT_EQ(scene.added->getNumberOfParticlesInserted(), static_cast<std::uint64_t>(1e-4 * 0.2 / one));
+}
+
+// A wedge of two planes, between which nothing is: distances to its faces and its edge.
+TEST(MercuryPrograms, contactDetectionAtIntersectionOfWalls) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    scene.setMin(-1, -1, -1);
+    scene.setMax(1, 1, 1);
+    IntersectionOfWalls wedge;  // the solid x > 0, y > 0
+    wedge.setSpecies(species);
+    wedge.addObject(Vec3D(1, 0, 0), Vec3D(0, 0, 0));
+    wedge.addObject(Vec3D(0, 1, 0), Vec3D(0, 0, 0));
+    auto wall = scene.wallHandler.copyAndAddObject(wedge);
+    EXPECT_EQ(wall->getSpeciesIndex(), species->getIndex());
+
+    SphericalParticle grain(species);
+    grain.setRadius(0.1);
+    double distance = 0;
+    Vec3D normal = Vec3D::Zero();
+    grain.setPosition({-0.05, 0.5, 0.2});
+    ASSERT_TRUE(wall->getDistanceAndNormal(grain, distance, normal));
+    EXPECT_NEAR(distance, 0.05, 1e-15);
+    EXPECT_NEAR((normal - Vec3D(1, 0, 0)).norm(), 0, 1e-15);
+    grain.setPosition({-0.03, -0.04, 0.2});
+    ASSERT_TRUE(wall->getDistanceAndNormal(grain, distance, normal));
+    EXPECT_NEAR(distance, 0.05, 1e-15);
+    EXPECT_NEAR((normal - Vec3D(0.6, 0.8, 0)).norm(), 0, 1e-14);
+    grain.setPosition({-0.08, -0.08, 0.2});  // within reach of both planes, and not of the solid
+    EXPECT_FALSE(wall->getDistanceAndNormal(grain, distance, normal));
+}
+
+// A grain bounces on a plate; a second program goes on from the restart file of the first one.
+class FallAndGoOn : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    explicit FallAndGoOn(const std::string& name, double end) {
+        setName(name);
+        setFileType(FileType::NO_FILE);
+        setMax({1.0, 1.5, 0.0});
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        species->setDensity(4.0 / constants::pi);
+        species->setCollisionTimeAndRestitutionCoefficient(0.1, 1, species->getMassFromRadius(0.5));
+        setTimeStep(0.002);
+        setTimeMax(end);
+        setQuiet();
+    }
+    void setupInitialConditions() override {
+        InfiniteWall plate;
+        plate.setSpecies(speciesHandler.getObject(0));
+        plate.set(Vec3D(0, -1, 0), Vec3D(0, 0, 0));
+        wallHandler.copyAndAddObject(plate);
+        SphericalParticle grain;
+        grain.setSpecies(speciesHandler.getObject(0));
+        grain.setRadius(0.5);
+        grain.setPosition(Vec3D(grain.getRadius(), 2.0 * grain.getRadius(), 0));
+        particleHandler.copyAndAddObject(grain);
+        setGravity(Vec3D(0, -1, 0));
+    }
+};
+
+TEST(MercuryPrograms, freeFallRestart) {
+    const TestFolder folder;
+    FallAndGoOn whole(folder.name() + "-whole", 2.2);
+    whole.solve();
+    FallAndGoOn first(folder.name(), 1.05);  // in the touch
+    first.restartFile.setFileType(FileType::ONE_FILE);
+    first.solve();
+    FallAndGoOn second(folder.name(), 2.2);
+    second.readRestartFile();
+    second.solve();
+    EXPECT_EQ(second.getTime(), whole.getTime());
+    const auto grain = second.particleHandler.getObject(0), same = whole.particleHandler.getObject(0);
+    EXPECT_EQ(grain->getPosition(), same->getPosition());
+    EXPECT_EQ(grain->getVelocity(), same->getVelocity());
+    // It is back at about the height from which it fell: after 1 s down, 0.1 s at the plate and 1 s up.
+    EXPECT_NEAR(same->getPosition().y(), 1.0, 0.01);
+}
+
+}  // namespace
+}  // namespace pendular::mercuryBoundariesTest

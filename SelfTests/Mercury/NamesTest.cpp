@@ -1,0 +1,409 @@
+// Each name of MercuryDPM in Kernel/MercuryScene.h does what the kernel's own word does.
+#include "Kernel/MercuryScene.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular::mercuryNamesTest {
+namespace {
+
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+using support::TestFolder;
+
+using Friction = LinearViscoelasticSlidingFrictionSpecies;
+
+/// The text of the RunError that an action throws; empty if it throws none.
+template <class Action>
+std::string runError(Action&& action) {
+    try {
+        action();
+    } catch (const RunError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+/// Two grains on a floor, one above the other, all a little pressed.
+class Pile : public MercuryScene<Friction> {
+public:
+    int printed = 0;
+
+    Pile() {
+        auto species = speciesHandler.copyAndAddObject(Friction());
+        species->setDensity(2000);
+        species->setStiffness(1000);
+        species->setSlidingStiffness(300);
+        setDomain({-0.1, -0.1, 0}, {0.1, 0.1, 0.2});
+        SphericalParticle grain(species);
+        grain.setRadius(0.01);
+        for (const double height : {0.0099, 0.0297}) {
+            grain.setPosition({0, 0, height});
+            particleHandler.copyAndAddObject(grain);
+        }
+        InfiniteWall floor;
+        floor.setSpecies(species);
+        floor.set({0, 0, -1}, {0, 0, 0});
+        wallHandler.copyAndAddObject(floor);
+        setTimeStep(1e-5);
+        setTimeMax(1e-4);
+        setQuiet();
+    }
+    void printTime() const override { ++const_cast<Pile*>(this)->printed; }
+};
+
+TEST(MercuryNames, loggerPutsValuesInPlaceOfPercents) {
+    std::string said;
+    setLogSink([&](LogLevel, std::string_view line) { said += std::string(line) + '|'; });
+    ::logger(INFO, "% grains at %, 5\\% wet, %", 3, Vec3D(1, 2, 0.5), std::string("name"));
+    ::logger(DEBUG, "not shown");
+    Pile quiet;
+    quiet.logger(WARN, "of a scene that is quiet");
+    quiet.setQuiet(false);
+    quiet.logger(WARN, "100% plain");
+    setLogSink({});
+    EXPECT_TRUE(contains(said, "3 grains at 1 2 0.5, 5% wet, name"));
+    EXPECT_TRUE(contains(said, "100% plain"));
+    EXPECT_EQ(said.find("not shown"), std::string::npos);
+    EXPECT_EQ(said.find("quiet"), std::string::npos);
+}
+
+TEST(MercuryNames, errorFatalAndAssertEndTheProgram) {
+    EXPECT_EQ(runError([] { ::logger(ERROR, "it is %", 1.5); }), "it is 1.5");
+    EXPECT_EQ(runError([] { ::logger(FATAL, "all over"); }), "all over");
+    EXPECT_EQ(runError([] { ::logger.assert_always(1 + 1 == 3, "% is not %", 2, 3); }), "2 is not 3");
+    EXPECT_EQ(runError([] { ::logger.assert_always(true, "%", 2), ::logger.assert_debug(true, "no"); }), "");
+}
+
+TEST(MercuryNames, helpersCheckAndWrite) {
+    EXPECT_EQ(runError([] { helpers::check(1, 1.0625, 0.0625, "v"); }), "");
+    EXPECT_EQ(runError([] { helpers::check(1, 1.5, 0.25, "v"); }), "v is 1; it must be 1.5 up to 0.25.");
+    EXPECT_TRUE(contains(runError([] { helpers::check({1, 2, 3}, {1, 2, 4}, 0.5, "x"); }), "x, z is 3"));
+    EXPECT_FALSE(mathsFunc::isEqual(std::nan(""), 1, 1e9));
+    const TestFolder folder;
+    helpers::writeToFile(folder.name(), "set grid\n");
+    EXPECT_EQ(support::contentOf(folder.name()), "set grid\n");
+    EXPECT_TRUE(isOneSentence(refusal([&] { helpers::writeToFile(folder.name() + "/no/folder", ""); })));
+}
+
+TEST(MercuryNames, boundsOfTheBoxAreSetOneByOne) {
+    MercuryScene<Friction> scene;
+    const DomainBox& kernel = scene;
+    EXPECT_EQ(scene.getMax(), Vec3D(0, 0, 0));
+    scene.setXMax(1);
+    scene.setYMax(2);
+    EXPECT_EQ(kernel.getMax(), Vec3D(1, 2, 0));  // flat, as in a program in two dimensions
+    scene.setXMin(3);                            // above the highest bound, for now
+    EXPECT_EQ(kernel.getMin(), Vec3D(0, 0, 0));
+    scene.setMax(4, 5, 6);
+    EXPECT_EQ(kernel.getMin(), Vec3D(3, 0, 0));
+    EXPECT_EQ(kernel.getMax(), Vec3D(4, 5, 6));
+    scene.setYMin(-1);
+    scene.setZMin(-2);
+    scene.setZMax(7);
+    EXPECT_EQ(scene.getXMin() + 10 * scene.getYMin() + 100 * scene.getZMin(), -207);
+    EXPECT_EQ(scene.getXMax() + 10 * scene.getYMax() + 100 * scene.getZMax(), 754);
+    scene.setMin({0, 0, 0});
+    EXPECT_EQ(kernel.getMin(), Vec3D(0, 0, 0));
+}
+
+TEST(MercuryNames, scenesHaveThreeDimensions) {
+    MercuryScene<Friction> scene;
+    EXPECT_NO_THROW(scene.setSystemDimensions(3));
+    const std::string flat = refusal([&] { scene.setSystemDimensions(2); });
+    EXPECT_TRUE(isOneSentence(flat));
+    EXPECT_TRUE(contains(flat, "system dimensions = 2"));
+    EXPECT_TRUE(contains(refusal([&] { scene.setParticleDimensions(2); }), "particle dimensions = 2"));
+}
+
+TEST(MercuryNames, grainsMoveByMercurysScheme) {
+    EXPECT_EQ(MercuryScene<Friction>().getIntegrator(), integrators::velocityVerlet);
+    EXPECT_EQ(Mercury3D().getIntegrator(), integrators::velocityVerlet);
+}
+
+TEST(MercuryNames, filesAreThoseThatAreAskedFor) {
+    for (const bool energies : {true, false}) {
+        const TestFolder folder;
+        {
+            Pile scene;
+            scene.setName(folder.name());
+            scene.fStatFile.setFileType(FileType::NO_FILE);
+            if (!energies) scene.eneFile.setFileType(FileType::NO_FILE);
+            scene.setParticlesWriteVTK(!energies);
+            scene.solve();
+            EXPECT_EQ(scene.printed, 2);  // at the start and at the end
+        }
+        const auto isThere = [&](const char* end) { return std::filesystem::exists(folder.name() + end); };
+        EXPECT_TRUE(isThere(".data"));
+        EXPECT_FALSE(isThere(".fstat"));
+        EXPECT_EQ(isThere(".ene"), energies);
+        EXPECT_EQ(isThere(".pvd"), !energies);
+        EXPECT_FALSE(isThere("-restart.h5"));
+    }
+    Pile scene;
+    EXPECT_EQ(scene.dataFile.getFileType(), FileType::ONE_FILE);
+    const std::string many = refusal([&] { scene.dataFile.setFileType(FileType::MULTIPLE_FILES); });
+    EXPECT_TRUE(isOneSentence(many));
+    EXPECT_TRUE(contains(many, "dataFile"));
+    scene.setFileType(FileType::NO_FILE);
+    EXPECT_FALSE(scene.fStatFile.isWritten() || scene.eneFile.isWritten() || scene.restartFile.isWritten());
+}
+
+TEST(MercuryNames, aFrameOfADataFileIsAStart) {
+    const TestFolder folder;
+    {
+        Pile scene;
+        scene.setName(folder.name());
+        scene.setFileType(FileType::NO_FILE);
+        scene.dataFile.setFileType(FileType::ONE_FILE);
+        scene.solve();
+    }
+    MercuryScene<Friction> scene;
+    scene.speciesHandler.copyAndAddObject(Friction())->setDensity(2000);
+    scene.readDataFile(folder.name() + ".data");
+    EXPECT_EQ(scene.particleHandler.getNumberOfObjects(), 2u);
+    EXPECT_EQ(scene.particleHandler.getObject(0)->getPosition(), Vec3D(0, 0, 0.0099));  // the first frame
+    EXPECT_EQ(scene.particleHandler.getLastObject()->getPosition(), Vec3D(0, 0, 0.0297));
+    EXPECT_EQ(scene.particleHandler.getLastObject()->getRadius(), 0.01);
+    EXPECT_EQ(scene.getMax(), Vec3D(0.1, 0.1, 0.2));
+
+    const auto said = [&](const std::string& text) {
+        helpers::writeToFile(folder.name() + ".bad", text);
+        return refusal([&] { readMercuryData(folder.name() + ".bad"); });
+    };
+    const std::string head = "2 0 0 0 0 1 1 1\n", row = "0 0 0 0 0 0 0.1 0 0 0 0 0 0 0\n";
+    EXPECT_EQ(said(head + row + row), "");
+    for (const std::string& bad : {said("2 0 0 0 1 1\n"), said(head + row), said(head + row + "0 0 0 x\n"),
+                                   said("2.5 0 0 0 0 1 1 1\n"), said(head + row + "1 " + row)})
+        EXPECT_TRUE(isOneSentence(bad)) << bad;
+    EXPECT_TRUE(contains(said(head + row), "line 3"));
+}
+
+TEST(MercuryNames, interactionsAreTheKernelsContacts) {
+    Pile scene;
+    scene.solve();
+    const std::vector<ObservedContact> contacts = scene.interactions();
+    ASSERT_EQ(contacts.size(), 2u);
+    std::size_t k = 0;
+    for (auto i : scene.interactionHandler) {
+        const ObservedContact& contact = contacts[k++];
+        EXPECT_EQ(i->getOverlap(), contact.overlap());
+        EXPECT_GT(i->getOverlap(), 0);
+        EXPECT_EQ(i->getNormal(), toEigen(-contact.normal()));
+        EXPECT_EQ(i->getForce(), toEigen(contact.force));
+        EXPECT_EQ(i->getContactPoint(), toEigen(contact.point));
+        EXPECT_EQ(i->getDistance() + i->getOverlap(), i->isWithWall() ? 0.01 : 0.02);
+        // The spring of the last step: the force of a linear law without a dashpot.
+        EXPECT_NEAR(i->getAbsoluteNormalForce(), 1000 * i->getOverlap(), 1e-12);
+        EXPECT_EQ(i->getTangentialForce(), Vec3D(0, 0, 0));
+    }
+    EXPECT_EQ(k, scene.interactionHandler.getNumberOfObjects());
+    const auto low = scene.particleHandler.getObject(0), high = scene.particleHandler.getObject(1);
+    const MercuryInteraction pair = scene.interactionHandler.getInteraction(high, low);
+    ASSERT_TRUE(pair);
+    EXPECT_EQ(pair->getP() + pair->getI(), 1u);
+    EXPECT_FALSE(pair->isWithWall());
+    EXPECT_FALSE(scene.interactionHandler.getInteraction(low, low));
+    EXPECT_EQ(scene.interactionHandler.getLastObject()->getOverlap(), contacts.back().overlap());
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.interactionHandler.getObject(2)); })));
+    // The forces on walls are kept, here without asking.
+    EXPECT_LT(scene.wallHandler.getObject(0)->getForce().z(), 0);
+}
+
+TEST(MercuryNames, speciesKnowMassStepAndTangentialRestitution) {
+    Friction species;
+    species.setDensity(2000);
+    const double mass = species.getMassFromRadius(0.01);
+    EXPECT_NEAR(mass, 2000 * 4.0 / 3.0 * constants::pi * 1e-6, 1e-17);
+    const double time = 1e-3, e = 0.5, tangential = 0.25;
+    species.setCollisionTimeAndNormalAndTangentialRestitutionCoefficient(time, e, tangential, mass);
+    EXPECT_NEAR(species.getCollisionTime(mass), time, 1e-15);
+    EXPECT_NEAR(species.getRestitutionCoefficient(mass), e, 1e-14);
+    EXPECT_NEAR(species.computeTimeStep(mass), 0.02 * time, 1e-17);
+    // 2/7 of the reduced mass on k_t and g_t: half a period takes the time, and leaves the share.
+    const double swinging = mass / 7, rate = species.getSlidingDissipation() / (2 * swinging);
+    EXPECT_NEAR(std::exp(-rate * time), tangential, 1e-14);
+    EXPECT_NEAR(std::sqrt(species.getSlidingStiffness() / swinging - rate * rate) * time, constants::pi,
+                1e-12);
+    EXPECT_TRUE(contains(refusal([&] {
+                             species.setCollisionTimeAndNormalAndTangentialRestitutionCoefficient(time, e, 0,
+                                                                                                  mass);
+                         }),
+                         "tangential restitution coefficient"));
+
+    LinearPlasticViscoelasticSpecies plastic;
+    plastic.setPlasticParameters(100, 500, 100, 0.05);
+    EXPECT_NEAR(plastic.computeTimeStep(2), 0.02 * constants::pi / std::sqrt(500), 1e-15);
+}
+
+TEST(MercuryNames, staticFrictionIsARatio) {
+    Friction species;
+    const std::string unset = refusal([&] { species.setSlidingFrictionCoefficientStatic(0.6); });
+    EXPECT_TRUE(isOneSentence(unset));
+    EXPECT_TRUE(contains(unset, "setSlidingFrictionCoefficient()"));
+    species.setSlidingFrictionCoefficient(0.5);
+    species.setSlidingFrictionCoefficientStatic(0.75);
+    EXPECT_EQ(species.getStaticFrictionRatio(), 1.5);
+    EXPECT_EQ(species.getSlidingFrictionCoefficientStatic(), 0.75);
+    EXPECT_TRUE(
+        contains(refusal([&] { species.setSlidingFrictionCoefficientStatic(0.25); }), "at least 0.5"));
+}
+
+TEST(MercuryNames, namesOfSpeciesWithEachAdhesion) {
+    static_assert(
+        std::is_same_v<LinearViscoelasticFrictionSpecies, LinearViscoelasticSlidingRollingTorsionSpecies>);
+    static_assert(
+        std::is_same_v<LinearPlasticViscoelasticFrictionReversibleAdhesiveSpecies,
+                       Species<LinearPlasticViscoelastic, SlidingRollingTorsion, ReversibleAdhesive>>);
+    static_assert(std::is_same_v<LinearViscoelasticFrictionLiquidBridgeWilletSpecies,
+                                 Species<LinearViscoelastic, SlidingRollingTorsion, LiquidBridgeWillett>>);
+    EXPECT_EQ(LinearViscoelasticFrictionSpecies::name, LinearViscoelasticSlidingRollingTorsionSpecies::name);
+}
+
+TEST(MercuryNames, handlersCountAndGiveTheLast) {
+    Pile scene;
+    EXPECT_EQ(scene.particleHandler.getNumberOfObjects(), scene.particleHandler.getSize());
+    EXPECT_EQ(scene.particleHandler.getLastObject()->getId(), 1u);
+    scene.particleHandler.removeObject(1);
+    EXPECT_EQ(scene.particleHandler.getLastObject()->getId(), 0u);
+    scene.particleHandler.removeObject(0);
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.particleHandler.getLastObject()); })));
+    EXPECT_EQ(SphericalParticle(scene.speciesHandler.getLastObject()).getSpeciesIndex(), 0);
+
+    InfiniteWall second;
+    second.set({1, 0, 0}, {1, 0, 0});
+    second.setSpecies(scene.speciesHandler.getObject(0));
+    auto added = scene.wallHandler.copyAndAddObject(second);
+    EXPECT_EQ(scene.wallHandler.getLastObject(), added);
+    EXPECT_EQ(scene.wallHandler.getNumberOfObjects(), 2u);
+    scene.wallHandler.removeObject(0);
+    EXPECT_EQ(scene.wallHandler.getNumberOfObjects(), 1u);
+    EXPECT_EQ(static_cast<WallHandler&>(scene.wallHandler).getSize(), 2u);  // numbers stay
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.boundaryHandler.getObject(0)); })));
+}
+
+TEST(MercuryNames, periodicBoundaryIsAPeriod) {
+    MercuryScene<Friction> scene;
+    PeriodicBoundary sides;
+    sides.set({0, 1, 0}, -1, 2);
+    scene.boundaryHandler.copyAndAddObject(sides);
+    const PeriodicBox& box = scene.getPeriodicBox();
+    EXPECT_EQ(box.length, (Vector<double>{0, 3, 0}));
+    EXPECT_EQ(box.lowest.y, -1);
+    const std::string oblique = refusal([&] { sides.set({1, 1, 0}, 0, 1); });
+    EXPECT_TRUE(isOneSentence(oblique));
+    EXPECT_TRUE(contains(oblique, "(1, 1, 0)"));
+}
+
+TEST(MercuryNames, insertionSaysWhatItNeeds) {
+    Pile scene;
+    CubeInsertionBoundary box;
+    const auto said = [&] { return refusal([&] { scene.boundaryHandler.copyAndAddObject(box); }); };
+    EXPECT_TRUE(contains(said(), "set()"));
+    SphericalParticle grain;
+    grain.setRadius(1e-3);
+    box.set(grain, 1, {0, 0, 0.1}, {0.1, 0.1, 0.2});
+    EXPECT_TRUE(contains(said(), "setVolumeFlowRate()"));
+    EXPECT_TRUE(isOneSentence(said()));
+    box.setInitialVolume(1e-6);
+    EXPECT_TRUE(contains(said(), "species"));
+    const std::string spread = refusal([&] {
+        box.set(grain, 1, {0, 0, 0}, {1, 1, 1}, {0, 0, -1}, {0, 0, 1});
+    });
+    EXPECT_TRUE(isOneSentence(spread));
+    EXPECT_TRUE(isOneSentence(refusal([&] { DeletionBoundary().set({0, 0, 0}, 1); })));
+    EXPECT_TRUE(
+        isOneSentence(refusal([&] { static_cast<void>(FluxBoundary().getNumberOfParticlesCrossedNet()); })));
+}
+
+TEST(MercuryNames, sizesAreRadiiThere) {
+    PSD psd;
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(psd.getMinRadius()); })));
+    psd.setDistributionUniform(0.001, 0.003, 50);
+    EXPECT_EQ(psd.getMinRadius(), 0.001);
+    EXPECT_EQ(psd.getMaxRadius(), 0.003);
+    // The mean of r^3 over even radii: (b^4 - a^4) / (4 (b - a)).
+    EXPECT_NEAR(psd.getVolumetricMeanRadius(), std::cbrt((81 - 1) / (4 * 2.0)) * 1e-3, 1e-15);
+    for (int k = 0; k < 100; ++k) {
+        const double radius = psd.drawSample();
+        EXPECT_TRUE(radius >= 0.001 && radius <= 0.003);
+    }
+    psd.setDistributionNormal(0.01, 0.001);
+    EXPECT_NEAR(psd.getMinRadius(), 0.007, 1e-16);
+    EXPECT_NEAR(0.5 * psd.sizes().mean(1, 0), 0.01, 1e-12);  // cut alike on both sides
+    psd.setPSDFromVector({{0.001, 0}, {0.002, 0.25}, {0.003, 0.75}},
+                         PSD::TYPE::PROBABILITYDENSITY_NUMBER_DISTRIBUTION);
+    EXPECT_NEAR(psd.sizes().cumulative(SizeBasis::Number, 0.004), 0.25, 1e-14);
+    psd.setPSDFromVector({{0.001, 0}, {0.002, 0.25}, {0.003, 1}}, PSD::TYPE::CUMULATIVE_VOLUME_DISTRIBUTION);
+    EXPECT_NEAR(psd.sizes().cumulative(SizeBasis::Volume, 0.004), 0.25, 1e-14);
+    EXPECT_TRUE(isOneSentence(refusal([&] {
+        psd.setPSDFromVector({{0.001, 0.5}, {0.002, 0.5}}, PSD::TYPE::PROBABILITYDENSITY_NUMBER_DISTRIBUTION);
+    })));
+}
+
+TEST(MercuryNames, randomNumbersAreThoseOfTheKernel) {
+    MercuryScene<Friction> scene;
+    UniformRandom same(0);
+    EXPECT_EQ(scene.random.getRandomNumber(2, 3), same.uniform(2, 3));
+    EXPECT_EQ(scene.random.getRandomNumber(), same.uniform(0, 1));
+    scene.random.setRandomSeed(7);
+    EXPECT_EQ(scene.random.getRandomNumber(0, 1), UniformRandom(7).uniform(0, 1));
+}
+
+TEST(MercuryNames, argumentsOfMain) {
+    const TestFolder folder;
+    Pile scene;
+    scene.setFileType(FileType::NO_FILE);
+    const std::string name = folder.name();
+    const char* const given[] = {"program", "-name",  name.c_str(), "-tmax", "3e-5",
+                                 "-dt",     "1.5e-5", "-savecount", "1"};
+    scene.solve(9, given);
+    EXPECT_EQ(scene.getName(), name);
+    EXPECT_EQ(scene.getNumberOfTimeSteps(), 2u);
+    EXPECT_EQ(scene.printed, 3);
+    const auto said = [](const char* option, const char* value = nullptr) {
+        Pile other;
+        const char* const words[] = {"program", option, value};
+        return refusal([&] { takeArguments(other, value ? 3 : 2, words); });
+    };
+    for (const std::string& text :
+         {said("-threads", "2"), said("-tmax"), said("-dt", "much"), said("-savecount", "1.5")})
+        EXPECT_TRUE(isOneSentence(text)) << text;
+    Pile again;
+    const char* const restart[] = {"program", "-r", "-name", "other"};
+    takeArguments(again, 4, restart);
+    EXPECT_TRUE(again.isRestarted());
+}
+
+TEST(MercuryNames, aRunWithoutAnEndIsRefused) {
+    for (const bool inHook : {false, true}) {
+        struct Endless : MercuryScene<Friction> {
+            bool inHook = false;
+            void setupInitialConditions() override {
+                speciesHandler.copyAndAddObject(Friction())->setDensity(1);
+                speciesHandler.getObject(0)->setStiffness(1);
+                speciesHandler.getObject(0)->setSlidingStiffness(1);
+                SphericalParticle grain(speciesHandler.getObject(0));
+                grain.setRadius(1);
+                particleHandler.copyAndAddObject(grain);
+                if (inHook) setTimeMax(0);
+            }
+        } scene;
+        scene.inHook = inHook;
+        scene.setTimeStep(1e-3);
+        scene.setQuiet();
+        const std::string said = refusal([&] { scene.solve(); });
+        if (inHook) EXPECT_EQ(said, "");
+        else EXPECT_TRUE(isOneSentence(said) && contains(said, "setTimeMax()")) << said;
+    }
+}
+
+}  // namespace
+}  // namespace pendular::mercuryNamesTest

@@ -1,0 +1,370 @@
+// Programs of MercuryDPM's public self-tests with two grains, by its names, and what they give there or a
+// closed form. README.md lists them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "Kernel/MercuryScene.h"
+
+namespace pendular::mercuryTwoGrainsTest {
+namespace {
+
+/// Adds two equal grains on the axis x that come towards each other with this speed (m/s) each.
+template <class Scene, class S>
+void addPair(Scene& scene, const S* species, double radius, double halfDistance, double speed) {
+    SphericalParticle grain(species);
+    grain.setRadius(radius);
+    for (const double side : {-1.0, 1.0}) {
+        grain.setPosition(Vec3D(side * halfDistance, 0, 0));
+        grain.setVelocity(Vec3D(-side * speed, 0, 0));
+        scene.particleHandler.copyAndAddObject(grain);
+    }
+}
+
+// An elastic linear contact: the grains part with the speed with which they came.
+class LinearViscoelasticPair : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    double mass = 0;
+
+    explicit LinearViscoelasticPair(Mdouble radius) {
+        setMax(2 * radius, radius, radius);
+        setMin(-getXMax(), -getYMax(), -getZMax());
+        LinearViscoelasticSpecies sf;
+        sf.setDensity(1000);
+        mass = sf.getMassFromRadius(radius);
+        sf.setStiffnessAndRestitutionCoefficient(1.0 * radius, 1.0, mass);
+        auto species = speciesHandler.copyAndAddObject(sf);
+        addPair(*this, species, radius, 1.3 * radius, 0.001);
+        setTimeMax(10);
+        setTimeStep(2.5e-4);  // there 2.5e-5 s
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, linearViscoelastic) {
+    LinearViscoelasticPair scene(0.01);
+    scene.solve();
+    const double collisionTime = constants::pi * std::sqrt(0.5 * scene.mass / 0.01);
+    const auto right = scene.particleHandler.getLastObject();
+    // They touch from 3 s on. The error is that of the steps at the ends of the touch, (omega h)^2.
+    const double share = std::pow(constants::pi / collisionTime * scene.getTimeStep(), 2);
+    EXPECT_NEAR(right->getVelocity().x(), 0.001, share * 0.001);
+    EXPECT_NEAR(right->getPosition().x(), 0.01 + 0.001 * (scene.getTime() - 3 - collisionTime),
+                0.001 * scene.getTimeStep());
+    EXPECT_EQ(scene.particleHandler.getObject(0)->getVelocity().x(), -right->getVelocity().x());
+}
+
+// A Hertzian contact with a restitution of 0.8.
+class HertzRestitution : public MercuryScene<HertzianViscoelasticMindlinSpecies> {
+public:
+    void setupInitialConditions() override {
+        HertzianViscoelasticMindlinSpecies species;
+        species.setDensity(1);
+        species.setEffectiveElasticModulusAndRestitutionCoefficient(20000, 0.8);
+        species.setEffectiveShearModulus(20000);
+        auto s = speciesHandler.copyAndAddObject(species);
+        addPair(*this, s, 1, 1.5, 1);
+        setTimeStep(species.getCollisionTime(species.getMassFromRadius(1), 1, 2) / 50);
+        acceptUnstableTimeStep();
+        setTimeMax(1.5);
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, hertzContactRestitution) {
+    HertzRestitution scene;
+    scene.solve();
+    scene.logger.assert_always(
+        mathsFunc::isEqual(scene.particleHandler.getObject(1)->getVelocity().x(), 0.8, 1e-2),
+        "Particle 1 has a wrong velocity: %", scene.particleHandler.getObject(1)->getVelocity().x());
+    EXPECT_NEAR(scene.particleHandler.getObject(0)->getVelocity().x(), -0.8, 1e-2);
+}
+
+// Luding's plastic contact at four speeds, chi times that of the largest flattening.
+class PlasticForce : public MercuryScene<LinearPlasticViscoelasticSpecies> {
+public:
+    explicit PlasticForce(double chi) {
+        const double k1 = 100.0, depth = 0.05;
+        auto species = speciesHandler.copyAndAddObject(LinearPlasticViscoelasticSpecies());
+        species->setPlasticParameters(k1, 5.0 * k1, k1, depth);
+        species->setDensity(6.0 / constants::pi);
+        const double flattest = species->getUnloadingStiffnessMax() /
+                                (species->getUnloadingStiffnessMax() - species->getLoadingStiffness()) *
+                                depth * 0.5;
+        const double speed = std::sqrt(species->getLoadingStiffness() * 2) * chi * flattest;
+        SphericalParticle grain(species);
+        grain.setRadius(0.5);
+        grain.setPosition(Vec3D(1.0, 1.0, 1.0));
+        grain.setVelocity(Vec3D(speed / 2.0, 0.0, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        grain.setPosition(Vec3D(2.0, 1.0, 1.0));
+        grain.setVelocity(Vec3D(-speed / 2.0, 0.0, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        setTimeStep(species->computeTimeStep(1.0) * 2.0);
+        setTimeMax(getTimeStep() * 100.0);
+        setQuiet();
+    }
+};
+
+// At the speeds in the middle the grains stay together and pull each other open again and again. There the
+// slope of the next loading is that of the step before, and here that of the same step: at the turn an
+// overlap differs by the share (omega h)^2, with h = 0.04 pi / omega.
+TEST(MercuryPrograms, plasticForce) {
+    struct Expected {
+        double chi, velocity, position, share;
+    };
+    constexpr double ofStep = 0.04 * 0.04 * 10;
+    for (const auto& [chi, velocity, position, share] : std::array<Expected, 4>{{
+             {0.34, -0.032721738352012, 0.995546292935715, 0},
+             {0.69, -0.0138683231953154, 1.00695193269955, ofStep},
+             {1.1, -0.0204655358555405, 1.00840467123501, ofStep},
+             {1.37, -0.163049415300304, 0.969386085767181, 0},
+         }}) {
+        SCOPED_TRACE(chi);
+        PlasticForce scene(chi);
+        const double speed = 2 * scene.particleHandler.getObject(0)->getVelocity().x();
+        const double overlap = speed / std::sqrt(200.0);  // m, the largest
+        scene.solve();
+        const auto left = *scene.particleHandler.begin();
+        helpers::check(left->getPosition(), {position, 1, 1}, 1e-10 + share * overlap, "position");
+        helpers::check(left->getVelocity(), {velocity, 0, 0}, 1e-10 + share * speed, "velocity");
+    }
+}
+
+// A grain rolls off another one that is held, with a tangential spring that never slides.
+class TangentialSpringScene : public MercuryScene<LinearViscoelasticSlidingFrictionSpecies> {
+public:
+    void setupInitialConditions() override {
+        setXMax(1);
+        setYMax(1);
+        setZMax(1);
+        SphericalParticle below(speciesHandler.getObject(0)), above(speciesHandler.getObject(0));
+        below.setPosition(Vec3D(0.5, 0.5, 0.25));
+        above.setPosition(Vec3D(0.5, 0.5, 0.75));
+        below.fixParticle();
+        above.setVelocity(Vec3D(0.1, 0.0, 0.0));
+        below.setRadius(0.25);
+        above.setRadius(0.25);
+        particleHandler.copyAndAddObject(below);
+        particleHandler.copyAndAddObject(above);
+    }
+};
+
+TEST(MercuryPrograms, tangentialSpring) {
+    TangentialSpringScene scene;
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSlidingFrictionSpecies());
+    species->setDensity(6. / constants::pi);
+    species->setCollisionTimeAndRestitutionCoefficient(1e-3, .2, 1. / 8);
+    species->setSlidingStiffness(species->getStiffness() * 2 / 7);
+    species->setSlidingFrictionCoefficient(1e20);
+    scene.setTimeStep(2e-5);
+    scene.setGravity(Vec3D(0, 0, -1));
+    scene.setTimeMax(2.5);
+    scene.setQuiet();
+    scene.solve();
+    auto at = scene.particleHandler.begin();
+    helpers::check((*at)->getPosition(), {0.5, 0.5, 0.25}, 1e-7, "position below");
+    helpers::check((*at)->getVelocity(), {0, 0, 0}, 1e-7, "velocity below");
+    const auto grain = scene.particleHandler.getLastObject();
+
+    // At the start it slips at u = 0.1 m/s, which leaves 5/7 u of rolling and a swing of the spring that
+    // nothing damps: +-5/7 u of the rim. It leaves where g cos(angle) = v^2 / (2 R): 1.7 cos = 1 + 0.7 (5/7
+    // u)^2 / (2 g R).
+    const double rolls = 5.0 / 7.0 * 0.1;
+    const double cosine = (1 + 0.7 * rolls * rolls / 0.5) / 1.7;
+    const double spin = std::sqrt(0.5 * cosine) / 0.25;
+    EXPECT_NEAR(grain->getAngularVelocity().y(), spin, rolls / 0.25);
+    EXPECT_NEAR(2.11896618998424, spin, rolls / 0.25);  // there, in another phase of the swing
+    // Of the energy for each kg, what was in the slip is lost at most: 2/7 u^2 / 2.
+    const double energy = grain->getPosition().z() + 0.5 * grain->getVelocity().squaredNorm() +
+                          0.2 * 0.0625 * grain->getAngularVelocity().squaredNorm();
+    EXPECT_LT(energy, 0.755);
+    EXPECT_GT(energy, 0.755 - 0.01 / 7);
+    EXPECT_EQ(grain->getPosition().y(), 0.5);
+}
+
+// Two grains in a box of four walls: they meet, bounce off the walls, and meet again.
+class ElasticCollision : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    void setupInitialConditions() override {
+        setXMax(0.01);
+        setYMax(0.01);
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        species->setDensity(2000);
+        species->setStiffness(1e4);
+        SphericalParticle grain(species);
+        grain.setRadius(0.0005);
+        grain.setPosition(Vec3D(0.006, 0.005, 0.0));
+        grain.setVelocity(Vec3D(-0.1, 0.0, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        grain.setPosition(Vec3D(0.004, 0.005, 0.0));
+        grain.setVelocity(Vec3D(0.1, 0.0, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        InfiniteWall wall;
+        wall.setSpecies(species);
+        for (const double side : {-1.0, 1.0}) {
+            wall.set(Vec3D(side, 0, 0), Vec3D(side < 0 ? getXMin() : getXMax(), 0, 0));
+            wallHandler.copyAndAddObject(wall);
+            wall.set(Vec3D(0, side, 0), Vec3D(0, side < 0 ? getYMin() : getYMax(), 0));
+            wallHandler.copyAndAddObject(wall);
+        }
+        setTimeStep(1e-6);
+        setTimeMax(0.1);  // there 0.25 s
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, twoParticleElasticCollision) {
+    ElasticCollision scene;
+    scene.solve();
+    const auto right = scene.particleHandler.getObject(0), left = scene.particleHandler.getObject(1);
+    // Symmetric, but for the round-off that decides in which step a touch begins or ends: a way of v h.
+    EXPECT_NEAR(right->getPosition().x() + left->getPosition().x(), 0.01, 0.1 * 1e-6);
+    EXPECT_EQ(right->getPosition().y(), 0.005);
+    // They have met, and the walls, and have met again, and fly. The ends of each of the three touches lie in
+    // steps: the share (omega h)^2 of the energy, with omega^2 = 2 k/m.
+    EXPECT_GT(right->getVelocity().x(), 0);
+    const double mass = right->getMass();
+    const double share = 3 * 2 * 1e4 / mass * 1e-12;
+    EXPECT_NEAR(scene.getKineticEnergy(), mass * 0.01, share * mass * 0.01);
+}
+
+// The same on a periodic axis: the grains meet across its faces.
+class PeriodicCollision : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    void setupInitialConditions() override {
+        setDomain({0, 0, 0}, {1, 1, 1});
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        species->setDensity(2500.0);
+        species->setStiffness(1e5);
+        SphericalParticle grain(species);
+        grain.setRadius(0.05);
+        grain.setPosition(Vec3D(0.2, 0.5, 0.5));
+        grain.setVelocity(Vec3D(-0.25, 0.0, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        grain.setPosition(Vec3D(0.8, 0.5, 0.5));
+        grain.setVelocity(Vec3D(0.25, 0.0, 0.0));
+        particleHandler.copyAndAddObject(grain);
+        PeriodicBoundary sides;
+        sides.set(Vec3D(1, 0, 0), getXMin(), getXMax());
+        boundaryHandler.copyAndAddObject(sides);
+        setTimeStep(1e-4);
+        setTimeMax(1);
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, elasticCollisionPeriodic) {
+    PeriodicCollision scene;
+    scene.solve();
+    const double mass = scene.particleHandler.getObject(0)->getMass();
+    const double omega = std::sqrt(2e5 / mass), touch = constants::pi / omega;
+    const double share = std::pow(omega * 1e-4, 2);
+    // They touch after 0.6 s, at x = 0.05 and 0.95, and go back.
+    const auto first = scene.particleHandler.getObject(0);
+    EXPECT_NEAR(first->getVelocity().x(), 0.25, share * 0.25);
+    EXPECT_NEAR(first->getPosition().x(), 0.05 + 0.25 * (1 - 0.6 - touch), 0.25 * (1e-4 + share * 0.4));
+}
+
+// Two grains of 1 kg with a ramp of adhesion between them, of 10 N over 0.1 m.
+template <class S>
+class AdhesivePair : public MercuryScene<S> {
+public:
+    const double energy;  // J, at the start
+
+    AdhesivePair(double stepOfCollision, double speed) : energy(speed * speed) {
+        S species;
+        species.setDensity(6.0 / constants::pi);
+        species.setStiffness(500);
+        species.setAdhesionStiffness(100);
+        species.setAdhesionForceMax(10);
+        this->setTimeStep(stepOfCollision * species.getCollisionTime(1.0));
+        addPair(*this, this->speciesHandler.copyAndAddObject(species), 0.5, 0.551, speed);
+        this->keepEnergyLedger();
+        this->setQuiet();
+    }
+    [[nodiscard]] double lostEnergy() const {
+        return energy - this->getElasticEnergy() - this->getKineticEnergy();
+    }
+};
+
+TEST(MercuryPrograms, energyOfReversibleAdhesion) {
+    AdhesivePair<LinearViscoelasticReversibleAdhesiveSpecies> scene(0.002, 0.7);
+    scene.setTimeMax(0.4);
+    scene.solve();
+    helpers::check(scene.lostEnergy(), 0, 1e-6, "energy loss");
+    EXPECT_GT(scene.particleHandler.getLastObject()->getVelocity().x(), 0.69);  // they have parted
+}
+
+// To part takes F^2 / (2 k_a) = 0.5 J. Grains with 0.49 J stay together, and those with 0.64 J lose it.
+// (There the first pair has lost 0.5 J, as adhesion is counted from where it ends; here from where it began.)
+TEST(MercuryPrograms, energyOfIrreversibleAdhesion) {
+    AdhesivePair<LinearViscoelasticIrreversibleAdhesiveSpecies> slow(0.0002, 0.7), fast(0.0002, 0.8);
+    slow.setTimeMax(0.2);
+    slow.solve();
+    helpers::check(slow.lostEnergy() + 0.5, 0.5, 1e-4, "energy loss");
+    fast.setTimeMax(0.5);
+    fast.solve();
+    EXPECT_GT(fast.particleHandler.getLastObject()->getPosition().x(), 0.55);  // beyond the range of 0.1 m
+    // The force of 10 N begins within a step of 2e-5 s, in which the grains go 1.6 m/s.
+    helpers::check(fast.lostEnergy(), 0.5, 10 * 1.6 * fast.getTimeStep(), "energy loss");
+}
+
+// Grains, and a grain and a wall, with an adhesion that acts from the first touch on, and takes F^2 / (2 k_a)
+// of the energy. Positions there are those of one and of two steps more: its time is a sum, with round-off.
+class AdhesiveForce : public MercuryScene<LinearViscoelasticIrreversibleAdhesiveSpecies> {
+public:
+    static constexpr double radius = 1e-3, range = 1e-5, force = 1e-3, step = 2.5e-6;
+    static constexpr double toPart = force * range / 2;  // J
+
+    AdhesiveForce() {
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticIrreversibleAdhesiveSpecies());
+        species->setDensity(2000.0);
+        species->setStiffness(1e2);
+        species->setAdhesionStiffness(1e2);
+        species->setAdhesionForceMax(force);
+        setTimeStep(step);
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, adhesiveForceOfGrains) {
+    AdhesiveForce scene;
+    addPair(scene, scene.speciesHandler.getObject(0), AdhesiveForce::radius,
+            AdhesiveForce::radius + AdhesiveForce::range / 3, 0.05);
+    scene.setTimeMax(scene.getTimeStep() * 501);
+    scene.solve();
+    const auto left = scene.particleHandler.getObject(0), right = scene.particleHandler.getObject(1);
+    helpers::check(right->getPosition(), {0.00101582359198137, 0, 0}, 1e-7, "position");
+    helpers::check(right->getVelocity(), {0.0436824, 0, 0}, 1e-7, "velocity");
+    EXPECT_EQ(left->getVelocity(), Vec3D(-right->getVelocity()));
+    // The force begins within a step, in which the grains approach by v h: an error of F v h of the energy.
+    const double mass = left->getMass(), speed = std::sqrt(0.0025 - AdhesiveForce::toPart / mass);
+    EXPECT_NEAR(right->getVelocity().x(), speed,
+                AdhesiveForce::force * 0.1 * AdhesiveForce::step / (2 * mass * speed));
+}
+
+TEST(MercuryPrograms, adhesiveForceOfGrainAndWall) {
+    AdhesiveForce scene;
+    SphericalParticle grain(scene.speciesHandler.getObject(0));
+    grain.setRadius(AdhesiveForce::radius);
+    grain.setPosition(Vec3D(AdhesiveForce::radius + AdhesiveForce::range / 3, 0, 0));
+    grain.setVelocity(Vec3D(-0.05, 0, 0));
+    scene.particleHandler.copyAndAddObject(grain);
+    InfiniteWall wall;
+    wall.setSpecies(scene.speciesHandler.getObject(0));
+    wall.set(Vec3D(-1, 0, 0), Vec3D(scene.getXMin(), 0, 0));
+    scene.wallHandler.copyAndAddObject(wall);
+    scene.setTimeMax(scene.getTimeStep() * 1002);
+    scene.solve();
+    const auto after = scene.particleHandler.getObject(0);
+    helpers::check(after->getPosition(), {0.00104381, 0, 0}, 1e-7, "position");
+    helpers::check(after->getVelocity(), {0.0362122, 0, 0}, 1e-7, "velocity");
+    const double mass = after->getMass(), speed = std::sqrt(0.0025 - 2 * AdhesiveForce::toPart / mass);
+    EXPECT_NEAR(after->getVelocity().x(), speed,
+                AdhesiveForce::force * 0.05 * AdhesiveForce::step / (mass * speed));
+}
+
+}  // namespace
+}  // namespace pendular::mercuryTwoGrainsTest
