@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <vector>
@@ -22,24 +23,23 @@ int processorCount();
 /// environment variable PENDULAR_SHARE_SMALL_WORK is set.
 bool sharesSmallWork();
 
-/// Calls function(part, begin, end) for each of the consecutive ranges that make up [0, count), one for each
-/// thread. An exception of the first range that threw one is thrown on when all have ended.
-/// @param least how many are worth a thread: there are fewer parts where there is less to do
+/// Into how many parts work goes: one for each thread, or fewer where there is less to do.
+/// @param least how many are worth a thread
+inline std::size_t partsOf(std::size_t count, int threads, std::size_t least) {
+    if (threads <= 1) return 1;
+    const auto most = static_cast<std::size_t>(threads);
+    return sharesSmallWork() ? most : std::clamp<std::size_t>(count / least, 1, most);
+}
+
+/// Calls function(part) for each part, on a thread of its own. An exception of the first part that threw one
+/// is thrown on when all have ended.
 template <class Function>
-void inParts(std::size_t count, int threads, Function&& function, std::size_t least = 1) {
-    const std::size_t parts =
-        threads <= 1        ? 1
-        : sharesSmallWork() ? static_cast<std::size_t>(threads)
-                            : std::clamp<std::size_t>(count / least, 1, static_cast<std::size_t>(threads));
-    if (parts == 1) {
-        function(0, std::size_t{0}, count);
-        return;
-    }
+void forEachPart(std::size_t parts, Function&& function) {
     std::vector<std::exception_ptr> failures(parts);
     auto doPart = [&](int number) {
         const auto part = static_cast<std::size_t>(number);
         try {
-            function(number, count * part / parts, count * (part + 1) / parts);
+            function(part);
         } catch (...) {
             failures[part] = std::current_exception();
         }
@@ -50,6 +50,54 @@ void inParts(std::size_t count, int threads, Function&& function, std::size_t le
         &doPart);
     for (const std::exception_ptr& failure : failures)
         if (failure) std::rethrow_exception(failure);
+}
+
+/// Calls function(part, begin, end) for each of the consecutive ranges that make up [0, count), one for each
+/// thread. Throws as forEachPart() does.
+/// @param least how many are worth a thread
+template <class Function>
+void inParts(std::size_t count, int threads, Function&& function, std::size_t least = 1) {
+    const std::size_t parts = partsOf(count, threads, least);
+    if (parts == 1) {
+        function(0, std::size_t{0}, count);
+        return;
+    }
+    forEachPart(parts, [&](std::size_t part) {
+        function(static_cast<int>(part), count * part / parts, count * (part + 1) / parts);
+    });
+}
+
+/// Calls function(part, begin, end) for consecutive shares of [0, count), which threads take as they come:
+/// each first those of its own part, from the front, then what others have left. A thread without a processor
+/// holds up the share that it has begun, and no more. A part is called many times, never twice at once.
+/// Throws as forEachPart() does; what is left of the other parts may be done or not then.
+/// @param share how many are taken at once
+template <class Function>
+void inShares(std::size_t count, int threads, Function&& function, std::size_t least, std::size_t share) {
+    const std::size_t parts = partsOf(count, threads, least);
+    if (parts == 1) {
+        function(0, std::size_t{0}, count);
+        return;
+    }
+    struct alignas(64) Part {
+        std::atomic<std::size_t> next;
+        std::size_t end;
+    };
+    std::vector<Part> open(parts);
+    for (std::size_t k = 0; k < parts; ++k) {
+        open[k].next.store(count * k / parts, std::memory_order_relaxed);
+        open[k].end = count * (k + 1) / parts;
+    }
+    forEachPart(parts, [&](std::size_t own) {
+        for (std::size_t k = 0; k < parts; ++k) {
+            Part& part = open[(own + k) % parts];
+            while (part.next.load(std::memory_order_relaxed) < part.end) {
+                const std::size_t begin = part.next.fetch_add(share, std::memory_order_relaxed);
+                if (begin >= part.end) break;
+                function(static_cast<int>(own), begin, std::min(begin + share, part.end));
+            }
+        }
+    });
 }
 
 }  // namespace pendular

@@ -113,7 +113,7 @@ template <bool hasSpin, bool hasContactTorque>
 class BodyLoops {
 public:
     static constexpr std::size_t lanes = Pack::lanes;
-    static constexpr std::size_t groupsWorthAThread = 32;
+    static constexpr std::size_t groupsWorthAThread = 32, groupsOfAShare = 32;
     static constexpr std::size_t grainsAhead = 8;  // whose contacts are asked for before
 
     BodyLoops(ParticleStore& store, const Integrator& integrator, const PeriodicBox& periodic)
@@ -135,14 +135,15 @@ public:
         if (scheme.remembersEarlier() || scheme.contacts.springsInStep)
             stepSingly(order, threads, finish, beginStep, farthest);
         else
-            inParts((order.size() + lanes - 1) / lanes, threads,
-                    [&](int part, std::size_t first, std::size_t end) {
-                        double most = 0;
-                        for (std::size_t group = first; group < end; ++group)
-                            most = std::max(most, stepGroup(order, group * lanes, finish, beginStep));
-                        farthest[static_cast<std::size_t>(part)] = most;
-                    },
-                    groupsWorthAThread);
+            inShares((order.size() + lanes - 1) / lanes, threads,
+                     [&](int part, std::size_t first, std::size_t end) {
+                         double most = 0;
+                         for (std::size_t group = first; group < end; ++group)
+                             most = std::max(most, stepGroup(order, group * lanes, finish, beginStep));
+                         double& ofPart = farthest[static_cast<std::size_t>(part)];
+                         ofPart = std::max(ofPart, most);
+                     },
+                     groupsWorthAThread, groupsOfAShare);
         for (const std::uint32_t k : bodies.spheres()) follow(k, beginStep);
         stepSingly(bodies.heldOnes(), threads, finish, beginStep, farthest);
         return *std::ranges::max_element(farthest);

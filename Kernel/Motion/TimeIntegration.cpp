@@ -14,7 +14,7 @@ template <bool hasSpin, bool hasContactTorque, bool imagesMove>
 class Loops {
 public:
     using Grains = ParticleStore;
-    static constexpr std::size_t grainsWorthAThread = 512;
+    static constexpr std::size_t grainsWorthAThread = 512, grainsOfAShare = 512;
     static constexpr std::size_t grainsAhead = 8;  // whose contacts are asked for before
 
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
@@ -109,7 +109,7 @@ private:
         const bool hasBodies = !grains.bodies.empty();
         const std::vector<std::uint32_t>& own = grains.bodies.ownPlaces();
         const auto ofAll = [&]<bool remembers, bool isHeld>() {
-            inParts(
+            inShares(
                 hasBodies ? own.size() : grains.size(), threads,
                 [&](int part, std::size_t first, std::size_t end) {
                     const double most =
@@ -118,9 +118,10 @@ private:
                                   function, first, end, [&](std::size_t k) -> std::size_t { return own[k]; })
                             : largestOf<remembers, isHeld>(function, first, end,
                                                            [](std::size_t k) { return k; });
-                    largest[static_cast<std::size_t>(part)] = most;
+                    double& ofPart = largest[static_cast<std::size_t>(part)];
+                    ofPart = std::max(ofPart, most);
                 },
-                grainsWorthAThread);
+                grainsWorthAThread, grainsOfAShare);
         };
         const auto ofKind = [&]<bool isHeld>() {
             scheme.remembersEarlier() ? ofAll.template operator()<true, isHeld>()

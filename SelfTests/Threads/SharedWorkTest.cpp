@@ -34,6 +34,41 @@ TEST(Threads, shareAllOfTheWorkOnce) {
             for (const std::size_t least : {1, 10, 5000}) expectEachOnce(count, threads, least);
 }
 
+TEST(Threads, takeEachShareOnce) {
+    for (const std::size_t count : {0, 1, 7, 1000, 100003})
+        for (const int threads : {1, 2, 3, 17})
+            for (const std::size_t share : {1, 64, 200000}) {
+                std::vector<std::atomic<int>> done(count);
+                std::vector<std::atomic<int>> busy(static_cast<std::size_t>(threads));
+                inShares(
+                    count, threads,
+                    [&](int part, std::size_t begin, std::size_t end) {
+                        auto& isBusy = busy[static_cast<std::size_t>(part)];
+                        EXPECT_EQ(isBusy++, 0);  // a part is never done twice at once
+                        for (std::size_t k = begin; k < end; ++k) ++done[k];
+                        --isBusy;
+                    },
+                    1, share);
+                for (const auto& times : done) ASSERT_EQ(times, 1);
+            }
+}
+
+// One that is held up in its first share, until all others are done, does not hold up those.
+TEST(Threads, takeTheSharesOfOneThatIsHeldUp) {
+    constexpr std::size_t count = 1000, share = 10;
+    std::atomic<std::size_t> done = 0;
+    std::atomic<bool> isOneHeld = false;
+    inShares(
+        count, 3,
+        [&](int part, std::size_t begin, std::size_t end) {
+            if (part > 0 && !isOneHeld.exchange(true))
+                while (done < count - share) std::this_thread::yield();
+            done += end - begin;
+        },
+        1, share);
+    EXPECT_EQ(done, count);
+}
+
 TEST(Threads, areReallySeveral) {
     std::atomic<int> met = 0;
     inParts(3, 3, [&](int, std::size_t, std::size_t) {
@@ -41,6 +76,16 @@ TEST(Threads, areReallySeveral) {
         while (met < 3) std::this_thread::yield();  // each waits for the others
     });
     EXPECT_EQ(met, 3);
+}
+
+TEST(Threads, throwOnWhatAShareThrew) {
+    EXPECT_THROW(inShares(
+                     100, 3,
+                     [](int, std::size_t begin, std::size_t) {
+                         if (begin == 50) throw std::runtime_error("50");
+                     },
+                     1, 10),
+                 std::runtime_error);
 }
 
 TEST(Threads, throwTheFirstFailureWhenAllHaveEnded) {
