@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <limits>
 #include <vector>
 
 namespace pendular {
@@ -70,7 +71,7 @@ void inParts(std::size_t count, int threads, Function&& function, std::size_t le
 /// Calls function(part, begin, end) for consecutive shares of [0, count), which threads take as they come:
 /// each first those of its own part, from the front, then what others have left. A thread without a processor
 /// holds up the share that it has begun, and no more. A part is called many times, never twice at once.
-/// Throws as forEachPart() does; what is left of the other parts may be done or not then.
+/// An exception of the first share that threw one is thrown on when all shares are done.
 /// @param share how many are taken at once
 template <class Function>
 void inShares(std::size_t count, int threads, Function&& function, std::size_t least, std::size_t share) {
@@ -82,6 +83,8 @@ void inShares(std::size_t count, int threads, Function&& function, std::size_t l
     struct alignas(64) Part {
         std::atomic<std::size_t> next;
         std::size_t end;
+        std::size_t failedAt = std::numeric_limits<std::size_t>::max();  // of its thread: where a share began
+        std::exception_ptr failure;
     };
     std::vector<Part> open(parts);
     for (std::size_t k = 0; k < parts; ++k) {
@@ -94,10 +97,19 @@ void inShares(std::size_t count, int threads, Function&& function, std::size_t l
             while (part.next.load(std::memory_order_relaxed) < part.end) {
                 const std::size_t begin = part.next.fetch_add(share, std::memory_order_relaxed);
                 if (begin >= part.end) break;
-                function(static_cast<int>(own), begin, std::min(begin + share, part.end));
+                try {
+                    function(static_cast<int>(own), begin, std::min(begin + share, part.end));
+                } catch (...) {
+                    if (begin < open[own].failedAt) {
+                        open[own].failedAt = begin;
+                        open[own].failure = std::current_exception();
+                    }
+                }
             }
         }
     });
+    const Part& first = *std::ranges::min_element(open, {}, &Part::failedAt);
+    if (first.failure) std::rethrow_exception(first.failure);
 }
 
 }  // namespace pendular

@@ -42,9 +42,8 @@ void Run::requireTimeStep() const {
     checkValue("Simulation", "time step", timeStep, "s", timeStepRange);
     if ((underWay & Within::Whole) != 0 && !timeMaxIsSet)
         throw InputError(
-            "Simulation: maximum time is not set; call setTimeMax(), in s, before solve(), with infinity for "
-            "a "
-            "run that continueSolve() ends, and with 0 for one of no step.");
+            "Simulation: maximum time is not set; call setTimeMax(), in s, before solve(); with 0 no step is "
+            "taken.");
 }
 
 void Run::keepRestartFile(bool keep) {

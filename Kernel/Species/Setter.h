@@ -34,6 +34,18 @@ auto settersOf() {
     else return std::vector<Setter<Law>>();
 }
 
+/// Those of the parts that a law is made of, as one list.
+template <class Law, class... Parts>
+std::vector<Setter<Law>> joinedSetters() {
+    std::vector<Setter<Law>> all;
+    const auto add = [&]<class Part>(const Part*) {
+        if constexpr (requires { Part::setters(); })
+            for (const Setter<Law>& setter : Part::setters()) all.push_back(setter);
+    };
+    (add(static_cast<const Parts*>(nullptr)), ...);
+    return all;
+}
+
 /// A setter with the law whose fields it sets, whatever that is.
 struct NamedSetter {
     std::string_view law, name;

@@ -93,7 +93,7 @@ TEST(BadInput, domain) {
     EXPECT_FALSE(scene.hasDomain());
     scene.setMin({-1, -2, -3});
     EXPECT_FALSE(scene.hasDomain());
-    expectRefused([&] { scene.setMax({1, -2, 3}); }, {"Domain", "along y"});
+    expectRefused([&] { scene.setMax({1, -2.5, 3}); }, {"Domain", "along y"});
     scene.setMax({1, 2, 3});
     EXPECT_EQ(scene.getMin(), Vec3D(-1, -2, -3));
     EXPECT_EQ(scene.getMax(), Vec3D(1, 2, 3));
@@ -142,6 +142,11 @@ TEST(BadInput, timeStepAndTime) {
     withoutStep.speciesHandler.copyAndAddObject(material());
     expectRefused([&] { withoutStep.solve(); },
                   {"Simulation", "time step", "not set", "at least 1e-18 s and finite"});
+    Simulation<Dry> withoutEnd;
+    withoutEnd.speciesHandler.copyAndAddObject(material());
+    withoutEnd.setTimeStep(soundStep);
+    expectRefused([&] { withoutEnd.solve(); }, {"Simulation", "maximum time is not set", "setTimeMax()"});
+    EXPECT_EQ(withoutEnd.getNumberOfTimeSteps(), 0u);
 }
 
 TEST(BadInput, speciesOfAScene) {

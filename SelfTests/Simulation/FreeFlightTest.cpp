@@ -157,6 +157,7 @@ TYPED_TEST(FreeFlight, noTimeIsNoStep) {
     Counting<TypeParam> scene;
     scene.speciesHandler.copyAndAddObject(material<TypeParam>());
     scene.setTimeStep(0.1);
+    scene.setTimeMax(0);
     scene.solve();
     EXPECT_EQ(scene.after, 0);
     EXPECT_FALSE(scene.outputs.empty());

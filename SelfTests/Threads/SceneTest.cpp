@@ -1,38 +1,44 @@
 #include <gtest/gtest.h>
 
-#include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/ContactSystem.h"
-#include "Kernel/Simulation/StateHash.h"
-#include "SelfTests/Scenes/MovingBenchmark.h"
-#include "SelfTests/Support/TestFolder.h"
+#include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Scenes/ShearedCloud.h"
 
-namespace pendular::sceneTest {
+// Scenes of the kernel alone, which the thread sanitizer runs; those of the benchmark:
+// Restart/BenchmarkTest.cpp.
+
+namespace pendular::threadsTest {
 namespace {
 
-using scenes::BenchmarkChoice;
+using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
+using Smooth = LinearViscoelasticSpecies;
 
-/// The hash when the contacts have been listed again a few times.
-std::uint64_t hashWith(const BenchmarkChoice& choice, int threads) {
-    std::uint64_t hash = 0;
-    scenes::withMovingBenchmark(choice, threads, [&](auto& scene) {
-        scene.initialise();
-        while (scene.contacts().rebuildCount() < 4) scene.step();
-        hash = stateHash(scene.particleHandler.store());
-        const std::size_t touching = scene.contacts().counts().touching;
-        EXPECT_TRUE(choice.scene == "gas" || touching > 20) << touching;
-    });
-    return hash;
+std::uint64_t hashOf(Scene& scene) {
+    scene.initialise();
+    while (scene.contacts().rebuildCount() < 3 || scene.contacts().counts().touching < 20) scene.step();
+    return stateHash(scene.particleHandler.store());
 }
 
-class HeavyBenchmarkScene : public testing::TestWithParam<const char*> {};
-
-TEST_P(HeavyBenchmarkScene, hasTheSameBitsForAnyNumberOfThreads) {
-    const support::TestFolder folder;
-    const BenchmarkChoice choice = scenes::smallBenchmark(GetParam(), folder.path());
-    const std::uint64_t one = hashWith(choice, 1);
-    for (const int threads : {2, 3, 8}) EXPECT_EQ(hashWith(choice, threads), one) << threads << " threads";
+/// 160 grains of two sizes fall into a box of planes, until many touch.
+template <class S>
+std::uint64_t hashOfBox(int threads) {
+    scenes::SettlingBox<S> scene(10);
+    scene.setNumberOfThreads(threads);
+    return hashOf(scene);
 }
-INSTANTIATE_TEST_SUITE_P(All, HeavyBenchmarkScene, scenes::benchmarkScenes(), scenes::benchmarkTestName);
+template <class S>
+std::uint64_t hashOfShear(int threads) {
+    scenes::ShearedCloud<S> scene(200.0);
+    scene.setNumberOfThreads(threads);
+    return hashOf(scene);
+}
+
+class ThreadsInScenes : public testing::TestWithParam<int> {};
+
+TEST_P(ThreadsInScenes, boxOfWetGrains) { EXPECT_EQ(hashOfBox<Wet>(GetParam()), hashOfBox<Wet>(1)); }
+TEST_P(ThreadsInScenes, boxOfSmoothGrains) { EXPECT_EQ(hashOfBox<Smooth>(GetParam()), hashOfBox<Smooth>(1)); }
+TEST_P(ThreadsInScenes, shearOverFaces) { EXPECT_EQ(hashOfShear<Wet>(GetParam()), hashOfShear<Wet>(1)); }
+INSTANTIATE_TEST_SUITE_P(Two, ThreadsInScenes, testing::Values(2, 3));
 
 }  // namespace
-}  // namespace pendular::sceneTest
+}  // namespace pendular::threadsTest

@@ -78,14 +78,24 @@ TEST(Threads, areReallySeveral) {
     EXPECT_EQ(met, 3);
 }
 
-TEST(Threads, throwOnWhatAShareThrew) {
-    EXPECT_THROW(inShares(
-                     100, 3,
-                     [](int, std::size_t begin, std::size_t) {
-                         if (begin == 50) throw std::runtime_error("50");
-                     },
-                     1, 10),
-                 std::runtime_error);
+// Parts begin at 0, 33 and 66: whichever thread has the share, and whenever.
+TEST(Threads, throwOnWhatTheFirstShareThrewThatFails) {
+    for (int repeat = 0; repeat < 100; ++repeat) {
+        std::atomic<std::size_t> done = 0;
+        try {
+            inShares(
+                100, 3,
+                [&](int, std::size_t begin, std::size_t end) {
+                    done += end - begin;
+                    if (begin >= 43) throw std::runtime_error(std::to_string(begin));
+                },
+                1, 10);
+            FAIL() << "nothing was thrown";
+        } catch (const std::runtime_error& error) {
+            EXPECT_STREQ(error.what(), "43");
+        }
+        EXPECT_EQ(done, 100u);
+    }
 }
 
 TEST(Threads, throwTheFirstFailureWhenAllHaveEnded) {

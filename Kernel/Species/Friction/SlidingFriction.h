@@ -17,6 +17,10 @@ struct SlidingFriction : LinearSpring<SlidingFriction>, StickSlip<SlidingFrictio
         return joinedFields<SlidingFriction>(LinearSpring::fields(), StickSlip::fields());
     }
 
+    static auto setters() {
+        return joinedSetters<SlidingFriction, LinearSpring<SlidingFriction>, StickSlip<SlidingFriction>>();
+    }
+
     template <class T>
     using History = StickSlipSpring<T>;
 

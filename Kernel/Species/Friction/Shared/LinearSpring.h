@@ -6,6 +6,7 @@
 
 #include "Kernel/Species/Friction/Shared/SlidingSpring.h"
 #include "Kernel/Species/Friction/Shared/StickSlip.h"
+#include "Kernel/Species/Setter.h"
 
 namespace pendular {
 
@@ -47,6 +48,17 @@ struct LinearSpring : SlidingSpring<Law> {
         const double frequency = std::numbers::pi / collisionTime;
         setSlidingStiffness(swinging * (frequency * frequency + rate * rate));
         this->setSlidingDissipation(2 * swinging * rate);
+    }
+
+    static std::vector<Setter<Law>> setters() {
+        return {{"collisionTimeAndTangentialRestitutionCoefficient",
+                 {{"collisionTime", "s", positive},
+                  {"tangentialRestitution", "", positiveUpTo(1)},
+                  {"mass", "kg", positive}},
+                 "slidingStiffness and slidingDissipation, for two grains of this mass each that stick",
+                 [](Law& law, std::span<const double> v) {
+                     law.setCollisionTimeAndTangentialRestitutionCoefficient(v[0], v[1], v[2]);
+                 }}};
     }
 
     struct PreparedSpring {

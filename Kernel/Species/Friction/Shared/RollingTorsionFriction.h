@@ -15,6 +15,8 @@ struct RollingTorsionFriction : TangentialLaw<Law>, StickSlip<Law>, RollingTorsi
         return joinedFields<Law>(Spring::fields(), StickSlip<Law>::fields(), RollingTorsion<Law>::fields());
     }
 
+    static auto setters() { return joinedSetters<Law, Spring, StickSlip<Law>>(); }
+
     template <class T>
     using History = FrictionSprings<T>;
 

@@ -8,6 +8,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Species/Friction/Shared/SpringSlider.h"
 #include "Kernel/Species/Friction/Shared/TangentialSpring.h"
+#include "Kernel/Species/Setter.h"
 
 namespace pendular {
 
@@ -49,6 +50,15 @@ struct StickSlip {
     }
     [[nodiscard]] double getSlidingFrictionCoefficientStatic() const {
         return staticFrictionRatio * static_cast<const Law&>(*this).slidingFrictionCoefficient;
+    }
+
+    static std::vector<Setter<Law>> setters() {
+        return {{"slidingFrictionCoefficientStatic",
+                 {{"slidingFrictionCoefficientStatic", "", positive}},
+                 "staticFrictionRatio, with the dynamic coefficient, which must be set before and may not be "
+                 "greater",
+                 [](Law& law, std::span<const double> v) { law.setSlidingFrictionCoefficientStatic(v[0]); },
+                 [](const Law& law) { return law.getSlidingFrictionCoefficientStatic(); }}};
     }
 
     /// @param limit of the sliding contact, N
