@@ -211,6 +211,8 @@ public:
     }
 
 protected:
+    const typename S::Mixed& of(int a, int b) const { return species.mixture(a, b); }
+
     /// @param geometryOf (block) its geometry
     template <class GeometryOf>
     bool computeBlocks(const ContactTask& task, const GeometryOf& geometryOf) const {
@@ -245,7 +247,6 @@ private:
     // that gave most in large beds, among 1, 2 and 4 (the README).
     static constexpr std::size_t blocksAheadForBodies = 1, blocksAheadForMemory = 2;
 
-    const typename S::Mixed& of(int a, int b) const { return species.mixture(a, b); }
     template <class Geometry>
     [[gnu::always_inline]] static void prefetchFrom(const ContactTask& task, std::size_t block) {
         const std::size_t bodies = block + blocksAheadForBodies, memory = block + blocksAheadForMemory;

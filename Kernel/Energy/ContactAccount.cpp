@@ -59,17 +59,19 @@ double givenByPiston(const ContactSample& s, const RigidVelocity& piston) {
 
 /// W, that bodies which are held give to the contact: the force on each times its velocity, reversed.
 double givenByHeld(const ContactSample& s, const BodyMotion& first, const BodyMotion& second, bool isWall) {
-    const Vector<double> tangential = tangentialForce(s), force = forceOnFirst(s);
-    const Vector<double> leverless = cross(s.normal, tangential);
-    const Vector<double> own = coupleOnFirst(s);
+    const Vector<double> force = forceOnFirst(s), own = coupleOnFirst(s);
     if (isWall) return dot(force, wallVelocityAt(s)) + dot(own, s.wallSpin);
+    // N m, of the force on the first body about the centre of a body
+    const Vector<double> leverless = cross(s.normal, tangentialForce(s));
+    const auto torque = [&](const Vector<double>& arm, double radius, double side) {
+        return s.isShaped() ? cross(arm, force) : side * (radius - s.halfOverlap) * leverless;
+    };
     double given = 0;
     if (first.isHeld)
-        given -=
-            dot(force, first.velocity) + dot((first.radius - s.halfOverlap) * leverless + own, first.spin);
+        given -= dot(force, first.velocity) + dot(torque(s.arm1, first.radius, 1) + own, first.spin);
     if (second.isHeld)
-        given += dot(force, second.velocity + second.slide) -
-                 dot((second.radius - s.halfOverlap) * leverless - own, second.spin);
+        given += dot(force, second.velocity + second.slide) +
+                 dot(torque(s.arm2, second.radius, -1) + own, second.spin);
     return given;
 }
 

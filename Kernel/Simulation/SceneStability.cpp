@@ -65,6 +65,7 @@ StabilityAdvice Scene::stabilityAdvice() {
         .contactsOfGrain = static_cast<double>(sides) / static_cast<double>(std::max<std::size_t>(moving, 1)),
         .slidingShare = slidingShare(contacts(), grains),
         .grain = now.grain,
+        .body = acts ? grains.bodies.bodyOf(now.grain) : RigidBodies::none,
         .species = acts ? grains.species[grains.place[now.grain]] : std::uint16_t{0},
         .contactsOfThis = now.contactsOfGrain,
         .overlapOfThis = now.overlapOfGrain};

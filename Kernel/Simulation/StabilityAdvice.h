@@ -23,6 +23,7 @@ struct StabilityAdvice {
     double contactsOfGrain;  // mean, with walls
     double slidingShare;     // of the contacts between grains and at walls that touch; 0 without friction
     std::uint32_t grain;     // that bounds the step, by identity
+    std::uint32_t body;      // its rigid body, or RigidBodies::none
     std::uint16_t species;   // its own
     std::size_t contactsOfThis;
     double overlapOfThis;  // the largest, of the smaller radius

@@ -74,10 +74,16 @@ Pack SuperquadricGeometry::reachOf(const ContactTask& task, std::size_t block) c
     const unsigned lanes = !adhesive ? 0u : adhesive->actsApart ? state.listed : state.bridged;
     if (lanes == 0) return Pack(0);
     LaneColumn reach;
-    for (std::size_t k = 0; k < Pack::lanes; ++k)
-        if ((lanes >> k & 1) != 0)
-            reach.lane[k] = adhesive->range(species1, species2,
-                                            {radius1[static_cast<int>(k)], radius2[static_cast<int>(k)]});
+    Bodies last{0, 0};  // many are of one size
+    double range = 0;
+    for (int k = 0; k < Pack::lanes; ++k) {
+        if ((lanes >> k & 1) == 0) continue;
+        if (last.radius1 != radius1[k] || last.radius2 != radius2[k]) {
+            last = {radius1[k], radius2[k]};
+            range = adhesive->range(species1, species2, last);
+        }
+        reach.lane[static_cast<std::size_t>(k)] = range;
+    }
     return Pack::load(reach.lane.data());
 }
 

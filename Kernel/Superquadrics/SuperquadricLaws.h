@@ -45,14 +45,19 @@ public:
         return largest;
     }
     [[nodiscard]] std::optional<std::string> objection(int a, int b, const Bodies& bodies) const override {
+        if constexpr (requires(typename S::Mixed laws) { laws.solveOutsideTable; })
+            if (this->of(a, b).solveOutsideTable > 0)
+                return fmt::format(
+                    "{}: solveOutsideTable is for spheres: between superquadrics, whose radii change as they "
+                    "turn, the equation would be solved in each step, for 0.3 ms; take volumes of the table.",
+                    S::Adhesion::name);
         if (auto found = SpeciesLaws<S>::objection(a, b, bodies)) return found;
         if constexpr (S::Adhesion::acts)
             for (const Bodies& seen : extremes(a, b, bodies))
                 if (const auto found = SpeciesLaws<S>::objection(a, b, seen))
                     return fmt::format(
                         "{} Where these superquadrics are {}, their effective radius is {:.6g} m; it is "
-                        "{:.6g} m of "
-                        "the spheres around them.",
+                        "{:.6g} m of the spheres around them.",
                         *found, seen.effectiveRadius() > bodies.effectiveRadius() ? "flat" : "sharp",
                         seen.effectiveRadius(), bodies.effectiveRadius());
         return {};

@@ -40,6 +40,7 @@ void Membrane::repeat(const Vector<double>& lengths) {
     RepeatedWall::repeat(lengths);
     const auto joined = std::make_shared<MembraneNet>(getNet());
     joined->joinAcross(lengths);
+    if (now.position == net->vertices()) now.position = joined->vertices();
     net = joined;
     makeShape();
     holdCopies();
@@ -197,7 +198,7 @@ void Membrane::visitState(StateArchive& archive) {
     Wall::visitState(archive);
     archive.same("shape", "Membrane");
     archive.same("triangles", net->triangles().size());
-    archive.same<double>("corners", std::span<const Vector<double>>(net->vertices()));
+    archive.same<double>("corners", std::span<const Vector<double>>(net->givenVertices()));
     archive.same<std::uint32_t>("cornersOfTriangles",
                                 std::span<const std::array<std::uint32_t, 3>>(net->triangles()));
     archive.same("youngsModulus", material.youngsModulus, "Pa");
@@ -206,13 +207,17 @@ void Membrane::visitState(StateArchive& archive) {
     archive.same("damping", damping, "1/s");
     archive.finite("pressure", pressure);
     archive.value("forcesAreOld", forcesAreOld);
-    std::vector<std::uint8_t> holds(held.begin(), held.end());
     const auto whole = [&](std::string_view name, const auto& column) {
         archive.require(column.size() == held.size(), name, "is not one for each vertex");
     };
-    archive.column<std::uint8_t>("held", holds);
-    whole("held", holds);
-    for (std::size_t v = 0; v < held.size(); ++v) held[v] = holds[v] != 0;
+    const auto visitMarks = [&](std::string_view name, std::vector<bool>& marks) {
+        std::vector<std::uint8_t> bytes(marks.begin(), marks.end());
+        archive.column<std::uint8_t>(name, bytes);
+        whole(name, bytes);
+        for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = bytes[v] != 0;
+    };
+    visitMarks("held", held), visitMarks("heldAsRim", heldAsRim);
+    archive.finite("rimVelocity", rimVelocity);
     const auto visit = [&](std::string_view name, MembraneState::Column& column) {
         archive.column<double>(name, column);
         whole(name, column);

@@ -61,6 +61,7 @@ HingeAngle hingeAngle(const std::array<Point, 4>& x) {
 MembraneNet::MembraneNet(std::span<const Triangle> given, const MembraneMaterial& of) : material(of) {
     checkMaterial(material);
     join(given);
+    unjoined = rest;
     measure();
     if (const int folded = collapsed(rest); folded >= 0)
         throw InputError(

@@ -72,8 +72,11 @@ public:
     /// @param periods m; 0 along an axis without one
     void joinAcross(const Point& periods);
 
-    [[nodiscard]] const std::vector<Point>& vertices() const { return rest; }  // m, without force
-    [[nodiscard]] const std::vector<double>& masses() const { return mass; }   // kg, of the vertices
+    /// m, without force; those that are copies of others lie whole periods from them.
+    [[nodiscard]] const std::vector<Point>& vertices() const { return rest; }
+    /// m, as they were before joinAcross()
+    [[nodiscard]] const std::vector<Point>& givenVertices() const { return unjoined; }
+    [[nodiscard]] const std::vector<double>& masses() const { return mass; }  // kg, of the vertices
     /// kg, of each vertex and those that move with it
     [[nodiscard]] const std::vector<double>& movedMasses() const { return moved; }
     /// Gives each vertex the sum over it and those that move with it, of something that vertices have.
@@ -136,7 +139,7 @@ private:
     }
 
     MembraneMaterial material;
-    std::vector<Point> rest;
+    std::vector<Point> unjoined, rest;
     std::vector<double> mass, moved;
     std::vector<std::array<std::uint32_t, 3>> faces;
     std::vector<double> areas;  // m^2, without force

@@ -19,6 +19,7 @@ Point along(std::size_t axis, const Point& periods) {
 
 void MembraneNet::joinAcross(const Point& periods) {
     repeats.clear();
+    rest = unjoined;
     measure();
     if (periods == Point{0, 0, 0}) return;
     const Partners partners = partnersAcross(periods);

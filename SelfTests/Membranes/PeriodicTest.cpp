@@ -1,10 +1,13 @@
 // Membranes in scenes that repeat themselves.
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/State/Random.h"
 #include "Kernel/Walls/Membrane.h"
 #include "SelfTests/Membranes/MembraneScene.h"
+#include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Support/Refusal.h"
 
 namespace pendular::membranePeriodicTest {
@@ -174,6 +177,55 @@ TEST(PeriodicMembrane, itsRimIsWhereItHasNoImage) {
         const double y = sheet->getPosition(v).y();
         EXPECT_EQ(sheet->getHeld()[v], y < 1e-9 || y > depth - 1e-9) << v;
     }
+}
+
+/// Edges that meet to round-off only, or to a part of the tolerance, are joined: a run goes on from its file.
+/// Vertices at a side of the period, held as rim before they were joined, are held in the run by a call.
+TEST(PeriodicMembrane, goesOnFromARestartFile) {
+    for (const double slack : {0.0, 1e-7}) {
+        SCOPED_TRACE(slack);
+        const auto made = [&] {
+            auto scene = std::make_unique<MembraneScene>(grainOver(width / 2, depth / 2));
+            scene->setPeriodic(0, 1.2345e-3, 1.2345e-3 + width);
+            const std::vector<Triangle> sheet = membranePeriodicSheet(columns, rows, (1 + slack) * edge);
+            Membrane* const wall = scene->add(moved(sheet, {1.2345e-3, 0, 0}));
+            wall->holdRim();
+            wall->setPressure(20);
+            return scene;
+        };
+        const auto sheetOf = [](MembraneScene& scene) {
+            return static_cast<Membrane*>(&scene.wallHandler.getObject(0));
+        };
+        const auto holdASide = [&](MembraneScene& scene) {
+            scene.steps(100);
+            sheetOf(scene)->hold([](const Vec3D& p) { return p.x() < 1.2345e-3 + 0.6 * edge; });
+            scene.steps(100);
+        };
+        const auto first = made(), resumed = made(), threaded = made();
+        threaded->setNumberOfThreads(3);
+        for (MembraneScene* scene : {first.get(), threaded.get()}) {
+            scene->initialise();
+            holdASide(*scene);
+        }
+        EXPECT_GT(sheetOf(*first)->getNet().copies().size(), 3u);
+        support::expectSameBits(*first, *resumed, *threaded, 0, 300);
+        EXPECT_EQ(sheetOf(*first)->getHeld(), sheetOf(*resumed)->getHeld());
+    }
+}
+
+/// What was given is kept: without the period, or with another one, it is the same net again.
+TEST(PeriodicMembrane, isAsItWasGivenWhenItIsJoinedNoMore) {
+    const std::vector<Triangle> sheet = membranePeriodicSheet(columns, rows, (1 + 1e-6) * edge);
+    const MembraneNet given(sheet, rubber);
+    MembraneNet net = given;
+    net.joinAcross({width, depth, 0});
+    EXPECT_NE(net.vertices(), given.vertices());
+    EXPECT_EQ(net.givenVertices(), given.vertices());
+    for (const MembraneNet::Copy& copy : net.copies())
+        EXPECT_EQ(net.vertices()[copy.vertex], net.vertices()[copy.of] + copy.shift);
+    net.joinAcross({0, 0, 0});
+    EXPECT_EQ(net.vertices(), given.vertices());
+    EXPECT_EQ(net.springs().size(), given.springs().size());
 }
 
 /// A tube whose ends meet, under a pressure p: its length is kept by the period, so that it widens by

@@ -307,6 +307,10 @@ TEST(ContactBound, advisesWhatBinds) {
     EXPECT_EQ(advice.contactsOfGrain, 1);
     EXPECT_EQ(advice.contactsOfThis, 1u);
     EXPECT_TRUE(support::contains(advice.text(), "supposes overlaps of 5 %"));
+    EXPECT_TRUE(support::contains(advice.text(), "bounded by particle 0 of species 0"));
+    StabilityAdvice ofBody = advice;
+    ofBody.body = 3;
+    EXPECT_TRUE(support::contains(ofBody.text(), "bounded by rigid body 3 (its particle 0) of species 0"));
 }
 
 TEST(ContactBound, advisesNothingWithoutContacts) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Kernel/Contacts/LocalBodies.h"
 #include "Kernel/Shapes/SuperquadricSupport.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeBagheri.h"
 #include "Kernel/Species/Adhesion/LiquidBridgeLambert.h"
@@ -262,6 +263,30 @@ TEST(SuperquadricBridgeAtSetUp, refusesBridgesThatTheLawDoesNotKnowOnFaces) {
     scene.addPlane({0, 0, 1}, {0, 0, 3e-3});
     const std::string sentence = support::refusal([&] { scene.initialise(); });
     EXPECT_TRUE(support::contains(sentence, "Where these superquadrics are flat")) << sentence;
+}
+
+TEST(SuperquadricBridgeAtSetUp, refusesToSolveTheEquationInEachStep) {
+    auto material = wet<LiquidBridgeYoungLaplace>(1e-12);
+    material.setSolveOutsideTable(true);
+    FewSuperquadrics<Wet<LiquidBridgeYoungLaplace>> scene(material, {{{1e-3, 1e-3, 2e-3, 2, 2}, {0, 0, 0}}},
+                                                          1e-7);
+    scene.addPlane({0, 0, 1}, {0, 0, 3e-3});
+    const std::string sentence = support::refusal([&] { scene.initialise(); });
+    EXPECT_TRUE(support::contains(sentence, "solveOutsideTable is for spheres")) << sentence;
+}
+
+/// What is flat at a plane is the limit of what is nearly so: its bridge is that of a sphere at a plane, also
+/// for a law that tells two alike spheres from one at a plane.
+TEST(SuperquadricBridgeAtAPlane, ofAFlatFaceIsTheLimitOfRounderOnes) {
+    const LocalBodies atWall({1e-3}, 0), ofTwo({1e-3, 1e-3}, 0);
+    for (const double own : {1e-3, 1.0, 1e9, infinity}) {
+        const Bodies seen = atWall.with(2e-3, {own});
+        EXPECT_EQ(seen.radius1, 2e-3);
+        EXPECT_EQ(seen.radius2, infinity);
+        const Bodies two = ofTwo.with(2e-3, {own, own});
+        EXPECT_NEAR(two.radius1, 4e-3, 1e-17);
+        EXPECT_NEAR(two.radius2, 4e-3, 1e-17);
+    }
 }
 
 }  // namespace

@@ -181,6 +181,26 @@ TEST(HeavySuperquadricRolling, givesTheSameBitsForAnyThreadsAndRestarts) {
     support::expectSameBits(half, resumed, threaded, 9000, 1000);
 }
 
+/// A held body that spins, at the centre, and one that falls on it: what holds it does work by all of the
+/// contact's torque, also that of a normal force that does not point to the centre.
+TEST(SuperquadricRolling, closesTheLedgerOfAHeldShapeThatSpins) {
+    const scenes::SuperquadricMotion spinning{
+        {1e-3, 2e-3, 1e-3, 4, 2}, {0, 0, 0}, {0, 0, 0}, {0, 0, 50}, scenes::turnedBy(0.6, {1, 2, 0})},
+        falling{{1e-3, 1.2e-3, 0.8e-3, 2, 2},
+                {0.3e-3, 0.4e-3, 2.6e-3},
+                {0.1, 0, -0.3},
+                {5, 0, 3},
+                scenes::turnedBy(0.6, {1, 2, 0})};
+    for (const std::size_t held : {0, 1}) {
+        FewSuperquadrics<Linear> scene(linear(1000, 0.1, 0.1), {}, 1e-6);
+        for (const std::size_t k : {0, 1}) scene.add(k == held ? spinning : falling);
+        scene.body(held).fixBody();
+        scene.body(held).setAngularVelocity({0, 0, 50});
+        support::expectClosedLedger(scene, 10000);
+        EXPECT_GT(std::abs(scene.energyLedger().walls), 1e-3 * scene.energyLedger().kinetic) << held;
+    }
+}
+
 TEST(SuperquadricRolling, closesTheEnergyLedgerToRoundOff) {
     Box scene(3);
     support::expectClosedLedger(scene, 10000);
