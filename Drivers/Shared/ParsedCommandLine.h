@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "Drivers/Shared/CommandLineLibrary.h"
+#include "Kernel/Species/LawNames.h"
 
 namespace pendular {
 
@@ -35,11 +38,26 @@ CLI::Option* addFormerName(CLI::App& app, const char* former, Value& value) {
     return app.add_option(former, value)->group("");
 }
 
+/// What is said of an option that there is not, with those that are spelt nearly so.
+inline std::string unknownOption(const CLI::App& app, const std::string& option) {
+    std::vector<std::string> names;
+    for (const CLI::Option* known : app.get_options())
+        for (const std::string& name : known->get_lnames()) names.push_back(name);
+    const std::string given = option.substr(2, option.find('=') - 2);
+    std::string near;
+    for (const std::string_view name : nearNames(given, {names.begin(), names.end()}))
+        near += fmt::format("{}--{}", near.empty() ? ", but there is " : " and ", name);
+    return fmt::format("there is no option --{}{}; see --help\n", given, near);
+}
+
 /// Parses the command line of any program of ours. Returns the exit code where the program ends with that: 0
 /// if it has printed its help; 1, as for all other wrong input, if it has said on standard error what is
 /// wrong.
 inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv) {
-    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+        if (dynamic_cast<const CLI::ExtrasError*>(&error))
+            for (const std::string& word : failed->remaining(true))
+                if (word.starts_with("--") && word.size() > 2) return unknownOption(*failed, word);
         return fmt::format("{}; see --help\n", error.what());
     });
     for (CLI::Option* option : app.get_options()) {

@@ -147,7 +147,7 @@ private:
     }
     template <class S>
     SpeciesInScene<S>& add(const S& species) {
-        auto added = std::make_unique<SpeciesInScene<S>>(species, static_cast<int>(all.size()));
+        auto added = std::make_unique<SpeciesInScene<S>>(species, static_cast<int>(all.size()), this);
         SpeciesInScene<S>& result = *added;
         all.push_back({std::move(added), &typeOf<S>()});
         return result;

@@ -260,9 +260,11 @@ double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, 
 void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                 double timeStep, const Integrator& integrator) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (!walls.isRemoved(w))
-            static_cast<void>(species.density(
-                static_cast<std::size_t>(walls.getObject(w).getSpeciesIndex())));  // throws if unknown
+        if (!walls.isRemoved(w) && walls.getObject(w).getSpeciesOwner() != species.owner())
+            throw InputError(
+                fmt::format("wall {}: species is one of another scene; call setSpecies() with a species of "
+                            "this scene, which speciesHandler.copyAndAddObject() returns.",
+                            w));
     forEachExtremePair(
         species, grains, walls,
         [](const PairLaws& laws, const Bodies& bodies, double) {

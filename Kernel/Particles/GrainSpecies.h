@@ -11,6 +11,8 @@ public:
     virtual ~GrainSpecies() = default;
 
     [[nodiscard]] virtual std::size_t speciesCount() const = 0;
+    /// The handler that has them: what getOwner() of one of them returns.
+    [[nodiscard]] virtual const void* owner() const = 0;
     /// kg/m^3
     [[nodiscard]] virtual double density(std::size_t species) const = 0;
     /// The name of the type of a species, for sentences.

@@ -132,8 +132,9 @@ void GrainReference::setRadius(double radius) {
     handler->renewMass(place());
     (grows ? handler->changes.placed : handler->changes.altered).push_back(number);
 }
-void GrainReference::setSpeciesIndex(int index) {
+void GrainReference::setSpeciesIndex(int index, const void* owner) {
     requireOwnBody("species");
+    handler->requireOwnSpecies(fmt::format("particle {}", number), index, owner);
     static_cast<void>(handler->massOf(getRadius(), index));  // throws if there is no such species
     handler->store().species[place()] = static_cast<std::uint16_t>(index);
     handler->renewMass(place());
@@ -190,6 +191,14 @@ void ParticleHandler::setSpecies(const GrainSpecies& of) {
     grains.hasSpin = of.turnGrains();
 }
 
+void ParticleHandler::requireOwnSpecies(std::string_view whose, int index, const void* owner) const {
+    if (index >= 0 && owner == species->owner()) return;
+    throw InputError(
+        fmt::format("{}: species is {}; call setSpecies() with a species of this scene, which "
+                    "speciesHandler.copyAndAddObject() returns.",
+                    whose, index < 0 ? "not set" : "one of another scene"));
+}
+
 void ParticleHandler::settleSpin() {
     if (grains.hasSpin && !species->turnGrains()) std::vector<RotationRecord>().swap(grains.rotation);
     grains.hasSpin = species->turnGrains();
@@ -224,9 +233,7 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
             fmt::format("{}: no more grains can be added; the number of a grain must be at most {}.", owner,
                         ParticleStore::largestIdentity));
     checkValue(owner, "radius", grain.getRadius(), "m", positive);
-    if (grain.getSpeciesIndex() < 0)
-        throw InputError(
-            fmt::format("{}: species is not set; call setSpecies() with a species of this scene.", owner));
+    requireOwnSpecies(owner, grain.getSpeciesIndex(), grain.getSpeciesOwner());
     requireResolved(owner, "position", toVector(grain.getPosition()), grain.getRadius());
     const double mass = massOf(grain.getRadius(), grain.getSpeciesIndex());
     const TranslationRecord record{toVector(grain.getPosition()), grain.getRadius(),

@@ -58,7 +58,7 @@ public:
     void setRadius(double radius);
     template <class S>
     void setSpecies(const S* species) {
-        setSpeciesIndex(species->getIndex());
+        setSpeciesIndex(species->getIndex(), species->getOwner());
     }
     /// Holds the grain, or lets it go. A grain that is held feels no force, and moves with the velocity and
     /// the spin that are set from then on; at first it has none.
@@ -70,7 +70,7 @@ public:
     [[nodiscard]] HeldAxes getHeldAxes() const;
 
 private:
-    void setSpeciesIndex(int index);
+    void setSpeciesIndex(int index, const void* owner);
     [[nodiscard]] std::uint32_t place() const;
     /// Throws InputError for a grain of a rigid body.
     void requireOwnBody(std::string_view what) const;
@@ -144,22 +144,30 @@ public:
     /// there is no such grain.
     [[nodiscard]] std::uint32_t placeOf(std::size_t identity) const;
 
-    /// Over all grains, in the order of their identities: for (GrainReference grain : particleHandler).
-    /// Nothing may be added or removed on the way.
+    /// Over all grains that there are at its begin, in the order of their identities:
+    /// for (GrainReference grain : particleHandler). What is added on the way is not visited; the grain
+    /// itself may be removed.
     class Iterator {
     public:
         Iterator(ParticleHandler& particles, PlaceIndex::Iterator position)
-            : handler(&particles), at(position) {}
+            : handler(&particles), at(position), bound(particles.grains.nextIdentity()) {}
         GrainReference operator*() const { return {*handler, handler->grains.identity[*at]}; }
         Iterator& operator++() {
             ++at;
             return *this;
         }
-        friend bool operator==(const Iterator&, const Iterator&) = default;
+        friend bool operator==(const Iterator& a, const Iterator& b) {
+            return a.at == b.at || (a.isAtEnd() && b.isAtEnd());
+        }
 
     private:
+        [[nodiscard]] bool isAtEnd() const {
+            return at == handler->grains.place.end() || handler->grains.identity[*at] >= bound;
+        }
+
         ParticleHandler* handler;
         PlaceIndex::Iterator at;
+        std::uint32_t bound;  // the identity of the first that is not visited
     };
     [[nodiscard]] Iterator begin() { return {*this, grains.place.begin()}; }
     [[nodiscard]] Iterator end() { return {*this, grains.place.end()}; }
@@ -207,6 +215,8 @@ private:
     friend class GrainColumnReference;
 
     void setSpecies(const GrainSpecies& of);
+    /// Throws InputError unless it is one of this scene. @param whose for the sentence
+    void requireOwnSpecies(std::string_view whose, int index, const void* owner) const;
     void setGravity(const Vector<double>& acceleration);
     void settleSpin();
     void renewMasses();

@@ -45,6 +45,7 @@ public:
     template <class S>
     void setSpecies(const S* species) {
         speciesIndex = species->getIndex();
+        speciesOwner = species->getOwner();
     }
     /// Holds the grain where it is: an infinite mass, and no motion but what is set from then on.
     void fixParticle() {
@@ -67,6 +68,8 @@ public:
     [[nodiscard]] const Vec3D& getAngularVelocity() const { return spinValue; }
     [[nodiscard]] double getLiquidVolume() const { return liquidVolume; }
     [[nodiscard]] int getSpeciesIndex() const { return speciesIndex; }
+    /// The handler of its species.
+    [[nodiscard]] const void* getSpeciesOwner() const { return speciesOwner; }
     [[nodiscard]] bool isFixed() const { return fixed; }
     [[nodiscard]] HeldAxes getHeldAxes() const { return fixed ? HeldAxes::all() : heldAxes; }
 
@@ -83,6 +86,7 @@ private:
     Vec3D spinValue = Vec3D::Zero();
     double liquidVolume = 0;
     int speciesIndex = -1;
+    const void* speciesOwner = nullptr;
     bool fixed = false;
     HeldAxes heldAxes;
 };

@@ -19,13 +19,17 @@ static void refuseOverlap(const ParticleStore& grains, const ObservedContact& co
     if (!(share > accepted * (1 + 1e-9))) return;  // positions are rounded
     const std::string other =
         contact.wall < 0 ? nameOfGrain(grains, contact.particle2) : fmt::format("wall {}", contact.wall);
-    throw InputError(fmt::format(
-        "{} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
-        "most {:g} %{}.",
-        nameOfGrain(grains, contact.particle1), other, -contact.separation, 100 * share, 100 * accepted,
-        accepted < largestOverlapInRun
+    const std::string advice =
+        contact.wall >= 0 && share > 1
+            ? ": the grain's centre is behind the wall, whose normal must point away from the grains"
+        : accepted < largestOverlapInRun
             ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * largestOverlapInRun)
-            : ""));
+            : "";
+    throw InputError(
+        fmt::format("{} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
+                    "most {:g} %{}.",
+                    nameOfGrain(grains, contact.particle1), other, -contact.separation, 100 * share,
+                    100 * accepted, advice));
 }
 
 /// m, what the overlaps of a grain are held against.
@@ -119,6 +123,22 @@ std::string remarkOnFarGrains(const ParticleStore& grains) {
         "should move grains by much more than that, or the scene be nearer to the origin",
         nameOfGrain(grains, grains.identity[static_cast<std::size_t>(worst - grains.translation.data())]),
         largest);
+}
+
+std::string remarkOnDensities(const ContactLaws& laws, const ParticleStore& grains) {
+    constexpr double lightest = 0.5, heaviest = 23;  // of solids, g/cm^3
+    constexpr double largestRadius = 0.01;           // m; scenes without units have grains of some 1
+    for (std::size_t place = 0; place < grains.count(); ++place) {
+        const double radius = grains.translation[place].radius;
+        const std::uint16_t species = grains.species[place];
+        const double density = laws.density(species);
+        if (!(radius > 0 && radius < largestRadius) || density < lightest || density > heaviest) continue;
+        return fmt::format(
+            "{} has a radius of {:.3g} m, and its species {} a density of {:.3g} kg/m^3: if that is in "
+            "g/cm^3, 1 g/cm^3 is 1000 kg/m^3",
+            nameOfGrain(grains, grains.identity[place]), radius, species, density);
+    }
+    return {};
 }
 
 void refuseFarGrains(const ParticleStore& grains, double time) {

@@ -186,8 +186,9 @@ void Scene::Inside::warn() const {
                context.threads, processorCount(), processorCount());
     for (const BrokenLimit& broken : brokenLimits(laws(), checkedSizes, scene.wallHandler))
         logger(LogLevel::Warn, "{}.", broken.text());
-    if (const std::string remark = remarkOnFarGrains(scene.particleHandler.store()); !remark.empty())
-        logger(LogLevel::Warn, "{}.", remark);
+    const ParticleStore& grains = scene.particleHandler.store();
+    for (const std::string& remark : {remarkOnFarGrains(grains), remarkOnDensities(laws(), grains)})
+        if (!remark.empty()) logger(LogLevel::Warn, "{}.", remark);
     warnOfEnergyGainOfSprings();
     warnOfSeams();
 }

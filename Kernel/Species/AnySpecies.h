@@ -67,6 +67,8 @@ private:
 class AnySpecies : public AnyLaws {
 public:
     [[nodiscard]] virtual int getIndex() const = 0;
+    /// The handler that has it.
+    [[nodiscard]] virtual const void* getOwner() const = 0;
     [[nodiscard]] double getDensity() const { return densityPlace(); }
     /// kg/m^3, where it is kept
     [[nodiscard]] virtual const double& densityPlace() const = 0;

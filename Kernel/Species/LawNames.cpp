@@ -32,6 +32,16 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return *std::min_element(row.begin(), row.end());  // and end anywhere
 }
 
+std::vector<std::string_view> nearestFirst(std::string_view name,
+                                           const std::vector<std::string_view>& known) {
+    std::vector<std::string_view> nearest = known;
+    std::ranges::stable_sort(nearest, {}, [wanted = lowerCase(name)](std::string_view other) {
+        return distance(wanted, lowerCase(other));
+    });
+    nearest.resize(std::min<std::size_t>(nearest.size(), 3));
+    return nearest;
+}
+
 }  // namespace
 
 std::string canonicalLawName(std::string_view name) {
@@ -49,14 +59,17 @@ std::string listOfNames(const std::vector<std::string_view>& names) {
     return list;
 }
 
-void unknownName(std::string_view what, std::string_view name, const std::vector<std::string_view>& known) {
-    std::vector<std::string_view> nearest = known;
-    std::stable_sort(nearest.begin(), nearest.end(), [&](std::string_view a, std::string_view b) {
-        return distance(lowerCase(name), lowerCase(a)) < distance(lowerCase(name), lowerCase(b));
+std::vector<std::string_view> nearNames(std::string_view name, const std::vector<std::string_view>& known) {
+    std::vector<std::string_view> near = nearestFirst(name, known);
+    std::erase_if(near, [&](std::string_view other) {
+        return 3 * distance(lowerCase(name), lowerCase(other)) > name.size();
     });
-    nearest.resize(std::min<std::size_t>(nearest.size(), 3));
-    throw InputError(
-        fmt::format("There is no {} \"{}\"; the nearest names are {}.", what, name, listOfNames(nearest)));
+    return near;
+}
+
+void unknownName(std::string_view what, std::string_view name, const std::vector<std::string_view>& known) {
+    throw InputError(fmt::format("There is no {} \"{}\"; the nearest names are {}.", what, name,
+                                 listOfNames(nearestFirst(name, known))));
 }
 
 }  // namespace pendular

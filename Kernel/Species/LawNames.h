@@ -14,6 +14,9 @@ std::string canonicalLawName(std::string_view name);
 /// "a, b, c". (fmt::join makes g++ 12 warn of an overflow that cannot happen.)
 std::string listOfNames(const std::vector<std::string_view>& names);
 
+/// Known names that a third of the letters, changed, make of a name: the nearest first, and three at most.
+std::vector<std::string_view> nearNames(std::string_view name, const std::vector<std::string_view>& known);
+
 /// Throws InputError: what (for example "adhesion model") has no such name, with the nearest of the known
 /// names.
 [[noreturn]] void unknownName(std::string_view what, std::string_view name,

@@ -71,6 +71,7 @@ inline constexpr std::string_view speciesSuffix = "Species";
 /// Which species of its scene one is. A copy is none of the scene, and what is assigned to stays what it is.
 struct SpeciesIndex {
     int value = -1;
+    const void* owner = nullptr;  // the handler that has it
 
     SpeciesIndex() = default;
     SpeciesIndex(const SpeciesIndex&) {}
@@ -137,6 +138,8 @@ struct Species : MixedSpecies<N, F, A> {
 
     /// The index in its scene; -1 for a species that no scene has, as a copy of one that it has.
     [[nodiscard]] int getIndex() const { return index.value; }
+    /// The handler that has it, by which a scene knows its own species; null for one that no scene has.
+    [[nodiscard]] const void* getOwner() const { return index.owner; }
 
 private:
     template <class>

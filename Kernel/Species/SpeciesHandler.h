@@ -39,6 +39,7 @@ public:
     S* copyAndAddObject(const S& species) {
         S& added = all.emplace_back(species);
         added.index.value = static_cast<int>(all.size()) - 1;
+        added.index.owner = this;
         return &added;
     }
     [[nodiscard]] std::size_t getSize() const { return all.size(); }

@@ -1,5 +1,7 @@
 #include "Kernel/Walls/Wall.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "Kernel/State/StateArchive.h"
@@ -29,6 +31,13 @@ void Wall::keepForces(bool keep, const Vec3D& about) {
     const Vector<double> point = toVector(about);
     if (isMovedByForces()) kept = {kept.force, kept.torque + cross(kept.about - point, kept.force), point};
     else kept = {.about = point};
+}
+
+void Wall::refuseForces(std::string_view call) {
+    throw InputError(fmt::format(
+        "A wall's {} needs the forces on it, which are not summed unless keepForces() is called, of "
+        "the wall or of the wallHandler, before the step.",
+        call));
 }
 
 void Wall::setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches) {

@@ -60,9 +60,12 @@ public:
                 "A wall's species was not added to the scene; call setSpecies() with what "
                 "speciesHandler.copyAndAddObject() returned.");
         species = wallSpecies->getIndex();
+        speciesOwner = wallSpecies->getOwner();
     }
     /// Its number in the scene's speciesHandler; -1 where none was set.
     [[nodiscard]] int getSpeciesIndex() const { return species; }
+    /// The handler of its species.
+    [[nodiscard]] const void* getSpeciesOwner() const { return speciesOwner; }
 
     [[nodiscard]] virtual std::size_t partCount() const { return 1; }
     /// Whether a contact can be with this part, also of an image.
@@ -158,11 +161,17 @@ public:
     void keepForcesFromNowOn() {
         if (!forcesKept) keepForces(true, getTorquePoint());
     }
-    /// The force (N) of all grains on the wall at the end of the last step; zero unless keepForces() was
-    /// called or it is moved by forces.
-    [[nodiscard]] Vec3D getForce() const { return toEigen(kept.force); }
-    /// N m, about the point given to keepForces().
-    [[nodiscard]] Vec3D getTorque() const { return toEigen(kept.torque); }
+    /// The force (N) of all grains on the wall at the end of the last step. Throws InputError unless
+    /// keepForces() was called or it is moved by forces.
+    [[nodiscard]] Vec3D getForce() const {
+        requireForces("getForce()");
+        return toEigen(kept.force);
+    }
+    /// N m, about the point given to keepForces(). Throws as getForce().
+    [[nodiscard]] Vec3D getTorque() const {
+        requireForces("getTorque()");
+        return toEigen(kept.torque);
+    }
     [[nodiscard]] Vec3D getTorquePoint() const { return toEigen(kept.about); }
     /// A contact has ended between two steps: its force (N) on a wall that is moved by forces acts no longer.
     /// The sum that is left is rounded: the next step, and a restart file, need the sum of the contacts that
@@ -178,10 +187,15 @@ public:
 private:
     friend class ContactSystem;  // which alone sums the forces
 
+    void requireForces(std::string_view call) const {
+        if (!keepsForces()) refuseForces(call);
+    }
+    [[noreturn]] static void refuseForces(std::string_view call);
     /// @param touches contacts that act
     void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches);
 
     int species = -1;
+    const void* speciesOwner = nullptr;
     WallForce kept;
     bool forcesKept = false;
 };

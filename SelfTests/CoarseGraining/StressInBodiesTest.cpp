@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Kernel/CoarseGraining/FieldSums.h"
+#include "Kernel/CoarseGraining/MeanStress.h"
 #include "Kernel/CoarseGraining/SceneState.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/SceneFields.h"
@@ -146,6 +147,7 @@ struct BedOfRods : FewGrains<Rough> {
         setTimeStep(0.5 * stabilityLimit());
         setQuiet();
     }
+    [[nodiscard]] BodyReference bodyOf(std::uint32_t sphere) { return bodyHandler.getObject(sphere / 4); }
     /// N, of what lies above a height, where a body counts by the share of a slice of the half thickness c
     /// (m) about that height that is below its centre. @param forceOf N, of a body
     template <class Force>
@@ -188,6 +190,23 @@ TEST(HeavyStressInABed, isTheWeightOfTheRodsAbove) {
         EXPECT_NEAR(found, scene.above(height, c, weightOf), 1e-3 * total) << height;
     }
     EXPECT_GT(points, 15);
+
+    // The stress across, which no weight gives: by all contacts, from centre to centre of the bodies.
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    double size = 0;  // N m, of all terms
+    for (const ObservedContact& contact : scene.interactions()) {
+        const Vec3D from = scene.bodyOf(contact.particle1).getPosition(), force = toEigen(contact.force);
+        Vec3D branch = toEigen(contact.point) - from;
+        if (contact.wall < 0)
+            branch = toEigen(scene.getPeriodicBox().nearest(
+                toVector(scene.bodyOf(contact.particle2).getPosition() - from)));
+        sum -= force * branch.transpose();
+        size += branch.norm() * force.norm();
+    }
+    const double volume = area * top;
+    const Eigen::Matrix3d mean = meanStress(scene, volume).contact * volume;
+    EXPECT_LT((mean - sum).cwiseAbs().maxCoeff(), 1e-12 * size);
+    for (const int axis : {0, 1}) EXPECT_GT(mean(axis, axis), 0.1 * mean(2, 2));
 }
 
 }  // namespace

@@ -232,7 +232,9 @@ TEST(Programs, refuseWhatIsNoNumber) {
            "number of grains = 1000000000000 is out of range"},
           {bridge + "--radius1-m ''", "--radius1-m: the value is empty"},
           {bridge + "--points ''", "--points: the value is empty"},
-          {bridge + "--no-such 1", "--no-such; see --help"}})
+          {bridge + "--no-such 1", "there is no option --no-such; see --help"},
+          {bridge + "--radius1-mm 1", "there is no option --radius1-mm, but there is --radius1-m"},
+          {drum + "--outptu=x", "there is no option --outptu, but there is --output"}})
         expectOneSentence(run(command), part);
 }
 

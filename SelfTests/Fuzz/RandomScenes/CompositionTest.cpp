@@ -34,20 +34,30 @@ TEST_P(HeavyComposition, ofEachWithTheLaterOnes) {
 INSTANTIATE_TEST_SUITE_P(Pairs, HeavyComposition, testing::Range<std::size_t>(0, composedFeatures().size()),
                          [](const auto& feature) { return std::string(composedFeatures()[feature.param]); });
 
-/// Superquadrics that adhere with each of the others, by one law of adhesion after the other.
-TEST(HeavyCompositionOfShapesThatAdhere, withEach) {
-    constexpr std::array<std::string_view, 5> laws{
-        "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticDMT", "HertzianViscoelasticReversibleAdhesive",
-        "HertzianViscoelasticIrreversibleAdhesive", "HertzianViscoelasticMindlinLiquidBridgeWillett"};
+constexpr std::array<std::string_view, 5> lawsOfShapes{
+    "HertzianViscoelasticMindlinJKR", "HertzianViscoelasticDMT", "HertzianViscoelasticReversibleAdhesive",
+    "HertzianViscoelasticIrreversibleAdhesive", "HertzianViscoelasticMindlinLiquidBridgeWillett"};
+
+/// Superquadrics that adhere with each of the others. @param lawOf (number of the scene) its laws
+template <class Function>
+void judgeShapesWithEach(Function&& lawOf) {
     int scenes = 0, ended = 0;
     for (const std::string_view other : composedFeatures()) {
-        const std::array names{laws[static_cast<std::size_t>(scenes) % laws.size()],
-                               std::string_view("Superquadrics"), other};
+        const std::array names{std::string_view(lawOf(scenes)), std::string_view("Superquadrics"), other};
         if (!whyNotTogether(names).empty()) continue;
         ++scenes;
         ended += judgeOne(names, 1) ? 1 : 0;
     }
     EXPECT_GE(4 * ended, 3 * scenes);
+}
+
+/// By one law of adhesion after the other.
+TEST(HeavyCompositionOfShapesThatAdhere, withEach) {
+    judgeShapesWithEach(
+        [](int scene) { return lawsOfShapes[static_cast<std::size_t>(scene) % lawsOfShapes.size()]; });
+}
+TEST(LongCompositionOfShapesThatAdhere, eachLawWithEach) {
+    for (const std::string_view law : lawsOfShapes) judgeShapesWithEach([&](int) { return law; });
 }
 
 /// Triples at random; each failure names its seed and its recipe.
