@@ -32,8 +32,8 @@ inline std::size_t partsOf(std::size_t count, int threads, std::size_t least) {
     return sharesSmallWork() ? most : std::clamp<std::size_t>(count / least, 1, most);
 }
 
-/// Calls function(part) for each part, on a thread of its own. An exception of the first part that threw one
-/// is thrown on when all have ended.
+/// Calls function(part) for each part, at the same time where threads can be had. An exception of the first
+/// part that threw one is thrown on when all have ended.
 template <class Function>
 void forEachPart(std::size_t parts, Function&& function) {
     std::vector<std::exception_ptr> failures(parts);
@@ -68,10 +68,15 @@ void inParts(std::size_t count, int threads, Function&& function, std::size_t le
     });
 }
 
+/// How many are taken at once: so many as are worth it, and few where small work is shared, so that small
+/// tests have several shares.
+inline std::size_t shareOf(std::size_t worth) { return sharesSmallWork() ? 4 : worth; }
+
 /// Calls function(part, begin, end) for consecutive shares of [0, count), which threads take as they come:
 /// each first those of its own part, from the front, then what others have left. A thread without a processor
 /// holds up the share that it has begun, and no more. A part is called many times, never twice at once.
-/// An exception of the first share that threw one is thrown on when all shares are done.
+/// An exception of the first share that threw one is thrown on; where there are several parts, when all
+/// shares are done.
 /// @param share how many are taken at once
 template <class Function>
 void inShares(std::size_t count, int threads, Function&& function, std::size_t least, std::size_t share) {

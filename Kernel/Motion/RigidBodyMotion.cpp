@@ -143,7 +143,7 @@ public:
                          double& ofPart = farthest[static_cast<std::size_t>(part)];
                          ofPart = std::max(ofPart, most);
                      },
-                     groupsWorthAThread, groupsOfAShare);
+                     groupsWorthAThread, shareOf(groupsOfAShare));
         for (const std::uint32_t k : bodies.spheres()) follow(k, beginStep);
         stepSingly(bodies.heldOnes(), threads, finish, beginStep, farthest);
         return *std::ranges::max_element(farthest);

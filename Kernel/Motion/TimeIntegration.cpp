@@ -121,7 +121,7 @@ private:
                     double& ofPart = largest[static_cast<std::size_t>(part)];
                     ofPart = std::max(ofPart, most);
                 },
-                grainsWorthAThread, grainsOfAShare);
+                grainsWorthAThread, shareOf(grainsOfAShare));
         };
         const auto ofKind = [&]<bool isHeld>() {
             scheme.remembersEarlier() ? ofAll.template operator()<true, isHeld>()

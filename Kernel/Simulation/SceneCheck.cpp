@@ -83,12 +83,11 @@ static void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, 
         overlap = laws.shapes()->touch(grains, first, second, shift).depth;
         if (!(overlap > largestShare * smaller)) return;
     }
-    throw RunError(
-        fmt::format("At time {:.6g} s {} overlap by {:.4g} m, {:.3g} % of the smaller "
-                    "radius and more than {:g} %: "
-                    "take stiffer grains, a smaller time step, or lower speeds and loads.",
-                    time, namesOfGrains(grains, grains.identity[first], grains.identity[second]), overlap,
-                    100 * overlap / smaller, 100 * largestShare));
+    throw RunError(fmt::format(
+        "At time {:.6g} s {} overlap by {:.4g} m, {:.3g} % of the smaller radius and more than {:g} %: "
+        "take stiffer grains, a smaller time step, or lower speeds and loads.",
+        time, namesOfGrains(grains, grains.identity[first], grains.identity[second]), overlap,
+        100 * overlap / smaller, 100 * largestShare));
 }
 
 void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,

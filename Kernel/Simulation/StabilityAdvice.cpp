@@ -19,8 +19,7 @@ std::string StabilityAdvice::text() const {
         "The stability limit of {:.3g} s supposes {}; the contacts that there are stand {:.3g} s. Overlaps: "
         "{:.2g} % at most, {:.2g} % in the mean (factor {:.3g}); {:.3g} contacts a grain (factor {:.3g}); "
         "{:.0f} % of them slide (if all did: factor {:.3g}). The step is bounded by {} of species {}, with "
-        "{} "
-        "contacts and an overlap of {:.2g} %.",
+        "{} contacts and an overlap of {:.2g} %.",
         limit, binding, step, 100 * largestOverlap, 100 * meanOverlap, byOverlap, contactsOfGrain,
         byNeighbours, 100 * slidingShare, byFriction, nameOfGrain(grain, body), species, contactsOfThis,
         100 * overlapOfThis);

@@ -46,10 +46,11 @@ public:
     }
     [[nodiscard]] std::optional<std::string> objection(int a, int b, const Bodies& bodies) const override {
         if constexpr (requires(typename S::Mixed laws) { laws.solveOutsideTable; })
-            if (this->of(a, b).solveOutsideTable > 0)
+            if (this->of(a, b).solveOutsideTable > 0 && this->of(a, b).liquidBridgeVolume > 0)
                 return fmt::format(
-                    "{}: solveOutsideTable is for spheres: between superquadrics, whose radii change as they "
-                    "turn, the equation would be solved in each step, for 0.3 ms; take volumes of the table.",
+                    "{}: setSolveOutsideTable(true) is for scenes of spheres: superquadrics have other radii "
+                    "as they turn, so that the equation would be solved in each step, in 0.3 ms a bridge; "
+                    "leave it out, and take volumes of the table.",
                     S::Adhesion::name);
         if (auto found = SpeciesLaws<S>::objection(a, b, bodies)) return found;
         if constexpr (S::Adhesion::acts)

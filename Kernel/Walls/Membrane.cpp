@@ -37,9 +37,9 @@ void Membrane::makeShape() {
 
 void Membrane::repeat(const Vector<double>& lengths) {
     if (!isRepeated() && lengths == Vector<double>{0, 0, 0}) return;
-    RepeatedWall::repeat(lengths);
     const auto joined = std::make_shared<MembraneNet>(getNet());
     joined->joinAcross(lengths);
+    RepeatedWall::repeat(lengths);
     if (now.position == net->vertices()) now.position = joined->vertices();
     net = joined;
     makeShape();
@@ -76,16 +76,19 @@ std::optional<MembraneSurface::Crossing> Membrane::findCrossing() {
 void Membrane::hold(const std::function<bool(const Vec3D&)>& where, const Vec3D& velocity) {
     const Vector<double> moves = checkedVector("Membrane", "velocity of held vertices", velocity, "m/s");
     if (!isSet()) throw InputError("Membrane: call set() or read() before vertices are held.");
-    std::size_t count = 0;
+    std::vector<bool> asked(held.size());
+    for (std::size_t v = 0; v < held.size(); ++v) asked[v] = where(toEigen(now.position[v]));
+    if (std::ranges::count(asked, true) == 0)
+        throw InputError("Membrane: hold(): none of its vertices is there.");
+    // With those that move as they do.
+    for (const MembraneNet::Copy& copy : net->copies()) asked[copy.of] = asked[copy.of] || asked[copy.vertex];
+    for (const MembraneNet::Copy& copy : net->copies()) asked[copy.vertex] = asked[copy.of];
     for (std::size_t v = 0; v < held.size(); ++v) {
-        if (!where(toEigen(now.position[v]))) continue;
+        if (!asked[v]) continue;
         held[v] = true;
         heldAsRim[v] = false;
         now.velocity[v] = moves;
-        ++count;
     }
-    if (count == 0) throw InputError("Membrane: hold(): none of its vertices is there.");
-    holdCopies();
 }
 
 void Membrane::holdRim(const Vec3D& velocity) {
@@ -119,10 +122,18 @@ double Membrane::getElasticEnergy() const {
     return getNet().stretchingEnergy(now.position) + getNet().bendingEnergy(now.position);
 }
 
+std::vector<bool> Membrane::atRest() const {
+    std::vector<bool> rest = held;
+    for (std::size_t v = 0; v < rest.size(); ++v)
+        if (!isRepeated() && heldAsRim[v]) rest[v] = true;
+    return rest;
+}
+
 double Membrane::lightestVertex() const {
+    const std::vector<bool> rest = atRest();
     double lightest = infinity;
-    for (std::size_t v = 0; v < held.size(); ++v)
-        if (!held[v]) lightest = std::min(lightest, net->masses()[v]);
+    for (std::size_t v = 0; v < rest.size(); ++v)
+        if (!rest[v]) lightest = std::min(lightest, net->movedMasses()[v]);
     return lightest;
 }
 

@@ -81,10 +81,11 @@ public:
     [[nodiscard]] double getVolume() const { return getNet().volume(now.position); }
     [[nodiscard]] double getKineticEnergy() const;  // J, of what is not held
     [[nodiscard]] double getElasticEnergy() const;  // J
-    /// The mass (kg) of the lightest vertex that moves; infinite where all are held
+    /// The mass (kg) of the lightest vertex that moves, with those that move with it; infinite where all are
+    /// held
     [[nodiscard]] double lightestVertex() const;
-    [[nodiscard]] double squaredFrequency() const { return getNet().squaredFrequency(held); }  // 1/s^2
-    [[nodiscard]] double massOfArea() const { return areaDensity; }                            // kg/m^2
+    [[nodiscard]] double squaredFrequency() const { return getNet().squaredFrequency(atRest()); }  // 1/s^2
+    [[nodiscard]] double massOfArea() const { return areaDensity; }                                // kg/m^2
 
     using Wall::membrane;
     [[nodiscard]] Membrane* membrane() override { return this; }
@@ -135,6 +136,9 @@ private:
     [[nodiscard]] std::optional<MembraneSurface::Crossing> crossing() const;
     [[nodiscard]] Vector<double> velocityAt(std::size_t triangle, const Vector<double>& point) const;
     void makeShape();
+    /// The vertices that do not move by forces. Those at sides that a scene has still to join to their
+    /// images, as after a restart, count as the rim that they were at set-up.
+    [[nodiscard]] std::vector<bool> atRest() const;
     /// A vertex is held where one is that moves with it; those at edges that are joined are not rim.
     void holdCopies();
 

@@ -126,7 +126,7 @@ TEST(StressInABody, isSymmetricWithTheTermOfItsRotation) {
 
 /// Rods on a floor, in a box that is periodic across.
 struct BedOfRods : FewGrains<Rough> {
-    static constexpr int perSide = 3, layers = 23, count = 200;
+    static constexpr int perSide = 3, count = 200;
     static constexpr double cell = 5.8 * r, side = perSide * cell, g = 9.81;  // m, m, m/s^2
 
     BedOfRods() : FewGrains(material(150, 0.03), {}, 1e-6, {{{0, 0, -1}, {0, 0, 0}}}) {

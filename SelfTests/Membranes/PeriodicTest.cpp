@@ -9,6 +9,7 @@
 #include "SelfTests/Membranes/MembraneScene.h"
 #include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular::membranePeriodicTest {
 namespace {
@@ -211,6 +212,52 @@ TEST(PeriodicMembrane, goesOnFromARestartFile) {
         support::expectSameBits(*first, *resumed, *threaded, 0, 300);
         EXPECT_EQ(sheetOf(*first)->getHeld(), sheetOf(*resumed)->getHeld());
     }
+}
+
+/// The bound of the step is that of the joined net, also while a restart file is read, and when a grain comes
+/// in the run.
+TEST(PeriodicMembrane, bearsTheSameStepAfterARestart) {
+    const support::TestFolder folder;
+    const auto made = [&] {
+        auto scene = std::make_unique<MembraneScene>(grainOver(width / 2, depth / 2));
+        scene->setPeriodic(0, 0, width);
+        static_cast<Membrane*>(scene->add(membranePeriodicSheet(columns, rows, edge)))->holdRim();
+        scene->setTimeStep(scene->stabilityLimit());
+        return scene;
+    };
+    const auto first = made(), resumed = made();
+    first->run(20);
+    first->writeRestart(folder.path() / "run.h5");
+    resumed->restartFrom(folder.path() / "run.h5");
+    resumed->run(20);
+    SphericalParticle grain(resumed->speciesHandler.getObject(0));
+    grain.setRadius(radius);
+    grain.setPosition({width / 2, depth / 2, 20 * radius});
+    resumed->particleHandler.copyAndAddObject(grain);
+    EXPECT_NO_THROW(resumed->step());
+}
+
+/// Whichever of two sides that are joined is held, or held again with another velocity, both move so.
+TEST(PeriodicMembrane, bothSidesMoveAsOneIsHeld) {
+    PeriodicScene scene(grainOver(width / 2, depth / 2));
+    scene.initialise();
+    const auto holdAt = [&](double place, double speed) {
+        scene.sheet->hold([&](const Vec3D& p) { return std::abs(p.x() - place) < 0.1 * edge; },
+                          {0, 0, speed});
+        scene.step();
+        std::size_t held = 0;
+        for (const MembraneNet::Copy& copy : scene.sheet->getNet().copies())
+            for (const std::uint32_t v : {copy.vertex, copy.of})
+                if (scene.sheet->getHeld()[v]) {
+                    ++held;
+                    EXPECT_EQ(scene.sheet->getVelocity(v), Vec3D(0, 0, speed)) << v;
+                }
+        EXPECT_GT(held, 4u);
+    };
+    holdAt(width, 0.1);
+    holdAt(width, 0.2);
+    holdAt(0, 0.3);
+    holdAt(width, 0.4);
 }
 
 /// What was given is kept: without the period, or with another one, it is the same net again.

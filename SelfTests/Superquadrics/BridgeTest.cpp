@@ -272,7 +272,8 @@ TEST(SuperquadricBridgeAtSetUp, refusesToSolveTheEquationInEachStep) {
                                                           1e-7);
     scene.addPlane({0, 0, 1}, {0, 0, 3e-3});
     const std::string sentence = support::refusal([&] { scene.initialise(); });
-    EXPECT_TRUE(support::contains(sentence, "solveOutsideTable is for spheres")) << sentence;
+    EXPECT_TRUE(support::contains(sentence, "setSolveOutsideTable(true) is for scenes of spheres"))
+        << sentence;
 }
 
 /// What is flat at a plane is the limit of what is nearly so: its bridge is that of a sphere at a plane, also

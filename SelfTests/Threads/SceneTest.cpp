@@ -33,10 +33,25 @@ std::uint64_t hashOfShear(int threads) {
     return hashOf(scene);
 }
 
+/// Rods of three grains that fall into a box of planes.
+std::uint64_t hashOfRods(int threads) {
+    scenes::SettlingBox<Wet> scene(1);
+    Clump rod{ClumpTemplate({{{0, 0, 0}, 7e-4}, {{7e-4, 0, 0}, 7e-4}, {{14e-4, 0, 0}, 7e-4}})};
+    rod.setSpecies(scene.speciesHandler.getObject(0));
+    for (int k = 0; k < 48; ++k) {
+        rod.setPosition({2e-3 + 3.6e-3 * (k % 3), 1.6e-3 + 3e-3 * (k / 3 % 4), 8e-3 + 2e-3 * (k / 12)});
+        rod.setVelocity({0.1 * (k % 5) - 0.2, 0.1 * (k % 3) - 0.1, -0.5});
+        scene.bodyHandler.copyAndAddObject(rod);
+    }
+    scene.setNumberOfThreads(threads);
+    return hashOf(scene);
+}
+
 class ThreadsInScenes : public testing::TestWithParam<int> {};
 
 TEST_P(ThreadsInScenes, boxOfWetGrains) { EXPECT_EQ(hashOfBox<Wet>(GetParam()), hashOfBox<Wet>(1)); }
 TEST_P(ThreadsInScenes, boxOfSmoothGrains) { EXPECT_EQ(hashOfBox<Smooth>(GetParam()), hashOfBox<Smooth>(1)); }
+TEST_P(ThreadsInScenes, boxOfRods) { EXPECT_EQ(hashOfRods(GetParam()), hashOfRods(1)); }
 TEST_P(ThreadsInScenes, shearOverFaces) { EXPECT_EQ(hashOfShear<Wet>(GetParam()), hashOfShear<Wet>(1)); }
 INSTANTIATE_TEST_SUITE_P(Two, ThreadsInScenes, testing::Values(2, 3));
 

@@ -71,8 +71,8 @@ std::optional<std::string> LiquidBridgeYoungLaplace::objection(const Bodies& bod
         return sentence(bodies, fmt::format("the table holds V* from {} to {}, and so no bridge",
                                             BridgeTable::leastVolume, BridgeTable::mostVolume)) +
                ", so take another volume or, between spheres, have the equation solved for each new bridge: "
-               "in a driver "
-               "setSolveOutsideTable(true), for TwoParticleCollision the option --solve-outside-table.";
+               "in a driver setSolveOutsideTable(true), for TwoParticleCollision the option "
+               "--solve-outside-table.";
     const BridgeScales bridge = scales(bodies);
     if (solveCurve(shape(bodies), bridge.radius, bridge.forceScale)) return std::nullopt;
     return sentence(bodies, noBridge) + ".";
