@@ -4,6 +4,7 @@
 /// to the kernel's own word; HOW-DO-I.md lists both side by side ("Port a driver from MercuryDPM").
 
 #include <filesystem>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <utility>
@@ -36,9 +37,27 @@ public:
 
     /// Called whenever output is due: at the start, after every saveCount steps and at the end.
     virtual void printTime() const {}
-    void writeOutput() override { printTime(); }
+    void writeOutput() override {
+        boundaryHandler.requireSet();
+        printTime();
+    }
 
-    using Run::solve;
+    /// Called by solve() when the run is at its end.
+    virtual void actionsAfterSolve() {}
+    void solve() {
+        Run::solve();
+        actionsAfterSolve();
+    }
+    // Hooks of MercuryDPM that nothing calls here; a driver that has one does not compile. What is done
+    // before the steps goes to the end of setupInitialConditions(), which a run that goes on from a file
+    // calls, too; forces are those of contacts, gravity and hosts; files are those of addOutput().
+    virtual void actionsBeforeTimeLoop() final {}
+    virtual void actionsOnRestart() final {}
+    virtual void computeAdditionalForces() final {}
+    virtual void writeOutputFiles() final {}
+    virtual void writeEneTimeStep(std::ostream&) const final {}
+    virtual void writeEneHeader(std::ostream&) const final {}
+
     /// The arguments of main(): takeArguments() says which.
     void solve(int argc, const char* const* argv) {
         takeArguments(*this, argc, argv);
@@ -66,6 +85,10 @@ public:
     [[nodiscard]] double getYMax() const { return getMax().y(); }
     [[nodiscard]] double getZMax() const { return getMax().z(); }
 
+    /// Without effect: how MercuryDPM's viewer shows grains, and how it looks for neighbours.
+    void setXBallsAdditionalArguments(const std::string& /*arguments*/) {}
+    void setHGridMaxLevels(unsigned /*levels*/) {}
+    void setHGridMinCellSize(double /*size*/) {}
     /// Scenes have three dimensions here: throws InputError for another number.
     void setSystemDimensions(int dimensions) { requireThree("system", dimensions); }
     void setParticleDimensions(int dimensions) { requireThree("particle", dimensions); }
@@ -75,18 +98,19 @@ public:
         for (MercuryFile* file : {&dataFile, &fStatFile, &eneFile, &restartFile}) file->setFileType(type);
     }
     /// Files for ParaView, of grains, contacts and walls together.
-    void setParticlesWriteVTK(bool write) { settings->pictures |= write; }
-    void setWallsWriteVTK(bool write) { settings->pictures |= write; }
+    void setParticlesWriteVTK(bool write) { settings->picturesOfGrains = write; }
+    void setWallsWriteVTK(bool write) { settings->picturesOfWalls = write; }
     void setWallsWriteVTK(FileType type) { setWallsWriteVTK(type != FileType::NO_FILE); }
 
     /// Goes on from the kernel's restart file of this name, for a scene that is set up as it was.
     void readRestartFile() { this->restartFrom(Run::restartFile()); }
     void readRestartFile(const std::filesystem::path& file) { this->restartFrom(file); }
+    void writeRestartFile() { this->writeRestart(Run::restartFile()); }
     /// Adds the grains of a .data file, and takes its box: readMercuryData(). Their species must be there.
     void readDataFile(const std::filesystem::path& file);
 
-    /// J, what is stored in the contacts, their adhesion included; with keepEnergyLedger() or the file
-    /// NAME.ene.
+    /// J, what is stored in the contacts, their adhesion included (NAME.ene has that of the springs alone);
+    /// with keepEnergyLedger() or the file NAME.ene.
     [[nodiscard]] double getElasticEnergy() const { return this->energyLedger().stored(); }
 
 private:

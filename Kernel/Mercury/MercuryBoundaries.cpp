@@ -10,17 +10,6 @@
 namespace pendular {
 namespace {
 
-/// Throws InputError unless the boundary has been added to a scene.
-template <class S>
-S& added(S* scene, const char* boundary) {
-    if (!scene)
-        throw InputError(
-            fmt::format("{}: this one was not added to the scene; take the pointer that "
-                        "boundaryHandler.copyAndAddObject() returned.",
-                        boundary));
-    return *scene;
-}
-
 /// The point (m) of the plane position.dot(normal) = distance that is nearest to the origin.
 Vec3D pointOfPlane(const char* boundary, const Vec3D& normal, double distance) {
     checkValue(boundary, "length of the normal", normal.norm(), "", positive);
@@ -30,46 +19,90 @@ Vec3D pointOfPlane(const char* boundary, const Vec3D& normal, double distance) {
 
 }  // namespace
 
+void MercuryBoundary::addTo(Scene& of) {
+    scene = &of;
+    isHandedOver = false;
+    handOverWhenSet();
+}
+
+void MercuryBoundary::handOverWhenSet() {
+    if (!scene || isHandedOver || !isSet()) return;
+    handOver(*scene);
+    isHandedOver = true;
+}
+
+void MercuryBoundary::requireChangeable(const char* call) const {
+    if (isHandedOver)
+        throw InputError(
+            fmt::format("{}: {} comes too late, as the scene has the boundary already; call it "
+                        "before the boundary is added.",
+                        name, call));
+}
+
+void MercuryBoundary::requireSet() const {
+    if (!isHandedOver)
+        throw InputError(fmt::format("{}: it was added and not set; call its set(){} before the run.", name,
+                                     dynamic_cast<const CubeInsertionBoundary*>(this)
+                                         ? ", and setInitialVolume(), in m^3, or setVolumeFlowRate(), in "
+                                           "m^3/s, as a box is not filled again in each step here,"
+                                         : ""));
+}
+
+Scene& MercuryBoundary::sceneThatHasIt() const {
+    if (!isHandedOver)
+        throw InputError(
+            fmt::format("{}: this one was not added to the scene, or not set; take the pointer that "
+                        "boundaryHandler.copyAndAddObject() returned.",
+                        name));
+    return *scene;
+}
+
 void PeriodicBoundary::set(const Vec3D& normal, double lowest, double highest) {
+    requireChangeable("set()");
     for (int k = 0; k < 3; ++k)
         if (normal == Vec3D::Unit(k)) {
             axis = k, low = lowest, high = highest;
-            return;
+            return handOverWhenSet();
         }
     throw InputError(
         fmt::format("PeriodicBoundary: normal = ({}, {}, {}); it must be (1, 0, 0), (0, 1, 0) or (0, 0, 1).",
                     normal.x(), normal.y(), normal.z()));
 }
 
-void DeletionBoundary::set(const Vec3D& normal, double distance) {
-    outlet.setPlane(normal, pointOfPlane("DeletionBoundary", normal, distance));
+void DeletionBoundary::setOutlet(const Outlet& where) {
+    requireChangeable("set()");
+    outlet = where;
+    handOverWhenSet();
 }
 
-void DeletionBoundary::addTo(Scene& of) {
-    number = of.outletHandler.copyAndAddObject(outlet);
-    scene = &of;
+void DeletionBoundary::set(const Vec3D& normal, double distance) {
+    Outlet beyond;
+    beyond.setPlane(normal, pointOfPlane(name, normal, distance));
+    setOutlet(beyond);
+}
+
+void CubeDeletionBoundary::set(const Vec3D& lowest, const Vec3D& highest) {
+    Outlet within;
+    within.setRegion(BoxRegion(lowest, highest));
+    setOutlet(within);
 }
 
 GrainTally::Entry DeletionBoundary::count() const {
-    return added(scene, "DeletionBoundary").outletHandler.countOf(number).all();
+    return sceneThatHasIt().outletHandler.countOf(number).all();
 }
 
 void FluxBoundary::set(const Vec3D& normal, double distance) {
-    plane = {normal, pointOfPlane("FluxBoundary", normal, distance)};
+    requireChangeable("set()");
+    plane = FluxPlane{normal, pointOfPlane(name, normal, distance)};
+    handOverWhenSet();
 }
 
-void FluxBoundary::addTo(Scene& of) {
-    number = of.fluxPlaneHandler.copyAndAddObject(plane);
-    scene = &of;
-}
-
-FluxCount FluxBoundary::count() const {
-    return added(scene, "FluxBoundary").fluxPlaneHandler.countOf(number);
-}
+FluxCount FluxBoundary::count() const { return sceneThatHasIt().fluxPlaneHandler.countOf(number); }
 
 void CubeInsertionBoundary::set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest,
                                 const Vec3D& highest, const Vec3D& lowestVelocity,
                                 const Vec3D& highestVelocity) {
+    requireChangeable("set()");
     if (lowestVelocity != highestVelocity)
         throw InputError(
             "CubeInsertionBoundary: the bounds of the velocity differ, and all grains come with one velocity "
@@ -78,25 +111,40 @@ void CubeInsertionBoundary::set(const SphericalParticle& like, unsigned maxFaile
     grain.setVelocity(lowestVelocity);
     region.emplace(lowest, highest);
     tries = maxFailed + 1;
+    handOverWhenSet();
 }
 
 void CubeInsertionBoundary::set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest,
                                 const Vec3D& highest, const Vec3D& lowestVelocity,
                                 const Vec3D& highestVelocity, double smallest, double largest) {
-    set(like, maxFailed, lowest, highest, lowestVelocity, highestVelocity);
-    PSD even;
-    if (smallest == largest) grain.setRadius(smallest);
-    else even.setDistributionUniform(smallest, largest), setPSD(even);
+    requireChangeable("set()");
+    SphericalParticle one = like;
+    one.setRadius(smallest);
+    if (smallest != largest) {
+        PSD even;
+        even.setDistributionUniform(smallest, largest);
+        setPSD(even);
+    }
+    set(one, maxFailed, lowest, highest, lowestVelocity, highestVelocity);
+}
+
+void CubeInsertionBoundary::setPSD(const PSD& distribution) {
+    requireChangeable("setPSD()");
+    sizes = distribution.sizes();
 }
 
 void CubeInsertionBoundary::setInitialVolume(double volume) {
-    checkValue("CubeInsertionBoundary", "initial volume", volume, "m^3", notNegative);
+    requireChangeable("setInitialVolume()");
+    checkValue(name, "initial volume", volume, "m^3", notNegative);
     initialVolume = volume;
+    handOverWhenSet();
 }
 
 void CubeInsertionBoundary::setVolumeFlowRate(double rate) {
-    checkValue("CubeInsertionBoundary", "volume flow rate", rate, "m^3/s", notNegative);
+    requireChangeable("setVolumeFlowRate()");
+    checkValue(name, "volume flow rate", rate, "m^3/s", notNegative);
     flow = rate;
+    handOverWhenSet();
 }
 
 SizeDistribution CubeInsertionBoundary::sizesOfGrains() const {
@@ -105,13 +153,7 @@ SizeDistribution CubeInsertionBoundary::sizesOfGrains() const {
     return singleSizes(std::array{2 * grain.getRadius()}, std::array{1.0}, SizeBasis::Number);
 }
 
-void CubeInsertionBoundary::addTo(Scene& of) {
-    if (!region) throw InputError("CubeInsertionBoundary: it has no box; call set() before it is added.");
-    if (initialVolume == 0 && flow == 0)
-        throw InputError(
-            "CubeInsertionBoundary: it has no amount; call setInitialVolume(), in m^3, or "
-            "setVolumeFlowRate(), in "
-            "m^3/s, before it is added, as a box is not filled again in each step here.");
+void CubeInsertionBoundary::handOver(Scene& of) {
     if (grain.getSpeciesIndex() < 0)
         throw InputError(
             "CubeInsertionBoundary: the grain has no species; call its setSpecies() before set().");
@@ -127,16 +169,15 @@ void CubeInsertionBoundary::addTo(Scene& of) {
         stream.setTries(tries);
         inlet = of.inletHandler.copyAndAddObject(stream);
     }
-    scene = &of;
 }
 
 std::uint64_t CubeInsertionBoundary::getNumberOfParticlesInserted() const {
-    const Scene& in = added(scene, "CubeInsertionBoundary");
+    const Scene& in = sceneThatHasIt();
     return atOnce.number + (inlet ? in.inletHandler.countOf(*inlet).number : 0);
 }
 
 double CubeInsertionBoundary::getMassOfParticlesInserted() const {
-    const Scene& in = added(scene, "CubeInsertionBoundary");
+    const Scene& in = sceneThatHasIt();
     return atOnce.mass + (inlet ? in.inletHandler.countOf(*inlet).mass : 0);
 }
 
@@ -145,6 +186,11 @@ MercuryBoundary* MercuryBoundaryHandler::getObject(std::size_t number) const {
         throw InputError(fmt::format("BoundaryHandler: there is no boundary {}; it has {}, counted from 0.",
                                      number, all.size()));
     return all[number].get();
+}
+
+MercuryBoundary* MercuryBoundaryHandler::getLastObject() const {
+    if (all.empty()) throw InputError("BoundaryHandler: there is no boundary.");
+    return all.back().get();
 }
 
 }  // namespace pendular

@@ -8,7 +8,8 @@
 #include "Kernel/Mercury/MercuryPSD.h"
 #include "Kernel/Simulation/Scene.h"
 
-// MercuryDPM's boundaries, as far as the kernel has what they do: each is handed to it when it is added.
+// MercuryDPM's boundaries, as far as the kernel has what they do: each is handed to it when it is both added
+// and set, in whichever order. What is set after that is refused.
 
 namespace pendular {
 
@@ -16,21 +17,44 @@ class MercuryBoundary {
 public:
     virtual ~MercuryBoundary() = default;
 
+    /// Throws InputError for what the kernel refuses.
+    void addTo(Scene& of);
+    /// Throws InputError for one that was added and not set.
+    void requireSet() const;
+
 protected:
-    MercuryBoundary() = default;
+    explicit MercuryBoundary(const char* ofName) : name(ofName) {}
     MercuryBoundary(const MercuryBoundary&) = default;
     MercuryBoundary& operator=(const MercuryBoundary&) = default;
+
+    /// Throws InputError if the scene has it already. @param call for the sentence
+    void requireChangeable(const char* call) const;
+    /// Hands it to the scene, if it is added and set.
+    void handOverWhenSet();
+    /// Throws InputError unless the scene has it.
+    [[nodiscard]] Scene& sceneThatHasIt() const;
+    [[nodiscard]] virtual bool isSet() const = 0;
+    virtual void handOver(Scene& of) = 0;
+
+    const char* name;
+
+private:
+    Scene* scene = nullptr;  // null before it is added
+    bool isHandedOver = false;
 };
 
 /// setPeriodic(axis, lowest, highest)
 class PeriodicBoundary : public MercuryBoundary {
 public:
+    PeriodicBoundary() : MercuryBoundary("PeriodicBoundary") {}
     /// @param normal (1, 0, 0), (0, 1, 0) or (0, 0, 1); @param lowest m; @param highest m
     /// Throws InputError for another normal.
     void set(const Vec3D& normal, double lowest, double highest);
-    void addTo(Scene& scene) { scene.setPeriodic(axis, low, high); }
 
 private:
+    [[nodiscard]] bool isSet() const override { return axis >= 0; }
+    void handOver(Scene& of) override { of.setPeriodic(axis, low, high); }
+
     int axis = -1;
     double low = unset, high = unset;  // m
 };
@@ -38,35 +62,39 @@ private:
 /// An outlet beyond a plane.
 class DeletionBoundary : public MercuryBoundary {
 public:
+    DeletionBoundary() : DeletionBoundary("DeletionBoundary") {}
     /// Grains go whose centres have position.dot(normal) above the distance (m). @param normal of any length,
     /// of which the distance is measured in
     void set(const Vec3D& normal, double distance);
-    void addTo(Scene& of);
     [[nodiscard]] std::uint64_t getNumberOfParticlesDeleted() const { return count().number; }
     [[nodiscard]] double getMassOfParticlesDeleted() const { return count().mass; }  // kg
 
 protected:
-    Outlet outlet;
+    explicit DeletionBoundary(const char* ofName) : MercuryBoundary(ofName) {}
+    void setOutlet(const Outlet& where);
 
 private:
+    [[nodiscard]] bool isSet() const override { return outlet.has_value(); }
+    void handOver(Scene& of) override { number = of.outletHandler.copyAndAddObject(*outlet); }
     [[nodiscard]] GrainTally::Entry count() const;
 
-    Scene* scene = nullptr;  // null before it is added
+    std::optional<Outlet> outlet;
     std::size_t number = 0;
 };
 
 /// An outlet in a box.
 class CubeDeletionBoundary : public DeletionBoundary {
 public:
-    void set(const Vec3D& lowest, const Vec3D& highest) { outlet.setRegion(BoxRegion(lowest, highest)); }
+    CubeDeletionBoundary() : DeletionBoundary("CubeDeletionBoundary") {}
+    void set(const Vec3D& lowest, const Vec3D& highest);
 };
 
 /// A plane that counts the grains that go through it.
 class FluxBoundary : public MercuryBoundary {
 public:
+    FluxBoundary() : MercuryBoundary("FluxBoundary") {}
     /// @param normal of any length, of which the distance (m) is measured in
     void set(const Vec3D& normal, double distance);
-    void addTo(Scene& of);
     [[nodiscard]] std::uint64_t getNumberOfParticlesCrossedForw() const { return count().forwards; }
     [[nodiscard]] std::uint64_t getNumberOfParticlesCrossedBack() const { return count().backwards; }
     [[nodiscard]] std::int64_t getNumberOfParticlesCrossedNet() const { return count().net(); }
@@ -75,16 +103,18 @@ public:
     [[nodiscard]] double getMassOfParticlesCrossedNet() const { return count().netMass(); }       // kg
 
 private:
+    [[nodiscard]] bool isSet() const override { return plane.has_value(); }
+    void handOver(Scene& of) override { number = of.fluxPlaneHandler.copyAndAddObject(*plane); }
     [[nodiscard]] FluxCount count() const;
 
-    FluxPlane plane{Vec3D::Zero(), Vec3D::Zero()};
-    const Scene* scene = nullptr;  // null before it is added
+    std::optional<FluxPlane> plane;
     std::size_t number = 0;
 };
 
 /// Grains that come into a box: a volume at once, by insert(), and then a volume each second, by an inlet.
 class CubeInsertionBoundary : public MercuryBoundary {
 public:
+    CubeInsertionBoundary() : MercuryBoundary("CubeInsertionBoundary") {}
     /// @param like species, radius (without a PSD) and film of the grains
     /// @param maxFailed random places that a grain is tried at in a step, less one
     /// @param lowestVelocity m/s, of all of them: the other bound must be the same
@@ -99,17 +129,18 @@ public:
              const More&... more) {
         set(*like, maxFailed, lowest, highest, more...);
     }
-    void setPSD(const PSD& distribution) { sizes = distribution.sizes(); }
+    void setPSD(const PSD& distribution);
     /// m^3, of the grains that come at once
     void setInitialVolume(double volume);
     /// m^3/s, of the grains that come while the scene runs
     void setVolumeFlowRate(double rate);
-    /// Throws InputError unless it has one of the two; insert() says what else.
-    void addTo(Scene& of);
     [[nodiscard]] std::uint64_t getNumberOfParticlesInserted() const;
     [[nodiscard]] double getMassOfParticlesInserted() const;  // kg
 
 private:
+    /// It has a box and one of the two volumes.
+    [[nodiscard]] bool isSet() const override { return region && (initialVolume > 0 || flow > 0); }
+    void handOver(Scene& of) override;
     [[nodiscard]] SizeDistribution sizesOfGrains() const;
 
     SphericalParticle grain;
@@ -117,7 +148,6 @@ private:
     std::optional<SizeDistribution> sizes;
     std::uint32_t tries = 1;
     double initialVolume = 0, flow = 0;  // m^3, m^3/s
-    const Scene* scene = nullptr;        // null before it is added
     Inserted atOnce;
     std::optional<std::size_t> inlet;
 };
@@ -128,7 +158,7 @@ public:
     explicit MercuryBoundaryHandler(Scene& ofScene) : scene(&ofScene) {}
     MercuryBoundaryHandler(const MercuryBoundaryHandler&) = delete;
 
-    /// Adds a copy, and hands it to the kernel; the pointer stays valid.
+    /// Adds a copy, and hands it to the kernel when it is set; the pointer stays valid.
     template <std::derived_from<MercuryBoundary> Boundary>
     Boundary* copyAndAddObject(const Boundary& boundary) {
         auto copy = std::make_unique<Boundary>(boundary);
@@ -141,7 +171,11 @@ public:
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
     /// Throws InputError if there is none.
     [[nodiscard]] MercuryBoundary* getObject(std::size_t number) const;
-    [[nodiscard]] MercuryBoundary* getLastObject() const { return getObject(all.size() - 1); }
+    [[nodiscard]] MercuryBoundary* getLastObject() const;
+    /// Throws InputError if one of them was not set.
+    void requireSet() const {
+        for (const auto& boundary : all) boundary->requireSet();
+    }
 
 private:
     Scene* scene;

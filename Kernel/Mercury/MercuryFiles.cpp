@@ -26,7 +26,7 @@ void MercuryFile::setFileType(FileType asked) {
 /// settings count.
 void MercuryFiles::prepare(Scene& scene) {
     if (!std::exchange(isAdded, true) || std::exchange(isDone, true)) return;
-    if (settings->pictures) scene.addOutput(ParaViewOutput());
+    if (settings->picturesOfGrains || settings->picturesOfWalls) scene.addOutput(ParaViewOutput());
     if (settings->restart.isWritten()) scene.keepRestartFile();
     const bool data = settings->data.isWritten(), contacts = settings->fStat.isWritten(),
                energies = settings->energies.isWritten();

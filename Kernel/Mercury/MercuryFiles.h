@@ -44,7 +44,7 @@ private:
 struct MercurySettings {
     MercuryFile data{"dataFile", FileType::ONE_FILE}, fStat{"fStatFile", FileType::ONE_FILE},
         energies{"eneFile", FileType::ONE_FILE}, restart{"restartFile", FileType::NO_FILE};
-    bool pictures = false;
+    bool picturesOfGrains = false, picturesOfWalls = false;  // either: of both
     MercuryRandom random;
 };
 

@@ -54,14 +54,15 @@ public:
     }
     /// Throws InputError if there is no such wall, or if it is a membrane, which is none of MercuryDPM's.
     [[nodiscard]] RigidWall* getObject(std::size_t number) const;
-    [[nodiscard]] RigidWall* getLastObject() const { return getObject(walls->getSize() - 1); }
+    /// The one that was added last, of those that there are. Throws InputError if there is none.
+    [[nodiscard]] RigidWall* getLastObject() const;
     /// Those that there are.
     [[nodiscard]] std::size_t getNumberOfObjects() const;
     [[nodiscard]] std::size_t getSize() const { return getNumberOfObjects(); }
     void removeObject(std::size_t number) { walls->removeObject(number); }
     void clear() { walls->clear(); }
     /// Files for ParaView, of grains, contacts and walls together: addOutput(ParaViewOutput()).
-    void setWriteVTK(bool write = true) { settings->pictures |= write; }
+    void setWriteVTK(bool write = true) { settings->picturesOfWalls = write; }
     void setWriteVTK(FileType type) { setWriteVTK(type != FileType::NO_FILE); }
 
     /// The kernel's own handler.

@@ -35,6 +35,23 @@ struct MixedSpecies : N, F, A {
         function(static_cast<const A&>(*this));
     }
 
+    /// Stiffness and dissipation of the normal law for two grains of the given mass (kg) each, which collide
+    /// for collisionTime (s) and part with the restitution (0 to 1, 0 excluded), and those of sliding so that
+    /// a contact that sticks gives them back the same share (0 to 1, 0 excluded) of their tangential speed at
+    /// the end of it.
+    void setCollisionTimeAndNormalAndTangentialRestitutionCoefficient(double collisionTime,
+                                                                      double restitution,
+                                                                      double tangentialRestitution,
+                                                                      double mass) requires
+        requires(N normal, F friction) {
+        normal.setCollisionTimeAndRestitutionCoefficient(1, 1, 1);
+        friction.setCollisionTimeAndTangentialRestitutionCoefficient(1, 1, 1);
+    }
+    {
+        N::setCollisionTimeAndRestitutionCoefficient(collisionTime, restitution, mass);
+        F::setCollisionTimeAndTangentialRestitutionCoefficient(collisionTime, tangentialRestitution, mass);
+    }
+
     /// Throws InputError if a field of a law is unset or out of its range.
     void check() const {
         forEachLaw([](const auto& law) { checkFields(law); });
@@ -104,23 +121,6 @@ struct Species : MixedSpecies<N, F, A> {
         checkValue(name, "density", density, "kg/m^3", positive);
         checkValue(name, "radius", radius, "m", positive);
         return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
-    }
-
-    /// Stiffness and dissipation of the normal law for two grains of the given mass (kg) each, which collide
-    /// for collisionTime (s) and part with the restitution (0 to 1, 0 excluded), and those of sliding so that
-    /// a contact that sticks gives them back the same share (0 to 1, 0 excluded) of their tangential speed at
-    /// the end of it.
-    void setCollisionTimeAndNormalAndTangentialRestitutionCoefficient(double collisionTime,
-                                                                      double restitution,
-                                                                      double tangentialRestitution,
-                                                                      double mass) requires
-        requires(N normal, F friction) {
-        normal.setCollisionTimeAndRestitutionCoefficient(1, 1, 1);
-        friction.setCollisionTimeAndTangentialRestitutionCoefficient(1, 1, 1);
-    }
-    {
-        N::setCollisionTimeAndRestitutionCoefficient(collisionTime, restitution, mass);
-        F::setCollisionTimeAndTangentialRestitutionCoefficient(collisionTime, tangentialRestitution, mass);
     }
 
     /// Values that follow from others where the user has not set them.

@@ -203,6 +203,12 @@ TEST(MercuryNames, interactionsAreTheKernelsContacts) {
         // The spring of the last step: the force of a linear law without a dashpot.
         EXPECT_NEAR(i->getAbsoluteNormalForce(), 1000 * i->getOverlap(), 1e-12);
         EXPECT_EQ(i->getTangentialForce(), Vec3D(0, 0, 0));
+        if (!i->isWithWall()) continue;
+        // From the floor to the grain, which it carries.
+        EXPECT_EQ(i->getP(), 0u);
+        EXPECT_LT((i->getNormal() - Vec3D(0, 0, 1)).norm(), 1e-15);
+        EXPECT_GT(i->getForce().z(), 0);
+        EXPECT_LT(std::abs(i->getContactPoint().z()), 1e-5);
     }
     EXPECT_EQ(k, scene.interactionHandler.getNumberOfObjects());
     const auto low = scene.particleHandler.getObject(0), high = scene.particleHandler.getObject(1);
@@ -248,6 +254,9 @@ TEST(MercuryNames, staticFrictionIsARatio) {
     const std::string unset = refusal([&] { species.setSlidingFrictionCoefficientStatic(0.6); });
     EXPECT_TRUE(isOneSentence(unset));
     EXPECT_TRUE(contains(unset, "setSlidingFrictionCoefficient()"));
+    species.setSlidingFrictionCoefficient(0);
+    species.setSlidingFrictionCoefficientStatic(0);
+    EXPECT_EQ(species.getSlidingFrictionCoefficientStatic(), 0);
     species.setSlidingFrictionCoefficient(0.5);
     species.setSlidingFrictionCoefficientStatic(0.75);
     EXPECT_EQ(species.getStaticFrictionRatio(), 1.5);
@@ -285,8 +294,14 @@ TEST(MercuryNames, handlersCountAndGiveTheLast) {
     EXPECT_EQ(scene.wallHandler.getNumberOfObjects(), 2u);
     scene.wallHandler.removeObject(0);
     EXPECT_EQ(scene.wallHandler.getNumberOfObjects(), 1u);
+    EXPECT_EQ(scene.wallHandler.getLastObject(), added);
     EXPECT_EQ(static_cast<WallHandler&>(scene.wallHandler).getSize(), 2u);  // numbers stay
-    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(scene.boundaryHandler.getObject(0)); })));
+    scene.wallHandler.removeObject(1);
+    for (const std::string& none :
+         {refusal([&] { static_cast<void>(scene.boundaryHandler.getObject(0)); }),
+          refusal([&] { static_cast<void>(scene.boundaryHandler.getLastObject()); }),
+          refusal([&] { static_cast<void>(scene.wallHandler.getLastObject()); })})
+        EXPECT_TRUE(isOneSentence(none) && contains(none, "there is no")) << none;
 }
 
 TEST(MercuryNames, periodicBoundaryIsAPeriod) {
@@ -302,10 +317,40 @@ TEST(MercuryNames, periodicBoundaryIsAPeriod) {
     EXPECT_TRUE(contains(oblique, "(1, 1, 0)"));
 }
 
-TEST(MercuryNames, insertionSaysWhatItNeeds) {
+TEST(MercuryNames, boundariesAreSetBeforeOrAfterTheyAreAdded) {
     Pile scene;
+    auto* const sides = scene.boundaryHandler.copyAndAddObject(PeriodicBoundary());
+    sides->set({0, 1, 0}, -1, 2);
+    EXPECT_EQ(scene.getPeriodicBox().length.y, 3);
+    auto* const outlet = scene.boundaryHandler.copyAndAddObject(DeletionBoundary());
+    outlet->set({0, 0, -1}, 5);
+    EXPECT_EQ(scene.outletHandler.getSize(), 1u);
+    auto* const plane = scene.boundaryHandler.copyAndAddObject(FluxBoundary());
+    plane->set({0, 0, 1}, 0.5);
+    EXPECT_EQ(plane->getNumberOfParticlesCrossedNet(), 0);
+    // Too late: it would change nothing.
+    for (const std::string& late : {refusal([&] {
+                                        sides->set({0, 1, 0}, -1, 3);
+                                    }),
+                                    refusal([&] {
+                                        outlet->set({0, 0, -1}, 6);
+                                    }),
+                                    refusal([&] {
+                                        plane->set({0, 0, 1}, 0.6);
+                                    })})
+        EXPECT_TRUE(isOneSentence(late) && contains(late, "set() comes too late")) << late;
+    scene.boundaryHandler.copyAndAddObject(CubeDeletionBoundary());
+    const std::string unset = refusal([&] { scene.solve(); });
+    EXPECT_TRUE(isOneSentence(unset) && contains(unset, "CubeDeletionBoundary: it was added and not set"));
+}
+
+TEST(MercuryNames, insertionSaysWhatItNeeds) {
     CubeInsertionBoundary box;
-    const auto said = [&] { return refusal([&] { scene.boundaryHandler.copyAndAddObject(box); }); };
+    const auto said = [&] {
+        Pile scene;
+        scene.boundaryHandler.copyAndAddObject(box);
+        return refusal([&] { scene.solve(); });
+    };
     EXPECT_TRUE(contains(said(), "set()"));
     SphericalParticle grain;
     grain.setRadius(1e-3);
@@ -313,7 +358,8 @@ TEST(MercuryNames, insertionSaysWhatItNeeds) {
     EXPECT_TRUE(contains(said(), "setVolumeFlowRate()"));
     EXPECT_TRUE(isOneSentence(said()));
     box.setInitialVolume(1e-6);
-    EXPECT_TRUE(contains(said(), "species"));
+    Pile scene;
+    EXPECT_TRUE(contains(refusal([&] { scene.boundaryHandler.copyAndAddObject(box); }), "species"));
     const std::string spread = refusal([&] {
         box.set(grain, 1, {0, 0, 0}, {1, 1, 1}, {0, 0, -1}, {0, 0, 1});
     });

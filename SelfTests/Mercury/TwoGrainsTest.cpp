@@ -108,27 +108,25 @@ public:
 };
 
 // At the speeds in the middle the grains stay together and pull each other open again and again. There the
-// slope of the next loading is that of the step before, and here that of the same step: at the turn an
-// overlap differs by the share (omega h)^2, with h = 0.04 pi / omega.
+// slope of the next loading is that of the step before, and here that of the same step. Both rules, stepped
+// by themselves, differ by 5e-6 m and 6e-5 m/s at the end.
 TEST(MercuryPrograms, plasticForce) {
     struct Expected {
-        double chi, velocity, position, share;
+        double chi, velocity, position;
+        bool staysTogether;
     };
-    constexpr double ofStep = 0.04 * 0.04 * 10;
-    for (const auto& [chi, velocity, position, share] : std::array<Expected, 4>{{
-             {0.34, -0.032721738352012, 0.995546292935715, 0},
-             {0.69, -0.0138683231953154, 1.00695193269955, ofStep},
-             {1.1, -0.0204655358555405, 1.00840467123501, ofStep},
-             {1.37, -0.163049415300304, 0.969386085767181, 0},
+    for (const auto& [chi, velocity, position, staysTogether] : std::array<Expected, 4>{{
+             {0.34, -0.032721738352012, 0.995546292935715, false},
+             {0.69, -0.0138683231953154, 1.00695193269955, true},
+             {1.1, -0.0204655358555405, 1.00840467123501, true},
+             {1.37, -0.163049415300304, 0.969386085767181, false},
          }}) {
         SCOPED_TRACE(chi);
         PlasticForce scene(chi);
-        const double speed = 2 * scene.particleHandler.getObject(0)->getVelocity().x();
-        const double overlap = speed / std::sqrt(200.0);  // m, the largest
         scene.solve();
         const auto left = *scene.particleHandler.begin();
-        helpers::check(left->getPosition(), {position, 1, 1}, 1e-10 + share * overlap, "position");
-        helpers::check(left->getVelocity(), {velocity, 0, 0}, 1e-10 + share * speed, "velocity");
+        helpers::check(left->getPosition(), {position, 1, 1}, staysTogether ? 1e-5 : 1e-10, "position");
+        helpers::check(left->getVelocity(), {velocity, 0, 0}, staysTogether ? 1e-4 : 1e-10, "velocity");
     }
 }
 
@@ -168,14 +166,18 @@ TEST(MercuryPrograms, tangentialSpring) {
     helpers::check((*at)->getVelocity(), {0, 0, 0}, 1e-7, "velocity below");
     const auto grain = scene.particleHandler.getLastObject();
 
+    // A dashpot makes the normal force pull before a contact ends. There the limit of friction is mu |F_n|,
+    // which gives 2.11896618998424 rad/s; here nothing is left to hold the spring when grains pull.
+    // MercuryDPM's own steps with that one change, written anew, give these.
+    EXPECT_NEAR(grain->getAngularVelocity().y(), 2.054424967929, 1e-6);
+    helpers::check(grain->getPosition(), {0.962277055512, 0.5, 0.449123228713}, 1e-6, "position above");
+    helpers::check(grain->getVelocity(), {0.329667551435, 0, -0.628451942211}, 1e-6, "velocity above");
     // At the start it slips at u = 0.1 m/s, which leaves 5/7 u of rolling and a swing of the spring that
     // nothing damps: +-5/7 u of the rim. It leaves where g cos(angle) = v^2 / (2 R): 1.7 cos = 1 + 0.7 (5/7
     // u)^2 / (2 g R).
     const double rolls = 5.0 / 7.0 * 0.1;
     const double cosine = (1 + 0.7 * rolls * rolls / 0.5) / 1.7;
-    const double spin = std::sqrt(0.5 * cosine) / 0.25;
-    EXPECT_NEAR(grain->getAngularVelocity().y(), spin, rolls / 0.25);
-    EXPECT_NEAR(2.11896618998424, spin, rolls / 0.25);  // there, in another phase of the swing
+    EXPECT_NEAR(grain->getAngularVelocity().y(), std::sqrt(0.5 * cosine) / 0.25, rolls / 0.25);
     // Of the energy for each kg, what was in the slip is lost at most: 2/7 u^2 / 2.
     const double energy = grain->getPosition().z() + 0.5 * grain->getVelocity().squaredNorm() +
                           0.2 * 0.0625 * grain->getAngularVelocity().squaredNorm();
@@ -297,13 +299,14 @@ TEST(MercuryPrograms, energyOfReversibleAdhesion) {
     EXPECT_GT(scene.particleHandler.getLastObject()->getVelocity().x(), 0.69);  // they have parted
 }
 
-// To part takes F^2 / (2 k_a) = 0.5 J. Grains with 0.49 J stay together, and those with 0.64 J lose it.
-// (There the first pair has lost 0.5 J, as adhesion is counted from where it ends; here from where it began.)
+// To part takes F^2 / (2 k_a) = 0.5 J. Grains with 0.49 J stay together and have lost nothing, and those with
+// 0.64 J lose it. (There the first pair is asserted to have lost 0.5 J: its energy of adhesion is 0 where it
+// ends, and here where it began.)
 TEST(MercuryPrograms, energyOfIrreversibleAdhesion) {
     AdhesivePair<LinearViscoelasticIrreversibleAdhesiveSpecies> slow(0.0002, 0.7), fast(0.0002, 0.8);
     slow.setTimeMax(0.2);
     slow.solve();
-    helpers::check(slow.lostEnergy() + 0.5, 0.5, 1e-4, "energy loss");
+    helpers::check(slow.lostEnergy(), 0, 1e-4, "energy loss");
     fast.setTimeMax(0.5);
     fast.solve();
     EXPECT_GT(fast.particleHandler.getLastObject()->getPosition().x(), 0.55);  // beyond the range of 0.1 m
@@ -312,7 +315,7 @@ TEST(MercuryPrograms, energyOfIrreversibleAdhesion) {
 }
 
 // Grains, and a grain and a wall, with an adhesion that acts from the first touch on, and takes F^2 / (2 k_a)
-// of the energy. Positions there are those of one and of two steps more: its time is a sum, with round-off.
+// of the energy. Positions there are those of one step more: its time is a sum, with round-off.
 class AdhesiveForce : public MercuryScene<LinearViscoelasticIrreversibleAdhesiveSpecies> {
 public:
     static constexpr double radius = 1e-3, range = 1e-5, force = 1e-3, step = 2.5e-6;
@@ -356,7 +359,7 @@ TEST(MercuryPrograms, adhesiveForceOfGrainAndWall) {
     wall.setSpecies(scene.speciesHandler.getObject(0));
     wall.set(Vec3D(-1, 0, 0), Vec3D(scene.getXMin(), 0, 0));
     scene.wallHandler.copyAndAddObject(wall);
-    scene.setTimeMax(scene.getTimeStep() * 1002);
+    scene.setTimeMax(scene.getTimeStep() * 1001);
     scene.solve();
     const auto after = scene.particleHandler.getObject(0);
     helpers::check(after->getPosition(), {0.00104381, 0, 0}, 1e-7, "position");

@@ -36,9 +36,10 @@ struct StickSlip {
     }
     [[nodiscard]] double getStaticFrictionRatio() const { return staticFrictionRatio; }
 
-    /// mu_s itself, at least the dynamic coefficient, which must have been set before.
+    /// mu_s itself, at least the dynamic coefficient, which must have been set before; 0 goes with 0.
     void setSlidingFrictionCoefficientStatic(double value) {
         const double dynamic = static_cast<const Law&>(*this).slidingFrictionCoefficient;
+        if (value == 0 && dynamic == 0) return setStaticFrictionRatio(1);
         if (!(dynamic > 0))
             throw InputError(fmt::format(
                 "{}: slidingFrictionCoefficientStatic needs the dynamic coefficient, which is {}; "
