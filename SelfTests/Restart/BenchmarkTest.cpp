@@ -9,7 +9,7 @@
 namespace pendular::benchmarkTest {
 namespace {
 
-class HeavyBenchmarkScene : public testing::TestWithParam<const char*> {};
+class LongBenchmarkScene : public testing::TestWithParam<const char*> {};
 
 /// The hash when the contacts have been listed again a few times.
 std::uint64_t hashWith(const scenes::BenchmarkChoice& choice, int threads) {
@@ -24,13 +24,13 @@ std::uint64_t hashWith(const scenes::BenchmarkChoice& choice, int threads) {
     return hash;
 }
 
-TEST_P(HeavyBenchmarkScene, hasTheSameBitsForAnyNumberOfThreads) {
+TEST_P(LongBenchmarkScene, hasTheSameBitsForAnyNumberOfThreads) {
     const support::TestFolder folder;
     const auto choice = scenes::smallBenchmark(GetParam(), folder.path());
     const std::uint64_t one = hashWith(choice, 1);
     for (const int threads : {2, 3, 8}) EXPECT_EQ(hashWith(choice, threads), one) << threads << " threads";
 }
-INSTANTIATE_TEST_SUITE_P(All, HeavyBenchmarkScene, scenes::benchmarkScenes(), scenes::benchmarkTestName);
+INSTANTIATE_TEST_SUITE_P(All, LongBenchmarkScene, scenes::benchmarkScenes(), scenes::benchmarkTestName);
 
 class HeavyRestartedBenchmark : public testing::TestWithParam<const char*> {};
 

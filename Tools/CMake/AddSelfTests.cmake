@@ -61,9 +61,13 @@ function(pendular_add_self_test folder sources)
         PROPERTIES LABELS long ENVIRONMENT PENDULAR_SHARE_SMALL_WORK=1)
 endfunction()
 
-# Species that several tests take, compiled once.
-pendular_instantiate_species("${PROJECT_BINARY_DIR}/Generated/SelfTests" SpeciesOfTests "${PENDULAR_SPECIES_OF_TESTS}"
-                             testedSources)
+# Species that several tests take, compiled once; under CI's sanitizers those of random scenes.
+set(testedSpecies "${PENDULAR_SPECIES_OF_TESTS}")
+if(isQuickSanitizer)
+    set(testedSpecies HertzianViscoelasticDMTSpecies HertzianViscoelasticIrreversibleAdhesiveSpecies
+        HertzianViscoelasticReversibleAdhesiveSpecies)
+endif()
+pendular_instantiate_species("${PROJECT_BINARY_DIR}/Generated/SelfTests" SpeciesOfTests "${testedSpecies}" testedSources)
 add_library(SpeciesOfTests STATIC ${testedSources})
 target_link_libraries(SpeciesOfTests PRIVATE Pendular::Kernel)
 add_warnings(SpeciesOfTests)
@@ -140,7 +144,7 @@ foreach(source IN LISTS failures)
 endforeach()
 
 # A header compiles alone (its .cpp does not show it: a precompiled header comes before). Those that drivers include are
-# compiled here, each by itself; not all, as it takes a second or two for each.
+# compiled here, each by itself, which takes some seconds: those of folders behind the label long.
 file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/Kernel/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Base/*.h"
      "${PROJECT_SOURCE_DIR}/Kernel/Files/*.h" "${PROJECT_SOURCE_DIR}/Kernel/Walls/*.h")
 foreach(header IN LISTS headers)
@@ -154,7 +158,11 @@ foreach(header IN LISTS headers)
     add_test(NAME Header/${header}
              COMMAND "${CMAKE_CXX_COMPILER}" "@${compilerFlags}" -O0 -fsyntax-only -x c++ -include "${header}" /dev/null
              WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-    set_tests_properties(Header/${header} PROPERTIES LABELS "fast;build")
+    if(header MATCHES "^Kernel/[^/]*$")
+        set_tests_properties(Header/${header} PROPERTIES LABELS "fast;build")
+    else()
+        set_tests_properties(Header/${header} PROPERTIES LABELS "long;build")
+    endif()
 endforeach()
 
 add_test(NAME OutOfTree
