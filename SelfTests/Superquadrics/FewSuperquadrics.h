@@ -19,6 +19,13 @@ struct SuperquadricMotion {
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
+/// Two with rounded edges that hit each other off their middles, and spin.
+inline std::vector<SuperquadricMotion> offCentreCollision() {
+    const Superquadric shape{1e-3, 1.4e-3, 0.8e-3, 4, 4}, other{1.2e-3, 0.9e-3, 1.1e-3, 3, 5};
+    return {{shape, {-1.5e-3, 0, 0}, {0.2, 0.02, 0}, {20, 0, -30}, turnedBy(0.7, {1, 1, 0})},
+            {other, {1.5e-3, 0.5e-3, 0.3e-3}, {-0.2, 0, 0.01}, {0, 15, 10}, turnedBy(1.3, {0, 1, 2})}};
+}
+
 /// A few superquadrics of one species, as a test describes them.
 template <class S>
 class FewSuperquadrics : public SuperquadricSimulation<S> {

@@ -146,17 +146,9 @@ TEST(SuperquadricRolling, anEllipsoidThatSpinsOnItsPoleStopsByTorsion) {
     EXPECT_LT(scene.body(0).getAngularVelocity().norm(), 1e-4 * spin);
 }
 
-/// Two that hit each other off their middles, and spin.
-std::vector<scenes::SuperquadricMotion> collision() {
-    const Superquadric shape{1e-3, 1.4e-3, 0.8e-3, 4, 4}, other{1.2e-3, 0.9e-3, 1.1e-3, 3, 5};
-    return {
-        {shape, {-1.5e-3, 0, 0}, {0.2, 0.02, 0}, {20, 0, -30}, scenes::turnedBy(0.7, {1, 1, 0})},
-        {other, {1.5e-3, 0.5e-3, 0.3e-3}, {-0.2, 0, 0.01}, {0, 15, 10}, scenes::turnedBy(1.3, {0, 1, 2})}};
-}
-
 // A step rounds momenta by 2^-53 of their parts, with signs at random.
 TEST(SuperquadricRolling, collisionsKeepMomentumAndAngularMomentum) {
-    FewSuperquadrics<Linear> scene(linear(1000, 0.2, 0.2), collision(), 2e-6);
+    FewSuperquadrics<Linear> scene(linear(1000, 0.2, 0.2), scenes::offCentreCollision(), 2e-6);
     scene.initialise();
     const Vec3D p = scene.linearMomentum(), l = scene.angularMomentum();
     const double size = scene.body(0).getMass() * 0.2;

@@ -111,16 +111,9 @@ TEST(SuperquadricScene, aTiltedEllipsoidLeavesAPlaneByTheLawOfImpact) {
     }
 }
 
-/// Two blocks with rounded edges that hit each other off their middles.
-std::vector<SuperquadricMotion> collision() {
-    const Superquadric shape{1e-3, 1.4e-3, 0.8e-3, 4, 4}, other{1.2e-3, 0.9e-3, 1.1e-3, 3, 5};
-    return {{shape, {-1.5e-3, 0, 0}, {0.2, 0.02, 0}, {20, 0, -30}, turnedBy(0.7, {1, 1, 0})},
-            {other, {1.5e-3, 0.5e-3, 0.3e-3}, {-0.2, 0, 0.01}, {0, 15, 10}, turnedBy(1.3, {0, 1, 2})}};
-}
-
 // A step rounds momenta by 2^-53 of their parts, with signs at random.
 TEST(SuperquadricScene, collisionsKeepMomentumAndAngularMomentum) {
-    FewSuperquadrics<Rough> scene(rough(), collision(), 2e-6);
+    FewSuperquadrics<Rough> scene(rough(), scenes::offCentreCollision(), 2e-6);
     scene.initialise();
     const Vec3D p = scene.linearMomentum(), l = scene.angularMomentum();
     const double size = scene.body(0).getMass() * 0.2, kinetic = scene.kinetic();
@@ -137,7 +130,7 @@ TEST(SuperquadricScene, collisionsKeepMomentumAndAngularMomentum) {
 
 /// J / J, what an elastic collision without friction changes.
 double energyError(double step) {
-    FewSuperquadrics<Smooth> scene(elastic(1000), collision(), step);
+    FewSuperquadrics<Smooth> scene(elastic(1000), scenes::offCentreCollision(), step);
     scene.initialise();
     const double before = scene.kinetic();
     double largest = 0;
@@ -240,7 +233,7 @@ TEST(SuperquadricScene, closesTheEnergyLedgerToRoundOff) {
 // are far away, in any bit.
 TEST(SuperquadricScene, grainsComeAndGoInTheRun) {
     const auto hashAfter = [](bool withGuest) {
-        FewSuperquadrics<Rough> scene(rough(), collision(), 2e-6);
+        FewSuperquadrics<Rough> scene(rough(), scenes::offCentreCollision(), 2e-6);
         const Superquadric guest{1e-3, 1e-3, 2e-3, 2, 4};
         if (withGuest) scene.add({guest, {0, 0, 0.1}});
         scene.initialise();
