@@ -83,6 +83,7 @@ public:
             const std::size_t place = added % (2 * stay * perStep);
             const auto at = static_cast<double>(place % width), row = static_cast<double>(place / width);
             SphericalParticle grain;
+            const FirstSpecies first{scene.laws().owner()};
             grain.setSpecies(&first);
             grain.setRadius(radius);
             grain.setPosition(start + 3 * radius * Vec3D(at, 0, row));
@@ -102,9 +103,12 @@ public:
 
 private:
     static constexpr std::size_t stay = 50;  // steps
-    struct {
+    /// The first species of the scene, whatever its type.
+    struct FirstSpecies {
+        const void* owner;
         [[nodiscard]] int getIndex() const { return 0; }
-    } first;
+        [[nodiscard]] const void* getOwner() const { return owner; }
+    };
     Scene& scene;
     std::size_t perStep, added = 0, width = 1;
     double radius = 0, seconds = 0;  // m, s

@@ -34,7 +34,7 @@ struct BedMaterial {
     void set(AnySpecies& s) const;
     template <class S>
     [[nodiscard]] S species() const {
-        SpeciesInScene<S> s(S{}, 0);
+        SpeciesInScene<S> s(S{}, 0, nullptr);
         set(s);
         return s.species;
     }

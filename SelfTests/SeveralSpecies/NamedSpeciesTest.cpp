@@ -59,7 +59,7 @@ void copyFields(AnyLaws& to, AnyLaws& from) {
 template <class S>
 AnySpecies* addNamed(Simulation<>& scene, const S& species) {
     AnySpecies* const added = scene.speciesHandler.addByName(S::name);
-    SpeciesInScene<S> source(species, 0);
+    SpeciesInScene<S> source(species, 0, nullptr);
     added->set("density", species.getDensity());
     copyFields(*added, source);
     return added;
