@@ -243,7 +243,7 @@ TEST(SeveralSpecies, grainsKeepTheSpinTheyWereGivenBeforeFrictionWasAdded) {
     scene.particleHandler.copyAndAddObject(grain);
     scene.setTimeStep(1e-6);
     Simulation<> smooth;
-    smooth.speciesHandler.copyAndAddObject(boxMaterial<Hertz>(0));
+    grain.setSpecies(smooth.speciesHandler.copyAndAddObject(boxMaterial<Hertz>(0)));
     smooth.particleHandler.copyAndAddObject(grain);
     smooth.setTimeStep(1e-6);
     const auto* const rough = scene.speciesHandler.copyAndAddObject(boxMaterial<Wet>(0));

@@ -171,7 +171,8 @@ TEST(BadInput, speciesOfAnotherScene) {
     grain.setRadius(1e-3);
     grain.setSpecies(other.speciesHandler.copyAndAddObject(material()));
     Scene scene;
-    expectRefused([&] { scene.particleHandler.copyAndAddObject(grain); }, {"no species 2", "has 1"});
+    expectRefused([&] { scene.particleHandler.copyAndAddObject(grain); },
+                  {"particle 0", "species is one of another scene", "setSpecies()"});
     InfiniteWall wall;
     wall.set({0, 0, -1}, {0, 0, 0});
     wall.setSpecies(other.speciesHandler.getLastObject());
@@ -180,7 +181,7 @@ TEST(BadInput, speciesOfAnotherScene) {
             scene.wallHandler.copyAndAddObject(wall);
             scene.initialise();
         },
-        {"species 2"});
+        {"wall 0", "species is one of another scene", "setSpecies()"});
 }
 
 TEST(BadInput, particleThatDoesNotExist) {

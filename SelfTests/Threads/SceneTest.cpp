@@ -43,6 +43,7 @@ std::uint64_t hashOfRods(int threads) {
         rod.setVelocity({0.1 * (k % 5) - 0.2, 0.1 * (k % 3) - 0.1, -0.5});
         scene.bodyHandler.copyAndAddObject(rod);
     }
+    scene.setTimeStep(0x1p-18);
     scene.setNumberOfThreads(threads);
     return hashOf(scene);
 }
