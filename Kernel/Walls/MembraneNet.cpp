@@ -218,7 +218,7 @@ double MembraneNet::volume(Points at) const {
 
 double MembraneNet::squaredFrequency(const std::vector<bool>& held) const {
     std::vector<Eigen::Matrix3d> tensors(rest.size(), Eigen::Matrix3d::Zero());
-    const auto inverseMass = [&](Index v) { return !held.empty() && held[v] ? 0 : 1 / mass[v]; };
+    const auto inverseMass = [&](Index v) { return !held.empty() && held[v] ? 0 : 1 / moved[v]; };
     const auto add = [&](Index v, double weight, const Point& along) {
         const Eigen::Vector3d d(along.x, along.y, along.z);
         const double length2 = d.squaredNorm();
@@ -235,6 +235,7 @@ double MembraneNet::squaredFrequency(const std::vector<bool>& held) const {
         for (std::size_t k = 0; k < 4; ++k) weight += squaredNorm(now.by[k]) * inverseMass(hinge.corners[k]);
         for (std::size_t k = 0; k < 4; ++k) add(hinge.corners[k], hinge.stiffness * weight, now.by[k]);
     }
+    sumOverCopies(tensors);
     double largest = 0;
     for (const Eigen::Matrix3d& tensor : tensors) {
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor, Eigen::EigenvaluesOnly);

@@ -233,7 +233,7 @@ TEST(PeriodicMembrane, bearsTheSameStepAfterARestart) {
         auto scene = std::make_unique<MembraneScene>(grainOver(width / 2, depth / 2));
         scene->setPeriodic(0, 0, width);
         static_cast<Membrane*>(scene->add(membranePeriodicSheet(columns, rows, edge)))->holdRim();
-        scene->setTimeStep(scene->stabilityLimit());
+        scene->setTimeStep((1 - 1e-9) * scene->stabilityLimit());
         return scene;
     };
     const auto first = made(), resumed = made();

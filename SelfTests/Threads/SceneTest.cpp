@@ -33,16 +33,22 @@ std::uint64_t hashOfShear(int threads) {
     return hashOf(scene);
 }
 
-/// Rods of three grains that fall into a box of planes.
+/// Rods of three grains that fall onto a floor.
 std::uint64_t hashOfRods(int threads) {
-    scenes::SettlingBox<Wet> scene(1);
+    Simulation<Wet> scene;
+    const Wet* const species = scene.speciesHandler.copyAndAddObject(scenes::boxMaterial<Wet>(0));
     Clump rod{ClumpTemplate({{{0, 0, 0}, 7e-4}, {{7e-4, 0, 0}, 7e-4}, {{14e-4, 0, 0}, 7e-4}})};
-    rod.setSpecies(scene.speciesHandler.getObject(0));
-    for (int k = 0; k < 48; ++k) {
-        rod.setPosition({2e-3 + 3.6e-3 * (k % 3), 1.6e-3 + 3e-3 * (k / 3 % 4), 8e-3 + 2e-3 * (k / 12)});
+    rod.setSpecies(species);
+    for (int k = 0; k < 100; ++k) {
+        rod.setPosition({3e-3 * (k % 5), 1.6e-3 * (k / 5 % 5), 0.9e-3 + 1.6e-3 * (k / 25)});
         rod.setVelocity({0.1 * (k % 5) - 0.2, 0.1 * (k % 3) - 0.1, -0.5});
         scene.bodyHandler.copyAndAddObject(rod);
     }
+    InfiniteWall floor;
+    floor.set({0, 0, -1}, {0, 0, 0});
+    floor.setSpecies(species);
+    scene.wallHandler.copyAndAddObject(floor);
+    scene.setGravity({0, 0, -9.81});
     scene.setTimeStep(0x1p-18);
     scene.setNumberOfThreads(threads);
     return hashOf(scene);
