@@ -25,7 +25,7 @@ namespace {
 
 struct Options {
     std::size_t triangles = 200;
-    double overlap = 0.02;
+    double overlap = 0.2;
     std::size_t normals = 2000;
     std::size_t seed = 1;
 };
@@ -36,11 +36,11 @@ Vector<double> direction(UniformRandom& random) {
     return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
-/// A superquadric at the origin and a triangle: lengths over the radius of the sphere around the
-/// superquadric.
+/// A superquadric at the origin, whose largest half length is 1, and a triangle.
 struct Pose {
     Superquadric shape;
     Axes<double> axes;
+    double ball;  // the smallest radius of curvature
     Triangle triangle;
     TriangleWall wall;
 
@@ -50,8 +50,7 @@ struct Pose {
         wall.set(std::vector{triangle});
     }
     [[nodiscard]] WallPoint point() const {
-        const ShapeAtWall grain(SuperquadricLanes<double>::from(shape), axes, {0, 0, 0},
-                                extremeContact(shape).smallestRadius * shape.boundingRadius());
+        const ShapeAtWall grain(SuperquadricLanes<double>::from(shape), axes, {0, 0, 0}, ball);
         const std::uint32_t part = 0;
         WallPoint found;
         grain.findPoints(wall, 0, {&part, 1}, {&found, 1});
@@ -74,19 +73,25 @@ struct Pose {
 };
 
 /// Half lengths spread evenly in the logarithm over a factor of `aspect`, and a triangle of edges as long as
-/// they are, moved along a random direction until it overlaps.
+/// they are, moved in along a random direction until it overlaps.
 Pose randomPose(UniformRandom& random, int exponent, double aspect, double overlap) {
     const auto half = [&] { return std::pow(aspect, random.uniform(-1, 0)); };
     const double angle = random.uniform(0, std::numbers::pi);
-    Pose pose{{1, half(), half(), exponent, exponent},
+    const Superquadric shape{1, half(), half(), exponent, exponent};
+    Pose pose{shape,
               Axes<double>(Quaternion{std::cos(0.5 * angle), std::sin(0.5 * angle) * direction(random)}),
+              extremeContact(shape).smallestRadius * shape.boundingRadius(),
               {},
               {}};
     Triangle triangle;
     for (Vector<double>& corner : triangle) corner = random.uniform(0.1, 1) * direction(random);
     const Vector<double> way = direction(random);
-    const double size = pose.shape.boundingRadius(), wanted = overlap * size;
-    double near = 0, far = 3 * size;
+    const double wanted = overlap * pose.ball;
+    double near = 3 * shape.boundingRadius(), far = near;
+    for (pose.place(triangle, near * way); near > 0 && !(pose.depth() > wanted);
+         pose.place(triangle, near * way))
+        far = near, near -= 0.5 * pose.ball;
+    if (!(near > 0)) return randomPose(random, exponent, aspect, overlap);  // it went by
     for (int step = 0; step < 40; ++step) {
         const double middle = 0.5 * (near + far);
         pose.place(triangle, middle * way);
@@ -135,7 +140,7 @@ void measure(const Options& options, int exponent, double aspect) {
 int run(const Options& options) {
     if (options.triangles == 0 || options.normals == 0)
         throw InputError("superquadric-triangles: --triangles and --normals must be more than 0.");
-    checkValue("superquadric-triangles", "--overlap", options.overlap, "", {0, 0.2, false, true});
+    checkValue("superquadric-triangles", "--overlap", options.overlap, "", {0, 0.5, false, true});
     fmt::print(
         "exponent,largest_ratio_of_half_lengths,triangles,deeper_than_the_least_by_1e-9,"
         "largest_excess_of_depth_per_size,time_ns\n");
@@ -155,7 +160,7 @@ int main(int argc, char** argv) {
     Options o;
     app.option_defaults()->always_capture_default();
     app.add_option("--triangles", o.triangles, "contacts of each row");
-    app.add_option("--overlap", o.overlap, "share of the radius of the sphere around, up to 0.2");
+    app.add_option("--overlap", o.overlap, "share of the smallest radius of curvature, up to 0.5");
     app.add_option("--normals", o.normals, "that are tried at each contact");
     app.add_option("--seed", o.seed, "of the random numbers");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
