@@ -112,6 +112,10 @@ set(PENDULAR_POPULAR_SPECIES
     LinearViscoelasticLiquidBridgeWillettSpecies
     LinearViscoelasticSlidingFrictionLiquidMigrationWillettSpecies)
 
+if(PENDULAR_QUICK_TEST_BUILD AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=thread")  # CI: those of the tests of threads
+    set(PENDULAR_POPULAR_SPECIES LinearViscoelasticSpecies HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies)
+endif()
+
 # Those of several programs (SpeciesOfPrograms) and of several tests (SpeciesOfTests), compiled once for them.
 set(PENDULAR_SPECIES_OF_PROGRAMS "")
 foreach(model Chen ClassicalWillett Lambert Lian LianSeville MegiasAlguacil Mikami PietschRumpf Rabinovich Soulie Weigert)
