@@ -459,19 +459,27 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
     std::atomic<bool> allHaveMemory = true;
     watches.assign(static_cast<std::size_t>(threads), overlapWatch.part());
     capillaryWatches.assign(static_cast<std::size_t>(threads), {});
+    // Whether all blocks of a range have memory; what they have seen is added to the watches.
+    const auto computeRange = [&](std::size_t begin, std::size_t end, OverlapWatch& overlaps,
+                                  CapillaryWatch& capillaryNumbers) {
+        ContactTask own = task;
+        own.begin = begin;
+        own.end = end;
+        OverlapWatch ownOverlaps = overlapWatch.part();
+        CapillaryWatch ownCapillaryNumbers;
+        own.overlaps = &ownOverlaps;
+        own.capillaryNumbers = &ownCapillaryNumbers;
+        const bool haveMemory = species->compute(own);
+        overlaps.add(ownOverlaps);
+        capillaryNumbers.add(ownCapillaryNumbers);
+        return haveMemory;
+    };
     inShares(
         bucket.end - bucket.begin, threads,
         [&](int part, std::size_t begin, std::size_t end) {
-            ContactTask own = task;
-            own.begin = bucket.begin + begin;
-            own.end = bucket.begin + end;
-            OverlapWatch overlaps = overlapWatch.part();
-            CapillaryWatch capillaryNumbers;
-            own.overlaps = &overlaps;
-            own.capillaryNumbers = &capillaryNumbers;
-            if (!species->compute(own)) allHaveMemory = false;
-            watches[static_cast<std::size_t>(part)].add(overlaps);
-            capillaryWatches[static_cast<std::size_t>(part)].add(capillaryNumbers);
+            const auto own = static_cast<std::size_t>(part);
+            if (!computeRange(bucket.begin + begin, bucket.begin + end, watches[own], capillaryWatches[own]))
+                allHaveMemory = false;
         },
         blocksWorthAThread, shareOf(blocksOfAShare));
     for (const OverlapWatch& watch : watches) overlapWatch.add(watch);
@@ -480,16 +488,7 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
     for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
         if (contacts.slots[b] != ContactStore::waking) continue;
         wake(b, bucket, grains);
-        OverlapWatch overlaps = overlapWatch.part();
-        CapillaryWatch capillaryNumbers;
-        ContactTask one = task;
-        one.begin = b;
-        one.end = b + 1;
-        one.overlaps = &overlaps;
-        one.capillaryNumbers = &capillaryNumbers;
-        species->compute(one);
-        overlapWatch.add(overlaps);
-        capillaryWatch.add(capillaryNumbers);
+        computeRange(b, b + 1, overlapWatch, capillaryWatch);
     }
 }
 

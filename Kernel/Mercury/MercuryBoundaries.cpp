@@ -42,10 +42,7 @@ void MercuryBoundary::requireChangeable(const char* call) const {
 void MercuryBoundary::requireSet() const {
     if (!isHandedOver)
         throw InputError(fmt::format("{}: it was added and not set; call its set(){} before the run.", name,
-                                     dynamic_cast<const CubeInsertionBoundary*>(this)
-                                         ? ", and setInitialVolume(), in m^3, or setVolumeFlowRate(), in "
-                                           "m^3/s, as a box is not filled again in each step here,"
-                                         : ""));
+                                     alsoToCall()));
 }
 
 Scene& MercuryBoundary::sceneThatHasIt() const {

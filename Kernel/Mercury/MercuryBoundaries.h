@@ -35,6 +35,8 @@ protected:
     [[nodiscard]] Scene& sceneThatHasIt() const;
     [[nodiscard]] virtual bool isSet() const = 0;
     virtual void handOver(Scene& of) = 0;
+    /// What else than set() is called before it is set, for the sentence.
+    [[nodiscard]] virtual const char* alsoToCall() const { return ""; }
 
     const char* name;
 
@@ -141,6 +143,11 @@ private:
     /// It has a box and one of the two volumes.
     [[nodiscard]] bool isSet() const override { return region && (initialVolume > 0 || flow > 0); }
     void handOver(Scene& of) override;
+    [[nodiscard]] const char* alsoToCall() const override {
+        return ", and setInitialVolume(), in m^3, or setVolumeFlowRate(), in m^3/s, as a box is not filled "
+               "again "
+               "in each step here,";
+    }
     [[nodiscard]] SizeDistribution sizesOfGrains() const;
 
     SphericalParticle grain;

@@ -158,11 +158,11 @@ foreach(header IN LISTS headers)
     add_test(NAME Header/${header}
              COMMAND "${CMAKE_CXX_COMPILER}" "@${compilerFlags}" -O0 -fsyntax-only -x c++ -include "${header}" /dev/null
              WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+    set(label long)
     if(header MATCHES "^Kernel/[^/]*$")
-        set_tests_properties(Header/${header} PROPERTIES LABELS "fast;build")
-    else()
-        set_tests_properties(Header/${header} PROPERTIES LABELS "long;build")
+        set(label fast)
     endif()
+    set_tests_properties(Header/${header} PROPERTIES LABELS "${label};build")
 endforeach()
 
 add_test(NAME OutOfTree

@@ -13,7 +13,7 @@
 #include "Kernel/Shapes/SuperquadricPair.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Field.h"
-#include "Kernel/State/Random.h"
+#include "Tools/Studies/SuperquadricPairs/RandomDirection.h"
 
 using namespace pendular;
 
@@ -27,12 +27,6 @@ struct Options {
 
 using Pair = SuperquadricPair<double>;
 constexpr std::size_t lanes = Pack::lanes;
-
-Vector<double> direction(UniformRandom& random) {
-    const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * std::numbers::pi),
-                 across = std::sqrt(1 - z * z);
-    return {across * std::cos(angle), across * std::sin(angle), z};
-}
 
 /// Two shapes of the same exponents, their half lengths spread evenly in the logarithm over a factor of
 /// `aspect`, turned at random and moved together until they overlap by a share of their distance.

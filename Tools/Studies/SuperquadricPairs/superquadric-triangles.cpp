@@ -14,10 +14,10 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Species/Field.h"
-#include "Kernel/State/Random.h"
 #include "Kernel/Superquadrics/ExtremeContact.h"
 #include "Kernel/Superquadrics/ShapeAtWall.h"
 #include "Kernel/Walls/TriangleWall.h"
+#include "Tools/Studies/SuperquadricPairs/RandomDirection.h"
 
 using namespace pendular;
 
@@ -29,12 +29,6 @@ struct Options {
     std::size_t normals = 2000;
     std::size_t seed = 1;
 };
-
-Vector<double> direction(UniformRandom& random) {
-    const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * std::numbers::pi),
-                 across = std::sqrt(1 - z * z);
-    return {across * std::cos(angle), across * std::sin(angle), z};
-}
 
 /// A superquadric at the origin, whose largest half length is 1, and a triangle.
 struct Pose {
