@@ -10,6 +10,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Particles/OwnSpecies.h"
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/PlaneDrive.h"
@@ -260,11 +261,9 @@ double shortestHalfPeriod(const ContactLaws& species, const GrainSizes& grains, 
 void checkScene(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                 double timeStep, const Integrator& integrator) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
-        if (!walls.isRemoved(w) && walls.getObject(w).getSpeciesOwner() != species.owner())
-            throw InputError(
-                fmt::format("wall {}: species is one of another scene; call setSpecies() with a species of "
-                            "this scene, which speciesHandler.copyAndAddObject() returns.",
-                            w));
+        if (!walls.isRemoved(w))
+            requireOwnSpecies(species, fmt::format("wall {}", w), walls.getObject(w).getSpeciesIndex(),
+                              walls.getObject(w).getSpeciesOwner());
     forEachExtremePair(
         species, grains, walls,
         [](const PairLaws& laws, const Bodies& bodies, double) {

@@ -6,6 +6,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSpecies.h"
+#include "Kernel/Particles/OwnSpecies.h"
 #include "Kernel/Particles/Resolution.h"
 
 namespace pendular {
@@ -192,11 +193,7 @@ void ParticleHandler::setSpecies(const GrainSpecies& of) {
 }
 
 void ParticleHandler::requireOwnSpecies(std::string_view whose, int index, const void* owner) const {
-    if (index >= 0 && owner == species->owner()) return;
-    throw InputError(
-        fmt::format("{}: species is {}; call setSpecies() with a species of this scene, which "
-                    "speciesHandler.copyAndAddObject() returns.",
-                    whose, index < 0 ? "not set" : "one of another scene"));
+    pendular::requireOwnSpecies(*species, whose, index, owner);
 }
 
 void ParticleHandler::settleSpin() {

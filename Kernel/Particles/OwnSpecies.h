@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+#include "Kernel/Particles/GrainSpecies.h"
+
+namespace pendular {
+
+/// Throws InputError unless a species, by its number and its handler, is one of the scene's.
+/// @param whose for the sentence: "wall 3"
+void requireOwnSpecies(const GrainSpecies& ofScene, std::string_view whose, int index, const void* owner);
+
+}  // namespace pendular
