@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <tuple>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/GrainShapes.h"
@@ -12,23 +14,38 @@
 
 namespace pendular {
 
-/// Throws InputError if two bodies overlap by more than a share of the smaller radius (m).
-static void refuseOverlap(const ParticleStore& grains, const ObservedContact& contact, double smallerRadius,
-                          double accepted) {
-    const double share = -contact.separation / smallerRadius;
-    if (!(share > accepted * (1 + 1e-9))) return;  // positions are rounded
+namespace {
+
+/// Two bodies that overlap at the start.
+struct InitialOverlap {
+    double share;                 // of the smaller radius
+    std::uint32_t lower, higher;  // identities; at a wall twice that of the grain
+    int wall;                     // -1: grain with grain
+    double depth;                 // m
+
+    /// Whether this one is told of first: the deepest, whatever the order of the list.
+    [[nodiscard]] bool isBefore(const InitialOverlap& other) const {
+        if (share != other.share) return share > other.share;
+        return std::tie(lower, higher, wall) < std::tie(other.lower, other.higher, other.wall);
+    }
+};
+
+}  // namespace
+
+static InputError initialOverlapError(const ParticleStore& grains, const InitialOverlap& overlap,
+                                      double accepted) {
     const std::string other =
-        contact.wall < 0 ? nameOfGrain(grains, contact.particle2) : fmt::format("wall {}", contact.wall);
+        overlap.wall < 0 ? nameOfGrain(grains, overlap.higher) : fmt::format("wall {}", overlap.wall);
     const std::string advice =
-        contact.wall >= 0 && share > 1
+        overlap.wall >= 0 && overlap.share > 1
             ? ": the grain's centre is behind the wall, whose normal must point away from the grains"
         : accepted < largestOverlapInRun
             ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * largestOverlapInRun)
             : "";
-    throw InputError(
+    return InputError(
         fmt::format("{} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
                     "most {:g} %{}.",
-                    nameOfGrain(grains, contact.particle1), other, -contact.separation, 100 * share,
+                    nameOfGrain(grains, overlap.lower), other, overlap.depth, 100 * overlap.share,
                     100 * accepted, advice));
 }
 
@@ -37,33 +54,45 @@ static double radiusOrThickness(const ContactLaws& laws, const ParticleStore& gr
     return laws.shapes() ? laws.shapes()->thickness(grains, place) : grains.translation[place].radius;
 }
 
-/// Two solids that go through each other without a contact that tells of it.
-static void refuseHiddenOverlap(const ContactLaws& laws, const ParticleStore& grains, std::uint32_t first,
-                                std::uint32_t second, const PeriodicBox& box) {
-    if (!laws.shapes() || first == second) return;
+/// m, by how much two solids go through each other without a contact that tells of it; 0 at a wall.
+static double hiddenOverlap(const ContactLaws& laws, const ParticleStore& grains, std::uint32_t first,
+                            std::uint32_t second, const PeriodicBox& box) {
+    if (!laws.shapes() || first == second) return 0;
     const Vector<double> shift =
         box.nearest(grains.translation[second].position - grains.translation[first].position);
-    const double overlap = laws.shapes()->hiddenOverlap(grains, first, second, shift);
-    if (!(overlap > 0)) return;
-    throw InputError(
-        fmt::format("rigid bodies {} and {}, two blocks: they go through each other by {:.4g} m more than "
-                    "their edges are rounded; blocks may overlap no deeper than that at the start.",
-                    grains.bodies.bodyOf(grains.identity[first]),
-                    grains.bodies.bodyOf(grains.identity[second]), overlap));
+    return laws.shapes()->hiddenOverlap(grains, first, second, shift);
+}
+
+static InputError hiddenOverlapError(const ParticleStore& grains, const InitialOverlap& overlap) {
+    return InputError(fmt::format(
+        "rigid bodies {} and {}, two blocks: they go through each other by {:.4g} m more than "
+        "their edges are rounded; blocks may overlap no deeper than that at the start.",
+        grains.bodies.bodyOf(overlap.lower), grains.bodies.bodyOf(overlap.higher), overlap.depth));
 }
 
 void refuseInitialOverlaps(
     const ContactSystem& contacts, const ParticleStore& grains, double accepted,
     const std::function<bool(const Bucket&, std::uint32_t, std::uint32_t)>& isLookedAt) {
+    std::optional<InitialOverlap> deepest, deepestHidden;
+    const auto keep = [](std::optional<InitialOverlap>& kept, const InitialOverlap& one) {
+        if (!kept || one.isBefore(*kept)) kept = one;
+    };
     contacts.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
         const std::uint32_t first = contacts.firstOf(contact);
         const std::uint32_t second = bucket.wall >= 0 ? first : contacts.secondOf(contact);
         if (!isLookedAt(bucket, first, second)) return;
         const double smaller = std::min(radiusOrThickness(contacts.laws(), grains, first),
                                         radiusOrThickness(contacts.laws(), grains, second));
-        refuseOverlap(grains, contacts.observe(grains, bucket, contact), smaller, accepted);
-        refuseHiddenOverlap(contacts.laws(), grains, first, second, contacts.periodicBox());
+        const auto [lower, higher] = std::minmax({grains.identity[first], grains.identity[second]});
+        const double depth = contacts.observe(grains, bucket, contact).overlap();
+        const double share = depth / smaller;
+        if (share > accepted * (1 + 1e-9))  // positions are rounded
+            keep(deepest, {share, lower, higher, bucket.wall, depth});
+        const double hidden = hiddenOverlap(contacts.laws(), grains, first, second, contacts.periodicBox());
+        if (hidden > 0) keep(deepestHidden, {hidden / smaller, lower, higher, bucket.wall, hidden});
     });
+    if (deepest) throw initialOverlapError(grains, *deepest, accepted);
+    if (deepestHidden) throw hiddenOverlapError(grains, *deepestHidden);
 }
 
 /// Ends a run in which two grains, at these places of the store, have come closer than any contact law is

@@ -26,9 +26,14 @@ Flat solve(double uu, double uv, double vu, double vv, const Flat& right) {
 }  // namespace
 
 ShapeAtWall::Look ShapeAtWall::lookAlong(const Wall& wall, std::uint32_t part,
-                                         const Vector<double>& normal) const {
-    Look look{
-        .normal = normal, .support = supportAt(normal), .point{}, .towards{}, .distance = 0, .velocity{}};
+                                         const Vector<double>& ownNormal) const {
+    const Vector<double> normal = axes.turn(ownNormal);
+    Look look{.normal = normal,
+              .support = supportPoint(shape, ownNormal),
+              .point{},
+              .towards{},
+              .distance = 0,
+              .velocity{}};
     look.point = coreAt(look.support, normal);
     const WallPoint seen = nearest(wall, part, look.point);
     look.towards = seen.normal;
@@ -112,23 +117,24 @@ ShapeAtWall::Look ShapeAtWall::newton(const Wall& wall, std::uint32_t part,
                                       const Vector<double>& start) const {
     constexpr int mostSteps = 60, mostHalvings = 40;
     const double size = shape.a + shape.b + shape.c, roundOff = 1e-16 * (size + norm(centre));
-    Look now = lookAlong(wall, part, start);
+    Look now = lookAlong(wall, part, axes.turnBack(start));
     for (int step = 0; step < mostSteps; ++step) {
         if (!(now.distance < infinity)) return now;
         Vector<double> shift = newtonShift(wall, part, now);
         const double length = norm(shift);
         if (!(length > 1e-14 * size)) return now;
         if (length > 0.5 * size) shift = (0.5 * size / length) * shift;
-        const Vector<double> surface = axes.turn(now.support.point);
         bool isBetter = false;
         for (int k = 0; k < mostHalvings && !isBetter; ++k, shift = 0.5 * shift) {
-            const Vector<double> normal = axes.turn(outwardNormal(shape, axes.turnBack(surface + shift)));
-            const Look there = lookAlong(wall, part, normal);
+            const Look there =
+                lookAlong(wall, part, outwardNormal(shape, now.support.point + axes.turnBack(shift)));
             if (!(there.distance <= now.distance + roundOff)) continue;
             isBetter = true;
-            const double turned = norm(normal - now.normal), gained = now.distance - there.distance;
+            // On a flat face the normal hardly turns, where the core is a point it does not move.
+            const double changed = norm(there.normal - now.normal) + norm(there.point - now.point) / size,
+                         gained = now.distance - there.distance;
             now = there;
-            if (turned < 1e-15 || (gained <= roundOff && k > 2)) return now;
+            if (changed < 1e-15 || (gained <= roundOff && k > 2)) return now;
         }
         if (!isBetter) return now;
     }
@@ -146,7 +152,7 @@ ShapeAtWall::Look ShapeAtWall::searchAround(const Wall& wall, std::uint32_t part
         bool isBetter = false;
         for (const auto& [u, v] : superquadric::eightDirections) {
             const Vector<double> tried = middle + (step * u) * plane.u + (step * v) * plane.v;
-            const Look there = lookAlong(wall, part, (1 / norm(tried)) * tried);
+            const Look there = lookAlong(wall, part, axes.turnBack((1 / norm(tried)) * tried));
             if (!(there.distance < best.distance)) continue;
             best = there;
             isBetter = true;

@@ -52,7 +52,10 @@ private:
                                         const Vector<double>& normal) const {
         return centre + axes.turn(support.point) - ballRadius * normal;
     }
-    [[nodiscard]] Look lookAlong(const Wall& wall, std::uint32_t part, const Vector<double>& normal) const;
+    /// @param ownNormal unit, in the grain's axes: on a face that is nearly flat its small components tell
+    /// the point, and a turn to the scene's axes and back would round them away (1e-16 of a normal is 0.005
+    /// of a half length at an exponent of 8)
+    [[nodiscard]] Look lookAlong(const Wall& wall, std::uint32_t part, const Vector<double>& ownNormal) const;
     /// A normal that is near the wanted one. @param gap m, above 0 if a plane across it parts grain and wall
     [[nodiscard]] Vector<double> nearNormal(const Wall& wall, std::uint32_t part, const WallPoint& first,
                                             double range, double& gap) const;

@@ -62,6 +62,20 @@ TEST(AcceptedOverlaps, areUpToTheShareThatIsGiven) {
     EXPECT_TRUE(contains(start(pairOf(0.03), 0.01), "at most 1 %"));
 }
 
+// Of several, the deepest is named, wherever it stands in the list of contacts.
+TEST(AcceptedOverlaps, nameTheDeepestOfSeveral) {
+    const auto start = [](double third) {
+        Bed bed({{.radius = r, .position = {0, 0, 5 * r}},
+                 {.radius = r, .position = {0, 0, 6.9 * r}},
+                 {.radius = r, .position = {0, 0, third * r}},
+                 {.radius = r, .position = {9 * r, 0, 0.85 * r}}});
+        return refusal([&] { bed.initialise(); });
+    };
+    EXPECT_TRUE(contains(start(8.7), "particle 1 and particle 2: initial overlap = 0.0002 m is 20 %"));
+    EXPECT_TRUE(contains(start(8.85), "particle 3 and wall 0: initial overlap = 0.00015 m is 15 %"));
+    EXPECT_TRUE(contains(start(3.2), "particle 0 and particle 2: initial overlap = 0.0002 m is 20 %"));
+}
+
 TEST(AcceptedOverlaps, areAShareUpToThatOfARun) {
     Bed bed(pairOf(0));
     EXPECT_EQ(refusal([&] { bed.acceptOverlaps(0.5); }), "");

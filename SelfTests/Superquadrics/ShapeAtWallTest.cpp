@@ -272,6 +272,37 @@ TEST(HeavyShapeAtWall, noNormalHasASmallerOverlap) {
     EXPECT_GT(deep, 50);
 }
 
+// Corners just below the middle of a nearly flat side, where 1e-16 of the normal is 0.005 of a half length. A
+// corner at s - d m below the point s of the surface with the normal m overlaps by d, as long as d is no more
+// than the ball, and everything else of the triangle is farther out along m.
+TEST(ShapeAtWall, cornersBelowFlatSidesHaveTheDepthThatTheyWereGiven) {
+    support::Random random(9);
+    const Superquadric shape{1, 0.1, 0.12, 8, 8};
+    const double ball = extremeContact(shape).smallestRadius * shape.boundingRadius();
+    for (int k = 0; k < 300; ++k) {
+        const double x = random.uniform(-0.02, 0.02), z = random.uniform(-0.11, 0.11),
+                     y = 0.1 * std::pow(1 - std::pow(x, 8) - std::pow(z / 0.12, 8), 1.0 / 8);
+        const Vector<double> gradient{std::pow(x, 7), std::pow(y / 0.1, 7) / 0.1,
+                                      std::pow(z / 0.12, 7) / 0.12};
+        const Axes<double> axes = axesOf(3 * random.direction());
+        const Vector<double> normal = axes.turn((1 / norm(gradient)) * gradient);
+        const double depth = random.uniform(0.05, 0.95) * ball;
+        const Vector<double> corner = axes.turn({x, y, z}) - depth * normal;
+        const auto beyond = [&] {
+            const Vector<double> way = toVector(random.direction());
+            return corner + normal + 0.9 * (way - dot(way, normal) * normal);
+        };
+        TriangleWall wall;
+        wall.set(std::vector<Triangle>{{corner, beyond(), beyond()}});
+        const WallPoint found = pointsOf(grainOf(shape, axes, {0, 0, 0}), wall).at(0);
+        const double height =
+            supportPoint(SuperquadricLanes<double>::from(shape), axes.turnBack(found.normal)).height;
+        // Depths are stationary: a normal that is 1e-8 off changes them by 1e-16.
+        EXPECT_NEAR(height - found.distance, depth, 1e-14) << "triangle " << k;
+        EXPECT_LT(norm(found.normal - normal), 1e-7) << "triangle " << k;
+    }
+}
+
 // What a part is told to be apart is apart: a plane across some normal lies between.
 TEST(ShapeAtWall, whatIsApartHasAPlaneBetween) {
     support::Random random(8);
