@@ -88,11 +88,16 @@ inline CollisionCase<HertzianViscoelasticJKRSpecies> sticky(double restitution =
 
 }  // namespace collisions
 
-/// Largest errors over the offsets: of the speed of parting and of the spin as shares of the speed of
-/// approach, and of the energy as a share of that before.
+/// Largest errors over some collisions: of the speed of parting and of the spin as shares of the speed of
+/// approach, and of the energy as a share of that before. The mean error of the parting is what a bulk sees,
+/// where touches begin anywhere in a step.
 struct CollisionErrors {
     double parting = 0, spin = 0, energy = 0;
+    double sumOfParting = 0;
+    int count = 0;
     bool finite = true;
+
+    [[nodiscard]] double meanParting() const { return sumOfParting / count; }
 
     void include(const Aftermath& seen, const Aftermath& exact, const Encounter& encounter) {
         const double before = 0.125 * (encounter.speed * encounter.speed + encounter.slip * encounter.slip);
@@ -100,6 +105,8 @@ struct CollisionErrors {
         spin = std::max(spin, std::abs(seen.rim - exact.rim) / encounter.speed);
         energy = std::max(energy, std::abs(seen.energy - exact.energy) / before);
         finite = finite && std::isfinite(seen.energy);
+        sumOfParting += (seen.parting - exact.parting) / encounter.speed;
+        ++count;
     }
 };
 
@@ -111,15 +118,19 @@ Aftermath finish(CollisionCase<S> studied, double steps, double offset, const In
     return StudiedCollision<S>(studied.species, studied.encounter, step, integrator).finish();
 }
 
+/// Over starts of the touch within a step, and steps of the contact's time over n to n + 1: where the time is
+/// a whole number of steps the end falls as the start does, and an error at one takes away that at the other.
 template <class S>
 CollisionErrors errorsOf(const CollisionCase<S>& studied, const Aftermath& exact, int steps,
-                         const Integrator& integrator, int offsets) {
+                         const Integrator& integrator, int offsets, int stepLengths) {
     CollisionErrors errors;
-    for (int k = 0; k < offsets; ++k) {
-        // A step before the touch at least, so that the integrators that look back have one.
-        const double offset = 2 + (k + 0.5) / offsets;
-        errors.include(finish(studied, steps, offset, integrator), exact, studied.encounter);
-    }
+    for (int length = 0; length < stepLengths; ++length)
+        for (int k = 0; k < offsets; ++k) {
+            // A step before the touch at least, so that the integrators that look back have one.
+            const double offset = 2 + (k + 0.5) / offsets;
+            errors.include(finish(studied, steps + (length + 0.5) / stepLengths, offset, integrator), exact,
+                           studied.encounter);
+        }
     return errors;
 }
 

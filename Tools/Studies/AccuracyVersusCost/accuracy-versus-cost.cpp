@@ -89,6 +89,8 @@ int main(int argc, char** argv) {
     add(ofFailures, "--volumes", map.volumes, "of a failure map, from V* = 1e-9 to 10");
     add(ofFailures, "--angles", map.angles, "of a failure map, from 0 to 180 degrees");
     add(ofTime, "--offsets", time.offsets, "starts of a touch within a step");
+    add(ofTime, "--step-lengths", time.stepLengths,
+        "lengths of the step between the time of a contact over n and over n + 1");
     add(ofContacts, "--map-offsets", contacts.offsets, "starts of a touch within a step");
     add(ofBulk, "--elastic-modulus-Pa", bulk.elasticModulus, "Young's modulus of the reference, Pa");
     addFormerName(app, "--elastic-modulus-pa", bulk.elasticModulus)->needs(ofBulk);

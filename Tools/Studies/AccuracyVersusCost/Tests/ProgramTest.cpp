@@ -129,7 +129,7 @@ TEST(HeavyBulkChart, hasEveryLaw) {
 TEST(HeavyTimeChart, hasEveryCollisionAndIntegrator) {
     const TestFolder folder;
     const std::string file = (folder.path() / "time.csv").string();
-    const auto result = runTool("accuracy-versus-cost --time --offsets 1 --output " + file);
+    const auto result = runTool("accuracy-versus-cost --time --offsets 1 --step-lengths 1 --output " + file);
     ASSERT_EQ(result.exitCode, 0) << result.output;
     std::map<std::string, std::pair<double, double>> firstAndLast;  // %
     for (Row& row : rowsOf(contentOf(file))) {
