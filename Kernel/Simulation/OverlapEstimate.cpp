@@ -97,6 +97,7 @@ OverlapEstimate estimateOverlaps(Scene& scene, double pressure) {
         throw InputError("Simulation: overlaps are estimated for grains that are there; add them first.");
     const GrainSizes sizes = scene.grainSizes(grains);
     const Loads loads = loadsOf(scene, grains, sizes, pressure);
+    found.pressure = loads.pressure, found.speed = loads.speed;
     const double heaviest = heaviestBody(grains);
     double shortest = infinity;  // over the limit
     forEachExtremePair(

@@ -11,6 +11,8 @@ class Scene;
 struct OverlapEstimate {
     double byWeight = 0;  // of the smaller radius: a mean contact below all grains in a heap, and a pressure
     double bySpeed = 0;   // a collision with the largest speed, gained in a fall through the grains' height
+    double pressure = 0;  // Pa, of the first
+    double speed = 0;     // m/s, of the second
     double limit = 0;     // s, stabilityLimit()
     double step = 0;      // s, about what it would be at these overlaps
 

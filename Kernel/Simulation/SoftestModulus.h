@@ -1,0 +1,83 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pendular {
+
+class Scene;
+
+/// What a run is made for. Each stands another softness of the grains.
+enum class WantedFigure {
+    SolidFraction,   // also the height of a bed, and the flow from an outlet
+    Friction,        // the ratio of stresses, the angle of a slope or a drum
+    ContactsAtRest,  // contacts of a grain in a bed at rest
+    Fluctuations,    // the kinetic energy of a flow against its mean
+    ContactsInFlow,  // they count the time of a touch
+    ContactTime,
+    ContactArea,  // heat through contacts
+    Waves,        // sound, vibration
+};
+
+/// The figures by the names that programs take: "solid-fraction", "friction", ...
+[[nodiscard]] std::string_view nameOf(WantedFigure figure);
+[[nodiscard]] const std::vector<WantedFigure>& allWantedFigures();
+/// Throws InputError, with all names, where there is none of this name.
+[[nodiscard]] WantedFigure wantedFigure(std::string_view name);
+
+/// What of cohesion is to stay when grains are made softer: not all can.
+enum class KeptCohesion {
+    NotSaid,
+    Strength,    // the pull, so heaps, slopes and drums; grains stick at higher speeds
+    Collisions,  // rebound and sticking at every speed; heaps of soft grains are less cohesive
+};
+
+struct SoftnessQuestion {
+    double modulus = 0;          // Pa, Young's, of the material: more is never advised
+    double poissonRatio = 0.25;  // 1
+    double density = 0;          // kg/m^3
+    double diameter = 0;         // m, of the smallest grains
+    double pressure = 0;         // Pa, at the bottom of a heap, of pistons and targets
+    double speed = 0;            // m/s, at which grains meet
+    double pull = 0;             // N, the largest attraction of a contact
+    KeptCohesion kept = KeptCohesion::NotSaid;
+    double error = 0.01;  // of the figures, 1
+    std::vector<WantedFigure> figures;
+};
+
+/// Density and smallest diameter of a scene's grains, and pressure and speed as in estimateOverlaps(). The
+/// caller adds the material, the figures and the pull.
+/// @param pressure Pa, that acts besides (pistons, target stresses)
+[[nodiscard]] SoftnessQuestion softnessOf(Scene& scene, double pressure = 0);
+
+/// One reason why grains may not be softer.
+struct SoftnessBound {
+    double modulus;  // Pa
+    std::string reason;
+};
+
+struct SoftnessAdvice {
+    double modulus = 0;                  // Pa, Young's
+    std::vector<SoftnessBound> bounds;   // the highest first
+    double leastGain = 1, mostGain = 1;  // of the time of a run with the material's modulus
+    double adhesionFactor = 1;           // for the work of adhesion of JKR and DMT, or a pull on Hertz's law
+
+    [[nodiscard]] std::string text() const;
+};
+
+/// The softest Young's modulus with which the wanted figures are right to the wanted error.
+///
+/// A mean contact at a pressure p has the overlap d/D = (3 pi (1 - nu^2) p / (phi Z E))^(2/3) of Hertz's law
+/// at the force pi D^2 p / (phi Z) (Rumpf 1958), with phi Z = 2.8. Measured over three decades of E with
+/// Hertz-Mindlin spheres of nearly one size and a friction of 0.5 (poured beds, drums, hoppers): the solid
+/// fraction grows by 3.4 d/D of itself, angles and friction fall by 11 d/D, contacts at rest are 4.52 + 12
+/// (d/D)^0.6, and the energy of fluctuations is still 7 % off at a stiffness (E/((1 - nu^2) p))^(2/3) of 1e4,
+/// so 1e6 is asked. 1 % was resolved by these runs; less is an extrapolation. Cohesion adds pull/D^2 to the
+/// pressure; where it is the larger part, d/D is at most 1.68e-3 (a stiffness of 1e3 pulls). Overlaps by
+/// speed are to be at most 5 % of the radius, the domain of Hertz's law. Nothing is known of wide sizes,
+/// rolling friction, clumps, and of beds that are confined to a volume. Throws InputError where a number is
+/// out of its range, no figure is wanted, or cohesion is there and what is to be kept of it is not said.
+[[nodiscard]] SoftnessAdvice softestModulus(const SoftnessQuestion& question);
+
+}  // namespace pendular

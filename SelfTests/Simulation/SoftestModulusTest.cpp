@@ -1,0 +1,142 @@
+#include "Kernel/Simulation/SoftestModulus.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Species/Normal/HertzianViscoelastic.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular::softestModulusTest {
+namespace {
+
+using enum WantedFigure;
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+
+/// Glass beads of a millimetre in a bed, 160 Pa at its bottom.
+SoftnessQuestion beads(std::vector<WantedFigure> figures) {
+    return {.modulus = 6e10,
+            .poissonRatio = 0.2,
+            .density = 2500,
+            .diameter = 1e-3,
+            .pressure = 160,
+            .figures = std::move(figures)};
+}
+double modulusFor(const SoftnessQuestion& question) { return softestModulus(question).modulus; }
+
+// 3.23 p / (d/D)^(3/2): with overlaps of 0.01/3.4, 0.01/11 and (0.0452/12)^(1/0.6) = 9.13e-5 of the diameter.
+TEST(SoftestModulus, isThatOfTheOverlapThatAFigureStands) {
+    EXPECT_NEAR(modulusFor(beads({SolidFraction})) / 160, 2.03e4, 0.01e4);
+    EXPECT_NEAR(modulusFor(beads({Friction})) / 160, 1.179e5, 0.002e5);
+    EXPECT_NEAR(modulusFor(beads({ContactsAtRest})) / 160, 3.70e6, 0.02e6);
+    EXPECT_EQ(modulusFor(beads({SolidFraction, Friction})), modulusFor(beads({Friction})));
+}
+
+// By Hertz's law at the force pi D^2 p / 2.8 of a mean contact.
+TEST(SoftestModulus, takesTheOverlapOfHertzsLaw) {
+    const SoftnessQuestion question = beads({SolidFraction});
+    const double modulus = modulusFor(question), d = question.diameter;
+    const double effective = modulus / (2 * (1 - 0.2 * 0.2)), force = 160 * d * d * std::numbers::pi / 2.8;
+    const double overlap = std::pow(0.75 * force / (effective * std::sqrt(d / 4)), 2.0 / 3);
+    EXPECT_NEAR(overlap / d, 0.01 / 3.4, 1e-12);
+}
+
+// Two spheres whose energy 8/15 E* sqrt(R*) d^(5/2) is that of their approach overlap by 5 % of the radius.
+TEST(SoftestModulus, keepsCollisionsWithinFivePercentOfTheRadius) {
+    SoftnessQuestion question = beads({SolidFraction});
+    question.pressure = 0, question.speed = 2;
+    const double modulus = modulusFor(question), r = 0.5e-3;
+    const double mass = 4.0 / 3 * std::numbers::pi * r * r * r * 2500;
+    const double effective = modulus / (2 * (1 - 0.2 * 0.2));
+    EXPECT_NEAR(8.0 / 15 * effective * std::sqrt(r / 2) * std::pow(0.05 * r, 2.5) / (0.25 * mass * 4), 1,
+                1e-12);
+}
+
+TEST(SoftestModulus, growsWithPressureAndExactness) {
+    SoftnessQuestion question = beads({Friction});
+    const double modulus = modulusFor(question);
+    question.pressure *= 4;
+    EXPECT_NEAR(modulusFor(question) / modulus, 4, 1e-12);
+    question.error /= 4;
+    EXPECT_NEAR(modulusFor(question) / modulus, 4 * std::pow(4, 1.5), 1e-10);
+    EXPECT_TRUE(contains(softestModulus(question).text(), "extrapolation"));
+    // A pull of p D^2 presses as much again.
+    question = beads({Friction}), question.pull = 160e-6, question.kept = KeptCohesion::Strength;
+    EXPECT_NEAR(modulusFor(question) / modulus, 2, 1e-12);
+}
+
+TEST(SoftestModulus, isThatOfTheMaterialWhereNoSofterOneIsRight) {
+    for (const WantedFigure figure : {ContactsInFlow, ContactTime, ContactArea, Waves}) {
+        const SoftnessAdvice advice = softestModulus(beads({SolidFraction, figure}));
+        EXPECT_EQ(advice.modulus, 6e10);
+        EXPECT_EQ(advice.mostGain, 1);
+        EXPECT_TRUE(contains(advice.text(), std::string(nameOf(figure)) + ": ")) << advice.text();
+    }
+    SoftnessQuestion soft = beads({ContactsAtRest});
+    soft.modulus = 1e6;
+    EXPECT_EQ(modulusFor(soft), 1e6);
+}
+
+// The neck of JKR takes 7.09 (w^5 R*^4 / E*^2)^(1/3): the same share of a collision at w ~ E^(2/5).
+TEST(SoftestModulus, scalesAdhesionWhereCollisionsAreKept) {
+    SoftnessQuestion question = beads({Friction});
+    question.pull = 1e-6, question.kept = KeptCohesion::Collisions;
+    const SoftnessAdvice advice = softestModulus(question);
+    EXPECT_NEAR(advice.adhesionFactor, std::pow(advice.modulus / 6e10, 0.4), 1e-12);
+    EXPECT_TRUE(contains(advice.text(), "work of adhesion"));
+    question.kept = KeptCohesion::Strength;
+    EXPECT_EQ(softestModulus(question).adhesionFactor, 1);
+}
+
+TEST(SoftestModulus, gainsMoreThanTwoTimesADecade) {
+    SoftnessQuestion question = beads({SolidFraction});
+    question.modulus = 100 * modulusFor(question);
+    const SoftnessAdvice advice = softestModulus(question);
+    EXPECT_NEAR(advice.leastGain, 2.2 * 2.2, 1e-9);
+    EXPECT_NEAR(advice.mostGain, 3.1 * 3.1, 1e-9);
+}
+
+TEST(SoftestModulus, refusesWhatItCannotAnswer) {
+    const auto of = [](auto&& change) {
+        SoftnessQuestion question = beads({SolidFraction});
+        change(question);
+        return refusal([&] { std::ignore = softestModulus(question); });
+    };
+    for (const std::string& text :
+         {of([](auto& q) { q.figures.clear(); }), of([](auto& q) { q.pull = 1e-6; }),
+          of([](auto& q) { q.pressure = 0; }), of([](auto& q) { q.modulus = 0; }),
+          of([](auto& q) { q.diameter = -1; }), of([](auto& q) { q.error = 0.5; }),
+          of([](auto& q) { q.density = std::nan(""); }),
+          refusal([] { std::ignore = wantedFigure("angle"); })})
+        EXPECT_TRUE(isOneSentence(text)) << text;
+    EXPECT_TRUE(contains(refusal([] { std::ignore = wantedFigure("angle"); }), "friction"));
+    for (const WantedFigure figure : allWantedFigures()) EXPECT_EQ(wantedFigure(nameOf(figure)), figure);
+}
+
+// A grain of radius r that has h to fall: the scene's pressure is its weight over its shadow, the speed that
+// of the fall.
+TEST(SoftestModulus, readsTheScene) {
+    using Hertz = Species<HertzianViscoelastic>;
+    Hertz material;
+    material.setDensity(2500);
+    material.setEffectiveElasticModulus(1e7);
+    const double r = 1e-3;
+    scenes::FewGrains<Hertz> scene(material, {{.radius = r, .position = {0, 0, 0.1}}}, 1e-6);
+    scene.setGravity({0, 0, -9.81});
+    const SoftnessQuestion question = softnessOf(scene, 100);
+    EXPECT_EQ(question.density, 2500);
+    EXPECT_EQ(question.diameter, 2 * r);
+    EXPECT_NEAR(question.pressure, 100 + 4.0 / 3 * std::numbers::pi * r * r * r * 2500 * 9.81 / (4 * r * r),
+                1e-9);
+    EXPECT_NEAR(question.speed, std::sqrt(2 * 9.81 * 2 * r),
+                1e-12);  // the height of the box around the grains
+}
+
+}  // namespace
+}  // namespace pendular::softestModulusTest
