@@ -17,9 +17,9 @@
 namespace pendular {
 namespace {
 
-constexpr double contactsTimesFraction = 2.8;        // phi Z
-constexpr double largestOverlapBySpeed = 0.025;      // of the diameter
-constexpr double overlapOfPulledContacts = 1.68e-3;  // of the diameter: 3/2 pi / (phi Z) over 1e3
+constexpr double contactsTimesFraction = 2.8;      // phi Z
+constexpr double largestOverlapBySpeed = 0.025;    // of the diameter
+constexpr double stiffnessOfPulledContacts = 1e3;  // of the pull over the diameter
 constexpr double resolvedError = 0.01;
 
 /// A figure: the share of the diameter that a mean contact may overlap for an error; no function where no
@@ -49,6 +49,11 @@ const FigureRow& rowOf(WantedFigure figure) { return *std::ranges::find(rows, fi
 double modulusAt(double overlap, double pressure, double poissonRatio) {
     return 3 * std::numbers::pi * (1 - poissonRatio * poissonRatio) * pressure /
            (contactsTimesFraction * std::pow(overlap, 1.5));
+}
+
+/// Of the diameter: Hertz's stiffness 3/2 N / d at the force N = pi D^2 p / (phi Z), as many times p D.
+double overlapOfPulledContacts() {
+    return 1.5 * std::numbers::pi / (contactsTimesFraction * stiffnessOfPulledContacts);
 }
 
 /// Pa: two equal spheres that meet at a speed (m/s) overlap by a share x of the diameter, 1/2 m* v^2 = 8/15
@@ -105,8 +110,10 @@ std::vector<SoftnessBound> boundsOf(const SoftnessQuestion& q) {
     for (const WantedFigure figure : q.figures) bounds.push_back(boundOf(rowOf(figure), q, pressure));
     if (byPull > q.pressure)
         bounds.push_back(
-            {modulusAt(overlapOfPulledContacts, pressure, q.poissonRatio),
-             "grains that pull more than they are pressed: a stiffness of 1e3 pulls over a diameter"});
+            {modulusAt(overlapOfPulledContacts(), pressure, q.poissonRatio),
+             fmt::format(
+                 "grains that pull more than they are pressed: a stiffness of {:g} pulls over a diameter",
+                 stiffnessOfPulledContacts)});
     if (q.speed > 0)
         bounds.push_back(
             {modulusOfImpact(largestOverlapBySpeed, q.density, q.speed, q.poissonRatio),
