@@ -40,16 +40,11 @@ struct ContactAcceleration {
 };
 
 /// Eight of a column of vectors.
-inline Vector<Pack> gatherVectors(const Vector<double>* column, const std::uint32_t* index) {
-    std::array<LaneColumn, 3> lanes;
-    for (std::size_t k = 0; k < Pack::lanes; ++k) {
-        const Vector<double>& from = column[index[k]];
-        lanes[0].lane[k] = from.x;
-        lanes[1].lane[k] = from.y;
-        lanes[2].lane[k] = from.z;
-    }
-    return {Pack::load(lanes[0].lane.data()), Pack::load(lanes[1].lane.data()),
-            Pack::load(lanes[2].lane.data())};
+[[gnu::always_inline]] inline Vector<Pack> gatherVectors(const Vector<double>* column,
+                                                         const std::uint32_t* index) {
+    static_assert(sizeof(Vector<double>) == 3 * sizeof(double));
+    auto [x, y, z] = loadVectors(reinterpret_cast<const double*>(column), index);
+    return {x, y, z};
 }
 
 /// Asks for what the kernel reads of eight grains.

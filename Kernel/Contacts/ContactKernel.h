@@ -280,10 +280,12 @@ private:
     struct MovedSprings {
         Vector<Pack> sliding, turning;
     };
+    /// Not gnu::cold, which g++ compiles for size: adaptive steps take this in every step. It makes its
+    /// geometry again, as one that is handed over costs all other schemes stores to the stack.
     /// @param steps of that time
     template <class GeometryOf>
-    [[gnu::noinline, gnu::cold]] MovedSprings moveSprings(std::size_t number, const GeometryOf& geometryOf,
-                                                          Pack lever, Pack steps) const {
+    [[gnu::noinline]] MovedSprings moveSprings(std::size_t number, const GeometryOf& geometryOf, Pack lever,
+                                               Pack steps) const {
         const auto geometry = geometryOf(number);
         ContactGeometry<Pack> g = geometry.complete();
         geometry.completeSpins(g);

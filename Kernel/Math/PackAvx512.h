@@ -212,6 +212,21 @@ template <int columns>
     return result;
 }
 
+/// The three members of the eight vectors at base + 3 * index[k]: lane k of column c is member c of vector k.
+[[gnu::always_inline]] inline std::array<Pack, 3> loadVectors(const double* base,
+                                                              const std::uint32_t* index) {
+    constexpr __mmask8 three = 7;
+    __m512d row[4];
+#pragma GCC unroll 4
+    for (int r = 0; r < 4; ++r) {
+        const __m256d lower = _mm256_maskz_loadu_pd(three, base + std::size_t{3} * index[r]);
+        const __m256d upper = _mm256_maskz_loadu_pd(three, base + std::size_t{3} * index[r + 4]);
+        row[r] = _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(lower), upper, 1);
+    }
+    std::array<Pack, 4> block = transposeBlocks(row[0], row[1], row[2], row[3]);
+    return {block[0], block[1], block[2]};
+}
+
 /// Writes eight consecutive records of 8 (or 4) doubles: member c of record k from lane k of column c.
 /// Aligned to 64 (32) bytes.
 template <std::size_t columns>

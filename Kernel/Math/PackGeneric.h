@@ -242,6 +242,19 @@ template <int columns>
     return result;
 }
 
+/// The three members of the eight vectors at base + 3 * index[k]: lane k of column c is member c of vector k.
+[[gnu::always_inline]] inline std::array<Pack, 3> loadVectors(const double* base,
+                                                              const std::uint32_t* index) {
+    std::array<Pack, 3> result;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const auto at = [&](int k) __attribute__((always_inline)) {
+            return base[std::size_t{3} * index[k] + c];
+        };
+        result[c] = Pack::fromLanes({at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)});
+    }
+    return result;
+}
+
 /// Writes eight consecutive records of 8 (or 4) doubles: member c of record k from lane k of column c.
 /// Aligned to 64 (32) bytes.
 template <std::size_t columns>

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <cstring>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -367,6 +368,18 @@ TEST(Records, loadGathersAndTransposes) {
         [&]<int... n>(std::integer_sequence<int, n...>) { (expectRecords<n + 1>(memory, 4, index), ...); }
         (std::make_integer_sequence<int, 4>());
     }
+}
+
+// The last of them, too, behind which nothing may be read.
+TEST(Records, loadVectorsGathersAndTransposes) {
+    const std::size_t count = 11;
+    std::vector<double> numbers(3 * count);
+    std::iota(numbers.begin(), numbers.end(), 1.0);
+    const std::array<std::uint32_t, 8> index{3, 10, 0, 10, 7, 1, 9, 2};
+    const std::array<Pack, 3> result = loadVectors(numbers.data(), index.data());
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t lane = 0; lane < 8; ++lane)
+            EXPECT_EQ(result[c][lane], 1.0 + 3.0 * index[lane] + static_cast<double>(c));
 }
 
 template <std::size_t columns>
