@@ -3,17 +3,19 @@
 #   Tools/install-dependencies.sh           installs
 #   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
 #   With --readers also those with which self-tests read the files of a run; without them, these tests are skipped.
+#   With --python also those of the Python module and its tests.
 #   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz), clang-format and clang-tidy.
 set -euo pipefail
 
-check=no readers=no clang=no
+check=no readers=no python=no clang=no
 for option in "$@"; do
     case $option in
         --check) check=yes ;;
         --readers) readers=yes ;;
+        --python) python=yes ;;
         --clang) clang=yes ;;
         *)
-            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--clang]" >&2
+            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--clang]" >&2
             exit 2
             ;;
     esac
@@ -36,6 +38,18 @@ if [[ $readers == yes ]]; then
     packages+='
 python3-h5py||h5py, which reads HDF5 files
 python3-vtk9||VTK, which reads the files for ParaView'
+fi
+if [[ $python == yes ]]; then
+    packages+='
+python3-dev||headers of Python
+pybind11-dev||the Python module
+python3-numpy||arrays
+python3-pytest||tests of the module
+python3-h5py||h5py, for pendular.frames()
+python3-pandas||tables, for pendular.table()
+python3-matplotlib||pictures, for pendular.draw()
+python3-scipy||the calibration among the examples
+mypy|mypy|types of the module'
 fi
 if [[ $clang == yes ]]; then
     packages+='

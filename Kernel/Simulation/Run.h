@@ -123,6 +123,9 @@ public:
     /// or is between two parts stops at once when it goes on. Other threads and handlers of signals may call
     /// it, too.
     void requestStop() noexcept { stopAsked.store(true, std::memory_order_relaxed); }
+    /// Asks a run in parts to end its part after this step, from a hook: the next part goes on. Nothing
+    /// between two parts, and in solve().
+    void requestPause() noexcept { pauseAsked = true; }
     /// Checks the scene and computes the forces at its start, or takes them from the restart file. This is
     /// for a driver that steps by itself. Like solve() and step(), it throws InputError in hooks of this
     /// scene.
@@ -243,6 +246,7 @@ private:
     std::unique_ptr<Course> course;  // while a run lasts
     bool ended = false;
     std::atomic<bool> stopAsked{false};
+    bool pauseAsked = false;
 };
 
 }  // namespace pendular

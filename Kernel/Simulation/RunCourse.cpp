@@ -205,7 +205,9 @@ void Run::stepUntil(const PartEnd& end) {
     std::optional<Progress>& progress = course->progress;
     if (progress) progress->setEnd(timeMax);
     bool stops = isAskedToStop(), goesOn = true;
-    while (!stops && steps < lastStep(end) && (goesOn = continueSolve())) {
+    pauseAsked = false;
+    const auto isPaused = [this] { return pauseAsked && (underWay & Within::Whole) == 0; };
+    while (!stops && !isPaused() && steps < lastStep(end) && (goesOn = continueSolve())) {
         stepOnce(steps + 1 < lastStep(end));
         writeOutputs(false);
         if (progress && progress->isDue(steps))

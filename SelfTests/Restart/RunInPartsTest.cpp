@@ -95,6 +95,25 @@ protected:
     }
 };
 
+/// A hook ends the part after its step; the next part goes on, and the last one ends the run.
+TEST_F(RunInParts, isPausedByAHook) {
+    const Left whole = solved("whole", [](Parts& scene) {
+        scene.after = [](Parts& of) { of.requestPause(); };  // which a whole run takes no notice of
+    });
+    const Left parts = inParts("parts", [](Parts& scene) {
+        scene.after = [](Parts& of) {
+            if (of.getNumberOfTimeSteps() % 150 == 0) of.requestPause();
+        };
+        scene.requestPause();  // between two parts: nothing
+        for (const std::size_t steps : {150, 300, 400}) {
+            EXPECT_FALSE(scene.hasEnded());
+            scene.runTo(end);
+            EXPECT_EQ(scene.getNumberOfTimeSteps(), steps);
+        }
+    });
+    expectSame(whole, parts);
+}
+
 /// The parts of 7 end between outputs, and between steps.
 TEST_F(RunInParts, leavesWhatOneRunLeaves) {
     const Left whole = solved();

@@ -2,6 +2,7 @@
 # the tests of all studies, Tools/Studies/*/Tests/*.cpp (PENDULAR_BUILD_STUDIES).
 #   SelfTests/CompileFail/*.cpp  must not compile, with the message they expect (CheckCompileFailure.cmake)
 #   SelfTests/Hosts/Library/     a library of species, loaded by the test program of SelfTests/Hosts/
+#   SelfTests/Python/            tests of the Python module (AddPythonTests.cmake)
 #   SelfTests/OutOfTree/         a driver outside the tree, built against the installed kernel (CheckOutOfTree.cmake)
 # Labels, by the beginning of the suite's name:
 #   fast   all that are not named otherwise
@@ -119,6 +120,10 @@ if(TARGET SelfTestHosts)
     set_target_properties(SelfTestHosts PROPERTIES ENABLE_EXPORTS ON DEFINE_SYMBOL ""
                           LINK_LIBRARY_OVERRIDE "WHOLE_ARCHIVE,PendularKernel,Pendular::Kernel")
     add_dependencies(SelfTestHosts QuadraticSpring)
+endif()
+
+if(hasPython)
+    include(AddPythonTests)
 endif()
 
 # What must not compile: the flags of a driver, in a file for the compiler.

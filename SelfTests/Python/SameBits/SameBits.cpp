@@ -1,0 +1,84 @@
+// Runs the scene of a file as a C++ driver does, with 1 and 2 threads, whole and with a restart, and prints
+// the hash of the state of each: same_bits_test.py has the same of Python. Lines of the file:
+//     type NAME | set FIELD VALUE | grain X Y Z RADIUS FILM | plane NX NY NZ PX PY PZ | step S | steps N
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/Simulation/StateHash.h"
+
+using namespace pendular;
+
+namespace {
+
+struct FileScene : Simulation<> {
+    std::size_t steps = 0;
+
+    FileScene(const std::string& file, int threads) {
+        setQuiet();
+        setNumberOfThreads(threads);
+        setGravity({0, 0, -9.81});
+        std::ifstream lines(file);
+        for (std::string line; std::getline(lines, line);) read(line);
+    }
+
+private:
+    AnySpecies* species = nullptr;
+
+    static double number(std::istream& line) {
+        std::string word;
+        line >> word;
+        return std::strtod(word.c_str(), nullptr);  // which reads hexadecimal numbers, too
+    }
+    static Vec3D vector(std::istream& line) {
+        const double x = number(line), y = number(line), z = number(line);
+        return {x, y, z};
+    }
+    void read(const std::string& text) {
+        std::istringstream line(text);
+        std::string what, name;
+        line >> what;
+        if (what == "type") line >> name, species = speciesHandler.addByName(name);
+        if (what == "set") line >> name, species->set(name, number(line));
+        if (what == "step") setTimeStep(number(line));
+        if (what == "steps") steps = static_cast<std::size_t>(number(line));
+        if (what == "grain") {
+            SphericalParticle grain;
+            grain.setSpecies(species);
+            grain.setPosition(vector(line)), grain.setRadius(number(line)),
+                grain.setLiquidVolume(number(line));
+            particleHandler.copyAndAddObject(grain);
+        }
+        if (what == "plane") {
+            InfiniteWall plane;
+            plane.setSpecies(species);
+            const Vec3D normal = vector(line);
+            plane.set(normal, vector(line));
+            wallHandler.copyAndAddObject(plane);
+        }
+    }
+};
+
+}  // namespace
+
+int main(int, char** argv) {
+    return runProgram([&] {
+        const std::string file = argv[1], state = file + ".h5";
+        for (const int threads : {1, 2}) {
+            FileScene whole(file, threads);
+            whole.runSteps(whole.steps);
+            FileScene first(file, threads), second(file, threads);
+            first.runSteps(first.steps / 2);
+            first.writeRestart(state);
+            second.restartFrom(state);
+            second.runSteps(second.steps - second.steps / 2);
+            for (FileScene* scene : {&whole, &second})
+                fmt::print("{:016x}\n", stateHash(scene->particleHandler.store()));
+        }
+        return 0;
+    });
+}

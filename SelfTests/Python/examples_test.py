@@ -1,0 +1,45 @@
+"""The examples run, and give what they say. Those that take longer are in long_examples_test.py."""
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "Tools/Python/Examples"
+sys.path.insert(0, str(EXAMPLES))
+
+
+def run(name, *options):
+    done = subprocess.run([sys.executable, EXAMPLES / name, *options], capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_collision():
+    """Apart, the force is that of the bridge, which pulls and gets weaker; the grains are slower after it."""
+    pytest.importorskip("matplotlib")
+    from collision import collide
+
+    time, gap, force, speed = collide()
+    apart = gap > 0
+    after = time > time[np.argmax(force)]
+    bridged = apart & after & (force != 0)
+    assert (force[bridged] < 0).all() and (np.diff(np.abs(force[bridged])) < 0).all()
+    assert (force[apart & ~after] == 0).all()  # a bridge forms when they touch
+    assert 0 < speed[-1] < 0.7 * 0.5  # what the dashpot leaves, less the work of the bridge
+
+
+def test_restart(tmp_path):
+    pytest.importorskip("h5py")
+    words = run("restart.py", "--output", tmp_path).splitlines()[0].split()
+    assert words[1] == words[3]
+
+
+def test_study(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    from study import heap
+
+    run("study.py", "--output", tmp_path, "--only", "0", "--processes", "1")
+    row = pandas.read_csv(tmp_path / "study-0.csv").iloc[0]
+    assert row["hash"] == heap(0.0)["hash"]  # another process, the same bits

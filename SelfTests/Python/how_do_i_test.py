@@ -1,0 +1,39 @@
+"""Each snippet of Tools/Python/HOW-DO-I.md runs after the first one; each question of the page for C++ has an answer."""
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "Tools/Python/HOW-DO-I.md").read_text()
+# A Python script needs no project; the last one is about MercuryDPM's C++.
+ONLY_CPP = {"Write a driver outside this repository", "Port a driver from MercuryDPM", "Add an output of my own"}
+
+
+def sections():
+    for part in re.split(r"^### ", PAGE, flags=re.M)[1:]:
+        title, _, text = part.partition("\n")
+        code = "\n".join(re.findall(r"```python\n(.*?)```", text, flags=re.S))
+        if code:
+            yield pytest.param(code, id=title.replace(" ", "_"))
+
+
+FIRST = re.search(r"```python\n(.*?)```", PAGE, flags=re.S)[1]
+
+
+@pytest.mark.parametrize("code", sections())
+def test_snippet(code):
+    """It runs, and so does its scene behind it."""
+    names = {}
+    exec(compile(FIRST, "the first snippet", "exec"), names)
+    exec(compile(code, "the snippet", "exec"), names)
+    scene = names["scene"]
+    if not scene.has_ended:
+        scene.run(steps=5)
+        assert scene.steps >= 5
+
+
+def test_same_questions_as_for_cpp():
+    titles = set(re.findall(r"^### (.*)$", PAGE, flags=re.M))
+    cpp = set(re.findall(r"^### (.*)$", (ROOT / "Kernel/HOW-DO-I.md").read_text(), flags=re.M))
+    assert cpp - titles == ONLY_CPP

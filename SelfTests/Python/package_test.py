@@ -1,0 +1,56 @@
+"""What is around the module: the choice of the processor's level, documentation."""
+import pytest
+
+import pendular
+from pendular._choose import folder, levels
+
+V2 = "cx16 popcnt ssse3 sse4_1 sse4_2 "
+V3 = V2 + "avx avx2 bmi1 bmi2 f16c fma movbe abm "
+V4 = V3 + "avx512f avx512bw avx512cd avx512dq avx512vl "
+
+
+@pytest.mark.parametrize("flags, best", [(V4, "x86-64-v4"), (V3, "x86-64-v3"), (V3.replace("fma", ""), "x86-64-v2"),
+                                         (V2, "x86-64-v2"), (V4.replace("abm", ""), "x86-64-v2")])
+def test_level_of_the_processor(tmp_path, flags, best):
+    """Flags as /proc/cpuinfo has them; a level needs all before it."""
+    (tmp_path / "cpuinfo").write_text(f"processor : 0\nflags : fpu {flags}\n")
+    assert levels(str(tmp_path / "cpuinfo"))[0] == best
+
+
+def test_folder_of_the_module(tmp_path, monkeypatch):
+    monkeypatch.delenv("PENDULAR_LEVEL", raising=False)
+    (tmp_path / "cpuinfo").write_text(f"flags : {V4}\n")
+    cpuinfo = str(tmp_path / "cpuinfo")
+    assert folder(str(tmp_path), cpuinfo) is None  # a module of one build
+    (tmp_path / "x86-64-v3").mkdir()
+    (tmp_path / "x86-64-v2").mkdir()
+    assert folder(str(tmp_path), cpuinfo).endswith("x86-64-v3")
+    monkeypatch.setenv("PENDULAR_LEVEL", "x86-64-v2")
+    assert folder(str(tmp_path), cpuinfo).endswith("x86-64-v2")
+    monkeypatch.setenv("PENDULAR_LEVEL", "x86-64-v4")
+    with pytest.raises(ImportError, match="PENDULAR_LEVEL is x86-64-v4"):
+        folder(str(tmp_path), cpuinfo)
+    monkeypatch.delenv("PENDULAR_LEVEL")
+    (tmp_path / "cpuinfo").write_text("flags : fpu\n")
+    with pytest.raises(ImportError, match="none of them"):
+        folder(str(tmp_path), cpuinfo)
+
+
+def public(value):
+    return [getattr(value, name) for name in vars(value) if not name.startswith("_")]
+
+
+@pytest.mark.parametrize("name", [n for n in dir(pendular.Scene) if not n.startswith("_")])
+def test_everything_is_documented(name):
+    """More than the signature that pybind11 writes."""
+    text = getattr(pendular.Scene, name).__doc__ or ""
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith(f"{name}(")]
+    assert lines, name
+
+
+def test_names_are_those_of_python():
+    """No name of the kernel is left in what help() says: they are in small letters."""
+    import re
+    for value in public(pendular.Scene):
+        for word in re.findall(r"\b(?:set|get|add|keep|is|has)[A-Z]\w+", value.__doc__ or ""):
+            pytest.fail(f"{word} in {value}")

@@ -1,0 +1,75 @@
+# The Python package pendular, of Tools/Python/: in the build folder it is Python/pendular, so that
+# PYTHONPATH=build/release/Python finds it.
+
+set(PENDULAR_PYTHON_SPECIES "" CACHE STRING "Species that the Python module has besides the popular ones, by their names (a list)")
+set(PENDULAR_PYTHON_SHAPED_SPECIES HertzianViscoelasticMindlinSpecies LinearViscoelasticSlidingFrictionSpecies CACHE STRING
+    "Species of superquadrics and blocks in the Python module (a list): 10 s each to compile")
+
+set(pythonFolder "${PROJECT_SOURCE_DIR}/Tools/Python")
+set(pythonPackage "${PROJECT_BINARY_DIR}/Python/pendular")
+set(pythonGenerated "${PROJECT_BINARY_DIR}/Generated/Python")
+pendular_instantiate_species("${pythonGenerated}" PythonSpecies "${PENDULAR_PYTHON_SPECIES}" pythonSpeciesSources)
+list(JOIN PENDULAR_PYTHON_SHAPED_SPECIES ", " shapedSpecies)
+file(CONFIGURE OUTPUT "${pythonGenerated}/ShapedSpecies.h" @ONLY CONTENT [[
+#pragma once
+
+// Written by CMake from PENDULAR_PYTHON_SHAPED_SPECIES.
+
+#include "Kernel/Species/Laws.h"
+
+namespace pendular {
+
+using ShapedSpecies = TypeList<@shapedSpecies@>;
+
+}  // namespace pendular
+]])
+
+file(GLOB pythonSources CONFIGURE_DEPENDS "${pythonFolder}/*.cpp")
+file(GLOB_RECURSE kernelHeaders CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Kernel/*.h")
+add_custom_command(OUTPUT "${pythonGenerated}/Comments.cpp"
+    COMMAND "${Python_EXECUTABLE}" "${pythonFolder}/make-comments.py" "${pythonGenerated}/Comments.cpp"
+            "${PROJECT_SOURCE_DIR}/Kernel" ${pythonSources}
+    DEPENDS "${pythonFolder}/make-comments.py" ${pythonSources} ${kernelHeaders}
+    COMMENT "Taking what help() says from the kernel's comments" VERBATIM)
+
+pybind11_add_module(PendularPython MODULE NO_EXTRAS ${pythonSources} "${pythonGenerated}/Comments.cpp"
+                    ${pythonSpeciesSources})
+# Whole: a library of species that is loaded calls functions which the module itself does not.
+target_link_libraries(PendularPython PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,PendularKernel>")
+set_target_properties(PendularPython PROPERTIES OUTPUT_NAME _kernel LIBRARY_OUTPUT_DIRECTORY "${pythonPackage}")
+# Of the bindings alone, which compute nothing: half of the time of -O3.
+target_compile_options(PendularPython PRIVATE $<$<CONFIG:Release>:-O1>)
+add_warnings(PendularPython)
+if(PENDULAR_PRECOMPILED_HEADERS)
+    target_precompile_headers(PendularPython PRIVATE "${pythonFolder}/Bindings.h" <fmt/format.h>)
+    set_source_files_properties("${pythonGenerated}/Comments.cpp" PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+endif()
+
+# Its types, from the module itself.
+add_custom_command(TARGET PendularPython POST_BUILD
+    COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${pythonPackage}" PYTHONDONTWRITEBYTECODE=1
+            "${Python_EXECUTABLE}" "${pythonFolder}/make-stubs.py" "${pythonPackage}/_kernel.pyi"
+    COMMENT "Writing the types of the Python module" VERBATIM)
+
+# The files in Python: links, so that an edit is there at once.
+file(GLOB pythonFiles CONFIGURE_DEPENDS "${pythonFolder}/pendular/*")
+foreach(file IN LISTS pythonFiles)
+    cmake_path(GET file FILENAME name)
+    file(MAKE_DIRECTORY "${pythonPackage}")
+    file(CREATE_LINK "${file}" "${pythonPackage}/${name}" SYMBOLIC)
+endforeach()
+
+# Where Python finds it: in Debian's folder for packages below /usr, else in that of the prefix.
+if(Python_SITEARCH MATCHES "/dist-packages$")
+    set(pythonSite "lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/dist-packages")
+else()
+    set(pythonSite "lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/site-packages")
+endif()
+set(PENDULAR_PYTHON_SITE "${pythonSite}" CACHE STRING "Folder below the prefix in which the Python package is installed")
+set(PENDULAR_PYTHON_KERNEL_FOLDER "" CACHE STRING
+    "Folder in the package for the compiled module, where the package has several: x86-64-v2, -v3 and -v4 (Tools/make-package.sh)")
+install(TARGETS PendularPython LIBRARY DESTINATION "${PENDULAR_PYTHON_SITE}/pendular/${PENDULAR_PYTHON_KERNEL_FOLDER}"
+        COMPONENT python OPTIONAL)
+install(FILES ${pythonFiles} DESTINATION "${PENDULAR_PYTHON_SITE}/pendular" COMPONENT python)
+install(FILES "${pythonPackage}/_kernel.pyi" DESTINATION "${PENDULAR_PYTHON_SITE}/pendular" COMPONENT python OPTIONAL)
+install(DIRECTORY "${pythonFolder}/Examples" DESTINATION share/pendular COMPONENT python)

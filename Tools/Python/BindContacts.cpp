@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Output/SceneFields.h"
+#include "Kernel/Species/LawNames.h"
+#include "Tools/Python/Bindings.h"
+
+namespace pendular::python {
+
+namespace {
+
+py::dict contacts(const PythonScene& scene) {
+    PolyData lines;
+    {
+        const py::gil_scoped_release others;
+        const Scene& of = scene.scene();
+        lines = contactLines<double>(of.contacts(), of.particleHandler.store(), of.laws(), true);
+    }
+    py::dict made;
+    for (PolyDataField& field : lines.cellFields) made[py::str(field.name)] = arrayOf(std::move(field));
+    return made;
+}
+
+py::dict takeEvents(PythonScene& scene) {
+    const std::size_t count = scene.events.size();
+    std::vector<double> time(count);
+    std::vector<std::int64_t> first(count), second(count), wall(count), kind(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto& [when, event] = scene.events[k];
+        time[k] = when, first[k] = event.particle1;
+        second[k] = event.particle2 == ContactEvent::none ? -1 : event.particle2;
+        wall[k] = event.wall, kind[k] = static_cast<std::int64_t>(event.kind);
+    }
+    scene.events.clear();
+    py::dict made;
+    made["time_s"] = arrayOf(std::move(time));
+    made["particle1"] = arrayOf(std::move(first)), made["particle2"] = arrayOf(std::move(second));
+    made["wall"] = arrayOf(std::move(wall)), made["kind"] = arrayOf(std::move(kind));
+    return made;
+}
+
+ContactColumnReference& columnNamed(PythonScene& scene, const std::string& name) {
+    const auto found = scene.contactColumns.find(name);
+    if (found != scene.contactColumns.end()) return found->second;
+    std::vector<std::string_view> names;
+    for (const auto& [known, column] : scene.contactColumns) names.push_back(known);
+    if (names.empty())
+        throw InputError("Contacts have no columns of their own; add one with add_contact_column().");
+    unknownName("column of contacts", name, names);
+}
+
+void setColumn(PythonScene& scene, const std::string& name, const ArrayLike& values) {
+    ContactColumnReference& column = columnNamed(scene, name);
+    const std::vector<ObservedContact> seen = scene.scene().interactions();
+    const PerGrain rows(values, name, 1, static_cast<py::ssize_t>(seen.size()));
+    for (std::size_t k = 0; k < seen.size(); ++k) column[seen[k]] = rows.number(static_cast<py::ssize_t>(k));
+}
+
+}  // namespace
+
+void bindContacts(SceneClass& scene) {
+    scene
+        .def("contacts", &contacts,
+             "Columns of all contacts that have a force, in the order of identities, as of the last step, by "
+             "the names "
+             "that they have in the HDF5 files: particle1, particle2 (-1 at a wall), wall (-1 between "
+             "grains), "
+             "force_N (on particle1, N x 3), normal_force_N, adhesive_force_N, overlap_m, contact_point_m, "
+             "...")
+        .def(
+            "listen_to_contacts", [](PythonScene& s, bool listen) { s.scene().listenToContacts(listen); },
+            py::arg("listen") = true, comment("Scene::listenToContacts"))
+        .def("take_events", &takeEvents,
+             "Columns of the contact events since they were last taken: time_s, particle1, particle2 (-1 at "
+             "a wall), "
+             "wall (-1 between grains), kind (0: a touch begins, 1: it ends, 2: a bridge forms, 3: it "
+             "ruptures). "
+             "After listen_to_contacts().")
+        .def(
+            "event_counts",
+            [](const PythonScene& s) {
+                const ContactEventCounts& counts = s.scene().contactEventCounts();
+                py::dict made;
+                made["touches_begun"] = counts.touchesBegun, made["touches_ended"] = counts.touchesEnded;
+                made["bridges_formed"] = counts.bridgesFormed,
+                made["bridges_ruptured"] = counts.bridgesRuptured;
+                return made;
+            },
+            comment("ContactEventCounts"))
+        .def(
+            "add_contact_column",
+            [](PythonScene& s, const std::string& name, const std::string& unit, double initial) {
+                s.contactColumns.insert_or_assign(name, s.scene().addContactColumn(name, unit, initial));
+            },
+            py::arg("name"), py::arg("unit") = "", py::arg("initial") = 0.0,
+            comment("Scene::addContactColumn"))
+        .def("set_contact_column", &setColumn, py::arg("name"), py::arg("values"),
+             "Sets what add_contact_column() keeps: one number, or one for each row of contacts(), which has "
+             "it as "
+             "NAME_UNIT.");
+}
+
+}  // namespace pendular::python

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include "Kernel/CoarseGraining/Clusters.h"
+#include "Kernel/CoarseGraining/FieldFiles.h"
+#include "Kernel/CoarseGraining/FieldOutput.h"
+#include "Kernel/CoarseGraining/MeanStress.h"
+#include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Species/LawNames.h"
+#include "Tools/Python/Bindings.h"
+
+namespace pendular::python {
+
+namespace {
+
+GrainGroups groupsNamed(const std::optional<std::string>& by, std::size_t species) {
+    if (!by) return GrainGroups::none();
+    if (*by == "species") return GrainGroups::bySpecies(species);
+    unknownName("groups of fields", *by, {"species"});
+}
+
+/// How many species the grains have.
+std::size_t speciesIn(const Scene& scene) {
+    std::size_t count = 1;
+    for (const std::uint16_t species : scene.particleHandler.store().species)
+        count = std::max<std::size_t>(count, species + 1);
+    return count;
+}
+
+py::dict fields(const PythonScene& scene, const std::string& coordinates, const Vec3D& lowest,
+                const Vec3D& highest, double spacing, double width, const std::string& kernel,
+                bool withContacts, const std::optional<std::string>& by) {
+    const FieldGrid grid(coordinates, toVector(lowest), toVector(highest), spacing);
+    const SmoothingKernel weight(kernelShapeNamed(kernel), grid.dimensions(), width);
+    const FieldContent content = withContacts ? FieldContent::All : FieldContent::WithoutContacts;
+    FieldSums sums(grid, weight, groupsNamed(by, speciesIn(scene.scene())), content);
+    {
+        const py::gil_scoped_release others;
+        GrainState state;
+        takeState(scene.scene(), state, content);
+        sums.add(state, scene.scene().getNumberOfThreads());
+    }
+    py::dict made;
+    std::vector<py::ssize_t> shape;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!grid.isResolved(axis)) continue;
+        std::vector<double> places;
+        for (std::size_t k = 0; k < grid.counts()[axis]; ++k) places.push_back(grid.at(axis, k));
+        shape.push_back(static_cast<py::ssize_t>(places.size()));
+        made[py::str(fmt::format("{}_m", grid.nameOf(axis)))] = arrayOf(std::move(places));
+    }
+    for (PolyDataField& field : fieldsOf(sums)) {
+        std::vector<py::ssize_t> whole = shape;
+        if (field.components == 9) whole.insert(whole.end(), {3, 3});
+        else if (field.components > 1) whole.push_back(static_cast<py::ssize_t>(field.components));
+        const py::str name(field.name);
+        made[name] = arrayOf(std::move(field)).attr("reshape")(py::tuple(py::cast(whole)));
+    }
+    return made;
+}
+
+py::dict meanStressOf(const PythonScene& scene, std::optional<double> volume) {
+    const MeanStress stress = volume ? meanStress(scene.scene(), *volume) : meanStress(scene.scene());
+    py::dict made;
+    made["total_Pa"] = arrayOf(stress.total()), made["kinetic_Pa"] = arrayOf(stress.kinetic);
+    made["contact_Pa"] = arrayOf(stress.contact), made["capillary_Pa"] = arrayOf(stress.capillary);
+    made["viscous_Pa"] = arrayOf(stress.viscous), made["pressure_Pa"] = stress.pressure();
+    return made;
+}
+
+/// For each grain the number of its cluster, the largest first; and the size of each.
+py::dict clusters(const PythonScene& scene, std::optional<double> distance) {
+    const Clusters found =
+        distance ? clustersWithin(scene.scene(), *distance) : clustersOfContacts(scene.scene());
+    std::vector<std::int64_t> of(found.of.begin(), found.of.end()), sizes;
+    for (const Cluster& cluster : found.list) sizes.push_back(static_cast<std::int64_t>(cluster.size));
+    py::dict made;
+    made["cluster"] = arrayOf(std::move(of)), made["size"] = arrayOf(std::move(sizes));
+    return made;
+}
+
+py::dict energies(const PythonScene& scene) {
+    const EnergyLedger& ledger = scene.scene().energyLedger();
+    py::dict made;
+    for (const EnergyLedger::Entry& entry : EnergyLedger::entries())
+        made[py::str(fmt::format("{}_J", entry.name))] = ledger.*entry.member;
+    return made;
+}
+
+void writeFields(PythonScene& scene, const std::string& coordinates, const Vec3D& lowest,
+                 const Vec3D& highest, double spacing, double width, double interval, double average,
+                 const std::string& kernel, bool withContacts, bool againstFlow, bool hdf5,
+                 const std::string& name) {
+    FieldOutput output(FieldGrid(coordinates, toVector(lowest), toVector(highest), spacing),
+                       kernelShapeNamed(kernel), width);
+    output.withInterval(interval).averagedOver(average).withName(name);
+    if (!withContacts) output.withoutContacts();
+    if (againstFlow) output.againstFlow();
+    if (hdf5) output.asHdf5();
+    scene.scene().addOutput(std::move(output));
+}
+
+}  // namespace
+
+void bindFields(SceneClass& scene) {
+    scene
+        .def("fields", &fields, py::arg("coordinates"), py::arg("lowest"), py::arg("highest"),
+             py::arg("spacing"), py::arg("width"), py::kw_only(), py::arg("kernel") = "gauss",
+             py::arg("contacts") = true, py::arg("by") = py::none(),
+             "Density, velocity, stress and others at the points of a grid, as of the last step.\n\n"
+             "coordinates: those that are resolved (O, X, Y, Z, XY, XZ, YZ, XYZ, R, RZ); over the others of "
+             "the box "
+             "from lowest to highest (m) is averaged. spacing: m, between points. width: m, of the kernel "
+             "(gauss, lucy, "
+             "heaviside). by='species': also of each. Returns x_m, y_m, z_m of the points, and the fields by "
+             "the "
+             "names that they have in the files of write_fields(): an axis for each coordinate, then vectors "
+             "and "
+             "tensors. Stress is positive in compression.")
+        .def("mean_stress", &meanStressOf, py::arg("volume") = py::none(), comment("MeanStress"))
+        .def("clusters", &clusters, py::arg("distance") = py::none(),
+             "cluster: for each grain the number of its cluster, from the largest on; size: of each cluster, "
+             "in "
+             "grains. Grains are joined that touch or have a bridge, or, with a distance (m), whose centres "
+             "are nearer.")
+        .def(
+            "keep_energy_ledger", [](PythonScene& s) { s.scene().keepEnergyLedger(); },
+            comment("Scene::keepEnergyLedger"))
+        .def("energy", &energies, comment("EnergyLedger"))
+        .def_property_readonly(
+            "kinetic_energy", [](const PythonScene& s) { return s.scene().getKineticEnergy(); },
+            "J, of the centres of the grains that can move")
+        .def_property_readonly(
+            "rotational_energy", [](const PythonScene& s) { return s.scene().getRotationalEnergy(); }, "J")
+        .def_property_readonly(
+            "total_mass", [](const PythonScene& s) { return s.scene().getTotalMass(); },
+            "kg, of the grains that can move")
+        .def_property_readonly(
+            "centre_of_mass", [](const PythonScene& s) { return s.scene().getCentreOfMass(); }, "m")
+        .def_property_readonly(
+            "momentum", [](const PythonScene& s) { return s.scene().getTotalMomentum(); }, "kg m/s")
+        .def("write_fields", &writeFields, py::arg("coordinates"), py::arg("lowest"), py::arg("highest"),
+             py::arg("spacing"), py::arg("width"), py::kw_only(), py::arg("interval"),
+             py::arg("average") = 0.0, py::arg("kernel") = "gauss", py::arg("contacts") = true,
+             py::arg("against_flow") = false, py::arg("hdf5") = false, py::arg("name") = "coarse",
+             comment("FieldOutput"));
+}
+
+}  // namespace pendular::python

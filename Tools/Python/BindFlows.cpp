@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include "Kernel/Sizes/SizeDistribution.h"
+#include "Tools/Python/Bindings.h"
+#include "Tools/Python/Insertable.h"
+#include "Tools/Python/WallHandle.h"
+
+namespace pendular::python {
+
+namespace {
+
+std::size_t addInlet(PythonScene& scene, const SpeciesHandle& species, const SizeDistribution& sizes,
+                     const AnyRegion& region, std::optional<double> massFlow,
+                     std::optional<double> numberFlow, const std::optional<AnyShape>& shape,
+                     const Vec3D& velocity, const Vec3D& spin, double film, double start, double end,
+                     bool lost, std::uint64_t seed, bool wholeGrains,
+                     const std::optional<std::tuple<Vec3D, double, double>>& followsFill,
+                     const std::optional<WallHandle>& followsWall) {
+    if (massFlow.has_value() + numberFlow.has_value() != 1)
+        throw InputError("add_inlet() takes one of mass_flow (kg/s) and number_flow (1/s).");
+    BodyMixture mixture;
+    addTo(mixture, {species, shape, velocity, spin, film}, sizes, 1);
+    Inlet inlet;
+    region.giveTo(inlet);
+    inlet.setBodies(mixture);
+    if (massFlow) inlet.setMassFlow(*massFlow);
+    else inlet.setNumberFlow(*numberFlow);
+    if (start > 0 || end < infinity) inlet.setTimes(start, end);
+    inlet.setNoRoom(lost ? NoRoom::Lost : NoRoom::Later);
+    inlet.setSeed(seed), inlet.setWholeGrains(wholeGrains);
+    if (followsFill) {
+        const auto& [direction, step, most] = *followsFill;
+        inlet.setFollowsFill(direction, step, most);
+    }
+    if (followsWall) inlet.setFollowsWall(followsWall->number);
+    return scene.scene().inletHandler.copyAndAddObject(inlet);
+}
+
+std::size_t addOutlet(PythonScene& scene, const std::optional<AnyRegion>& region,
+                      const std::optional<Vec3D>& normal, const std::optional<Vec3D>& point,
+                      const std::optional<ArrayLike>& sizeClasses, double leastAge,
+                      std::optional<py::function> condition) {
+    if (region.has_value() == (normal && point))
+        throw InputError("add_outlet() takes a region, or the normal and a point (m) of a plane.");
+    Outlet outlet;
+    if (region) region->giveTo(outlet);
+    else outlet.setPlane(*normal, *point);
+    if (sizeClasses) {
+        const Doubles borders = rowsOf(*sizeClasses, "size_classes", 1);
+        outlet.setSizeClasses({borders.data(), static_cast<std::size_t>(borders.size())});
+    }
+    if (leastAge > 0) outlet.setLeastAge(leastAge);
+    if (condition)
+        outlet.setCondition([kept = shared(std::move(*condition))](const GrainReference& grain) {
+            const py::gil_scoped_acquire python;
+            return (*kept)(grain.getId()).cast<bool>();
+        });
+    return scene.scene().outletHandler.copyAndAddObject(outlet);
+}
+
+py::dict inlet(const PythonScene& scene, std::size_t number) {
+    const InletCount& count = scene.scene().inletHandler.countOf(number);
+    py::dict made;
+    made["number"] = count.number, made["mass_kg"] = count.mass, made["lost"] = count.lost;
+    made["waits"] = count.waits;
+    return made;
+}
+
+py::dict outlet(const PythonScene& scene, std::size_t number) {
+    const GrainTally& tally = scene.scene().outletHandler.countOf(number);
+    std::vector<std::int64_t> numbers;
+    std::vector<double> masses;
+    for (std::size_t species = 0; species < tally.speciesCount(); ++species)
+        for (std::size_t size = 0; size < tally.classCount(); ++size) {
+            numbers.push_back(static_cast<std::int64_t>(tally.of(species, size).number));
+            masses.push_back(tally.of(species, size).mass);
+        }
+    const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(tally.speciesCount()),
+                                         static_cast<py::ssize_t>(tally.classCount())};
+    py::dict made;
+    made["number"] = tally.all().number, made["mass_kg"] = tally.all().mass;
+    made["number_of"] = arrayOf(std::move(numbers), shape),
+    made["mass_of_kg"] = arrayOf(std::move(masses), shape);
+    return made;
+}
+
+py::dict flux(const PythonScene& scene, std::size_t number) {
+    const FluxCount& count = scene.scene().fluxPlaneHandler.countOf(number);
+    py::dict made;
+    made["forwards"] = count.forwards, made["backwards"] = count.backwards;
+    made["mass_forwards_kg"] = count.massForwards, made["mass_backwards_kg"] = count.massBackwards;
+    made["net"] = count.net(), made["net_mass_kg"] = count.netMass();
+    made["net_momentum_kg_m_per_s"] = arrayOf(count.netMomentum()), made["net_liquid_m3"] = count.netLiquid();
+    return made;
+}
+
+}  // namespace
+
+void bindFlows(SceneClass& scene) {
+    scene
+        .def("add_inlet", &addInlet, py::arg("species"), py::arg("sizes"), py::arg("region"), py::kw_only(),
+             py::arg("mass_flow") = py::none(), py::arg("number_flow") = py::none(),
+             py::arg("shape") = py::none(), py::arg("velocity") = Vec3D(0, 0, 0),
+             py::arg("spin") = Vec3D(0, 0, 0), py::arg("film") = 0.0, py::arg("start") = 0.0,
+             py::arg("end") = infinity, py::arg("lost") = false, py::arg("seed") = 1,
+             py::arg("whole_grains") = true, py::arg("follows_fill") = py::none(),
+             py::arg("follows_wall") = py::none(), comment("Inlet"))
+        .def("inlet", &inlet, py::arg("number"), comment("InletCount"))
+        .def("add_outlet", &addOutlet, py::kw_only(), py::arg("region") = py::none(),
+             py::arg("normal") = py::none(), py::arg("point") = py::none(),
+             py::arg("size_classes") = py::none(), py::arg("least_age") = 0.0,
+             py::arg("condition") = py::none(), comment("Outlet"))
+        .def("outlet", &outlet, py::arg("number"),
+             "What has gone through an outlet: number and mass_kg; and by species and class of size, "
+             "number_of and "
+             "mass_of_kg.")
+        .def(
+            "add_flux_plane",
+            [](PythonScene& s, const Vec3D& normal, const Vec3D& point) {
+                return s.scene().fluxPlaneHandler.copyAndAddObject({normal, point});
+            },
+            py::arg("normal"), py::arg("point"), comment("FluxPlaneHandler"))
+        .def("flux", &flux, py::arg("number"), comment("FluxCount"));
+}
+
+}  // namespace pendular::python

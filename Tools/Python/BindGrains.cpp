@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include "Kernel/Particles/GrainFile.h"
+#include "Tools/Python/Bindings.h"
+
+namespace pendular::python {
+
+namespace {
+
+HeldAxes axesNamed(const std::string& axes) {
+    HeldAxes held;
+    const std::pair<std::string_view, bool HeldAxes::*> known[] = {{"x", &HeldAxes::x},
+                                                                   {"y", &HeldAxes::y},
+                                                                   {"z", &HeldAxes::z},
+                                                                   {"about_x", &HeldAxes::aboutX},
+                                                                   {"about_y", &HeldAxes::aboutY},
+                                                                   {"about_z", &HeldAxes::aboutZ}};
+    std::string_view left = axes;
+    while (!left.empty()) {
+        const std::string_view word = left.substr(0, left.find(' '));
+        left.remove_prefix(std::min(left.size(), word.size() + 1));
+        if (word.empty()) continue;
+        const auto* const found =
+            std::ranges::find(known, word, &std::pair<std::string_view, bool HeldAxes::*>::first);
+        if (found == std::end(known))
+            throw InputError(
+                fmt::format("held axis '{}'; there are x, y, z, about_x, about_y and about_z.", word));
+        held.*found->second = true;
+    }
+    return held;
+}
+
+py::array add(PythonScene& scene, const SpeciesHandle& species, const ArrayLike& position,
+              const ArrayLike& radius, const ArrayLike& velocity, const ArrayLike& spin,
+              const ArrayLike& film, bool fixed, const std::string& held) {
+    scene.requireNoViews();
+    const Doubles places = rowsOf(position, "position", 3);
+    const py::ssize_t count = places.size() == 0 ? 0 : places.shape(0);
+    const PerGrain radii(radius, "radius", 1, count), velocities(velocity, "velocity", 3, count),
+        spins(spin, "spin", 3, count), films(film, "film", 1, count);
+    const HeldAxes axes = fixed ? HeldAxes::all() : axesNamed(held);
+    ParticleHandler& grains = scene.scene().particleHandler;
+    std::vector<SphericalParticle> checked(
+        static_cast<std::size_t>(count));  // all, before the first is added
+    const double* place = places.data();
+    for (py::ssize_t k = 0; k < count; ++k, place += 3) {
+        SphericalParticle& grain = checked[static_cast<std::size_t>(k)];
+        grain.setSpecies(&species);
+        grain.setRadius(radii.number(k)), grain.setPosition({place[0], place[1], place[2]});
+        if (axes != HeldAxes{}) grain.setHeldAxes(axes);
+        grain.setVelocity(velocities.vector(k)), grain.setAngularVelocity(spins.vector(k));
+        grain.setLiquidVolume(films.number(k));
+    }
+    grains.reserve(grains.getSize() + checked.size());
+    std::vector<std::int64_t> identities;
+    identities.reserve(checked.size());
+    for (const SphericalParticle& grain : checked)
+        identities.push_back(grains.copyAndAddObject(grain).getId());
+    return arrayOf(std::move(identities));
+}
+
+void remove(PythonScene& scene, const ArrayLike& identities) {
+    scene.requireNoViews();
+    ParticleHandler& grains = scene.scene().particleHandler;
+    const std::vector<std::uint32_t> gone = identitiesOf(identities, "identities");
+    for (const std::uint32_t identity : gone) static_cast<void>(grains.getObject(identity));  // all or none
+    for (const std::uint32_t identity : gone) grains.removeObject(identity);
+}
+
+void addFromFile(PythonScene& scene, const std::vector<SpeciesHandle>& types,
+                 const std::filesystem::path& file, std::optional<std::int64_t> step) {
+    scene.requireNoViews();
+    std::vector<SphericalParticle> ofTypes(types.size());
+    for (std::size_t k = 0; k < types.size(); ++k) ofTypes[k].setSpecies(&types[k]);
+    addGrains(scene.scene().particleHandler, readGrainFile(file, step), ofTypes);
+}
+
+}  // namespace
+
+void bindGrains(SceneClass& scene) {
+    scene
+        .def("add_grains", &add, py::arg("species"), py::arg("position"), py::arg("radius"), py::kw_only(),
+             py::arg("velocity") = py::make_tuple(0, 0, 0), py::arg("spin") = py::make_tuple(0, 0, 0),
+             py::arg("film") = 0.0, py::arg("fixed") = false, py::arg("held") = "",
+             "Adds grains, at set-up or between steps; returns their identities.\n\n"
+             "position: N x 3, m. radius: m, one or N. velocity (m/s), spin (rad/s): three numbers, or N x "
+             "3. film: "
+             "m^3 of liquid, one or N, where liquid moves. fixed: held in place, and moved by velocity and "
+             "spin "
+             "alone. held: axes along and about which they are held, as 'z about_x about_y'. Raises "
+             "InputError, "
+             "and adds none then.")
+        .def("remove_grains", &remove, py::arg("identities"), comment("ParticleHandler::removeObject"))
+        .def("add_grains_of_file", &addFromFile, py::arg("species"), py::arg("file"),
+             py::arg("step") = py::none(), comment("readGrainFile"))
+        .def(
+            "write_grains",
+            [](PythonScene& s, const std::filesystem::path& file) {
+                std::vector<GrainRow> rows;
+                for (const GrainReference grain : s.scene().particleHandler)
+                    rows.push_back({grain.getRadius(), grain.getPosition()});
+                writeGrainFile(file, rows);
+            },
+            py::arg("file"), comment("writeGrainFile"))
+        .def(
+            "hold",
+            [](PythonScene& s, const ArrayLike& identities, const std::string& axes) {
+                const HeldAxes held = axes == "all" ? HeldAxes::all() : axesNamed(axes);
+                for (const std::uint32_t identity : identitiesOf(identities, "identities"))
+                    s.scene().particleHandler.getObject(identity).setHeldAxes(held);
+            },
+            py::arg("identities"), py::arg("axes") = "all", comment("GrainReference::setHeldAxes"))
+        .def(
+            "set_species",
+            [](PythonScene& s, const ArrayLike& identities, const SpeciesHandle& species) {
+                for (const std::uint32_t identity : identitiesOf(identities, "identities"))
+                    s.scene().particleHandler.getObject(identity).setSpecies(&species);
+            },
+            py::arg("identities"), py::arg("species"), "Gives grains another material, also during a run.")
+        .def("__len__", [](const PythonScene& s) { return s.scene().particleHandler.getSize(); });
+}
+
+}  // namespace pendular::python

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include "Kernel/Boundaries/Spray.h"
+#include "Kernel/Contacts/Evaporation.h"
+#include "Tools/Python/Bindings.h"
+
+namespace pendular::python {
+
+namespace {
+
+std::size_t addSpray(PythonScene& scene, double flow, double dropletRadius, double speed, const Vec3D& nozzle,
+                     const Vec3D& direction, std::optional<double> coneAngle, std::optional<double> fanAngle,
+                     const std::optional<Vec3D>& across, const std::optional<Vec3D>& edge1,
+                     const std::optional<Vec3D>& edge2, double volumeSpread, double start, double end,
+                     double liquidDensity, std::uint64_t seed) {
+    const bool isRain = edge1 && edge2, isFan = fanAngle && across;
+    if (isRain + isFan + coneAngle.has_value() != 1)
+        throw InputError(
+            "add_spray() takes cone_angle (rad), or fan_angle (rad) and across, or edge1 and edge2 (m) of a "
+            "rain.");
+    Spray spray;
+    if (isRain) spray.setRain(nozzle, *edge1, *edge2, direction);
+    else if (isFan) spray.setFlatFan(nozzle, direction, *across, *fanAngle);
+    else spray.setCone(nozzle, direction, *coneAngle);
+    spray.setFlow(flow), spray.setDropletRadius(dropletRadius), spray.setSpeed(speed);
+    if (volumeSpread > 0) spray.setVolumeSpread(volumeSpread);
+    if (start > 0 || end < infinity) spray.setTimes(start, end);
+    if (liquidDensity > 0) spray.setMomentum(liquidDensity);
+    spray.setSeed(seed);
+    return scene.scene().sprayHandler.copyAndAddObject(spray);
+}
+
+void setEvaporation(PythonScene& scene, std::optional<double> flux, std::optional<double> massTransfer,
+                    std::optional<double> saturatedVapour, std::optional<double> liquidDensity,
+                    double humidity, std::optional<double> molarVolume, std::optional<double> temperature,
+                    std::size_t interval, double start) {
+    Evaporation law;
+    if (flux.has_value() == massTransfer.has_value())
+        throw InputError("set_evaporation() takes one of flux (m/s) and mass_transfer (m/s).");
+    if (flux) law.setFlux(*flux);
+    else
+        law.setMassTransfer(*massTransfer, saturatedVapour.value_or(unset), liquidDensity.value_or(unset),
+                            humidity);
+    if (molarVolume || temperature) law.setKelvin(molarVolume.value_or(unset), temperature.value_or(unset));
+    law.setInterval(interval), law.setStartTime(start);
+    scene.scene().setEvaporation(law);
+}
+
+py::dict ledger(const PythonScene& scene) {
+    const LiquidLedger ledger = scene.scene().liquidLedger();
+    py::dict made;
+    made["films_m3"] = ledger.films, made["bridges_m3"] = ledger.bridges, made["walls_m3"] = ledger.walls;
+    made["removed_m3"] = ledger.removed, made["airborne_m3"] = ledger.airborne, made["lost_m3"] = ledger.lost;
+    made["evaporated_m3"] = ledger.evaporated, made["initial_m3"] = ledger.initial;
+    made["absorbed_m3"] = ledger.absorbed, made["emitted_m3"] = ledger.emitted;
+    made["unaccounted_m3"] = ledger.unaccounted();
+    return made;
+}
+
+}  // namespace
+
+void bindLiquid(SceneClass& scene) {
+    scene
+        .def("add_spray", &addSpray, py::kw_only(), py::arg("flow"), py::arg("droplet_radius"),
+             py::arg("speed"), py::arg("nozzle"), py::arg("direction"), py::arg("cone_angle") = py::none(),
+             py::arg("fan_angle") = py::none(), py::arg("across") = py::none(), py::arg("edge1") = py::none(),
+             py::arg("edge2") = py::none(), py::arg("volume_spread") = 0.0, py::arg("start") = 0.0,
+             py::arg("end") = infinity, py::arg("liquid_density") = 0.0, py::arg("seed") = 1,
+             comment("Spray"))
+        .def("set_evaporation", &setEvaporation, py::kw_only(), py::arg("flux") = py::none(),
+             py::arg("mass_transfer") = py::none(), py::arg("saturated_vapour") = py::none(),
+             py::arg("liquid_density") = py::none(), py::arg("humidity") = 0.0,
+             py::arg("molar_volume") = py::none(), py::arg("temperature") = py::none(),
+             py::arg("interval") = 100, py::arg("start") = 0.0, comment("Evaporation"))
+        .def(
+            "set_liquid_to_come", [](PythonScene& s, double volume) { s.scene().setLiquidToCome(volume); },
+            py::arg("volume"), comment("Scene::setLiquidToCome"))
+        .def(
+            "set_liquid_density", [](PythonScene& s, double density) { s.scene().setLiquidDensity(density); },
+            py::arg("density"), comment("Scene::setLiquidDensity"))
+        .def("liquid", &ledger, comment("LiquidLedger"))
+        .def(
+            "droplets_of",
+            [](const PythonScene& s, std::size_t spray) { return s.scene().sprayHandler.countOf(spray); },
+            py::arg("spray"), comment("SprayHandler::countOf"))
+        .def(
+            "droplets",
+            [](const PythonScene& s) {
+                std::vector<Vector<double>> places, velocities;
+                std::vector<double> radii;
+                for (const Droplet& droplet : s.scene().sprayHandler.droplets()) {
+                    places.push_back(droplet.position), velocities.push_back(droplet.velocity);
+                    radii.push_back(droplet.radius);
+                }
+                py::dict made;
+                made["position_m"] = arrayOf(std::move(places));
+                made["velocity_m_per_s"] = arrayOf(std::move(velocities));
+                made["radius_m"] = arrayOf(std::move(radii));
+                return made;
+            },
+            "Columns of the droplets in flight.")
+        .def(
+            "join_at_start", [](PythonScene& s, double gap) { s.scene().joinAtStart(gap); }, py::arg("gap"),
+            comment("Scene::joinAtStart"));
+}
+
+}  // namespace pendular::python

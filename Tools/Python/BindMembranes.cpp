@@ -1,0 +1,147 @@
+#include "Kernel/Species/LawNames.h"
+#include "Kernel/Walls/Membrane.h"
+#include "Kernel/Walls/TriangleWall.h"
+#include "Tools/Python/Bindings.h"
+#include "Tools/Python/WallHandle.h"
+
+namespace pendular::python {
+
+namespace {
+
+WallHandle addMembrane(PythonScene& scene, const SpeciesHandle& species, const py::object& mesh,
+                       const MembraneMaterial& material, double scale, bool holdRim, double pressure,
+                       double damping) {
+    Membrane membrane;
+    membrane.set(trianglesOf(mesh, scale), material);
+    if (holdRim) membrane.holdRim();
+    if (pressure != 0) membrane.setPressure(pressure);
+    if (damping != 0) membrane.setDamping(damping);
+    return addWall(scene, species, membrane, false);
+}
+
+py::array cornersOf(const std::vector<Triangle>& triangles) {
+    std::vector<Vector<double>> corners;
+    for (const Triangle& triangle : triangles)
+        corners.insert(corners.end(), triangle.begin(), triangle.end());
+    const auto count = static_cast<py::ssize_t>(triangles.size());
+    return arrayOf(std::move(corners)).attr("reshape")(count, 3, 3);
+}
+
+/// The vertices for which a function of Python is true.
+void hold(const WallHandle& wall, const py::function& where, const Vec3D& velocity) {
+    wall.as<Membrane>("vertices")
+        .hold([&](const Vec3D& place) { return where(place).cast<bool>(); }, velocity);
+}
+
+template <class Of>
+py::array vertices(const WallHandle& wall, Of&& of) {
+    const Membrane& membrane = wall.as<Membrane>("vertices");
+    std::vector<Vector<double>> rows;
+    for (std::size_t k = 0; k < membrane.getNet().vertices().size(); ++k)
+        rows.push_back(toVector(of(membrane, k)));
+    return arrayOf(std::move(rows));
+}
+
+WearLaw wearLaw(const std::string& law, const py::kwargs& given) {
+    const auto value = [&](const char* name) {
+        if (!given.contains(name))
+            throw InputError(std::string("keep_wear('") + law + "') needs " + name + ".");
+        return given[name].cast<double>();
+    };
+    if (law == "none") return WearLaw::none();
+    if (law == "reye") return WearLaw::reye(value("factor"));
+    if (law == "archard") return WearLaw::archard(value("coefficient"), value("hardness"));
+    if (law == "finnie") return WearLaw::finnie(value("cutting_share"), value("flow_stress"));
+    unknownName("law of wear", law, {"none", "reye", "archard", "finnie"});
+}
+
+void keepWear(const WallHandle& wall, const std::string& law, std::optional<double> interval,
+              double acceleration, const py::kwargs& values) {
+    TriangleWall& mesh = wall.as<TriangleWall>("wear");
+    if (!interval) return mesh.keepWear(wearLaw(law, values));
+    mesh.keepWear(wearLaw(law, values), {.interval = *interval, .acceleration = acceleration});
+}
+
+py::dict wear(const WallHandle& wall) {
+    const WornTriangles& worn = wall.as<TriangleWall>("wear").getWear();
+    const auto column = [&](double SurfaceWear::*what) {
+        std::vector<double> numbers;
+        for (std::size_t k = 0; k < worn.size(); ++k) numbers.push_back(worn.of(k).*what);
+        return arrayOf(std::move(numbers));
+    };
+    py::dict made;
+    made["sliding_work_J"] = column(&SurfaceWear::slidingWork);
+    made["impact_work_J"] = column(&SurfaceWear::impactWork);
+    made["impacts"] = column(&SurfaceWear::impacts);
+    made["worn_volume_m3"] = column(&SurfaceWear::volume);
+    made["area_m2"] = column(&SurfaceWear::area);
+    return made;
+}
+
+}  // namespace
+
+void bindMembranes(py::module_& module, SceneClass& scene) {
+    auto wall = py::class_<WallHandle>(module.attr("Wall"));
+    wall.def("hold", &hold, py::arg("where"), py::arg("velocity") = Vec3D(0, 0, 0), comment("Membrane::hold"))
+        .def(
+            "hold_rim", [](const WallHandle& w, const Vec3D& v) { w.as<Membrane>("rim").holdRim(v); },
+            py::arg("velocity") = Vec3D(0, 0, 0), comment("Membrane::holdRim"))
+        .def(
+            "set_pressure", [](const WallHandle& w, double p) { w.as<Membrane>("pressure").setPressure(p); },
+            py::arg("pressure"), comment("Membrane::setPressure"))
+        .def_property_readonly(
+            "volume", [](const WallHandle& w) { return w.as<Membrane>("volume").getVolume(); },
+            comment("Membrane::getVolume"))
+        .def_property_readonly(
+            "vertices",
+            [](const WallHandle& w) {
+                return vertices(w, [](const Membrane& m, std::size_t k) { return m.getPosition(k); });
+            },
+            "m, N x 3: where the vertices of a membrane are.")
+        .def_property_readonly(
+            "vertex_velocities",
+            [](const WallHandle& w) {
+                return vertices(w, [](const Membrane& m, std::size_t k) { return m.getVelocity(k); });
+            },
+            "m/s, N x 3")
+        .def_property_readonly(
+            "vertex_forces",
+            [](const WallHandle& w) {
+                return vertices(w, [](const Membrane& m, std::size_t k) { return m.getForceOfGrains(k); });
+            },
+            "N, N x 3: of the grains on each vertex, at the end of the last step.")
+        .def_property_readonly(
+            "elastic_energy",
+            [](const WallHandle& w) { return w.as<Membrane>("springs").getElasticEnergy(); }, "J")
+        .def("keep_wear", &keepWear, py::arg("law"), py::arg("interval") = py::none(),
+             py::arg("acceleration") = 1.0,
+             "Counts what grains wear off each triangle of a mesh, by a law: reye (factor, m^3/J), archard "
+             "(coefficient, hardness in Pa), finnie (cutting_share, flow_stress in Pa), or none. With an "
+             "interval "
+             "(s) the vertices move by it, times acceleration. At set-up.")
+        .def("wear", &wear, "Columns of what was done to each triangle: sliding_work_J, worn_volume_m3, ...");
+
+    scene.def(
+        "add_membrane",
+        [](PythonScene& s, const SpeciesHandle& species, const py::object& mesh, double youngModulus,
+           double thickness, double density, double scale, bool holdRim, double pressure, double damping) {
+            return addMembrane(s, species, mesh, {youngModulus, thickness, density}, scale, holdRim, pressure,
+                               damping);
+        },
+        py::arg("species"), py::arg("mesh"), py::kw_only(), py::arg("young_modulus"), py::arg("thickness"),
+        py::arg("density"), py::arg("scale") = 1.0, py::arg("hold_rim") = false, py::arg("pressure") = 0.0,
+        py::arg("damping") = 0.0, comment("Membrane"));
+
+    module.def(
+        "membrane_sheet",
+        [](int columns, int rows, double edge) { return cornersOf(membraneSheet(columns, rows, edge)); },
+        py::arg("columns"), py::arg("rows"), py::arg("edge"), comment("membraneSheet"));
+    module.def(
+        "membrane_tube",
+        [](double radius, double height, int around) {
+            return cornersOf(membraneTube(radius, height, around));
+        },
+        py::arg("radius"), py::arg("height"), py::arg("around"), comment("membraneTube"));
+}
+
+}  // namespace pendular::python

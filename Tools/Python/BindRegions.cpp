@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Sizes/SizeDistribution.h"
+#include "Tools/Python/Bindings.h"
+#include "Tools/Python/Insertable.h"
+#include "Tools/Python/Regions.h"
+
+namespace pendular::python {
+
+namespace {
+
+Amount amountOf(std::optional<std::size_t> number, std::optional<double> mass,
+                std::optional<double> fraction) {
+    if (number.has_value() + mass.has_value() + fraction.has_value() != 1)
+        throw InputError("insert() takes one of number, mass (kg) and solid_fraction.");
+    if (number) return Amount::grains(*number);
+    return mass ? Amount::mass(*mass) : Amount::solidFraction(*fraction);
+}
+
+py::dict insert(PythonScene& scene, const SpeciesHandle& species, const SizeDistribution& sizes,
+                const AnyRegion& region, std::optional<std::size_t> number, std::optional<double> mass,
+                std::optional<double> fraction, const std::optional<AnyShape>& shape, const Vec3D& velocity,
+                const Vec3D& spin, double film, std::uint64_t seed, bool isRandom, bool wholeGrains,
+                bool withFlow) {
+    scene.requireNoViews();
+    const Amount amount = amountOf(number, mass, fraction);
+    BodyMixture mixture;
+    addTo(mixture, {species, shape, velocity, spin, film}, sizes, 1);
+    InsertOptions options;
+    options.seed = seed;
+    options.sample = isRandom ? Sample::Random : Sample::Exact;
+    options.wholeGrains = wholeGrains;
+    options.withFlow = withFlow;
+    Inserted made;
+    {
+        const py::gil_scoped_release others;
+        made = scene.scene().insert(mixture, region.region(), amount, options);
+    }
+    py::dict answer;
+    answer["number"] = made.number, answer["wanted"] = made.wanted;
+    answer["mass_kg"] = made.mass, answer["wanted_mass_kg"] = made.wantedMass;
+    answer["solid_fraction"] = made.solidFraction;
+    return answer;
+}
+
+}  // namespace
+
+void bindRegions(py::module_& module, SceneClass& scene) {
+    py::class_<AnyRegion>(module, "Region", "A part of space: where grains come, or where they go.")
+        .def_property_readonly(
+            "volume", [](const AnyRegion& r) { return r.region().volume(); }, "m^3")
+        .def(
+            "contains",
+            [](const AnyRegion& r, const Vec3D& point, double margin) {
+                return r.region().contains(point, margin);
+            },
+            py::arg("point"), py::arg("margin") = 0.0, comment("Region::contains"));
+
+    module.def(
+        "box",
+        [](const Vec3D& lowest, const Vec3D& highest) { return AnyRegion{BoxRegion(lowest, highest)}; },
+        py::arg("lowest"), py::arg("highest"), "A box with edges along the axes, by its corners (m).");
+    module.def(
+        "cylinder",
+        [](const Vec3D& from, const Vec3D& to, double radius) {
+            return AnyRegion{CylinderRegion(from, to, radius)};
+        },
+        py::arg("start"), py::arg("end"), py::arg("radius"),
+        "A solid cylinder, by the middles of its ends and its radius (m).");
+    module.def(
+        "sphere", [](const Vec3D& centre, double radius) { return AnyRegion{SphereRegion(centre, radius)}; },
+        py::arg("centre"), py::arg("radius"), "A ball (m).");
+    module.def(
+        "mesh_inside",
+        [](const std::filesystem::path& file, double scale) {
+            return AnyRegion{MeshRegion::fromFile(file, scale)};
+        },
+        py::arg("file"), py::arg("scale") = 1.0, comment("MeshRegion"));
+
+    scene
+        .def(
+            "between_walls",
+            [](PythonScene& s, const Vec3D& lowest, const Vec3D& highest) {
+                return AnyRegion{BetweenWalls(s.scene().wallHandler, lowest, highest)};
+            },
+            py::arg("lowest"), py::arg("highest"), py::keep_alive<0, 1>(), comment("BetweenWalls"))
+        .def("insert", &insert, py::arg("species"), py::arg("sizes"), py::arg("region"), py::kw_only(),
+             py::arg("number") = py::none(), py::arg("mass") = py::none(),
+             py::arg("solid_fraction") = py::none(), py::arg("shape") = py::none(),
+             py::arg("velocity") = Vec3D(0, 0, 0), py::arg("spin") = Vec3D(0, 0, 0), py::arg("film") = 0.0,
+             py::arg("seed") = 1, py::arg("random_sizes") = false, py::arg("whole_grains") = true,
+             py::arg("with_flow") = false, comment("Scene::insert"));
+}
+
+}  // namespace pendular::python

@@ -1,0 +1,169 @@
+#include "Kernel/Parts/AdaptiveStep.h"
+#include "Kernel/Simulation/OverlapEstimate.h"
+#include "Kernel/Species/LawNames.h"
+#include "Tools/Python/Bindings.h"
+
+namespace pendular::python {
+
+namespace {
+
+const Integrator& integratorNamed(const std::string& name) {
+    std::vector<std::string> names;
+    for (const Integrator& one : integrators::all) {
+        if (snakeCase(one.name) == name) return one;
+        names.push_back(snakeCase(one.name));
+    }
+    unknownName("integrator", name, {names.begin(), names.end()});
+}
+
+/// The smaller of the stability limit and a share of the shortest contact.
+double chooseTimeStep(PythonScene& scene, double stepsInContact) {
+    checkValue("choose_time_step", "steps_in_contact", stepsInContact, "", positive);
+    Scene& of = scene.scene();
+    of.setTimeStep(std::min(of.stabilityLimit(), of.shortestContactTime() / stepsInContact));
+    return of.getTimeStep();
+}
+
+void bindTime(SceneClass& scene) {
+    scene
+        .def_property_readonly(
+            "time", [](const PythonScene& s) { return s.scene().getTime(); }, "s")
+        .def_property_readonly(
+            "steps", [](const PythonScene& s) { return s.scene().getNumberOfTimeSteps(); },
+            "How many steps have been done.")
+        .def_property(
+            "time_step", [](const PythonScene& s) { return s.scene().getTimeStep(); },
+            [](PythonScene& s, double step) { s.scene().setTimeStep(step); }, comment("Run::setTimeStep"))
+        .def_property(
+            "end_time", [](const PythonScene& s) { return s.scene().getTimeMax(); },
+            [](PythonScene& s, double end) { s.scene().setTimeMax(end); },
+            "s, at which the run ends by itself, with its last outputs. Without it, it goes on until "
+            "finish().")
+        .def("choose_time_step", &chooseTimeStep, py::arg("steps_in_contact") = 25.0,
+             "Sets the time step (s) to the smaller of stability_limit() and shortest_contact_time() over "
+             "this "
+             "number, and returns it.")
+        .def(
+            "stability_limit", [](PythonScene& s) { return s.scene().stabilityLimit(); },
+            comment("Scene::stabilityLimit"))
+        .def(
+            "shortest_contact_time", [](PythonScene& s) { return s.scene().shortestContactTime(); },
+            comment("Scene::shortestContactTime"))
+        .def(
+            "stable_step_of_contacts", [](PythonScene& s) { return s.scene().stableStepOfContacts(); },
+            comment("Scene::stableStepOfContacts"))
+        .def(
+            "stability_advice", [](PythonScene& s) { return s.scene().stabilityAdvice().text(); },
+            comment("Scene::stabilityAdvice"))
+        .def(
+            "accept_unstable_time_step", [](PythonScene& s) { s.scene().acceptUnstableTimeStep(); },
+            comment("Scene::acceptUnstableTimeStep"))
+        .def(
+            "accept_overlaps", [](PythonScene& s, double share) { s.scene().acceptOverlaps(share); },
+            py::arg("share"), comment("Scene::acceptOverlaps"))
+        .def(
+            "set_adaptive_time_step",
+            [](PythonScene& s, double share, std::optional<double> largest) {
+                s.scene().setAdaptiveTimeStep(share, largest);
+            },
+            py::arg("share") = 0.9, py::arg("largest_step") = py::none(),
+            comment("Scene::setAdaptiveTimeStep"))
+        .def(
+            "set_integrator",
+            [](PythonScene& s, const std::string& name) { s.scene().setIntegrator(integratorNamed(name)); },
+            py::arg("name"), comment("Scene::setIntegrator"))
+        .def(
+            "estimate_overlaps",
+            [](PythonScene& s, double pressure) { return estimateOverlaps(s.scene(), pressure).text(); },
+            py::arg("pressure") = 0.0, comment("estimateOverlaps"));
+}
+
+}  // namespace
+
+void bindRun(SceneClass& scene) {
+    bindTime(scene);
+    scene
+        .def(
+            "_run_to", [](PythonScene& s, double time, const py::object& p) { s.runTo(time, p); },
+            py::arg("time"), py::arg("progress") = py::none())
+        .def(
+            "_run_steps",
+            [](PythonScene& s, std::size_t count, const py::object& p) { s.runSteps(count, p); },
+            py::arg("count"), py::arg("progress") = py::none())
+        .def("initialise", &PythonScene::initialise,
+             "Checks the scene, and finds the forces at its start, or reads the restart file; run() does so "
+             "by itself.")
+        .def("finish", &PythonScene::finish, comment("Run::finishRun"))
+        .def(
+            "stop",
+            [](const py::object& self) {  // also from other threads, which a scene refuses else
+                py::detail::type_caster_base<PythonScene> scene;
+                if (!scene.load(self, false)) throw py::type_error("stop() is a method of a Scene.");
+                static_cast<PythonScene&>(scene).scene().requestStop();
+            },
+            comment("Run::requestStop"))
+        .def(
+            "pause", [](PythonScene& s) { s.scene().requestPause(); },
+            "In a function that the scene calls: run() returns after this step, and may be called again.")
+        .def_property_readonly(
+            "has_ended", [](const PythonScene& s) { return s.scene().hasEnded(); }, comment("Run::hasEnded"))
+        .def(
+            "every_steps",
+            [](PythonScene& s, std::size_t steps, py::function f) {
+                s.callEverySteps(steps, f);
+                return f;
+            },
+            py::arg("steps"), py::arg("function"),
+            "Calls function(scene) after each step whose number is a multiple of this one. All may be read "
+            "and "
+            "changed in it. Where it returns False, run() returns after the step; where it raises, the run "
+            "ends, and "
+            "run() raises the same.")
+        .def(
+            "every_time",
+            [](PythonScene& s, double interval, py::function f) {
+                s.callEveryTime(interval, f);
+                return f;
+            },
+            py::arg("interval"), py::arg("function"),
+            "Calls function(scene) after the steps nearest to the multiples of a time (s), as every_steps() "
+            "does.")
+        .def("clear_calls", &PythonScene::clearCalls, "No function is called any more.")
+        .def_readwrite(
+            "remembered", &PythonScene::remembered,
+            "Numbers and arrays by name that are kept in restart files: what functions of the driver "
+            "remember from step to step. Give all of them, with their shapes, before the run.")
+        .def("keep_restart_file", &PythonScene::keepRestartFile, py::arg("interval") = 600.0,
+             py::arg("steps") = 0,
+             "Keeps NAME-restart.h5: written at the start and the end of the run, at Ctrl-C, whenever this "
+             "time "
+             "(s of the clock) has passed, and after so many steps (0: not).")
+        .def_property_readonly(
+            "restart_file", [](const PythonScene& s) { return s.scene().restartFile(); }, "Where it is.")
+        .def(
+            "restart_from",
+            [](PythonScene& s, const std::filesystem::path& file) {
+                s.requireNoViews();
+                s.scene().restartFrom(file);
+            },
+            py::arg("file"), comment("Run::restartFrom"))
+        .def_property_readonly(
+            "restart_time", [](const PythonScene& s) { return s.scene().restartTime(); },
+            comment("Run::restartTime"))
+        .def(
+            "write_restart",
+            [](PythonScene& s, const std::filesystem::path& file) { s.scene().writeRestart(file); },
+            py::arg("file"), comment("Run::writeRestart"))
+        .def_property(
+            "threads", [](const PythonScene& s) { return s.scene().getNumberOfThreads(); },
+            [](PythonScene& s, int count) { s.scene().setNumberOfThreads(count); },
+            comment("Scene::setNumberOfThreads"))
+        .def_property(
+            "quiet", [](const PythonScene& s) { return s.scene().isQuiet(); },
+            [](PythonScene& s, bool quiet) { s.scene().setQuiet(quiet); }, comment("Run::setQuiet"))
+        .def_property_readonly(
+            "name", [](const PythonScene& s) { return s.scene().getName(); },
+            "What the names of files begin with.");
+}
+
+}  // namespace pendular::python

@@ -1,0 +1,101 @@
+#include "Kernel/Sizes/SizeLaws.h"
+#include "Kernel/Sizes/SizeSample.h"
+#include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/Species/LawNames.h"
+#include "Tools/Python/Bindings.h"
+
+namespace pendular::python {
+
+namespace {
+
+SizeBasis basisNamed(std::string_view name) {
+    for (const SizeBasis basis : {SizeBasis::Number, SizeBasis::Length, SizeBasis::Area, SizeBasis::Volume})
+        if (nameOf(basis) == name) return basis;
+    if (name == "mass") return SizeBasis::Volume;
+    unknownName("basis of sizes", name, {"number", "length", "area", "volume", "mass"});
+}
+
+std::vector<double> numbersOf(const ArrayLike& given, std::string_view name) {
+    const Doubles rows = rowsOf(given, name, 1);
+    return {rows.data(), rows.data() + rows.size()};
+}
+
+SizeDistribution table(const ArrayLike& diameters, const std::optional<ArrayLike>& cumulative,
+                       const std::optional<ArrayLike>& classes, const std::optional<ArrayLike>& single,
+                       const std::string& basis) {
+    if (cumulative.has_value() + classes.has_value() + single.has_value() != 1)
+        throw InputError("sizes() takes one of cumulative, classes and single.");
+    const std::vector<double> at = numbersOf(diameters, "diameters");
+    const SizeBasis on = basisNamed(basis);
+    if (cumulative) return sizesFromCumulative(at, numbersOf(*cumulative, "cumulative"), on);
+    if (classes) return sizesFromClasses(at, numbersOf(*classes, "classes"), on);
+    return singleSizes(at, numbersOf(*single, "single"), on);
+}
+
+}  // namespace
+
+void bindSizes(py::module_& module) {
+    using Sizes = SizeDistribution;
+    py::class_<Sizes>(module, "Sizes", "How many grains there are of each diameter (m).")
+        .def_property_readonly("smallest", &Sizes::smallest, "m, diameter")
+        .def_property_readonly("largest", &Sizes::largest, "m, diameter")
+        .def("mean", &Sizes::mean, py::arg("k") = 1, py::arg("m") = 0, comment("SizeDistribution::mean"))
+        .def(
+            "cumulative",
+            [](const Sizes& s, double diameter, const std::string& basis) {
+                return s.cumulative(basisNamed(basis), diameter);
+            },
+            py::arg("diameter"), py::arg("basis") = "number", comment("SizeDistribution::cumulative"))
+        .def(
+            "quantile",
+            [](const Sizes& s, double fraction, const std::string& basis) {
+                return s.quantile(basisNamed(basis), fraction);
+            },
+            py::arg("fraction"), py::arg("basis") = "number", comment("SizeDistribution::quantile"))
+        .def(
+            "radii", [](const Sizes& s, std::size_t grains) { return arrayOf(exactRadii(s, grains)); },
+            py::arg("grains"), comment("exactRadii"))
+        .def(
+            "random_radii",
+            [](const Sizes& s, std::size_t grains, std::uint64_t seed) {
+                return arrayOf(randomRadii(s, grains, seed));
+            },
+            py::arg("grains"), py::arg("seed") = 1, comment("randomRadii"));
+
+    module.def("even_sizes", &evenSizes, py::arg("low"), py::arg("high"), comment("evenSizes"));
+    module.def("bidisperse_sizes", &bidisperseSizes, py::arg("small"), py::arg("large"),
+               py::arg("volume_of_large"), comment("bidisperseSizes"));
+    module.def(
+        "one_size",
+        [](double diameter) { return singleSizes(std::array{diameter}, std::array{1.0}, SizeBasis::Number); },
+        py::arg("diameter"), "Grains of one diameter (m).");
+    module.def(
+        "normal_sizes",
+        [](double mean, double deviation, double low, double high) {
+            return normalSizes(mean, deviation, low, high).sizes;
+        },
+        py::arg("mean"), py::arg("deviation"), py::arg("low"), py::arg("high"), comment("normalSizes"));
+    module.def(
+        "lognormal_sizes",
+        [](double median, double geometricDeviation, double low, double high, const std::string& basis) {
+            return lognormalSizes(median, geometricDeviation, low, high, basisNamed(basis)).sizes;
+        },
+        py::arg("median"), py::arg("geometric_deviation"), py::arg("low"), py::arg("high"),
+        py::arg("basis") = "number", comment("lognormalSizes"));
+    module.def(
+        "rosin_rammler_sizes",
+        [](double size, double exponent, double low, double high) {
+            return rosinRammlerSizes(size, exponent, low, high).sizes;
+        },
+        py::arg("size"), py::arg("exponent"), py::arg("low"), py::arg("high"), comment("rosinRammlerSizes"));
+    module.def(
+        "sizes", &table, py::arg("diameters"), py::kw_only(), py::arg("cumulative") = py::none(),
+        py::arg("classes") = py::none(), py::arg("single") = py::none(), py::arg("basis") = "number",
+        "A table of sizes at diameters (m), on a basis (number, length, area, volume or mass): cumulative "
+        "from 0 to 1; or fractions of the classes between the diameters; or of grains of just these sizes.");
+    module.def(
+        "read_sizes", [](const std::filesystem::path& file) { return readSizeTable(file); }, py::arg("file"),
+        comment("readSizeTable"));
+}
+
+}  // namespace pendular::python

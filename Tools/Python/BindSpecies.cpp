@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Species/Friction/Shared/MindlinSpring.h"
+#include "Kernel/Species/LawNames.h"
+#include "Kernel/Species/Normal/Shared/HertzianContact.h"
+#include "Tools/Python/Bindings.h"
+
+namespace pendular::python {
+
+namespace {
+
+constexpr std::string_view ending = "Species";
+
+/// The name of a type in the kernel: "Species" at its end may be left out.
+std::string typeNamed(std::string name) {
+    if (!name.ends_with(ending)) name += ending;
+    return name;
+}
+std::string withoutEnding(std::string_view name) {
+    return std::string(name.substr(0, name.size() - (name.ends_with(ending) ? ending.size() : 0)));
+}
+
+using Values = std::map<std::string, double>;
+
+Values valuesOf(const py::kwargs& given) {
+    Values values;
+    for (const auto& [key, value] : given) {
+        const std::string name = py::str(key);
+        try {
+            values[camelCase(name)] = value.cast<double>();
+        } catch (const py::cast_error&) {
+            throw InputError(
+                fmt::format("{} must be a number; it is {}.", name, std::string(py::repr(value))));
+        }
+    }
+    return values;
+}
+
+/// Moduli come before what is computed from them.
+bool isAfterFields(const NamedSetter& setter) {
+    return setter.name.find("estitution") != std::string_view::npos;
+}
+
+/// The values of a setter, by their own names or, of a single one, by that of the setter; empty unless all
+/// are given.
+std::vector<double> takenBy(const NamedSetter& setter, const Values& values) {
+    std::vector<double> taken;
+    for (const SetterValue& value : setter.values) {
+        auto found = values.find(std::string(setter.values.size() == 1 ? setter.name : value.name));
+        if (found == values.end() && value.name == "restitution")
+            found = values.find("restitutionCoefficient");
+        if (found == values.end()) return {};
+        taken.push_back(found->second);
+    }
+    return taken;
+}
+
+/// @param name as it was not found
+[[noreturn]] void refuseName(AnyLaws& laws, const std::string& name) {
+    std::set<std::string> known;
+    if (laws.has("effectiveElasticModulus")) known = {"young_modulus", "poisson_ratio"};
+    for (const NamedSetter& setter : laws.setters())
+        for (const SetterValue& value : setter.values)
+            known.insert(snakeCase(setter.values.size() == 1 ? setter.name : value.name));
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    unknownName(fmt::format("field of {}", laws.getName()), snakeCase(name), names);
+}
+
+/// Young's modulus and Poisson's ratio give E* and, with Mindlin, G* of two grains of the material.
+void setElasticConstants(AnyLaws& laws, Values& values) {
+    const auto young = values.find("youngModulus"), poisson = values.find("poissonRatio");
+    if (young == values.end() && poisson == values.end()) return;
+    if (young == values.end() || poisson == values.end())
+        throw InputError("young_modulus and poisson_ratio are given together.");
+    if (!laws.has("effectiveElasticModulus")) refuseName(laws, "youngModulus");
+    laws.set("effectiveElasticModulus", computeEffectiveElasticModulus(young->second, poisson->second));
+    if (laws.has("effectiveShearModulus"))
+        laws.set("effectiveShearModulus", computeEffectiveShearModulus(young->second, poisson->second));
+    values.erase(young), values.erase(poisson);
+}
+
+/// Sets fields, and calls the setters all of whose values are given, those of most values first.
+void setValues(AnyLaws& laws, Values values) {
+    setElasticConstants(laws, values);
+    std::vector<NamedSetter> setters = laws.setters();
+    std::ranges::stable_sort(setters, [](const NamedSetter& a, const NamedSetter& b) {
+        if (a.values.size() != b.values.size()) return a.values.size() > b.values.size();
+        return isAfterFields(a) < isAfterFields(b);
+    });
+    for (const NamedSetter& setter : setters) {
+        const std::vector<double> taken = takenBy(setter, values);
+        if (taken.empty()) continue;
+        setter.set(taken);
+        for (const SetterValue& value : setter.values) values.erase(std::string(value.name));
+        values.erase(std::string(setter.name));
+        if (setter.values.size() > 1) values.erase("restitutionCoefficient");
+    }
+    if (!values.empty()) refuseName(laws, values.begin()->first);
+}
+
+/// law, field, unit, range and value of all that can be set.
+py::list describe(AnyLaws& laws) {
+    py::list rows;
+    for (const NamedSetter& setter : laws.setters())
+        for (const SetterValue& value : setter.values) {
+            const bool isWhole = setter.values.size() == 1;
+            rows.append(py::make_tuple(std::string(setter.law), snakeCase(isWhole ? setter.name : value.name),
+                                       std::string(value.unit), value.range.text(value.unit),
+                                       isWhole && setter.get ? setter.get() : unset));
+        }
+    return rows;
+}
+
+/// All names that addByName() knows.
+std::vector<std::string> knownSpecies() {
+    std::vector<std::string> names;
+    for (const std::string_view name : instantiatedSpecies()) names.push_back(withoutEnding(name));
+    for (const std::string_view name : registeredSpecies()) names.push_back(withoutEnding(name));
+    return names;
+}
+
+SpeciesHandle add(PythonScene& scene, const std::string& type, const py::kwargs& given) {
+    const Values values = valuesOf(given);
+    if (type.find_first_of(" ./") != std::string::npos)
+        throw InputError(fmt::format("'{}' is no name of a species; pendular.species() lists them.", type));
+    // All of it is checked before anything is added.
+    const auto other = scene.superquadrics() ? makeShapedScene(typeNamed(type)) : makeScene();
+    setValues(other->addSpecies(typeNamed(type)), values);
+    AnySpecies& added = scene.addSpecies(typeNamed(type));
+    setValues(added, values);
+    return {scene, added};
+}
+
+}  // namespace
+
+void bindSpecies(py::module_& module, SceneClass& scene) {
+    py::class_<SpeciesHandle>(module, "Species", collectHandles<SpeciesHandle>(),
+                              "A material of a scene; add_species() makes it.")
+        .def_property_readonly("index", &SpeciesHandle::getIndex, "Its number in the scene, from 0.")
+        .def_property_readonly(
+            "name", [](const SpeciesHandle& s) { return withoutEnding(s.species->getName()); },
+            "Normal, friction and adhesion law.")
+        .def(
+            "set",
+            [](const SpeciesHandle& s, const py::kwargs& values) {
+                s.owner->requireThisThread();
+                setValues(*s.species, valuesOf(values));
+            },
+            "Sets fields by their names, also during a run: from the next step on. Raises InputError.")
+        .def(
+            "get",
+            [](const SpeciesHandle& s, const std::string& name) { return s.species->get(camelCase(name)); },
+            py::arg("name"), "A field by its name; NaN where it is not set.")
+        .def(
+            "fields", [](const SpeciesHandle& s) { return describe(*s.species); },
+            "Rows (law, field, unit, range, value) of all that can be set.")
+        .def("__repr__", [](const SpeciesHandle& s) {
+            return fmt::format("<pendular.Species {}: {}, {:g} kg/m^3>", s.getIndex(),
+                               withoutEnding(s.species->getName()), s.species->getDensity());
+        });
+
+    scene
+        .def("add_species", &add, py::arg("type"),
+             "Adds a material by the name of its laws (pendular.species() lists them), with its fields: "
+             "density (kg/m^3), those of pendular.fields(type), or young_modulus (Pa) and poisson_ratio, "
+             "restitution_coefficient, and others that fields are computed from. Raises InputError.")
+        .def(
+            "set_pair",
+            [](PythonScene& s, const SpeciesHandle& a, const SpeciesHandle& b,
+               std::optional<std::string> type, const py::kwargs& values) {
+                const std::string name(type ? typeNamed(*type) : std::string(a.species->getName()));
+                if (!type && a.species->getName() != b.species->getName())
+                    throw InputError(
+                        "set_pair() of two materials of different types needs the type of their laws.");
+                setValues(s.lawsOfPair(*a.species, *b.species, name), valuesOf(values));
+            },
+            py::arg("a"), py::arg("b"), py::arg("type") = py::none(),
+            "Gives the contacts of two materials values of their own, and, where the materials have "
+            "different "
+            "types, the type of their laws. What is not given is mixed from both.");
+
+    module.def("species", &knownSpecies,
+               "The names of all species that are compiled into this module. Others: a library for "
+               "load_species(), or a build with -DPENDULAR_PYTHON_SPECIES=NAMES.");
+    module.def(
+        "fields", [](const std::string& type) { return describe(makeScene()->addSpecies(typeNamed(type))); },
+        py::arg("type"),
+        "Rows (law, field, unit, range, default) of all that add_species() takes for a type.");
+}
+
+}  // namespace pendular::python

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "Tools/Python/PythonScene.h"
+
+/// The parts of the module: each adds its classes, functions and methods, in a file of its name.
+
+namespace pendular::python {
+
+using SceneClass = py::class_<PythonScene, std::shared_ptr<PythonScene>>;
+
+void bindSpecies(py::module_& module, SceneClass& scene);
+void bindSizes(py::module_& module);
+void bindRegions(py::module_& module, SceneClass& scene);
+void bindGrains(SceneClass& scene);
+void bindGrainArrays(SceneClass& scene);
+void bindBodies(py::module_& module, SceneClass& scene);
+void bindWalls(py::module_& module, SceneClass& scene);
+void bindMembranes(py::module_& module, SceneClass& scene);
+void bindRun(SceneClass& scene);
+void bindSpace(SceneClass& scene);
+void bindFlows(SceneClass& scene);
+void bindLiquid(SceneClass& scene);
+void bindContacts(SceneClass& scene);
+void bindFields(SceneClass& scene);
+void bindOutputs(SceneClass& scene);
+
+}  // namespace pendular::python

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Calibration: the friction and the rolling friction at which a heap has a measured angle of repose.
+
+Two measurements are met by two numbers: the angle of a heap that is poured onto a rough base, and the speed at which it
+spreads (the width after a short time). scipy's least squares does not know the noise of heaps, so its steps are large.
+
+    calibration.py [--angle DEGREES] [--width M] [--evaluations N]
+"""
+import argparse
+
+import numpy as np
+from scipy.optimize import least_squares
+
+import pendular
+
+
+def heap(friction, rolling, seed=1, time=0.25):
+    """The angle (degrees) and the width (m, root mean square) of a heap."""
+    scene = pendular.Scene()
+    sand = scene.add_species("HertzianViscoelasticMindlinRollingTorsion", density=2500, young_modulus=2e6,
+                             poisson_ratio=0.25, restitution_coefficient=0.3, sliding_friction_coefficient=friction,
+                             rolling_stiffness=1e3, rolling_dissipation=1e-4, rolling_friction_coefficient=rolling,
+                             torsion_stiffness=1e3, torsion_dissipation=1e-4, torsion_friction_coefficient=rolling)
+    scene.add_plane(sand, (0, 0, -1), (0, 0, 0))
+    base = np.stack(np.meshgrid(np.arange(-9, 10), np.arange(-9, 10), [0]), -1).reshape(-1, 3) * 2e-3
+    scene.add_grains(sand, base, 0.9e-3, fixed=True)
+    scene.insert(sand, pendular.even_sizes(1.8e-3, 2e-3), pendular.cylinder((0, 0, 1.2e-3), (0, 0, 0.03), 5e-3),
+                 solid_fraction=0.45, seed=seed)
+    scene.gravity = (0, 0, -9.81)
+    scene.choose_time_step()
+    scene.run(time)
+    x = scene.position[len(base):]
+    r, z = np.hypot(x[:, 0], x[:, 1]), x[:, 2]
+    rings = np.arange(1, 7) * 2e-3
+    tops = [z[(r > a - 2e-3) & (r <= a)].max(initial=0.0) for a in rings]
+    return np.degrees(np.arctan(-np.polyfit(rings, tops, 1)[0])), np.sqrt((r**2).mean())
+
+
+def calibrate(angle, width, evaluations=12):
+    def misses(numbers):
+        found = np.array([heap(*numbers, seed=seed) for seed in (1, 2)]).mean(0)
+        return (found[0] - angle) / 1.0, (found[1] - width) / 2e-4  # over what two heaps differ by
+
+    return least_squares(misses, x0=(0.3, 0.05), bounds=((0.05, 0.0), (1.0, 0.5)), diff_step=0.2,
+                         max_nfev=evaluations)
+
+
+def main():
+    options = argparse.ArgumentParser(description="Calibration against an angle of repose.")
+    options.add_argument("--angle", type=float, default=22.0, help="degrees")
+    options.add_argument("--width", type=float, default=6.5e-3, help="m")
+    options.add_argument("--evaluations", type=int, default=6)
+    given = options.parse_args()
+    found = calibrate(given.angle, given.width, given.evaluations)
+    angle, width = heap(*found.x)
+    print(f"friction {found.x[0]:.3f}, rolling friction {found.x[1]:.3f}: {angle:.1f} degrees, {1e3 * width:.2f} mm")
+
+
+if __name__ == "__main__":
+    main()

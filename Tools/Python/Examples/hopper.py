@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""A hopper empties: its mass flow beside that of Beverloo.
+
+Beverloo, Leniger and van de Velde (1961), Chem. Eng. Sci. 15, 260: W = C rho sqrt(g) (D - k d)^2.5, with the outlet D,
+the grain d, the bulk density rho, C = 0.58 and k = 1.4 for spheres.
+
+    hopper.py [--output FOLDER] [--outlet M]
+"""
+import argparse
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import pendular
+
+GRAIN, WIDTH, HEIGHT, DENSITY = 1.5e-3, 0.036, 0.08, 2500  # m, m, m, kg/m^3
+
+
+def beverloo(outlet, bulk):
+    """kg/s"""
+    return 0.58 * bulk * np.sqrt(9.81) * (outlet - 1.4 * GRAIN) ** 2.5
+
+
+def empty(outlet, fill=0.55):
+    """Columns of time (s) and of the mass (kg) that has come out, and the bulk density (kg/m^3) of the bed."""
+    scene = pendular.Scene()
+    glass = scene.add_species("HertzianViscoelasticMindlinRollingTorsion", density=DENSITY, young_modulus=5e6,
+                              poisson_ratio=0.25, restitution_coefficient=0.5, sliding_friction_coefficient=0.5,
+                              rolling_stiffness=1e3, rolling_dissipation=1e-4, rolling_friction_coefficient=0.05,
+                              torsion_stiffness=1e3, torsion_dissipation=1e-4, torsion_friction_coefficient=0.05)
+    # A flat bottom with a round outlet: that is what Beverloo's constants are for.
+    scene.add_profile(glass, axis=(0, 0, 1), point=(0, 0, 0), profile=[(outlet / 2, 0), (WIDTH / 2, 0), (WIDTH / 2, 2 * HEIGHT)])
+    gate = scene.add_plane(glass, (0, 0, -1), (0, 0, 0))
+    scene.insert(glass, pendular.even_sizes(0.9 * GRAIN, 1.1 * GRAIN),
+                 pendular.cylinder((0, 0, 0), (0, 0, HEIGHT), WIDTH / 2), solid_fraction=fill)
+    outside = scene.add_outlet(normal=(0, 0, -1), point=(0, 0, -0.02))
+    scene.gravity = (0, 0, -9.81)
+    scene.choose_time_step()
+    scene.run(0.1)
+    top = np.sort(scene.position[:, 2])[-20:].mean()
+    bulk = scene.total_mass / (np.pi * WIDTH**2 / 4 * top)
+    scene.remove_wall(gate)
+    total, rows = scene.total_mass, []
+    scene.every_time(0.01, lambda s: rows.append((s.time, s.outlet(outside)["mass_kg"])) or rows[-1][1] < 0.5 * total)
+    scene.run(5)
+    return (*np.array(rows).T, bulk)
+
+
+def flow_of(time, mass):
+    """kg/s, of the straight line through what comes after the first tenth."""
+    steady = (mass > 0.1 * mass[-1]) & (mass < mass[-1])
+    return np.polyfit(time[steady], mass[steady], 1)[0]
+
+
+def main():
+    options = argparse.ArgumentParser(description="A hopper empties.")
+    options.add_argument("--output", type=Path, default=Path("."), help="folder of the figure")
+    options.add_argument("--outlet", type=float, default=0.012, help="m, diameter")
+    given = options.parse_args()
+    time, mass, bulk = empty(given.outlet)
+    print(f"{1e3 * flow_of(time, mass):.2f} g/s; Beverloo {1e3 * beverloo(given.outlet, bulk):.2f} g/s")
+    plt.plot(time, 1e3 * mass)
+    plt.xlabel("time, s"), plt.ylabel("mass that has come out, g")
+    plt.savefig(given.output / "hopper.png")
+
+
+if __name__ == "__main__":
+    main()

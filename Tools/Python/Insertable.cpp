@@ -1,0 +1,24 @@
+#include "Tools/Python/Insertable.h"
+
+#include "Kernel/Base/InputError.h"
+
+namespace pendular::python {
+
+void addTo(BodyMixture& mixture, const Insertable& like, const SizeDistribution& sizes, double share) {
+    const auto add = [&](auto body) {
+        body.setSpecies(&like.species);
+        body.setVelocity(like.velocity), body.setAngularVelocity(like.spin);
+        mixture.add(body, sizes, share);
+    };
+    if (!like.shape) {
+        SphericalParticle grain;
+        grain.setLiquidVolume(like.film);
+        return add(grain);
+    }
+    if (like.film != 0) throw InputError("Grains that are no spheres come without a film; leave film out.");
+    if (const auto* const clump = std::get_if<ClumpTemplate>(&like.shape->of)) return add(Clump(*clump));
+    if (const auto* const grain = std::get_if<SuperquadricGrain>(&like.shape->of)) return add(*grain);
+    throw InputError("Blocks cannot be inserted; add each with add_shape().");
+}
+
+}  // namespace pendular::python

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <dlfcn.h>
+
+#include <regex>
+
+#include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Simulation/Program.h"
+#include "Tools/Python/Bindings.h"
+
+/// The module pendular._kernel.
+
+namespace pendular::python {
+
+namespace {
+
+/// Lines of the log go to a function of Python until the interpreter ends.
+void setLog(const py::object& function) {
+    if (function.is_none()) return setLogSink({});
+    setLogSink([kept = shared(py::function(function))](LogLevel level, std::string_view text) {
+        const py::gil_scoped_acquire python;
+        try {
+            (*kept)(static_cast<int>(level), std::string(text));
+        } catch (py::error_already_set& error) {
+            error.discard_as_unraisable("pendular");
+        }
+    });
+}
+
+/// A library of species calls the kernel in this module, so it must see its functions.
+void loadSpecies(const std::filesystem::path& library) {
+    static int here = 0;
+    Dl_info where{};
+    if (dladdr(&here, &where) == 0 || !dlopen(where.dli_fname, RTLD_NOW | RTLD_NOLOAD | RTLD_GLOBAL))
+        throw InputError("The module pendular cannot show its functions to a library of species.");
+    loadSpeciesLibrary(library);
+}
+
+/// A sentence of the kernel with names as they are in Python: setPeriodic() is set_periodic(), and a field
+/// slidingStiffness is sliding_stiffness. Words of paths and in quotes stay.
+std::string inPython(std::string sentence) {
+    for (const auto& [name, known] : {std::pair{"runTo()", "run()"},
+                                      {"runSteps()", "run()"},
+                                      {"solve()", "run()"},
+                                      {"finishRun()", "finish()"},
+                                      {"setTimeMax()", "end_time"}})
+        for (std::size_t at = sentence.find(name); at != std::string::npos; at = sentence.find(name))
+            sentence.replace(at, std::string_view(name).size(), known);
+    static const std::regex words(R"((^|[\s(:,;.])([a-z]{2,}(?:[A-Z][a-z0-9]*)+)(?=[\s(),:;.]|$))");
+    std::string made;
+    auto from = sentence.cbegin();
+    for (std::sregex_iterator word(sentence.cbegin(), sentence.cend(), words), none; word != none; ++word) {
+        made.append(from, (*word)[2].first).append(snakeCase(word->str(2)));
+        from = (*word)[2].second;
+    }
+    return made.append(from, sentence.cend());
+}
+
+template <class Error>
+void registerError(py::module_& module, const char* name, PyObject* base) {
+    static const py::exception<Error> type(module, name, base);
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const Error& error) {
+            PyErr_SetString(type.ptr(), inPython(error.what()).c_str());
+        }
+    });
+}
+
+int visitScene(const PythonScene& scene, visitproc visit, void* argument) {
+    return scene.visitObjects(visit, argument);
+}
+
+std::shared_ptr<PythonScene> make(const std::string& name, int threads, bool quiet,
+                                  const std::optional<std::string>& superquadrics) {
+    auto made = superquadrics
+                    ? makeShapedScene(superquadrics->ends_with("Species") ? *superquadrics
+                                                                          : *superquadrics + "Species")
+                    : makeScene();
+    if (!name.empty()) made->scene().setName(name);
+    made->scene().setNumberOfThreads(threads);
+    made->scene().setQuiet(quiet);
+    return made;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_kernel, module) {
+    setHosted();
+    module.doc() = "The kernel of Pendular.";
+    registerError<InputError>(module, "InputError", PyExc_ValueError);
+    registerError<RunError>(module, "RunError", PyExc_RuntimeError);
+    registerError<RunStopped>(module, "RunStopped", PyExc_RuntimeError);
+
+    SceneClass scene(module, "Scene",
+                     collectGarbage<PythonScene, &visitScene, [](PythonScene& of) { of.clearObjects(); }>());
+    scene.def(py::init(&make), py::arg("name") = "", py::kw_only(), py::arg("threads") = 1,
+              py::arg("quiet") = true, py::arg("superquadrics") = py::none());
+
+    bindSpecies(module, scene);
+    bindSizes(module);
+    bindBodies(module, scene);
+    bindRegions(module, scene);
+    bindGrains(scene);
+    bindGrainArrays(scene);
+    bindWalls(module, scene);
+    bindMembranes(module, scene);
+    bindRun(scene);
+    bindSpace(scene);
+    bindFlows(scene);
+    bindLiquid(scene);
+    bindContacts(scene);
+    bindFields(scene);
+    bindOutputs(scene);
+
+    module.def("load_species", &loadSpecies, py::arg("library"), comment("loadSpeciesLibrary"));
+    module.def("_set_log", &setLog, py::arg("function"));
+}
+
+}  // namespace pendular::python

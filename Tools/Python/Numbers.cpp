@@ -1,0 +1,146 @@
+#include "Tools/Python/Numbers.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <limits>
+#include <memory>
+#include <variant>
+
+#include "Kernel/Base/InputError.h"
+
+namespace pendular::python {
+
+namespace {
+
+std::string shown(py::handle given) {
+    std::string text = py::str(py::repr(given));
+    if (text.size() > 60) text = text.substr(0, 57) + "...";
+    return text;
+}
+
+/// (4, 2)
+std::string shapeOf(const py::array& numbers) { return py::str(numbers.attr("shape")); }
+
+template <class Array>
+Array numbersOf(py::handle given, std::string_view name, std::string_view what) {
+    // numpy would read text as numbers, and take the real part of complex ones.
+    const py::array any = py::array::ensure(given);
+    if (!any || std::string_view("bifu").find(any.dtype().kind()) == std::string_view::npos) {
+        PyErr_Clear();
+        throw InputError(fmt::format("{} must be {}; it is {}.", name, what, shown(given)));
+    }
+    return Array::ensure(any);
+}
+
+/// Copies n rows of numbers into an array.
+template <std::size_t n>
+Doubles copied(const std::array<double, n>& numbers, std::vector<py::ssize_t> shape) {
+    Doubles made(std::move(shape));
+    std::copy(numbers.begin(), numbers.end(), made.mutable_data());
+    return made;
+}
+
+}  // namespace
+
+Vec3D vectorOf(py::handle given) {
+    const Doubles numbers = numbersOf<Doubles>(given, "A vector", "three numbers");
+    if (numbers.ndim() != 1 || numbers.size() != 3)
+        throw InputError(fmt::format("A vector must be three numbers; it is {}.", shown(given)));
+    return {numbers.at(0), numbers.at(1), numbers.at(2)};
+}
+
+Doubles arrayOf(const Vec3D& vector) { return copied<3>({vector.x(), vector.y(), vector.z()}, {3}); }
+
+Doubles arrayOf(const Eigen::Matrix3d& matrix) {
+    Doubles made({3, 3});
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) made.mutable_at(row, column) = matrix(row, column);
+    return made;
+}
+
+Doubles rowsOf(const ArrayLike& given, std::string_view name, py::ssize_t width) {
+    const std::string what = width == 1 ? "numbers" : fmt::format("rows of {} numbers", width);
+    Doubles numbers = numbersOf<Doubles>(given.given, name, what);
+    if (width == 1 ? numbers.ndim() != 1
+                   : numbers.ndim() != 2 || (numbers.shape(1) != width && numbers.size() > 0))
+        throw InputError(
+            fmt::format("{} must be {}; it is an array of the shape {}.", name, what, shapeOf(numbers)));
+    return numbers;
+}
+
+std::vector<std::uint32_t> identitiesOf(const ArrayLike& given, std::string_view name) {
+    const py::array any = py::array::ensure(given.given);
+    if (!any || any.ndim() > 1 ||
+        (any.size() > 0 && std::string_view("iu").find(any.dtype().kind()) == std::string_view::npos)) {
+        PyErr_Clear();
+        throw InputError(fmt::format("{} must be whole numbers; it is {}.", name, shown(given.given)));
+    }
+    const Integers numbers = Integers::ensure(any);
+    std::vector<std::uint32_t> made;
+    for (py::ssize_t k = 0; k < numbers.size(); ++k) {
+        const std::int64_t number = numbers.data()[k];
+        if (number < 0 || number > std::numeric_limits<std::int32_t>::max())
+            throw InputError(fmt::format("{} has {}, which is no number of one.", name, number));
+        made.push_back(static_cast<std::uint32_t>(number));
+    }
+    return made;
+}
+
+PerGrain::PerGrain(const ArrayLike& given, std::string_view name, py::ssize_t width, py::ssize_t count) {
+    const std::string what =
+        width == 1 ? "one number, or one for each grain" : "three numbers, or a row of three for each grain";
+    rows = numbersOf<Doubles>(given.given, name, what);
+    single = rows.size() == width && rows.ndim() < (width == 1 ? 1 : 2);
+    const bool isEach = rows.ndim() == (width == 1 ? 1 : 2) && rows.shape(0) == count &&
+                        (width == 1 || rows.shape(1) == width);
+    if (!single && !isEach)
+        throw InputError(fmt::format("{} must be {}; there are {} grains, and it has the shape {}.", name,
+                                     what, count, shapeOf(rows)));
+    first = rows.data();
+}
+
+py::array arrayOf(std::vector<Vector<double>>&& points) {
+    static_assert(sizeof(Vector<double>) == 3 * sizeof(double));
+    const auto count = static_cast<py::ssize_t>(points.size());
+    auto kept = std::make_unique<std::vector<Vector<double>>>(std::move(points));
+    auto* const data = reinterpret_cast<double*>(kept->data());
+    const py::capsule owner(kept.release(),
+                            [](void* memory) { delete static_cast<std::vector<Vector<double>>*>(memory); });
+    return py::array(py::dtype::of<double>(), {count, py::ssize_t{3}}, data, owner);
+}
+
+py::array arrayOf(PolyDataField&& field) {
+    return std::visit(
+        [&](auto&& numbers) {
+            std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(numbers.size() / field.components)};
+            if (field.components == 9) shape.insert(shape.end(), {3, 3});
+            else if (field.components > 1) shape.push_back(static_cast<py::ssize_t>(field.components));
+            return arrayOf(std::move(numbers), std::move(shape));
+        },
+        std::move(field.numbers));
+}
+
+std::string camelCase(std::string_view name) {
+    std::string made;
+    bool isStart = false;
+    for (const char letter : name) {
+        if (letter == '_') isStart = true;
+        else {
+            made += isStart ? static_cast<char>(std::toupper(static_cast<unsigned char>(letter))) : letter;
+            isStart = false;
+        }
+    }
+    return made;
+}
+
+std::string snakeCase(std::string_view name) {
+    std::string made;
+    for (const char letter : name) {
+        if (std::isupper(static_cast<unsigned char>(letter)) != 0 && !made.empty()) made += '_';
+        made += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+    return made;
+}
+
+}  // namespace pendular::python

@@ -1,0 +1,254 @@
+#include "Tools/Python/PythonScene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "Kernel/Base/RunError.h"
+#include "Kernel/Simulation/Simulation.h"
+#include "Kernel/State/StateArchive.h"
+
+namespace pendular::python {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto lookInterval = 20ms, progressInterval = 200ms;
+constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
+
+/// What the kernel is told where a function of Python has raised: the run ends in order, with this sentence.
+struct FunctionRaised : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+std::string sentenceOf(const py::error_already_set& raised) {
+    return fmt::format("a function that the scene calls raised {}",
+                       std::string(py::str(raised.type().attr("__name__"))));
+}
+
+class AnySimulation final : public Hosted<Simulation<>> {
+public:
+    AnySpecies& addSpecies(std::string_view type) override { return *speciesHandler.addByName(type); }
+    AnyLaws& lawsOfPair(const AnySpecies& a, const AnySpecies& b, std::string_view type) override {
+        return *speciesHandler.setPairTypeByName(a.getIndex(), b.getIndex(), type);
+    }
+};
+
+}  // namespace
+
+std::shared_ptr<PythonScene> makeScene() { return std::make_shared<AnySimulation>(); }
+
+std::shared_ptr<py::function> shared(py::function function) {
+    return {new py::function(std::move(function)), [](py::function* dropped) {
+                const py::gil_scoped_acquire python;
+                delete dropped;
+            }};
+}
+
+// ---- Guards
+
+/// Marks the thread that steps a scene.
+class PythonScene::Running {
+public:
+    explicit Running(PythonScene& of) : scene(of) {
+        scene.running = &scene.scene();
+        scene.thread = std::this_thread::get_id();
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    ~Running() { scene.thread = std::thread::id(); }
+
+private:
+    PythonScene& scene;
+};
+
+void PythonScene::requireThisThread() const {
+    const std::thread::id stepping = thread;
+    if (stepping != std::thread::id() && stepping != std::this_thread::get_id())
+        throw RunError(
+            "Another thread is stepping this scene; wait until its run() has returned, or call stop().");
+}
+
+void PythonScene::requireNoViews() const {
+    if (views > 0)
+        throw py::buffer_error(
+            "An array of view() looks into the memory of the scene, which is about to change; delete it "
+            "before, or copy it with numpy.array().");
+}
+
+// ---- Functions that are called
+
+void PythonScene::callEverySteps(std::size_t steps, py::function function) {
+    if (steps == 0) throw InputError("every_steps: steps = 0; it must be at least 1.");
+    calls.push_back({steps, 0, 0, std::move(function)});
+    schedule();
+}
+
+void PythonScene::callEveryTime(double interval, py::function function) {
+    checkValue("every_time", "interval", interval, "s", positive);
+    calls.push_back({0, interval, 0, std::move(function)});
+    schedule();
+}
+
+/// When the functions are due does not depend on where a run was stopped: it follows from step and time.
+void PythonScene::schedule() {
+    const std::size_t done = scene().getNumberOfTimeSteps();
+    const double middle = scene().getTime() + 0.5 * scene().getTimeStep();
+    if (isFirstStep) lastClockStep = done, nextClock = done + 1;
+    nextLook = nextClock, nextTime = infinity;
+    for (Call& call : calls) {
+        if (call.steps > 0) nextLook = std::min(nextLook, (done / call.steps + 1) * call.steps);
+        else {
+            call.next = (std::floor(middle / call.interval) + 1) * call.interval;
+            nextTime = std::min(nextTime, call.next);
+        }
+    }
+}
+
+void PythonScene::look() {
+    const py::gil_scoped_acquire python;
+    try {
+        callDue();
+        if (running->getNumberOfTimeSteps() >= nextClock) lookAtClock();
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    } catch (py::error_already_set& error) {
+        const bool isInterrupt = error.matches(PyExc_KeyboardInterrupt);
+        const std::string sentence = sentenceOf(error);
+        raised = std::current_exception();
+        if (!isInterrupt) throw FunctionRaised(sentence);
+        running->requestPause();
+    }
+    schedule();
+}
+
+void PythonScene::callDue() {
+    const std::size_t done = running->getNumberOfTimeSteps();
+    const double middle = running->getTime() + 0.5 * running->getTimeStep();
+    const std::vector<Call> now = calls;  // one may add another
+    for (const Call& call : now) {
+        if (call.steps > 0 ? done % call.steps != 0 : middle < call.next) continue;
+        const py::object answer = call.function(py::cast(this, py::return_value_policy::reference));
+        if (answer.is(py::bool_(false))) running->requestPause();
+        if (views > 0) {
+            PyErr_SetString(PyExc_BufferError,
+                            "A function that the scene called has kept an array of view(); copy it with "
+                            "numpy.array(), or drop it at its end.");
+            throw py::error_already_set();
+        }
+    }
+}
+
+/// Some fifty times a second, by the steps that were done in the last interval.
+void PythonScene::lookAtClock() {
+    const auto now = Clock::now();
+    const std::size_t done = running->getNumberOfTimeSteps();
+    const double took = std::max(std::chrono::duration<double>(now - lastClock).count(), 1e-9);
+    const double perSecond = static_cast<double>(done - lastClockStep) / took;
+    const double wanted = perSecond * std::chrono::duration<double>(lookInterval).count();
+    nextClock = done + static_cast<std::size_t>(
+                           std::clamp(wanted, 1.0, 2.0 * static_cast<double>(done - lastClockStep) + 1));
+    lastClock = now, lastClockStep = done;
+    if (progressFunction && now >= nextProgress) showProgress();
+}
+
+void PythonScene::showProgress() {
+    nextProgress = Clock::now() + progressInterval;
+    progressFunction(running->getTime());
+}
+
+// ---- The run
+
+void PythonScene::go(const std::function<void()>& part) {
+    requireNoViews();
+    raised = nullptr;
+    lastClock = Clock::now(), nextClock = 0;
+    nextProgress = lastClock + progressInterval;
+    try {
+        const Running here(*this);
+        isFirstStep = true;
+        const py::gil_scoped_release others;
+        part();
+    } catch (...) {
+        progressFunction = {};
+        if (raised) std::rethrow_exception(std::exchange(raised, nullptr));
+        throw;
+    }
+    if (progressFunction) showProgress();
+    progressFunction = {};
+    if (!raised) return;
+    if (keepsRestart && !scene().hasEnded()) scene().writeRestart(scene().restartFile());
+    std::rethrow_exception(std::exchange(raised, nullptr));
+}
+
+void PythonScene::runTo(double time, const py::object& progress) {
+    requireNoViews();
+    if (!progress.is_none()) progressFunction = progress;
+    go([&] { scene().runTo(time); });
+}
+
+void PythonScene::runSteps(std::size_t count, const py::object& progress) {
+    requireNoViews();
+    if (!progress.is_none()) progressFunction = progress;
+    go([&] { scene().runSteps(count); });
+}
+
+/// A part of no steps.
+void PythonScene::initialise() {
+    go([&] { scene().runSteps(0); });
+}
+
+void PythonScene::finish() {
+    go([&] { scene().finishRun(); });
+}
+
+void PythonScene::keepRestartFile(double interval, std::size_t steps) {
+    scene().keepRestartFile();
+    scene().setRestartInterval(interval);
+    scene().setRestartCount(steps);
+    keepsRestart = true;
+}
+
+void PythonScene::noteEvent(const ContactEvent& event) { events.push_back({scene().getTime(), event}); }
+
+/// Each is an array, or a number; what is read has the shape that the scene was set up with.
+void PythonScene::visitRemembered(StateArchive& archive) {
+    const py::gil_scoped_acquire python;
+    std::map<std::string, Doubles> arrays;
+    for (const auto& [key, value] : remembered) {
+        const std::string name = py::str(key);
+        Doubles numbers = Doubles::ensure(value);
+        if (!numbers) {
+            PyErr_Clear();
+            throw InputError(fmt::format("remembered['{}'] must be a number or an array of numbers.", name));
+        }
+        arrays.emplace(name, std::move(numbers));
+    }
+    for (auto& [name, numbers] : arrays) {
+        std::vector<double> column(numbers.data(), numbers.data() + numbers.size());
+        archive.column<double>(name, column);
+        if (!archive.isReading()) continue;
+        if (numbers.ndim() == 0) remembered[py::str(name)] = column.empty() ? 0.0 : column.front();
+        else if (static_cast<py::ssize_t>(column.size()) == numbers.size())
+            remembered[py::str(name)] = arrayOf(std::move(column)).attr("reshape")(numbers.attr("shape"));
+        else remembered[py::str(name)] = arrayOf(std::move(column));
+    }
+}
+
+// ---- The garbage collector
+
+int PythonScene::visitObjects(visitproc visit, void* arg) const {
+    for (const Call& call : calls) Py_VISIT(call.function.ptr());
+    Py_VISIT(remembered.ptr());
+    return 0;
+}
+
+void PythonScene::clearObjects() {
+    calls.clear();
+    remembered = py::dict();
+}
+
+}  // namespace pendular::python

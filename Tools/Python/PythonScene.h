@@ -1,0 +1,207 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "Kernel/Contacts/ContactEvent.h"
+#include "Kernel/Simulation/Scene.h"
+#include "Kernel/Species/AnySpecies.h"
+#include "Tools/Python/Numbers.h"
+
+namespace pendular {
+class SuperquadricHandler;
+}
+
+namespace pendular::python {
+
+/// A scene that Python drives: its run, the functions that it calls, and the arrays that look into its
+/// memory. Hosted<> joins it with a Simulation.
+///
+/// The interpreter goes on with other threads while the scene steps. It is asked for Ctrl-C every 20 ms.
+class PythonScene {
+public:
+    PythonScene() = default;
+    PythonScene(const PythonScene&) = delete;
+    PythonScene& operator=(const PythonScene&) = delete;
+    virtual ~PythonScene() = default;
+
+    [[nodiscard]] virtual Scene& scene() = 0;
+    [[nodiscard]] const Scene& scene() const { return const_cast<PythonScene*>(this)->scene(); }
+    /// Species and pairs by the name of their type. Throw InputError for another name.
+    virtual AnySpecies& addSpecies(std::string_view type) = 0;
+    virtual AnyLaws& lawsOfPair(const AnySpecies& a, const AnySpecies& b, std::string_view type) = 0;
+    /// Null where the scene takes only spheres.
+    [[nodiscard]] virtual SuperquadricHandler* superquadrics() { return nullptr; }
+
+    // Functions that the scene calls with itself. Where one returns False, run() returns after this step;
+    // where one raises, the run ends, and run() raises the same.
+    void callEverySteps(std::size_t steps, py::function function);
+    /// At the steps nearest to the multiples of a time (s).
+    void callEveryTime(double interval, py::function function);
+    void clearCalls() { calls.clear(); }
+
+    /// Goes on to a time (s). @param progress called with the time some five times a second; or None
+    void runTo(double time, const py::object& progress);
+    void runSteps(std::size_t count, const py::object& progress);
+    void initialise();
+    void finish();
+    void keepRestartFile(double interval, std::size_t steps);
+
+    // Called by Hosted.
+    void beforeStep() {
+        if (isFirstStep) schedule();
+        isFirstStep = false;
+    }
+    void afterStep() {
+        if (running->getNumberOfTimeSteps() < nextLook &&
+            running->getTime() + 0.5 * running->getTimeStep() < nextTime) [[likely]]
+            return;
+        look();
+    }
+    void noteEvent(const ContactEvent& event);
+    void visitRemembered(StateArchive& archive);
+
+    /// Throws RunError where another thread is stepping this scene.
+    void requireThisThread() const;
+    /// Throws BufferError while an array of view() lives.
+    void requireNoViews() const;
+    void addView() { ++views; }
+    void removeView() { --views; }
+
+    /// For the garbage collector of Python: all that the scene holds of it.
+    int visitObjects(visitproc visit, void* argument) const;
+    void clearObjects();
+
+    /// Numbers and arrays of the driver's own that are in restart files, by name.
+    py::dict remembered;
+    /// Events since they were last taken.
+    struct Event {
+        double time;  // s
+        ContactEvent what;
+    };
+    std::vector<Event> events;
+    std::map<std::string, ContactColumnReference> contactColumns;
+
+private:
+    struct Call {
+        std::size_t steps;  // 0: by time
+        double interval;    // s
+        double next;        // s
+        py::function function;
+    };
+    class Running;
+
+    void go(const std::function<void()>& part);
+    void schedule();
+    void look();
+    void callDue();
+    void showProgress();
+    void lookAtClock();
+
+    std::vector<Call> calls;
+    Scene* running = nullptr;  // this scene, while it steps
+    std::atomic<std::thread::id> thread{};
+    std::size_t nextLook = 0, nextClock = 0, lastClockStep = 0;
+    double nextTime = 0;  // s
+    std::chrono::steady_clock::time_point lastClock, nextProgress;
+    py::object progressFunction;
+    std::exception_ptr raised;  // by a function of the driver, or Ctrl-C
+    long views = 0;
+    bool keepsRestart = false;
+    bool isFirstStep = true;  // of a part: by then the state of a restart file is known
+};
+
+/// A simulation that Python drives.
+template <class Simulation>
+class Hosted : public Simulation, public PythonScene {
+public:
+    using PythonScene::scene;
+    [[nodiscard]] Scene& scene() final { return *this; }
+
+    void actionsBeforeTimeStep() final { beforeStep(); }
+    void actionsAfterTimeStep() final { afterStep(); }
+    void actionsOnContactEvent(const ContactEvent& event) final { noteEvent(event); }
+    void visitState(StateArchive& archive) final { visitRemembered(archive); }
+};
+
+/// A scene of any species that are chosen by name.
+std::shared_ptr<PythonScene> makeScene();
+/// A scene of superquadrics of one species type. Throws InputError, with the names that there are.
+std::shared_ptr<PythonScene> makeShapedScene(std::string_view type);
+std::vector<std::string_view> shapedSpecies();
+
+/// What Python has of a part of a scene, which it keeps alive.
+struct Handle {
+    explicit Handle(PythonScene& scene)
+        : owner(&scene), kept(py::cast(owner, py::return_value_policy::reference)) {}
+    PythonScene* owner;
+    py::object kept;
+};
+
+/// A species of a scene, for Python.
+struct SpeciesHandle : Handle {
+    SpeciesHandle(PythonScene& scene, AnySpecies& of) : Handle(scene), species(&of) {}
+    AnySpecies* species;
+    [[nodiscard]] int getIndex() const { return species->getIndex(); }
+    [[nodiscard]] const void* getOwner() const { return species->getOwner(); }
+};
+
+/// The object of a class as Python's garbage collector meets it; null while it is being made.
+template <class Of>
+Of* heldBy(PyObject* self) {
+    const auto held = reinterpret_cast<py::detail::instance*>(self)->get_value_and_holder();
+    return held.holder_constructed() ? held.value_ptr<Of>() : nullptr;
+}
+/// For a class that holds objects of Python, which may hold it.
+/// @tparam visit calls a function for each of them; @tparam clear drops them
+template <class Of, auto visit, auto clear>
+py::custom_type_setup collectGarbage() {
+    return py::custom_type_setup([](PyHeapTypeObject* type) {
+        type->ht_type.tp_flags |= Py_TPFLAGS_HAVE_GC;
+        type->ht_type.tp_traverse = [](PyObject* self, visitproc visitor, void* argument) {
+            if (const int stopped = visitor(reinterpret_cast<PyObject*>(Py_TYPE(self)), argument))
+                return stopped;
+            const Of* const of = heldBy<Of>(self);
+            return of ? visit(*of, visitor, argument) : 0;
+        };
+        type->ht_type.tp_clear = [](PyObject* self) {
+            if (Of* const of = heldBy<Of>(self)) clear(*of);
+            return 0;
+        };
+    });
+}
+template <class Of>
+py::custom_type_setup collectHandles() {
+    constexpr auto visit = [](const Of& of, visitproc visitor, void* argument) {
+        return of.kept ? visitor(of.kept.ptr(), argument) : 0;
+    };
+    return collectGarbage<Of, visit, [](Of& of) { of.kept = {}; }>();
+}
+
+/// A function of Python as one of the kernel, which may copy and drop it in any thread.
+std::shared_ptr<py::function> shared(py::function function);
+
+}  // namespace pendular::python
+
+namespace pybind11::detail {
+
+/// Each call of a scene first looks whether another thread is stepping it.
+template <>
+class type_caster<pendular::python::PythonScene> : public type_caster_base<pendular::python::PythonScene> {
+public:
+    bool load(handle source, bool convert) {
+        if (!type_caster_base::load(source, convert)) return false;
+        static_cast<pendular::python::PythonScene*>(value)->requireThisThread();
+        return true;
+    }
+};
+
+}  // namespace pybind11::detail

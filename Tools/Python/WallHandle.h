@@ -1,0 +1,43 @@
+#pragma once
+
+#include "Kernel/Walls/TriangleReader.h"
+#include "Kernel/Walls/WallHandler.h"
+#include "Tools/Python/PythonScene.h"
+
+namespace pendular::python {
+
+/// A wall of a scene, for Python, by its number: it may have been removed.
+struct WallHandle : Handle {
+    WallHandle(PythonScene& scene, std::size_t wall) : Handle(scene), number(wall) {}
+    std::size_t number;
+
+    /// Throws InputError where it was removed or is of another kind; RunError where another thread steps.
+    template <class Kind>
+    [[nodiscard]] Kind& as(std::string_view what) const {
+        owner->requireThisThread();
+        Wall& wall = owner->scene().wallHandler.getObject(number);
+        if (auto* const found = dynamic_cast<Kind*>(&wall)) return *found;
+        refuse(what, wall.isRemoved());
+    }
+    [[nodiscard]] Wall& wall() const {
+        owner->requireThisThread();
+        return owner->scene().wallHandler.getObject(number);
+    }
+
+private:
+    [[noreturn]] void refuse(std::string_view what, bool isRemoved) const;
+};
+
+/// Adds a wall whose shape is set. @param forces are kept
+template <class Shape>
+WallHandle addWall(PythonScene& scene, const SpeciesHandle& species, Shape& wall, bool forces) {
+    wall.setSpecies(&species);
+    Shape* const added = scene.scene().wallHandler.copyAndAddObject(wall);
+    if (forces) added->keepForces();
+    return {scene, scene.scene().wallHandler.getSize() - 1};
+}
+
+/// Triangles of an array N x 3 x 3 (m), or of a file.
+std::vector<Triangle> trianglesOf(const py::object& mesh, double scale);
+
+}  // namespace pendular::python

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Takes what help() says from the comments of the kernel's headers, so that it is written once.
+
+    make-comments.py OUTPUT.cpp KERNEL_FOLDER BINDING.cpp...
+
+For each comment("Class::function") or comment("Class") in the bindings it finds the declaration, and the /// comment in
+front of it. It fails where there is none.
+"""
+import re
+import sys
+from pathlib import Path
+
+
+def snake(name):
+    return re.sub(r"(?<=[a-z0-9])([A-Z])", r"_\1", name).lower()
+
+
+def in_python(text):
+    """Names of functions and fields as they are in Python; lines as they flow."""
+    text = re.sub(r"@param (\w+)", lambda m: f"\n{snake(m[1])}:", text)
+    text = re.sub(r"\b(?:Kernel/)?\w+/[\w/]+\.(?:h|md)\b", lambda m: m[0], text)
+    text = re.sub(r"\b([a-z]{2,}(?:[A-Z][a-z0-9]*)+)\b", lambda m: snake(m[1]), text)
+    text = re.sub(r"\bset_(\w+)\(\)", r"set_\1()", text).replace("Throws InputError", "Raises InputError")
+    return re.sub(r" *\n *", "\n", re.sub(r"[ \t]+", " ", text)).strip()
+
+
+def comments_of(header):
+    """{name or Class::name: comment} of a header; the first declaration of a name that has one."""
+    found, classes, comment, depth = {}, [], [], 0
+    for line in header.read_text().splitlines():
+        code = line.strip()
+        if code.startswith("///"):
+            comment.append(code[3:].strip())
+            continue
+        if code.startswith("//") or re.fullmatch(r"template.*>|(?:class|struct) \w+;", code):
+            continue  # the comment is of what follows
+        own = code.partition("///<")[0]
+        named = re.match(r"(?:class|struct|enum class|using) (\w+)", own)
+        function = None if named else re.search(r"(\w+)\(", own)
+        name = (named or function)[1] if (named or function) else None
+        if name and comment:
+            whole = "::".join([c for c, _ in classes] + [name])
+            found.setdefault(whole, " ".join(comment))
+        trailing = re.search(r"// (.+)$", own)
+        if function and not comment and trailing:
+            found.setdefault("::".join([c for c, _ in classes] + [name]), trailing[1])
+        if named and "{" in own:
+            classes.append((name, depth))
+        own = re.sub(r"//.*$", "", own)
+        depth += own.count("{") - own.count("}")
+        while classes and depth <= classes[-1][1] and "}" in own:
+            classes.pop()
+        if code:
+            comment = []
+    return found
+
+
+def main():
+    output, kernel, *bindings = map(Path, sys.argv[1:])
+    wanted = sorted({n for b in bindings for n in re.findall(r'comment\("([\w:]+)"\)', b.read_text())})
+    known = {}
+    for header in sorted(kernel.rglob("*.h")):
+        if header.name == "MercuryScene.h" or header.parent.name == "Mercury":
+            continue
+        for name, text in comments_of(header).items():
+            known.setdefault(name, text)
+    missing = [name for name in wanted if name not in known]
+    if missing:
+        sys.exit(f"make-comments.py: no comment in {kernel} at {', '.join(missing)}.")
+    rows = "".join(f'    {{"{n}", R"~({in_python(known[n])})~"}},\n' for n in wanted)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text(
+        "// Written by make-comments.py from the headers of the kernel.\n#include <map>\n#include <string_view>\n\n"
+        "namespace pendular::python {\n\nconst char* comment(std::string_view name) {\n"
+        "    static const std::map<std::string_view, const char*> comments = {\n"
+        f"{rows}    }};\n    return comments.at(name);\n}}\n\n}}  // namespace pendular::python\n"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,63 @@
+"""Pendular from Python: scenes of dry and wet grains, their runs, and numpy arrays. All numbers are in SI units.
+
+    import pendular
+    scene = pendular.Scene()
+    glass = scene.add_species("HertzianViscoelasticMindlin", density=2500, young_modulus=5e6, poisson_ratio=0.25,
+                              restitution_coefficient=0.5, sliding_friction_coefficient=0.4)
+    scene.add_grains(glass, [[0, 0, 2e-3]], 1e-3)
+    scene.add_plane(glass, outward=(0, 0, -1), point=(0, 0, 0))
+    scene.gravity = (0, 0, -9.81)
+    scene.choose_time_step()
+    scene.run(0.1)
+    print(scene.position)
+"""
+import os as _os
+
+from ._choose import choose as _choose
+
+_choose(_os.path.dirname(__file__), __path__)
+
+from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
+    InputError,
+    Region,
+    RunError,
+    RunStopped,
+    Shape,
+    Sizes,
+    Species,
+    Wall,
+    bidisperse_sizes,
+    block,
+    box,
+    clump,
+    cylinder,
+    even_sizes,
+    fields,
+    load_species,
+    lognormal_sizes,
+    membrane_sheet,
+    membrane_tube,
+    mesh_inside,
+    normal_sizes,
+    one_size,
+    read_sizes,
+    rosin_rammler_sizes,
+    shaped_species,
+    sizes,
+    species,
+    sphere,
+    superquadric,
+)
+from ._log import show_log as _show_log
+from .results import draw, frames, restart, table, to_pyvista
+from .scene import Scene
+
+__all__ = [
+    "InputError", "Region", "RunError", "RunStopped", "Scene", "Shape", "Sizes", "Species", "Wall",
+    "bidisperse_sizes", "block", "box", "clump", "cylinder", "draw", "even_sizes", "fields", "frames", "load_species",
+    "lognormal_sizes", "membrane_sheet", "membrane_tube", "mesh_inside", "normal_sizes", "one_size", "read_sizes",
+    "restart", "rosin_rammler_sizes", "shaped_species", "sizes", "species", "sphere", "superquadric", "table",
+    "to_pyvista",
+]  # fmt: skip
+
+_show_log()

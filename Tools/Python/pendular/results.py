@@ -1,0 +1,131 @@
+"""Reading what runs have written, and pictures of scenes."""
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Dict, Iterator, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _kernel
+
+if TYPE_CHECKING:
+    import pandas
+
+Path = Union[str, "os.PathLike[str]"]
+Columns = Dict[str, np.ndarray]
+
+
+def _open(file: Path) -> Any:
+    import h5py
+
+    if not os.path.exists(file):
+        raise _kernel.InputError(f"There is no file {os.fspath(file)}.")
+    try:
+        return h5py.File(file, "r")
+    except OSError as problem:
+        raise _kernel.InputError(f"{os.fspath(file)} is no file of the HDF5 library.") from problem
+
+
+def _numbers(data: Any) -> np.ndarray:
+    """As the arrays of a scene are: tensors are 3 x 3, single columns have one axis."""
+    numbers = data[()]
+    if numbers.ndim == 2 and numbers.shape[1] == 1:
+        return numbers[:, 0]
+    return numbers.reshape(-1, 3, 3) if numbers.ndim == 2 and numbers.shape[1] == 9 else numbers
+
+
+def frames(file: Path, part: str = "particles") -> Iterator[Tuple[float, Columns]]:
+    """The time (s) and the columns of each frame of NAME-fields.h5 (write_hdf5()), by the names that Scene.grains() has.
+
+    part: particles, contacts or walls; of files of write_fields(hdf5=True): fields. Raises InputError.
+    """
+    with _open(file) as run:
+        if "step" not in run:
+            raise _kernel.InputError(f"{os.fspath(file)} lists no frames.")
+        for time, step in zip(run["time_s"][:], run["step"][:]):
+            frame = run[f"frames/{int(step):09}"]
+            if part not in frame:
+                raise _kernel.InputError(f"A frame of {os.fspath(file)} has no {part}; it has {', '.join(frame)}.")
+            yield float(time), {name: _numbers(data) for name, data in frame[part].items()}
+
+
+def table(file: Path) -> pandas.DataFrame:
+    """A table of a run (NAME-energy.csv, ...) with the units in the names of its columns."""
+    import pandas
+
+    if not os.path.exists(file):
+        raise _kernel.InputError(f"There is no file {os.fspath(file)}.")
+    return pandas.read_csv(file)
+
+
+def restart(file: Path) -> Columns:
+    """All tables of a restart file, by their names: "particles/translation", ... (Kernel/Output/README.md lists them)."""
+    tables: Columns = {}
+
+    def take(name: str, data: Any) -> None:
+        if hasattr(data, "shape"):
+            tables[name] = data[()]
+
+    with _open(file) as state:
+        state.visititems(take)
+    return tables
+
+
+def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, along: str = "y",
+         axes: Optional[Any] = None, colormap: str = "viridis") -> Any:
+    """Draws the grains as discs by matplotlib, as seen along an axis, those in front last; returns the axes.
+
+    color: the name of a column of grains() (a vector is taken by its length), or a number for each grain.
+    """
+    import matplotlib.pyplot as plt
+    from matplotlib.collections import EllipseCollection
+
+    if along not in ("x", "y", "z"):
+        raise _kernel.InputError(f"draw() looks along 'x', 'y' or 'z'; not {along!r}.")
+    across, up = {"x": (1, 2), "y": (0, 2), "z": (0, 1)}[along]
+    depth = 3 - across - up
+    columns = scene.grains()
+    place, radius = columns["position_m"], columns["radius_m"]
+    values, label = _colors(columns, color)
+    front = np.argsort(place[:, depth] if along != "y" else -place[:, depth], kind="stable")
+    if axes is None:
+        axes = plt.subplots()[1]
+    width = 2 * radius[front]
+    discs = EllipseCollection(width, width, np.zeros(len(front)), units="xy", offsets=place[front][:, [across, up]],
+                              transOffset=axes.transData, array=values[front], cmap=colormap, edgecolors="k",
+                              linewidths=0.3)
+    axes.add_collection(discs)
+    axes.set(aspect="equal", xlabel=f"{'xyz'[across]} (m)", ylabel=f"{'xyz'[up]} (m)")
+    if len(front):
+        low, high = (place - radius[:, None]).min(0), (place + radius[:, None]).max(0)
+        axes.set(xlim=(low[across], high[across]), ylim=(low[up], high[up]))
+    if color is not None:
+        axes.figure.colorbar(discs, ax=axes, label=label)
+    return axes
+
+
+def _colors(columns: Columns, color: Union[str, np.ndarray, None]) -> Tuple[np.ndarray, str]:
+    count = len(columns["radius_m"])
+    if color is None:
+        return np.zeros(count), ""
+    if isinstance(color, str):
+        if color not in columns:
+            raise _kernel.InputError(f"Grains have no column {color!r}; they have {', '.join(columns)}.")
+        values = columns[color]
+        return (np.linalg.norm(values.reshape(count, -1), axis=1) if values.ndim > 1 else values), color
+    values = np.asarray(color, float)
+    if values.shape != (count,):
+        raise _kernel.InputError(f"color must be a number for each of {count} grains; it has the shape {values.shape}.")
+    return values, ""
+
+
+def to_pyvista(scene: _kernel.Scene) -> Any:
+    """The grains as points of pyvista, with all their columns; scene.glyph(scale="diameter_m") draws spheres."""
+    import pyvista
+
+    columns = scene.grains()
+    points = pyvista.PolyData(columns.pop("position_m"))
+    for name, values in columns.items():
+        points[name] = values.reshape(len(values), -1) if values.ndim > 1 else values
+    points["diameter_m"] = 2 * columns["radius_m"]
+    return points

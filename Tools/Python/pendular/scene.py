@@ -1,0 +1,96 @@
+"""The scene: what _kernel.Scene has, and what is shorter in Python."""
+from __future__ import annotations
+
+import sys
+from typing import Any, Callable, List, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _kernel
+
+Progress = Union[bool, Callable[[float], None], None]
+
+
+class Scene(_kernel.Scene):
+    """A scene of grains, and its run.
+
+    Scene(name="", *, threads=1, quiet=True, superquadrics=None)
+
+    name: what the names of its files begin with; a folder may be in it. threads: the results do not depend on it.
+    quiet: no warnings, no summary. superquadrics: the name of its one species type, where grains are superquadrics or
+    blocks (pendular.shaped_species() has the names).
+
+    Arrays have a row for each grain, in the order of identities, and are copies. All numbers are in SI units. Raises
+    InputError (a ValueError) for what cannot be right, and RunError (a RuntimeError) where a run cannot go on.
+    """
+
+    def add_box(self, species: _kernel.Species, lowest: Sequence[float], highest: Sequence[float],
+                *, lid: bool = True, forces: bool = False) -> List[_kernel.Wall]:
+        """Adds the planes of a box (m): along x, y and z the lower and the upper one; without lid not the last."""
+        walls = []
+        for axis in range(3):
+            outward = np.zeros(3)
+            outward[axis] = 1
+            walls.append(self.add_plane(species, -outward, lowest, forces=forces))
+            if axis < 2 or lid:
+                walls.append(self.add_plane(species, outward, highest, forces=forces))
+        return walls
+
+    def run(self, until: Optional[float] = None, *, steps: Optional[int] = None, progress: Progress = False) -> Scene:
+        """Begins the run, or goes on with it, to a time (s), or for so many steps; it may be called again.
+
+        progress: True shows a bar (by tqdm where it is installed), a function is called with the time (s). Ctrl-C is
+        KeyboardInterrupt after the step, with a whole restart file where one is kept, and the scene can go on. Other
+        threads of Python go on while it runs.
+        """
+        if (until is None) == (steps is None):
+            raise _kernel.InputError("run() takes the time (s) until which it runs, or steps.")
+        if steps is not None:
+            if steps < 0:
+                raise _kernel.InputError(f"run() takes at least 0 steps; they are {steps}.")
+            self._run_steps(steps, progress if callable(progress) else None)
+        elif progress is True:
+            with _bar(self.time, float(until), self.name) as show:  # type: ignore[arg-type]
+                self._run_to(until, show)  # type: ignore[arg-type]
+        else:
+            self._run_to(until, progress if callable(progress) else None)  # type: ignore[arg-type]
+        return self
+
+    def __enter__(self) -> Scene:
+        return self
+
+    def __exit__(self, kind: Any, *_: Any) -> None:
+        """Ends the run: its last outputs are written."""
+        if kind is None and self.steps > 0 and not self.has_ended:
+            self.finish()
+
+    def __repr__(self) -> str:
+        return f"<pendular.Scene {self.name!r}: {len(self)} grains, {self.time:.6g} s>"
+
+
+class _bar:
+    """Progress by tqdm, or as a line on standard error."""
+
+    def __init__(self, start: float, end: float, name: str) -> None:
+        self.start, self.end, self.name, self.bar = start, end, name, None
+
+    def __enter__(self) -> Callable[[float], None]:
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            return self._line
+        form = "{desc}: {percentage:3.0f}% |{bar}| {n:.4g} of {total:.4g} s [{elapsed}<{remaining}]"
+        self.bar = tqdm(total=self.end, initial=self.start, desc=self.name, bar_format=form)
+        return self._move
+
+    def _move(self, time: float) -> None:
+        self.bar.update(time - self.bar.n)  # type: ignore[attr-defined]
+
+    def _line(self, time: float) -> None:
+        print(f"\r{self.name}: {time:.4g} of {self.end:.4g} s", end="", file=sys.stderr, flush=True)
+
+    def __exit__(self, *_: Any) -> None:
+        if self.bar is not None:
+            self.bar.close()
+        else:
+            print(file=sys.stderr)
