@@ -112,15 +112,38 @@ void FluxPlaneHandler::findCrossingsAtRest(const Plane& plane, const ParticleSto
 
 /// The velocity is the way over the step: that of the grain is the one that contacts are to see, with most
 /// integrators that of the end of the step. A way errs by 1e-16 of its place.
-void FluxPlaneHandler::add(FluxCount& count, const Crossing& crossing, double mass, double liquid,
-                           double step) {
+void FluxPlaneHandler::OneWay::add(const Crossing& crossing, double ofMass, double ofLiquid, double step) {
     const double times = std::abs(crossing.times);
-    const Vector<double> velocity = (1 / step) * crossing.way;
-    const bool forwards = crossing.times > 0;
-    (forwards ? count.forwards : count.backwards) += static_cast<std::uint64_t>(times);
-    (forwards ? count.massForwards : count.massBackwards) += times * mass;
-    (forwards ? count.momentumForwards : count.momentumBackwards) += times * mass * velocity;
-    (forwards ? count.liquidForwards : count.liquidBackwards) += times * liquid;
+    number += static_cast<std::uint64_t>(times);
+    mass.add(times * ofMass);
+    momentum.add((times * ofMass) * ((1 / step) * crossing.way));
+    liquid.add(times * ofLiquid);
+}
+
+void FluxPlaneHandler::count(Plane& plane, ParticleHandler& particles, double step,
+                             const std::function<double(std::uint32_t)>& liquidOf) const {
+    const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
+    OneWay forwards, backwards;
+    for (const Crossing& crossing : crossings) {
+        OneWay& way = crossing.times > 0 ? forwards : backwards;
+        if (crossing.body == RigidBodies::none) {
+            way.add(crossing, particles.massAt(crossing.place), liquidOf(crossing.place), step);
+            continue;
+        }
+        double liquid = 0;  // m^3
+        for (const BodyMember& member : grains.bodies.membersOf(crossing.body))
+            liquid += liquidOf(grains.place[member.grain]);
+        way.add(crossing, grains.bodies[crossing.body].mass, liquid, step);
+    }
+    FluxCount& all = plane.count;
+    all.forwards += forwards.number;
+    all.backwards += backwards.number;
+    all.massForwards += forwards.mass.value();
+    all.massBackwards += backwards.mass.value();
+    all.momentumForwards += forwards.momentum.value();
+    all.momentumBackwards += backwards.momentum.value();
+    all.liquidForwards += forwards.liquid.value();
+    all.liquidBackwards += backwards.liquid.value();
 }
 
 void FluxPlaneHandler::afterMotion(ParticleHandler& particles, const PeriodicBox& periodic, double step,
@@ -128,16 +151,7 @@ void FluxPlaneHandler::afterMotion(ParticleHandler& particles, const PeriodicBox
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     for (Plane& plane : planes) {
         findCrossings(plane, grains, periodic, step);
-        for (const Crossing& crossing : crossings) {
-            if (crossing.body == RigidBodies::none) {
-                add(plane.count, crossing, particles.massAt(crossing.place), liquidOf(crossing.place), step);
-                continue;
-            }
-            double liquid = 0;  // m^3
-            for (const BodyMember& member : grains.bodies.membersOf(crossing.body))
-                liquid += liquidOf(grains.place[member.grain]);
-            add(plane.count, crossing, grains.bodies[crossing.body].mass, liquid, step);
-        }
+        if (!crossings.empty()) count(plane, particles, step, liquidOf);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/PeriodicBox.h"
 
@@ -84,8 +85,18 @@ private:
     void findCrossings(const Plane& plane, const ParticleStore& grains, const PeriodicBox& periodic,
                        double step);
     void findCrossingsAtRest(const Plane& plane, const ParticleStore& grains);
-    /// @param mass kg and @param liquid m^3, of what has gone through the plane
-    static void add(FluxCount& count, const Crossing& crossing, double mass, double liquid, double step);
+    /// What goes through a plane one way in a step.
+    struct OneWay {
+        std::uint64_t number = 0;
+        ExactSum mass, liquid;    // kg, m^3
+        ExactVectorSum momentum;  // kg m/s
+
+        void add(const Crossing& crossing, double mass, double liquid, double step);
+    };
+    /// Adds the crossings that have been found to the count of a plane: sums of a step are exact, so that it
+    /// does not matter which comes first.
+    void count(Plane& plane, ParticleHandler& particles, double step,
+               const std::function<double(std::uint32_t)>& liquidOf) const;
 
     std::vector<Plane> planes;
     std::vector<Vector<double>> from,

@@ -22,9 +22,14 @@ void GrainTally::add(std::size_t species, double radius, double mass) {
     const auto sizeClass = static_cast<std::size_t>(
         std::upper_bound(borders.begin(), borders.end(), 2 * radius) - borders.begin());
     if (species >= speciesCount()) entries.resize((species + 1) * classCount());
-    Entry& entry = entries[species * classCount() + sizeClass];
-    ++entry.number;
-    entry.mass += mass;
+    const std::size_t entry = species * classCount() + sizeClass;
+    ++entries[entry].number;
+    ofThisStep[entry].add(mass);
+}
+
+void GrainTally::endStep() {
+    for (const auto& [entry, mass] : ofThisStep) entries[entry].mass += mass.value();
+    ofThisStep.clear();
 }
 
 double GrainTally::lowest(std::size_t sizeClass) const { return sizeClass == 0 ? 0 : borders[sizeClass - 1]; }

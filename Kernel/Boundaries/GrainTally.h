@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
+
+#include "Kernel/Math/ExactSum.h"
 
 namespace pendular {
 
@@ -19,8 +22,11 @@ public:
     /// Borders (m) of the classes: from one diameter up to, and without, the next one. What is smaller or
     /// larger is in a class of its own. Throws InputError unless they rise, and are above 0.
     void setClasses(std::span<const double> diameters);
-    /// @param radius m; @param mass kg
+    /// A grain that goes in this step. @param radius m; @param mass kg
     void add(std::size_t species, double radius, double mass);
+    /// All that go in this step have been added: their masses count, whose sums are exact, so that it does
+    /// not matter which went first.
+    void endStep();
 
     [[nodiscard]] std::size_t speciesCount() const { return entries.size() / classCount(); }
     [[nodiscard]] std::size_t classCount() const { return borders.size() + 1; }
@@ -34,8 +40,9 @@ public:
     void visitState(StateArchive& archive);
 
 private:
-    std::vector<double> borders;  // m, diameters
-    std::vector<Entry> entries;   // by species, then class
+    std::vector<double> borders;                 // m, diameters
+    std::vector<Entry> entries;                  // by species, then class
+    std::map<std::size_t, ExactSum> ofThisStep;  // kg, by the number of the entry
 };
 
 }  // namespace pendular

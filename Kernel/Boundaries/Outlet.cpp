@@ -129,6 +129,7 @@ void OutletHandler::letOut(ParticleHandler& particles, BodyHandler& bodies, cons
     findBodies(grains, tooYoung);
     std::ranges::sort(leaving);
     for (const Leaving& one : leaving) remove(one, particles, bodies);
+    for (Outlet& outlet : outlets) outlet.tally.endStep();
 }
 
 void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung,

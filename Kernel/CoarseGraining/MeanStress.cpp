@@ -4,6 +4,7 @@
 #include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/MovingBodies.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/ParticleStore.h"
@@ -13,41 +14,64 @@
 
 namespace pendular {
 
+namespace {
+
+/// The exact sum of dyads a b^T.
+class DyadSum {
+public:
+    void add(const Vector<double>& a, const Vector<double>& b) {
+        rows[0].add(a.x * b);
+        rows[1].add(a.y * b);
+        rows[2].add(a.z * b);
+    }
+    [[nodiscard]] Eigen::Matrix3d value() const {
+        Eigen::Matrix3d sum;
+        for (int k = 0; k < 3; ++k) sum.row(k) = toEigen(rows[static_cast<std::size_t>(k)].value());
+        return sum;
+    }
+
+private:
+    std::array<ExactVectorSum, 3> rows;
+};
+
+}  // namespace
+
 Eigen::Matrix3d MeanStress::total() const { return kinetic + contact + capillary + viscous; }
 
 double MeanStress::pressure() const { return total().trace() / 3; }
 
 MeanStress meanStress(const Scene& scene, double volume) {
     checkValue("meanStress", "volume", volume, "m^3", positive);
-    MeanStress stress;
-    const auto add = [volume](Eigen::Matrix3d& part, const Vector<double>& a, const Vector<double>& b) {
-        part += toEigen(a) * toEigen(b).transpose() / volume;
-    };
     const PeriodicBox& box = scene.getPeriodicBox();
     const ParticleStore& grains = scene.particleHandler.store();
     const auto forEachFree = [&](auto&& use) {  // mass (kg), velocity against the flow (m/s)
-        forEachMovingBodyInOrder(
-            grains, [&](double mass, const Vector<double>& position, const Vector<double>& velocity) {
-                use(mass, velocity - box.flowAt(position));
-            });
+        forEachMovingBody(grains,
+                          [&](double mass, const Vector<double>& position, const Vector<double>& velocity) {
+                              use(mass, velocity - box.flowAt(position));
+                          });
     };
-    Vector<double> momentum{0, 0, 0};  // kg m/s
-    double mass = 0;                   // kg
+    ExactVectorSum momentum;  // kg m/s
+    ExactSum mass;            // kg
     forEachFree([&](double own, const Vector<double>& velocity) {
-        mass += own;
-        momentum += own * velocity;
+        mass.add(own);
+        momentum.add(own * velocity);
     });
+    const Vector<double> mean = (1 / mass.value()) * momentum.value();
+    DyadSum kinetic, contact, capillary, viscous;  // J
     forEachFree([&](double own, const Vector<double>& velocity) {
-        const Vector<double> fluctuation = velocity - (1 / mass) * momentum;
-        add(stress.kinetic, own * fluctuation, fluctuation);
+        const Vector<double> fluctuation = velocity - mean;
+        kinetic.add(own * fluctuation, fluctuation);
     });
     const BodyArms arms(grains);
     for (const ObservedContact& seen : scene.interactions()) {
         const Vector<double> pull = seen.adhesiveForce * seen.normal(), branch = -arms.shiftOf(seen);
-        add(stress.capillary, pull, branch);
-        add(seen.touching ? stress.contact : stress.viscous, seen.force - pull, branch);
+        capillary.add(pull, branch);
+        (seen.touching ? contact : viscous).add(seen.force - pull, branch);
     }
-    return stress;
+    return {.kinetic = kinetic.value() / volume,
+            .contact = contact.value() / volume,
+            .capillary = capillary.value() / volume,
+            .viscous = viscous.value() / volume};
 }
 
 MeanStress meanStress(const Scene& scene) {

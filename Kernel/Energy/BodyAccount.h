@@ -39,8 +39,8 @@ public:
     /// @param byHolders J, what holds bodies along and about axes gives them is added, and is not in the sum
     template <class MeanOf>
     void addGainBesidesContacts(const ParticleStore& grains, const ContactStore& contacts,
-                                const Vector<double>& gravity, double step, ExactSum& sum, double& byHolders,
-                                MeanOf&& meanOf) const {
+                                const Vector<double>& gravity, double step, ExactSum& sum,
+                                ExactSum& byHolders, MeanOf&& meanOf) const {
         std::size_t number = 0;
         for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
             if (grains.bodies.isHeld(k)) {
@@ -48,7 +48,7 @@ public:
                 continue;
             }
             const double given = givenByHolders(grains, contacts, gravity, step, k, number);
-            byHolders += given;
+            byHolders.add(given);
             sum.add(-given);
             const RigidBody& body = grains.bodies[k];
             const Vector<double>& then = before[k].velocity;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <bit>
 #include <utility>
 
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/BodyAccount.h"
 #include "Kernel/Energy/ContactAccount.h"
+#include "Kernel/Math/ExactRows.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Motion/Integrator.h"
 #include "Kernel/Particles/MovingBodies.h"
@@ -18,8 +20,8 @@ namespace pendular {
 /// exactly h/2 (F + F+) . (v + v+)/2, with the forces and velocities at its start and at its end; with spins
 /// and torques alike. The work of each force of each contact is summed by the same formula, so that the
 /// account closes to round-off for any number of steps, and what elastic forces did but is not found as
-/// stored energy is told apart as the error of the time steps. Sums are made in the order of identities, by
-/// one thread. Rigid bodies: see BodyAccount.h.
+/// stored energy is told apart as the error of the time steps. The sums of a step are exact, so that no bit
+/// depends on who adds up what first; one thread makes them. Rigid bodies: see BodyAccount.h.
 class EnergyAccount {
 public:
     using Grains = ParticleStore;
@@ -81,19 +83,22 @@ public:
     }
 
     /// In shear and strain: the grain at a place, the so-manieth in the order of identities, goes over to an
-    /// image that moves otherwise (m/s).
-    void changedImage(const Grains& grains, std::uint32_t place, std::size_t number,
-                      const Vector<double>& velocity, EnergyLedger& ledger) {
+    /// image that moves otherwise (m/s). Returns the energy (J) that it gets, for givenByImages().
+    double changedImage(const Grains& grains, std::uint32_t place, std::size_t number,
+                        const Vector<double>& velocity) {
         Vector<double>& then = before[number].velocity;
         const TranslationRecord& grain = grains.translation[place];
-        if (grain.inverseMass > 0) ledger.images += dot(velocity, then + 0.5 * velocity) / grain.inverseMass;
+        const double given =
+            grain.inverseMass > 0 ? dot(velocity, then + 0.5 * velocity) / grain.inverseMass : 0;
         then += velocity;
+        return given;
     }
-    /// In shear and strain: a rigid body goes over to an image that moves otherwise (m/s); its grains are
-    /// told one by one.
-    void changedImageOfBody(const Grains& grains, std::size_t body, const Vector<double>& velocity,
-                            EnergyLedger& ledger) {
-        ledger.images += bodies.changeVelocity(grains.bodies[body], body, velocity);
+    /// The same of a rigid body; its grains are told one by one.
+    double changedImageOfBody(const Grains& grains, std::size_t body, const Vector<double>& velocity) {
+        return bodies.changeVelocity(grains.bodies[body], body, velocity);
+    }
+    static void givenByImages(const ExactSum& energy, EnergyLedger& ledger) {
+        ledger.images += energy.value();
     }
     void changedImageOfMember(std::size_t number, const Vector<double>& velocity) {
         before[number].velocity += velocity;
@@ -106,14 +111,15 @@ public:
         rank.resize(grains.size());
         std::uint32_t next = 0;
         for (const std::uint32_t place : grains.place) rank[place] = next++;
-        double byHolders = givenByHolders(grains, contacts.store(), gravity, step);
+        ExactSum byHolders;
+        addGivenByHolders(grains, contacts.store(), gravity, step, byHolders);
         ledger.stepError -= workBesidesContacts(grains, contacts.store(), gravity, step, scheme, byHolders);
-        ledger.walls += byHolders;
+        ledger.walls += byHolders.value();
         const PeriodicBox& box = contacts.periodicBox();
         const std::vector<WornWall*> wornOf = wornWalls(walls);
         for (WornWall* const worn : wornOf)
             if (worn) worn->forgetStep();
-        EnergyLedger account;  // of this step: small sums are added up before they meet large ones
+        sums.clear();
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                  std::size_t lane, EnergyRecord& record) {
             const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
@@ -133,24 +139,24 @@ public:
             }
             const BodyMotion grain = meanMotion(grains, first);
             WornWall* const worn = kind.isWall ? wornOf[static_cast<std::size_t>(bucket.wall)] : nullptr;
-            const double byWalls = account.walls;
+            EnergyLedger account;  // of this contact in the step
             if (!worn || step == 0) {
                 addContact(record, grain, other, kind, step, account);
             } else {
                 const EnergyRecord then = record;  // addContact() makes the present sample the last one
-                const double slidElsewhere = std::exchange(account.sliding, 0);
                 addContact(record, grain, other, kind, step, account);
                 const Vector<double> arm = depthOf(then, grain.radius);
                 if (!grain.isHeld)
                     worn->takeWear(second, grains.translation[first].position + arm,
                                    contactWear(then, account.sliding, before[rank[first]].velocity,
                                                massAtContact(grains, box, first, arm)));
-                account.sliding += slidElsewhere;
             }
             // The membrane's own account has this work, as it was done on the vertices.
             if (kind.isWall && walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
-                account.stepError -= std::exchange(account.walls, byWalls) - byWalls;
+                account.stepError -= std::exchange(account.walls, 0);
+            sums.add(std::bit_cast<Row>(account));
         });
+        auto account = std::bit_cast<EnergyLedger>(sums.value());
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
         account.migration = byLiquid.migration;
         account.evaporation = byLiquid.evaporation;
@@ -163,6 +169,9 @@ public:
     }
 
 private:
+    static constexpr std::size_t ledgerEntries = sizeof(EnergyLedger) / sizeof(double);
+    using Row = ExactRows<ledgerEntries>::Row;
+
     /// The motion of a grain at the start of the step.
     struct Motion {
         Vector<double> velocity, acceleration;     // m/s, m/s^2
@@ -313,24 +322,22 @@ private:
         }
     }
     /// J: what keeps their motion there does against contacts and weight.
-    double givenByHolders(const Grains& grains, const ContactStore& contacts, const Vector<double>& gravity,
-                          double step) const {
-        double given = 0;
+    void addGivenByHolders(const Grains& grains, const ContactStore& contacts, const Vector<double>& gravity,
+                           double step, ExactSum& given) const {
         for (const HeldLoad& load : heldLoads) {
             const std::uint32_t place = grains.place[load.identity];
             const ContactSum now = loadOf(grains, contacts, place);
             const Vector<double> weight = (1 / grains.translation[place].inverseMass) * gravity;
-            given -= step * (dot(0.5 * (load.contacts.force + now.force) + weight, load.velocity) +
-                             0.5 * dot(load.contacts.torque + now.torque, load.spin));
+            given.add(-step * (dot(0.5 * (load.contacts.force + now.force) + weight, load.velocity) +
+                               0.5 * dot(load.contacts.torque + now.torque, load.spin)));
         }
-        return given;
     }
 
     /// The work (J) of the field of gravity, and of what an integrator other than velocity Verlet adds to the
     /// mean of the two accelerations.
     double workBesidesContacts(const Grains& grains, const ContactStore& contacts,
                                const Vector<double>& gravity, double step, const Integrator& scheme,
-                               double& byHolders) const {
+                               ExactSum& byHolders) const {
         ExactSum sum;
         for (std::size_t k = 0; k < grains.size(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
@@ -375,6 +382,7 @@ private:
     std::vector<std::uint32_t> rank;  // of the grain at each place in that order
     std::vector<HeldLoad> heldLoads;
     BodyAccount bodies;
+    ExactRows<ledgerEntries> sums;  // over the contacts of a step
     EnergyLedger atBegin;
     double ended = 0, endedAtBegin = 0;  // J
     double potential = 0;                // J, at the places where the grains are

@@ -3,19 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Kernel/Math/ExactSum.h"
+
 namespace pendular {
 namespace {
 
-/// The mean velocity of the grains that move, summed in the order of identities.
+/// The mean velocity of the grains that move.
 Vector<double> meanVelocity(const ParticleStore& grains) {
-    Vector<double> sum{0, 0, 0};
+    ExactVectorSum sum;
     double count = 0;
-    for (const std::uint32_t at : grains.place) {
-        if (grains.translation[at].inverseMass == 0) continue;
-        sum += grains.translation[at].velocity;
+    for (const TranslationRecord& grain : grains.translation) {
+        if (grain.inverseMass == 0) continue;  // held, or a gap
+        sum.add(grain.velocity);
         ++count;
     }
-    return (1 / std::max(count, 1.0)) * sum;
+    return (1 / std::max(count, 1.0)) * sum.value();
 }
 
 /// Speeds (m/s) of grains: the two largest against those around them, and the largest of all.

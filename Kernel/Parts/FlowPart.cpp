@@ -43,6 +43,7 @@ std::optional<std::size_t> wallInFlow(const WallHandler& walls, const PeriodicBo
 template <class Function>
 void changeVelocities(StepContext& step, Function&& changeAt) {
     ParticleStore& grains = step.grains();
+    ExactSum given;  // J
     std::size_t number = 0;
     for (const std::uint32_t place : grains.place) {
         TranslationRecord& grain = grains.translation[place];
@@ -53,7 +54,7 @@ void changeVelocities(StepContext& step, Function&& changeAt) {
         if (const Vector<double> change = changeAt(at); squaredNorm(change) > 0) {
             grain.velocity += change;
             if (step.account && body == RigidBodies::none)
-                step.account->changedImage(grains, place, number, change, *step.ledger);
+                given.add(step.account->changedImage(grains, place, number, change));
             else if (step.account) step.account->changedImageOfMember(number, change);
         }
         ++number;
@@ -61,8 +62,9 @@ void changeVelocities(StepContext& step, Function&& changeAt) {
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         if (const Vector<double> change = changeAt(grains.bodies[k].position); squaredNorm(change) > 0) {
             grains.bodies[k].velocity += change;
-            if (step.account) step.account->changedImageOfBody(grains, k, change, *step.ledger);
+            if (step.account) given.add(step.account->changedImageOfBody(grains, k, change));
         }
+    if (step.account) EnergyAccount::givenByImages(given, *step.ledger);
 }
 
 }  // namespace

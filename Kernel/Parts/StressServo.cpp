@@ -7,6 +7,7 @@
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/BodyArms.h"
 #include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {
@@ -23,29 +24,31 @@ struct KineticStress {
 KineticStress kineticStress(const ParticleStore& grains, const PeriodicBox& box, const LeesEdwards& shear,
                             double volume) {
     const auto f = static_cast<std::size_t>(shear.flow), g = static_cast<std::size_t>(shear.gradient);
-    double mass = 0, mixed = 0;
-    std::array<double, 3> momentum{}, twiceEnergy{};
+    ExactSum masses, mixed;
+    std::array<ExactSum, 3> momentum, twiceEnergy;
     KineticStress stress;
     const auto add = [&](double inverseMass, const Vector<double>& position, const Vector<double>& of) {
         const auto velocity = partsOf(of - box.flowAt(position));
-        mass += 1 / inverseMass;
+        masses.add(1 / inverseMass);
         for (std::size_t a = 0; a < 3; ++a) {
-            momentum[a] += velocity[a] / inverseMass;
-            twiceEnergy[a] += velocity[a] * velocity[a] / inverseMass;
+            momentum[a].add(velocity[a] / inverseMass);
+            twiceEnergy[a].add(velocity[a] * velocity[a] / inverseMass);
         }
-        mixed += velocity[f] * velocity[g] / inverseMass;
+        mixed.add(velocity[f] * velocity[g] / inverseMass);
     };
-    for (const std::uint32_t place : grains.place) {
+    for (std::size_t place = 0; place < grains.size(); ++place) {
         const TranslationRecord& grain = grains.translation[place];
         if (grains.isFree(place)) add(grain.inverseMass, grain.position, grain.velocity);
     }
     forEachRigidBody(grains, [&](double own, const Vector<double>& position, const Vector<double>& of) {
         add(1 / own, position, of);
     });
+    const double mass = masses.value();
     if (mass == 0) return stress;
+    const std::array<double, 3> all{momentum[0].value(), momentum[1].value(), momentum[2].value()};
     for (std::size_t a = 0; a < 3; ++a)
-        stress.along[a] = std::max(0.0, twiceEnergy[a] - momentum[a] * momentum[a] / mass) / volume;
-    stress.across = (mixed - momentum[f] * momentum[g] / mass) / volume;
+        stress.along[a] = std::max(0.0, twiceEnergy[a].value() - all[a] * all[a] / mass) / volume;
+    stress.across = (mixed.value() - all[f] * all[g] / mass) / volume;
     return stress;
 }
 
@@ -84,6 +87,9 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
         found.stiffness[a] = static_cast<double>(2 + controlled) * found.stress[a];
     const BodyArms arms(grains);
     const GrainShapes* const shapes = contacts.laws().shapes();
+    // N m each: sums over the contacts of force times branch, and of spring times squared branch
+    std::array<ExactSum, 3> moments, springs;
+    ExactSum shearMoment, shearSpring;
     contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         const std::uint32_t place1 = contacts.firstOf(contact), place2 = contacts.secondOf(contact);
         const TranslationRecord &first = grains.translation[place1], &second = grains.translation[place2];
@@ -99,14 +105,19 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
         for (std::size_t a = 0; a < 3; ++a)
             if (strain.axes[a].isControlled) share += shift[a] * branch[a] / (distance * distance);
         for (std::size_t a = 0; a < 3; ++a) {
-            found.stress[a] -= force[a] * branch[a] / volume;
-            found.stiffness[a] += spring * shift[a] * branch[a] * share / volume;
+            moments[a].add(force[a] * branch[a]);
+            springs[a].add(spring * shift[a] * branch[a] * share);
         }
-        found.shear += force[f] * branch[g] / volume;
-        found.shearStiffness +=
-            spring * shift[f] * shift[f] * branch[g] * branch[g] / (distance * distance * volume);
+        shearMoment.add(force[f] * branch[g]);
+        shearSpring.add(spring * shift[f] * shift[f] * branch[g] * branch[g] / (distance * distance));
         ++found.touches;
     });
+    for (std::size_t a = 0; a < 3; ++a) {
+        found.stress[a] -= moments[a].value() / volume;
+        found.stiffness[a] += springs[a].value() / volume;
+    }
+    found.shear += shearMoment.value() / volume;
+    found.shearStiffness += shearSpring.value() / volume;
     return found;
 }
 
