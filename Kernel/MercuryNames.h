@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "Kernel/Base/Logger.h"
+#include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/Species/TimeStepAdvice.h"
@@ -22,7 +23,11 @@ inline constexpr pendular::LogLevel WARN = pendular::LogLevel::Warn, INFO = pend
 
 namespace constants {
 inline constexpr double pi = std::numbers::pi;
-}
+inline constexpr double sqrt_2 = std::numbers::sqrt2;
+inline constexpr double sqrt_3 = std::numbers::sqrt3;
+inline constexpr double sqrt_pi = 1 / std::numbers::inv_sqrtpi;
+inline constexpr double degree = std::numbers::pi / 180;
+}  // namespace constants
 
 namespace helpers {
 

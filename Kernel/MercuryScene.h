@@ -4,6 +4,7 @@
 /// to the kernel's own word; HOW-DO-I.md lists both side by side ("Port a driver from MercuryDPM").
 
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -11,12 +12,14 @@
 
 #include "Kernel/Mercury/MercuryArguments.h"
 #include "Kernel/Mercury/MercuryBoundaries.h"
+#include "Kernel/Mercury/MercuryCG.h"
 #include "Kernel/Mercury/MercuryData.h"
 #include "Kernel/Mercury/MercuryFiles.h"
 #include "Kernel/Mercury/MercuryHelpers.h"
 #include "Kernel/Mercury/MercuryInteractions.h"
 #include "Kernel/Mercury/MercuryLogger.h"
 #include "Kernel/Mercury/MercuryPSD.h"
+#include "Kernel/Mercury/MercuryPaths.h"
 #include "Kernel/Mercury/MercuryWalls.h"
 #include "Kernel/MercuryNames.h"
 
@@ -30,6 +33,7 @@ public:
     MercuryScene() {
         this->setIntegrator(integrators::velocityVerlet);
         this->addOutput(MercuryFiles(settings));
+        settings->atSetUp = [this] { boundaryHandler.settle(); };
     }
 
     /// Texts with a % for each value, through the scene's own logger.
@@ -39,6 +43,7 @@ public:
     virtual void printTime() const {}
     void writeOutput() override {
         boundaryHandler.requireSet();
+        cgHandler.sample();
         printTime();
     }
 
@@ -85,13 +90,29 @@ public:
     [[nodiscard]] double getYMax() const { return getMax().y(); }
     [[nodiscard]] double getZMax() const { return getMax().z(); }
 
-    /// Without effect: how MercuryDPM's viewer shows grains, and how it looks for neighbours.
+    /// Without effect: how MercuryDPM's viewer shows grains, how it looks for neighbours, and whether a
+    /// restarted run goes on in its files (it does).
     void setXBallsAdditionalArguments(const std::string& /*arguments*/) {}
     void setHGridMaxLevels(unsigned /*levels*/) {}
     void setHGridMinCellSize(double /*size*/) {}
-    /// Scenes have three dimensions here: throws InputError for another number.
-    void setSystemDimensions(int dimensions) { requireThree("system", dimensions); }
-    void setParticleDimensions(int dimensions) { requireThree("particle", dimensions); }
+    void setAppend(bool /*append*/) {}
+    /// 2 or 3. With 2 all grains are held in the plane of x and y: their velocity along z and their spins
+    /// about x and y are 0 to the bit (ParticleHandler::holdAll()). In MercuryDPM this only chooses the
+    /// columns of files, which have all three dimensions here.
+    void setSystemDimensions(int dimensions) {
+        requireTwoOrThree("system", dimensions);
+        this->particleHandler.holdAll(dimensions == 2 ? HeldAxes::inPlane() : HeldAxes{});
+        systemDimensions = dimensions;
+    }
+    /// 2: grains are discs, of a density by area, which the log says (SpeciesOwner::setGrainsAreDiscs());
+    /// they are in a scene of two dimensions.
+    void setParticleDimensions(int dimensions) {
+        requireTwoOrThree("particle", dimensions);
+        this->speciesHandler.setGrainsAreDiscs(dimensions == 2);
+    }
+    void setDimension(int dimensions) { setSystemDimensions(dimensions), setParticleDimensions(dimensions); }
+    [[nodiscard]] int getSystemDimensions() const { return systemDimensions; }
+    [[nodiscard]] int getParticleDimensions() const { return this->speciesHandler.grainsAreDiscs() ? 2 : 3; }
 
     /// All files at once: NAME.data, NAME.fstat, NAME.ene, and the kernel's restart file.
     void setFileType(FileType type) {
@@ -100,6 +121,7 @@ public:
     /// Files for ParaView, of grains, contacts and walls together.
     void setParticlesWriteVTK(bool write) { settings->picturesOfGrains = write; }
     void setWallsWriteVTK(bool write) { settings->picturesOfWalls = write; }
+    void setParticlesWriteVTK(FileType type) { setParticlesWriteVTK(type != FileType::NO_FILE); }
     void setWallsWriteVTK(FileType type) { setWallsWriteVTK(type != FileType::NO_FILE); }
 
     /// Goes on from the kernel's restart file of this name, for a scene that is set up as it was.
@@ -112,15 +134,37 @@ public:
     /// J, what is stored in the contacts, their adhesion included (NAME.ene has that of the springs alone);
     /// with keepEnergyLedger() or the file NAME.ene.
     [[nodiscard]] double getElasticEnergy() const { return this->energyLedger().stored(); }
+    /// J, of the grains that can move, against the origin.
+    [[nodiscard]] double getGravitationalEnergy() const {
+        return this->getTotalMass() > 0
+                   ? -this->getTotalMass() * this->getGravity().dot(this->getCentreOfMass())
+                   : 0;
+    }
+    /// J, all of the four.
+    [[nodiscard]] double getTotalEnergy() const {
+        return getElasticEnergy() + this->getKineticEnergy() + this->getRotationalEnergy() +
+               getGravitationalEnergy();
+    }
+
+    /// A grain that is held altogether moves on this path (m, by the time in s), where it is put at once, or
+    /// with this velocity (m/s). Contacts see the velocity with which it goes from step to step. Throw
+    /// InputError for one that is not held.
+    void setPrescribedPosition(const GrainReference& grain, std::function<Vec3D(double)> path) {
+        paths.setPosition(grain, std::move(path), this->getTime());
+    }
+    void setPrescribedVelocity(const GrainReference& grain, std::function<Vec3D(double)> velocity) {
+        paths.setVelocity(grain, std::move(velocity));
+    }
 
 private:
-    static void requireThree(const char* what, int dimensions) {
-        if (dimensions != 3)
+    static void requireTwoOrThree(const char* what, int dimensions) {
+        if (dimensions != 2 && dimensions != 3)
             throw InputError(
-                fmt::format("Simulation: {} dimensions = {}; here all scenes have 3, so leave it "
-                            "out, and hold grains in a plane by setHeldAxes().",
-                            what, dimensions));
+                fmt::format("Simulation: {} dimensions = {}; it must be 2 or 3.", what, dimensions));
     }
+
+    int systemDimensions = 3;
+    MercuryPaths& paths = this->template addPart<MercuryPaths>();
 
     std::shared_ptr<MercurySettings> settings = std::make_shared<MercurySettings>();
     MercuryDomain domain{*this};
@@ -133,7 +177,8 @@ public:
     MercuryRandom& random = settings->random;
     MercuryWallHandler wallHandler{Scene::wallHandler, domain, settings};
     MercuryBoundaryHandler boundaryHandler{*this};
-    MercuryInteractionHandler interactionHandler{*this};
+    MercuryInteractionHandler interactionHandler{*this, settings};
+    MercuryCGHandler cgHandler{*this};
 };
 
 template <class... Types>
@@ -148,6 +193,12 @@ void MercuryScene<Types...>::readDataFile(const std::filesystem::path& file) {
 /// Species of any types, as there.
 using Mercury3D = MercuryScene<>;
 using DPMBase = MercuryScene<>;
+
+/// The same in two dimensions: setSystemDimensions(2).
+class Mercury2D : public Mercury3D {
+public:
+    Mercury2D() { setSystemDimensions(2); }
+};
 
 }  // namespace pendular
 

@@ -105,9 +105,9 @@ private:
     static constexpr std::size_t stay = 50;  // steps
     /// The first species of the scene, whatever its type.
     struct FirstSpecies {
-        const void* owner;
+        const SpeciesOwner* owner;
         [[nodiscard]] int getIndex() const { return 0; }
-        [[nodiscard]] const void* getOwner() const { return owner; }
+        [[nodiscard]] const SpeciesOwner* getOwner() const { return owner; }
     };
     Scene& scene;
     std::size_t perStep, added = 0, width = 1;

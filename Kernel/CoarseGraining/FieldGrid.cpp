@@ -14,12 +14,18 @@ namespace pendular {
 
 namespace {
 
-constexpr double most = 0x1p28;  // points
+/// Throws InputError for too many points.
+void requireFew(const std::string& asked, double points) {
+    constexpr double most = 0x1p28;
+    if (!(points <= most))
+        throw InputError(fmt::format("FieldGrid: {} makes {:.3g} points or more; there must be {:g} at most.",
+                                     asked, points, most));
+}
 
 }  // namespace
 
 FieldGrid::FieldGrid(std::string_view coordinates, const Vector<double>& lowest,
-                     const Vector<double>& highest, double spacing) {
+                     const Vector<double>& highest) {
     constexpr std::array<std::string_view, 10> names{"O", "X", "Y", "Z", "XY", "XZ", "YZ", "XYZ", "R", "RZ"};
     if (std::find(names.begin(), names.end(), coordinates) == names.end())
         throw InputError(fmt::format("There are no coordinates \"{}\"; they may be {}.", coordinates,
@@ -31,7 +37,6 @@ FieldGrid::FieldGrid(std::string_view coordinates, const Vector<double>& lowest,
         checkValue("FieldGrid", fmt::format("highest {}", "xyz"[axis]), to[axis], "m",
                    {from[axis], infinity, false, false});
     }
-    checkValue("FieldGrid", "spacing", spacing, "m", positive);
     cylindrical = coordinates[0] == 'R';
     if (cylindrical) {
         middle = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]), 0};
@@ -43,17 +48,35 @@ FieldGrid::FieldGrid(std::string_view coordinates, const Vector<double>& lowest,
         for (std::size_t axis = 0; axis < 3; ++axis)
             resolved[axis] = coordinates.find("XYZ"[axis]) != coordinates.npos;
     }
+}
+
+FieldGrid::FieldGrid(std::string_view coordinates, const Vector<double>& lowest,
+                     const Vector<double>& highest, double spacing)
+    : FieldGrid(coordinates, lowest, highest) {
+    checkValue("FieldGrid", "spacing", spacing, "m", positive);
     double all = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!resolved[axis]) continue;
         // A length that is a multiple up to round-off is one.
         const double cells = std::max(1.0, std::ceil((to[axis] - from[axis]) / spacing * (1 - 1e-12)));
         all *= cells;
-        if (!(all <= most))
-            throw InputError(fmt::format(
-                "FieldGrid: a spacing of {:g} m makes {:.3g} points or more; there must be {:g} at most.",
-                spacing, all, most));
+        requireFew(fmt::format("a spacing of {:g} m", spacing), all);
         number[axis] = static_cast<std::size_t>(cells);
+    }
+}
+
+FieldGrid::FieldGrid(std::string_view coordinates, const Vector<double>& lowest,
+                     const Vector<double>& highest, const std::array<std::size_t, 3>& points)
+    : FieldGrid(coordinates, lowest, highest) {
+    double all = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!resolved[axis]) continue;
+        all *= static_cast<double>(points[axis]);
+        if (points[axis] == 0)
+            throw InputError(fmt::format("FieldGrid: there are 0 points along {}; there must be 1 at least.",
+                                         nameOf(axis)));
+        requireFew(fmt::format("{} points along {}", points[axis], nameOf(axis)), all);
+        number[axis] = points[axis];
     }
 }
 

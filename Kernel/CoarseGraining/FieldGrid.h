@@ -23,6 +23,9 @@ public:
     /// that is not positive, and for more than 2^28 points.
     FieldGrid(std::string_view coordinates, const Vector<double>& lowest, const Vector<double>& highest,
               double spacing);
+    /// With so many points along each resolved axis. Throws InputError as the other one, and for no points.
+    FieldGrid(std::string_view coordinates, const Vector<double>& lowest, const Vector<double>& highest,
+              const std::array<std::size_t, 3>& points);
 
     [[nodiscard]] bool isCylindrical() const { return cylindrical; }
     /// The number of points along each axis; 1 where it is averaged out.
@@ -50,6 +53,8 @@ public:
     [[nodiscard]] std::string_view nameOf(std::size_t axis) const;
 
 private:
+    FieldGrid(std::string_view coordinates, const Vector<double>& lowest, const Vector<double>& highest);
+
     std::array<bool, 3> resolved{};
     std::array<double, 3> from{}, to{};
     std::array<std::size_t, 3> number{1, 1, 1};

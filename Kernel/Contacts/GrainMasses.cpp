@@ -1,7 +1,5 @@
 #include "Kernel/Contacts/GrainMasses.h"
 
-#include "Kernel/Particles/SphericalParticle.h"
-
 namespace pendular {
 
 GrainMasses::GrainMasses(const ParticleStore& store, const ContactLaws& contactLaws)
@@ -17,7 +15,7 @@ GrainMasses::GrainMasses(const ParticleStore& store, const ContactLaws& contactL
 }
 
 double GrainMasses::ofSphere(std::uint32_t place) const {
-    return sphereMass(grains.translation[place].radius, laws.density(grains.species[place]));
+    return laws.massOf(grains.species[place], grains.translation[place].radius);
 }
 
 }  // namespace pendular

@@ -8,8 +8,8 @@
 
 namespace pendular {
 
-/// The masses of grains; also of those that are held (solid spheres) or part of a rigid body (shares of its
-/// mass, parted as masses of free spheres are), which their records do not have.
+/// The masses of grains; also of those that are held (spheres or discs) or part of a rigid body (shares of
+/// its mass, parted as masses of free spheres are), which their records do not have.
 class GrainMasses {
 public:
     GrainMasses(const ParticleStore& store, const ContactLaws& contactLaws);

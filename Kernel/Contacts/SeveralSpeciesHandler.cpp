@@ -90,6 +90,7 @@ bool SeveralSpeciesHandler::hasChanges() const {
 }
 
 void SeveralSpeciesHandler::visitState(StateArchive& archive, bool& changedInRun) {
+    visitForm(archive, *this);
     archive.same("count", all.size());
     archive.value("changedInRun", changedInRun);
     for (const Added& added : all)

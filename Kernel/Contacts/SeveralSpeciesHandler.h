@@ -63,7 +63,7 @@ private:
 /// for two of different types the driver says which: setPairType<Type>(a, b). A law of that type which both
 /// species have is mixed by the rule of each field, one that only one of them has is taken from that one, and
 /// one that neither has must be set: getMixedObject<Type>(a, b)->set...().
-class SeveralSpeciesHandler {
+class SeveralSpeciesHandler : public SpeciesOwner {
 public:
     SeveralSpeciesHandler() = default;
     SeveralSpeciesHandler(const SeveralSpeciesHandler&) = delete;

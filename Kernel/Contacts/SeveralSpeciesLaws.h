@@ -19,7 +19,7 @@ public:
     [[nodiscard]] const ContactLaws& ofPair(int a, int b) const override;
 
     [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }
-    [[nodiscard]] const void* owner() const override { return &species; }
+    [[nodiscard]] const SpeciesOwner* owner() const override { return &species; }
     [[nodiscard]] double density(std::size_t k) const override { return species.getObject(k)->getDensity(); }
     void mixAll() override;
     [[nodiscard]] bool hasChanges() const override { return species.hasChanges(); }

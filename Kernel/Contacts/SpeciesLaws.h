@@ -38,7 +38,7 @@ public:
     }
 
     [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }
-    [[nodiscard]] const void* owner() const override { return &species; }
+    [[nodiscard]] const SpeciesOwner* owner() const override { return &species; }
     [[nodiscard]] double density(std::size_t k) const override { return species.getObject(k)->getDensity(); }
     void mixAll() override { species.mixAll(); }
     [[nodiscard]] bool hasChanges() const override { return species.hasChanges(); }

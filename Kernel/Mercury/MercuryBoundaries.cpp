@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Sizes/SizeTable.h"
+#include "Kernel/State/Random.h"
 
 namespace pendular {
 namespace {
@@ -31,6 +33,12 @@ void MercuryBoundary::handOverWhenSet() {
     isHandedOver = true;
 }
 
+void MercuryBoundary::settle() {
+    if (!scene || isHandedOver || !isEnough()) return;
+    handOver(*scene);
+    isHandedOver = true;
+}
+
 void MercuryBoundary::requireChangeable(const char* call) const {
     if (isHandedOver)
         throw InputError(
@@ -41,8 +49,7 @@ void MercuryBoundary::requireChangeable(const char* call) const {
 
 void MercuryBoundary::requireSet() const {
     if (!isHandedOver)
-        throw InputError(fmt::format("{}: it was added and not set; call its set(){} before the run.", name,
-                                     alsoToCall()));
+        throw InputError(fmt::format("{}: it was added and not set; call its set() before the run.", name));
 }
 
 Scene& MercuryBoundary::sceneThatHasIt() const {
@@ -64,6 +71,29 @@ void PeriodicBoundary::set(const Vec3D& normal, double lowest, double highest) {
     throw InputError(
         fmt::format("PeriodicBoundary: normal = ({}, {}, {}); it must be (1, 0, 0), (0, 1, 0) or (0, 0, 1).",
                     normal.x(), normal.y(), normal.z()));
+}
+
+void LeesEdwardsBoundary::set(const std::function<double(double)>& shift,
+                              const std::function<double(double)>& velocity, double left, double right,
+                              double down, double up) {
+    requireChangeable("set()");
+    checkValue(name, "up", up, "m", {down, infinity, false, false});
+    const double asked = velocity(0);
+    for (const double time : {0.0, 1.0, 17.0})
+        if (velocity(time) != asked || std::abs(shift(time) - asked * time) > 1e-12 * std::abs(asked * time))
+            throw InputError(
+                fmt::format("LeesEdwardsBoundary: at {} s the velocity is {} m/s and the shift {} m; the "
+                            "velocity must be "
+                            "steady, and the shift that velocity times the time.",
+                            time, velocity(time), shift(time)));
+    speed = asked;
+    low = Vec3D(left, down, 0), high = Vec3D(right, up, 0);
+    handOverWhenSet();
+}
+
+void LeesEdwardsBoundary::handOver(Scene& of) {
+    for (int axis = 0; axis < 2; ++axis) of.setPeriodic(axis, (*low)[axis], (*high)[axis]);
+    of.setLeesEdwards(0, 1, speed / (high->y() - low->y()));
 }
 
 void DeletionBoundary::setOutlet(const Outlet& where) {
@@ -88,6 +118,27 @@ GrainTally::Entry DeletionBoundary::count() const {
     return sceneThatHasIt().outletHandler.countOf(number).all();
 }
 
+double DeletionBoundary::getVolumeOfParticlesDeleted() const {
+    const Scene& in = sceneThatHasIt();
+    const GrainTally& tally = in.outletHandler.countOf(number);
+    double volume = 0;
+    for (std::size_t species = 0; species < tally.speciesCount(); ++species)
+        for (std::size_t k = 0; k < tally.classCount(); ++k)
+            if (const GrainTally::Entry some = tally.of(species, k); some.number > 0)
+                volume += some.mass / in.laws().density(species);
+    return volume;
+}
+
+double FluxBoundary::volumeOf(double mass) const {
+    const ContactLaws& laws = sceneThatHasIt().laws();
+    for (std::size_t k = 1; k < laws.speciesCount(); ++k)
+        if (laws.density(k) != laws.density(0))
+            throw InputError(
+                "FluxBoundary: volumes follow from masses by the density, and the species of this scene "
+                "differ in it; ask for the masses.");
+    return mass / laws.density(0);
+}
+
 void FluxBoundary::set(const Vec3D& normal, double distance) {
     requireChangeable("set()");
     plane = FluxPlane{normal, pointOfPlane(name, normal, distance)};
@@ -100,10 +151,14 @@ void CubeInsertionBoundary::set(const SphericalParticle& like, unsigned maxFaile
                                 const Vec3D& highest, const Vec3D& lowestVelocity,
                                 const Vec3D& highestVelocity) {
     requireChangeable("set()");
-    if (lowestVelocity != highestVelocity)
+    if ((lowestVelocity.array() > highestVelocity.array()).any())
         throw InputError(
-            "CubeInsertionBoundary: the bounds of the velocity differ, and all grains come with one velocity "
-            "here; give it twice, in m/s, or set velocities in a hook.");
+            fmt::format("CubeInsertionBoundary: the lowest velocity = ({}, {}, {}) m/s is above the highest, "
+                        "({}, {}, {}) "
+                        "m/s; no part of it may be.",
+                        lowestVelocity.x(), lowestVelocity.y(), lowestVelocity.z(), highestVelocity.x(),
+                        highestVelocity.y(), highestVelocity.z()));
+    lowVelocity = lowestVelocity, highVelocity = highestVelocity;
     grain = like;
     grain.setVelocity(lowestVelocity);
     region.emplace(lowest, highest);
@@ -155,17 +210,40 @@ void CubeInsertionBoundary::handOver(Scene& of) {
         throw InputError(
             "CubeInsertionBoundary: the grain has no species; call its setSpecies() before set().");
     const double density = of.particleHandler.massOf(1, grain.getSpeciesIndex()) / sphereMass(1, 1);
-    if (initialVolume > 0)
-        atOnce = of.insert(sizesOfGrains(), *region, Amount::mass(initialVolume * density), grain);
-    if (flow > 0) {
-        Inlet stream;
-        stream.setRegion(*region);
-        stream.setSizes(sizesOfGrains());
-        stream.setGrain(grain);
-        stream.setMassFlow(flow * density);
-        stream.setTries(tries);
-        inlet = of.inletHandler.copyAndAddObject(stream);
+    if (initialVolume > 0) insertAtOnce(of, density);
+    if (flow > 0 || !(initialVolume > 0)) addInlet(of, density);
+}
+
+void CubeInsertionBoundary::insertAtOnce(Scene& of, double density) {
+    const std::uint32_t first = of.particleHandler.store().nextIdentity();
+    atOnce = of.insert(sizesOfGrains(), *region, Amount::mass(initialVolume * density), grain);
+    if (lowVelocity == highVelocity) return;
+    UniformRandom random(first);
+    for (std::uint32_t identity = first; identity < of.particleHandler.store().nextIdentity(); ++identity) {
+        Vec3D velocity;
+        for (int axis = 0; axis < 3; ++axis)
+            velocity[axis] = random.uniform(lowVelocity[axis], highVelocity[axis]);
+        of.particleHandler.getObject(identity).setVelocity(velocity);
     }
+}
+
+void CubeInsertionBoundary::addInlet(Scene& of, double density) {
+    if (lowVelocity != highVelocity)
+        throw InputError(
+            "CubeInsertionBoundary: the bounds of the velocity differ, and grains that come in the run have "
+            "one velocity; give it twice, in m/s, or set velocities in a hook.");
+    Inlet stream;
+    stream.setRegion(*region);
+    stream.setSizes(sizesOfGrains());
+    stream.setGrain(grain);
+    stream.setTries(tries);
+    if (flow > 0) stream.setMassFlow(flow * density);
+    else {
+        // More than any box has room for in any step: what has none is lost.
+        stream.setNumberFlow(1e18);
+        stream.setNoRoom(NoRoom::Lost);
+    }
+    inlet = of.inletHandler.copyAndAddObject(stream);
 }
 
 std::uint64_t CubeInsertionBoundary::getNumberOfParticlesInserted() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,6 +20,8 @@ public:
 
     /// Throws InputError for what the kernel refuses.
     void addTo(Scene& of);
+    /// Called at set-up, when the driver has set all that it will: hands over what does without more.
+    void settle();
     /// Throws InputError for one that was added and not set.
     void requireSet() const;
 
@@ -34,9 +37,9 @@ protected:
     /// Throws InputError unless the scene has it.
     [[nodiscard]] Scene& sceneThatHasIt() const;
     [[nodiscard]] virtual bool isSet() const = 0;
+    /// Whether it has a meaning as it is, though more may be set.
+    [[nodiscard]] virtual bool isEnough() const { return isSet(); }
     virtual void handOver(Scene& of) = 0;
-    /// What else than set() is called before it is set, for the sentence.
-    [[nodiscard]] virtual const char* alsoToCall() const { return ""; }
 
     const char* name;
 
@@ -52,6 +55,10 @@ public:
     /// @param normal (1, 0, 0), (0, 1, 0) or (0, 0, 1); @param lowest m; @param highest m
     /// Throws InputError for another normal.
     void set(const Vec3D& normal, double lowest, double highest);
+    /// Between two points (m).
+    void set(const Vec3D& normal, const Vec3D& lowest, const Vec3D& highest) {
+        set(normal, normal.dot(lowest), normal.dot(highest));
+    }
 
 private:
     [[nodiscard]] bool isSet() const override { return axis >= 0; }
@@ -59,6 +66,23 @@ private:
 
     int axis = -1;
     double low = unset, high = unset;  // m
+};
+
+/// setLeesEdwards() of a scene that is periodic along x and y: images along y move along x.
+class LeesEdwardsBoundary : public MercuryBoundary {
+public:
+    LeesEdwardsBoundary() : MercuryBoundary("LeesEdwardsBoundary") {}
+    /// @param shift m, and @param velocity m/s, of the image above by the time (s): a steady flow that begins
+    /// with no shift, or InputError is thrown; @param left m, and the other faces
+    void set(const std::function<double(double)>& shift, const std::function<double(double)>& velocity,
+             double left, double right, double down, double up);
+
+private:
+    [[nodiscard]] bool isSet() const override { return low.has_value(); }
+    void handOver(Scene& of) override;
+
+    std::optional<Vec3D> low, high;  // m
+    double speed = 0;                // m/s
 };
 
 /// An outlet beyond a plane.
@@ -70,6 +94,7 @@ public:
     void set(const Vec3D& normal, double distance);
     [[nodiscard]] std::uint64_t getNumberOfParticlesDeleted() const { return count().number; }
     [[nodiscard]] double getMassOfParticlesDeleted() const { return count().mass; }  // kg
+    [[nodiscard]] double getVolumeOfParticlesDeleted() const;                        // m^3
 
 protected:
     explicit DeletionBoundary(const char* ofName) : MercuryBoundary(ofName) {}
@@ -103,23 +128,29 @@ public:
     [[nodiscard]] double getMassOfParticlesCrossedForw() const { return count().massForwards; }   // kg
     [[nodiscard]] double getMassOfParticlesCrossedBack() const { return count().massBackwards; }  // kg
     [[nodiscard]] double getMassOfParticlesCrossedNet() const { return count().netMass(); }       // kg
+    // m^3; throw InputError in a scene of several densities, as the kernel counts masses.
+    [[nodiscard]] double getVolumeOfParticlesCrossedForw() const { return volumeOf(count().massForwards); }
+    [[nodiscard]] double getVolumeOfParticlesCrossedBack() const { return volumeOf(count().massBackwards); }
+    [[nodiscard]] double getVolumeOfParticlesCrossedNet() const { return volumeOf(count().netMass()); }
 
 private:
     [[nodiscard]] bool isSet() const override { return plane.has_value(); }
     void handOver(Scene& of) override { number = of.fluxPlaneHandler.copyAndAddObject(*plane); }
     [[nodiscard]] FluxCount count() const;
+    [[nodiscard]] double volumeOf(double mass) const;
 
     std::optional<FluxPlane> plane;
     std::size_t number = 0;
 };
 
 /// Grains that come into a box: a volume at once, by insert(), and then a volume each second, by an inlet.
+/// With neither, the box is filled again in each step: by an inlet whose flow is what has room.
 class CubeInsertionBoundary : public MercuryBoundary {
 public:
     CubeInsertionBoundary() : MercuryBoundary("CubeInsertionBoundary") {}
     /// @param like species, radius (without a PSD) and film of the grains
     /// @param maxFailed random places that a grain is tried at in a step, less one
-    /// @param lowestVelocity m/s, of all of them: the other bound must be the same
+    /// @param lowestVelocity m/s; bounds that differ are for a volume at once: each part is even between them
     void set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
              const Vec3D& lowestVelocity = Vec3D::Zero(), const Vec3D& highestVelocity = Vec3D::Zero());
     /// The same, with as many grains of each radius (m) between two.
@@ -143,16 +174,15 @@ private:
     /// It has a box and one of the two volumes.
     [[nodiscard]] bool isSet() const override { return region && (initialVolume > 0 || flow > 0); }
     void handOver(Scene& of) override;
-    [[nodiscard]] const char* alsoToCall() const override {
-        return ", and setInitialVolume(), in m^3, or setVolumeFlowRate(), in m^3/s, as a box is not filled "
-               "again "
-               "in each step here,";
-    }
+    [[nodiscard]] bool isEnough() const override { return region.has_value(); }
     [[nodiscard]] SizeDistribution sizesOfGrains() const;
+    void insertAtOnce(Scene& of, double density);
+    void addInlet(Scene& of, double density);
 
     SphericalParticle grain;
     std::optional<BoxRegion> region;
     std::optional<SizeDistribution> sizes;
+    Vec3D lowVelocity = Vec3D::Zero(), highVelocity = Vec3D::Zero();  // m/s
     std::uint32_t tries = 1;
     double initialVolume = 0, flow = 0;  // m^3, m^3/s
     Inserted atOnce;
@@ -174,11 +204,18 @@ public:
         all.push_back(std::move(copy));
         return added;
     }
+    template <std::derived_from<MercuryBoundary> Boundary>
+    Boundary* copyAndAddObject(const Boundary* boundary) {
+        return copyAndAddObject(*boundary);
+    }
     [[nodiscard]] std::size_t getNumberOfObjects() const { return all.size(); }
     [[nodiscard]] std::size_t getSize() const { return all.size(); }
     /// Throws InputError if there is none.
     [[nodiscard]] MercuryBoundary* getObject(std::size_t number) const;
     [[nodiscard]] MercuryBoundary* getLastObject() const;
+    void settle() {
+        for (const auto& boundary : all) boundary->settle();
+    }
     /// Throws InputError if one of them was not set.
     void requireSet() const {
         for (const auto& boundary : all) boundary->requireSet();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -10,21 +11,27 @@
 
 namespace pendular {
 
-/// How MercuryDPM writes a file. A file of frames is always one here; pictures for ParaView are always many.
+/// How MercuryDPM writes a file. A file of frames is always one here, with all frames, and the log says so
+/// where it was to be many; pictures for ParaView are always many, and a restart file is the last one.
 enum class FileType { NO_FILE, ONE_FILE, MULTIPLE_FILES, MULTIPLE_FILES_PADDED };
 
 /// A file of a scene: scene.dataFile.setFileType(FileType::NO_FILE).
 class MercuryFile {
 public:
     MercuryFile(std::string_view ofName, FileType given) : name(ofName), type(given) {}
-    /// Throws InputError for the types that would be many files.
-    void setFileType(FileType asked);
+    void setFileType(FileType asked) { type = asked; }
+    /// Steps from one frame to the next; 0, as it is at first: those of the scene's setSaveCount().
+    void setSaveCount(std::size_t steps) { saveCount = steps; }
+    [[nodiscard]] std::size_t getSaveCount() const { return saveCount; }
     [[nodiscard]] FileType getFileType() const { return type; }
     [[nodiscard]] bool isWritten() const { return type != FileType::NO_FILE; }
+    [[nodiscard]] bool isSplit() const { return isWritten() && type != FileType::ONE_FILE; }
+    [[nodiscard]] std::string_view getName() const { return name; }
 
 private:
     std::string_view name;
     FileType type;
+    std::size_t saveCount = 0;
 };
 
 /// Numbers as MercuryDPM's `random` gives them; the same in each run, and other numbers than there.
@@ -44,8 +51,9 @@ private:
 struct MercurySettings {
     MercuryFile data{"dataFile", FileType::ONE_FILE}, fStat{"fStatFile", FileType::ONE_FILE},
         energies{"eneFile", FileType::ONE_FILE}, restart{"restartFile", FileType::NO_FILE};
-    bool picturesOfGrains = false, picturesOfWalls = false;  // either: of both
+    bool picturesOfGrains = false, picturesOfWalls = false, picturesOfContacts = false;  // any: of all
     MercuryRandom random;
+    std::function<void()> atSetUp;  // called when the driver has set all that it will
 };
 
 /// The output of a MercuryScene: what its settings ask for when the scene has been set up. The files
@@ -55,14 +63,16 @@ public:
     explicit MercuryFiles(std::shared_ptr<MercurySettings> of) : settings(std::move(of)) {}
 
     void prepare(Scene& scene);
-    void write(const Scene& scene);
+    void write(const Scene& /*scene*/) {}  // the outputs that it has added do
     void visitState(StateArchive& archive, const Scene& scene);
 
 private:
+    void addPictures(Scene& scene) const;
+    void addFrames(Scene& scene) const;
+
     std::shared_ptr<MercurySettings> settings;
     bool isAdded = false;  // to the scene, which is then set up
     bool isDone = false;
-    std::optional<MercuryOutput> frames;
 };
 
 }  // namespace pendular

@@ -32,4 +32,15 @@ MercuryInteraction MercuryInteractionHandler::getInteraction(const GrainReferenc
     return {};
 }
 
+MercuryInteraction MercuryInteractionHandler::getInteraction(const GrainReference& grain,
+                                                             const Wall* wall) const {
+    MercuryInteraction found;
+    for (const ObservedContact& contact : scene->interactionsOf(grain.getId()))
+        if (contact.wall >= 0 &&
+            &scene->wallHandler.getObject(static_cast<std::size_t>(contact.wall)) == wall &&
+            (!found || contact.overlap() > found.getOverlap()))
+            found = MercuryInteraction(contact);
+    return found;
+}
+
 }  // namespace pendular

@@ -6,6 +6,7 @@
 
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Mercury/MercuryFiles.h"
 #include "Kernel/Particles/SphericalParticle.h"
 #include "Kernel/Simulation/Scene.h"
 
@@ -52,7 +53,8 @@ private:
 /// Each loop and each call takes them anew.
 class MercuryInteractionHandler {
 public:
-    explicit MercuryInteractionHandler(const Scene& ofScene) : scene(&ofScene) {}
+    MercuryInteractionHandler(const Scene& ofScene, std::shared_ptr<MercurySettings> ofFiles)
+        : scene(&ofScene), settings(std::move(ofFiles)) {}
     MercuryInteractionHandler(const MercuryInteractionHandler&) = delete;
 
     class Iterator {
@@ -81,8 +83,16 @@ public:
     [[nodiscard]] MercuryInteraction getInteraction(const GrainReference& one,
                                                     const GrainReference& other) const;
 
+    /// Files for ParaView, of grains, contacts and walls together: addOutput(ParaViewOutput()).
+    void setWriteVTK(bool write = true) { settings->picturesOfContacts = write; }
+    void setWriteVTK(FileType type) { setWriteVTK(type != FileType::NO_FILE); }
+
+    /// The contact of a grain with a wall, at the part of it that it overlaps most; false where it has none.
+    [[nodiscard]] MercuryInteraction getInteraction(const GrainReference& grain, const Wall* wall) const;
+
 private:
     const Scene* scene;
+    std::shared_ptr<MercurySettings> settings;
 };
 
 }  // namespace pendular

@@ -1,32 +1,98 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "Kernel/Mercury/MercuryDomain.h"
 #include "Kernel/Mercury/MercuryFiles.h"
+#include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/IntersectionOfHalfSpaces.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
 
-/// The solid behind several planes, as a driver describes it: a TriangleWall of intersectionOfHalfSpaces().
-class IntersectionOfWalls {
+/// Planes with a solid behind all of them, as MercuryDPM's walls of several planes describe it: in the body's
+/// own frame, which is put somewhere and may move.
+class MercurySolid {
 public:
     /// @param normal into the solid, of any length; @param point on the plane, m
     void addObject(const Vec3D& normal, const Vec3D& point) { faces.push_back({normal, point}); }
+    /// Planes between each two points (m) that follow each other, along the axis. The solid is on the left of
+    /// the way from one to the next, as seen against the axis.
+    void createOpenPrism(const std::vector<Vec3D>& points, const Vec3D& axis);
+    /// The same, also between the last and the first one.
+    void createPrism(const std::vector<Vec3D>& points, const Vec3D& axis);
+    /// The axis is across the first three points, so that they go round it anti-clockwise.
+    void createOpenPrism(const std::vector<Vec3D>& points);
+    void createPrism(const std::vector<Vec3D>& points);
+    [[nodiscard]] std::size_t getNumberOfObjects() const { return faces.size(); }
+
     template <class S>
-    void setSpecies(const S* ofWall) {
-        forWall.setSpecies(ofWall);
+    void setSpecies(const S* of) {
+        setSpeciesOf = [of](Wall& wall) { wall.setSpecies(of); };
+    }
+    /// m, where the origin of its frame is.
+    void setPosition(const Vec3D& place) { position = place; }
+    [[nodiscard]] const Vec3D& getPosition() const { return position; }
+    /// m/s, and rad/s about its position, from the start on.
+    void setVelocity(const Vec3D& value) { velocity = value; }
+    void setAngularVelocity(const Vec3D& value) { spin = value; }
+
+protected:
+    /// m, of the farthest corner of a box from a point. Throws InputError where the box has no width.
+    static double farthest(const char* name, const Vec3D& lowest, const Vec3D& highest, const Vec3D& from);
+    /// Gives a wall the species and the motion.
+    void finish(RigidWall& wall) const;
+
+    std::vector<SolidFace> faces;
+    Vec3D position = Vec3D::Zero(), velocity = Vec3D::Zero(), spin = Vec3D::Zero();  // m, m/s, rad/s
+
+private:
+    std::function<void(Wall&)> setSpeciesOf;
+};
+
+/// A normal into a solid, and a point (m) on its plane.
+struct normalAndPosition {
+    Vec3D normal, position;
+};
+
+/// The solid behind several planes: a TriangleWall of intersectionOfHalfSpaces().
+class IntersectionOfWalls : public MercurySolid {
+public:
+    IntersectionOfWalls() = default;
+    template <class S>
+    IntersectionOfWalls(const std::vector<normalAndPosition>& walls, const S* of) {
+        setSpecies(of);
+        for (const normalAndPosition& wall : walls) addObject(wall.normal, wall.position);
     }
     /// The wall itself. Faces without end are cut off at the distance of the box's diagonal from its middle.
     /// Throws InputError where the box has no width.
     [[nodiscard]] TriangleWall inDomain(const Vec3D& lowest, const Vec3D& highest) const;
+};
+
+/// The solid that a convex profile makes by turning about an axis: an AxisymmetricWall. Normals and points
+/// are (distance from the axis, 0, place along it), as there; the part at negative distances is left out.
+class AxisymmetricIntersectionOfWalls : public MercurySolid {
+public:
+    AxisymmetricIntersectionOfWalls() = default;
+    template <class S>
+    AxisymmetricIntersectionOfWalls(const Vec3D& place, const Vec3D& direction,
+                                    const std::vector<normalAndPosition>& walls, const S* of) {
+        setSpecies(of), setPosition(place), setAxis(direction);
+        for (const normalAndPosition& wall : walls) addObject(wall.normal, wall.position);
+    }
+    /// @param direction of any length
+    void setAxis(const Vec3D& direction) { axis = direction; }
+    void setOrientationViaNormal(const Vec3D& direction) { axis = direction; }
+    /// The wall itself. A profile without end is cut off at four times the distance of the box's farthest
+    /// corner from its position. Throws InputError where the box has no width, or no part of the profile is
+    /// in it.
+    [[nodiscard]] AxisymmetricWall inDomain(const Vec3D& lowest, const Vec3D& highest) const;
 
 private:
-    std::vector<SolidFace> faces;
-    TriangleWall forWall;  // has the species
+    Vec3D axis{0, 0, 1};
 };
 
 /// The walls of a MercuryScene, by pointers as in MercuryDPM. The forces on all of them are kept:
@@ -50,6 +116,9 @@ public:
                       "a wall is added to wallHandler, a boundary is added to boundaryHandler");
     }
     TriangleWall* copyAndAddObject(const IntersectionOfWalls& solid) {
+        return walls->copyAndAddObject(solid.inDomain(domain->getLowest(), domain->getHighest()));
+    }
+    AxisymmetricWall* copyAndAddObject(const AxisymmetricIntersectionOfWalls& solid) {
         return walls->copyAndAddObject(solid.inDomain(domain->getLowest(), domain->getHighest()));
     }
     /// Throws InputError if there is no such wall, or if it is a membrane, which is none of MercuryDPM's.

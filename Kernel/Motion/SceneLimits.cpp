@@ -54,10 +54,9 @@ static SpringAndDashpot stiffestAt(const ContactLaws& species, const GrainSizes&
     for (std::size_t s = 0; s < grains.free.size(); ++s) {
         if (grains.free[s].empty()) continue;
         for (const double radius : {grains.free[s].smallest, grains.free[s].largest})
-            stiffest = larger(
-                stiffest, of(species.stiffness(static_cast<int>(s), wall.getSpeciesIndex(),
-                                               {radius, infinity}, sphereMass(radius, species.density(s))),
-                             Bodies{radius, infinity}));
+            stiffest = larger(stiffest, of(species.stiffness(static_cast<int>(s), wall.getSpeciesIndex(),
+                                                             {radius, infinity}, species.massOf(s, radius)),
+                                           Bodies{radius, infinity}));
     }
     return stiffest;
 }
@@ -115,7 +114,7 @@ static double membraneLimit(const ContactLaws& species, const GrainSizes& grains
     row = row + membraneRow(species, grains, wall);
     for (std::size_t s = 0; s < grains.free.size(); ++s) {
         if (grains.free[s].empty()) continue;
-        const double mass = sphereMass(grains.free[s].smallest, species.density(s));
+        const double mass = species.massOf(s, grains.free[s].smallest);
         const double touches =
             std::max(2.0, mostTouchesOnArea(grains) * membrane->lightestVertex() / membrane->massOfArea());
         row = row + (touches / mass) * stiffestAt(species, grains, wall);

@@ -24,7 +24,7 @@ template <class Function>
 void forEachExtremePair(const ContactLaws& species, const GrainSizes& grains, const WallHandler& walls,
                         Function&& function, Pairs pairs = Pairs::OfSizes) {
     const std::vector<SizeRange>&free = grains.free, &sizes = grains.all;
-    const auto mass = [&](std::size_t s, double radius) { return sphereMass(radius, species.density(s)); };
+    const auto mass = [&](std::size_t s, double radius) { return species.massOf(s, radius); };
     const auto forBodies = [&](std::size_t a, std::size_t b, double r1, double r2) {
         function(PairLaws{species, static_cast<int>(a), static_cast<int>(b)}, Bodies{r1, r2},
                  1 / (1 / mass(a, r1) + 1 / mass(b, r2)));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -54,6 +55,8 @@ MercuryOutput::MercuryOutput(std::string beginning) : name(std::move(beginning))
 }
 
 void MercuryOutput::write(const Scene& scene) {
+    if (times.isGiven() && scene.getTime() <= last) return;  // they have this state
+    last = scene.getTime();
     const std::string beginning = nameIn(scene);
     const bool goesOn = scene.isRestarted();
     const auto& grains = scene.particleHandler.store();
@@ -80,6 +83,15 @@ void MercuryOutput::visitState(StateArchive& archive, const Scene& scene) {
     if (dataToo) data.visitState(archive, beginning);
     if (contactsToo) contacts.visitState(archive, beginning);
     if (energiesToo) energies.visitState(archive, beginning);
+    if (times.isGiven()) visitLast(archive, beginning);
+}
+
+void MercuryOutput::visitLast(StateArchive& archive, const std::string& beginning) {
+    // Files of other intervals have an output of their own.
+    const std::string_view ending = dataToo ? "data" : contactsToo ? "fstat" : "ene";
+    const std::string entry =
+        fmt::format("{}.{}-last-time", std::filesystem::path(beginning).filename().string(), ending);
+    if (archive.isWriting() ? last >= 0 : archive.holds(entry)) archive.value(entry, last);
 }
 
 std::string MercuryOutput::nameIn(const Scene& scene) const { return name.empty() ? scene.getName() : name; }

@@ -5,6 +5,7 @@
 
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Output/FrameFile.h"
+#include "Kernel/Simulation/OutputInterval.h"
 
 namespace pendular {
 
@@ -32,6 +33,12 @@ public:
         return domain = {toVector(lowest), toVector(highest)}, *this;
     }
 
+    /// A frame at the step nearest to each multiple of this time (s), at the start and at the end.
+    MercuryOutput& withInterval(double seconds) {
+        return times = OutputInterval("MercuryOutput", seconds), *this;
+    }
+    [[nodiscard]] OutputInterval interval() const { return times; }
+
     void write(const Scene& scene);
     void visitState(StateArchive& archive, const Scene& scene);
 
@@ -41,6 +48,7 @@ private:
     };
 
     [[nodiscard]] std::string nameIn(const Scene& scene) const;
+    void visitLast(StateArchive& archive, const std::string& beginning);
     [[nodiscard]] Domain domainIn(const Scene& scene) const;
     static Domain domainOf(const ParticleStore& grains);
     /// N time xmin ymin zmin xmax ymax zmax, then for each grain rx ry rz vx vy vz rad alpha beta gamma omex
@@ -55,6 +63,8 @@ private:
 
     std::string name;
     std::optional<Domain> domain;
+    OutputInterval times;
+    double last = -1;  // s, of the last frame; negative: none
     bool dataToo = true, energiesToo = true, contactsToo = true;
     FrameFile data{".data"}, contacts{".fstat"},
         energies{".ene", "time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM\n"};

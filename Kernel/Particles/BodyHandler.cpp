@@ -158,6 +158,8 @@ void BodyReference::requireFinite(std::string_view what, const Vec3D& value, std
 // A sphere is what its grain is, which is set itself: by way of the body it would be rounded.
 void BodyReference::setVelocity(const Vec3D& velocity) {
     requireFinite("velocity", velocity, "m/s");
+    ParticleHandler::Inside::requireHeld(*handler, fmt::format("rigid body {}", number), toVector(velocity),
+                                         {0, 0, 0});
     ParticleStore& grains = handler->store();
     const std::size_t k = at();
     grains.bodies[k].velocity = toVector(velocity);
@@ -166,6 +168,8 @@ void BodyReference::setVelocity(const Vec3D& velocity) {
 }
 void BodyReference::setAngularVelocity(const Vec3D& spin) {
     requireFinite("angular velocity", spin, "rad/s");
+    ParticleHandler::Inside::requireHeld(*handler, fmt::format("rigid body {}", number), {0, 0, 0},
+                                         toVector(spin));
     ParticleStore& grains = handler->store();
     const std::size_t k = at();
     grains.bodies.setSpin(k, toVector(spin));
@@ -177,7 +181,7 @@ void BodyReference::setHeldAxes(const HeldAxes& axes) {
     ParticleStore& grains = handler->store();
     const std::size_t k = at();
     const bool wasHeld = grains.bodies.isHeld(k);
-    const HeldBits held(axes);
+    const HeldBits held = HeldBits(axes).with(HeldBits(handler->axesOfAllHeld()));
     if (held.byte() == grains.bodies.heldAxesOf(k).byte()) return;
     if (grains.bodies.isSphere(grains,
                                k)) {  // it moves as its grain, whose forces are not kept where it is held
@@ -237,11 +241,14 @@ BodyReference BodyHandler::join(std::span<const std::uint32_t> identities,
     return added;
 }
 
-/// The last body keeps the motion that it has in the axes in which its grains are held.
+/// The last body keeps the motion that it has in the axes in which its grains are held; but in those in which
+/// all are held it has none, also where its grains are not in one plane.
 void BodyHandler::holdAsJoined(HeldBits held) {
     ParticleStore& grains = particles.store();
     const std::size_t k = grains.bodies.size() - 1;
-    const Vector<double> velocity = grains.bodies[k].velocity, spin = grains.bodies[k].spin();
+    const HeldBits all(particles.axesOfAllHeld());
+    const Vector<double> velocity = all.partAlong(grains.bodies[k].velocity),
+                         spin = all.partAbout(grains.bodies[k].spin());
     grains.bodies.hold(grains, k, held);
     grains.bodies[k].velocity = velocity;
     grains.bodies.setSpin(k, spin);

@@ -15,6 +15,8 @@ struct HeldAxes {
 
     /// It is held altogether.
     static constexpr HeldAxes all() { return {true, true, true, true, true, true}; }
+    /// It moves in a plane of constant z, and turns about z.
+    static constexpr HeldAxes inPlane() { return {false, false, true, true, true, false}; }
     friend constexpr bool operator==(const HeldAxes&, const HeldAxes&) = default;
 };
 
@@ -32,8 +34,16 @@ public:
     [[nodiscard]] constexpr std::uint8_t byte() const { return bits; }
     [[nodiscard]] constexpr bool any() const { return bits != 0; }
     [[nodiscard]] constexpr bool areAll() const { return bits == all; }
+    /// The axes of either.
+    [[nodiscard]] constexpr HeldBits with(HeldBits other) const {
+        return HeldBits(static_cast<std::uint8_t>(bits | other.bits));
+    }
     [[nodiscard]] constexpr bool areAlong() const { return (bits & along) != 0; }
     [[nodiscard]] constexpr bool areAbout() const { return (bits & about) != 0; }
+    /// The axes that the other has not.
+    [[nodiscard]] constexpr HeldBits without(HeldBits other) const {
+        return HeldBits(static_cast<std::uint8_t>(bits & ~other.bits));
+    }
     [[nodiscard]] constexpr HeldAxes axes() const {
         const auto has = [this](int bit) { return (bits >> bit & 1) != 0; };
         return {has(0), has(1), has(2), has(3), has(4), has(5)};

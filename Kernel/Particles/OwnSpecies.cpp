@@ -6,7 +6,8 @@
 
 namespace pendular {
 
-void requireOwnSpecies(const GrainSpecies& ofScene, std::string_view whose, int index, const void* owner) {
+void requireOwnSpecies(const GrainSpecies& ofScene, std::string_view whose, int index,
+                       const SpeciesOwner* owner) {
     if (index >= 0 && owner == ofScene.owner()) return;
     throw InputError(
         fmt::format("{}: species is {}; call setSpecies() with a species of this scene, which "

@@ -8,6 +8,7 @@ namespace pendular {
 
 /// Throws InputError unless a species, by its number and its handler, is one of the scene's.
 /// @param whose for the sentence: "wall 3"
-void requireOwnSpecies(const GrainSpecies& ofScene, std::string_view whose, int index, const void* owner);
+void requireOwnSpecies(const GrainSpecies& ofScene, std::string_view whose, int index,
+                       const SpeciesOwner* owner);
 
 }  // namespace pendular

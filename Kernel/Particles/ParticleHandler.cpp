@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSpecies.h"
@@ -27,9 +28,9 @@ void setAcceleration(ParticleStore& grains, std::uint32_t at, const Vector<doubl
     if (!grains.earlier.empty()) grains.earlier[at].acceleration = acceleration;
 }
 
-/// The inertia of a solid sphere, as the store has it: 5/2 of 1 / (m r^2).
-GrainInertia ofSolidSphere(double mass, double radius) {
-    return {1 / mass, 2.5 * (1 / mass) / (radius * radius)};
+/// The inertia of a solid sphere or a disc, as the store has it: 5/2 or 2 of 1 / (m r^2).
+GrainInertia ofSolid(double mass, double radius, bool isDisc) {
+    return {1 / mass, (isDisc ? 2 : 2.5) * (1 / mass) / (radius * radius)};
 }
 
 /// What a grain follows of the accelerations that were set.
@@ -89,6 +90,19 @@ Vec3D GrainReference::getForce() const {
     return getMass() * toEigen(handler->store().acceleration[place()]);
 }
 
+double GrainReference::getInertia() const {
+    if (isFixed()) return infinity;
+    const ParticleStore& grains = handler->store();
+    if (grains.bodies.contains(number)) return 0.4 * getMass() * getRadius() * getRadius();
+    return 1 / handler->inertiaAt(place()).inverseMoment;
+}
+
+Vec3D GrainReference::getTorque() const {
+    const ParticleStore& grains = handler->store();
+    if (isFixed() || !grains.hasSpin) return Vec3D::Zero();
+    return getInertia() * toEigen(grains.rotation[place()].angularAcceleration);
+}
+
 double GrainReference::getLiquidVolume() const { return handler->liquidFilms.of(handler->grains, place()); }
 void GrainReference::setLiquidVolume(double volume) {
     checkValue(fmt::format("particle {}", number), "liquid volume", volume, "m^3", notNegative);
@@ -110,11 +124,14 @@ void GrainReference::requireOwnBody(std::string_view what) const {
 
 void GrainReference::setVelocity(const Vec3D& velocity) {
     requireOwnBody("velocity");
-    record().velocity = finite(number, "velocity", velocity, "m/s");
+    const Vector<double> value = finite(number, "velocity", velocity, "m/s");
+    handler->requireHeld(fmt::format("particle {}", number), value, {0, 0, 0});
+    record().velocity = value;
 }
 void GrainReference::setAngularVelocity(const Vec3D& spin) {
     requireOwnBody("angular velocity");
     const Vector<double> value = finite(number, "angular velocity", spin, "rad/s");
+    handler->requireHeld(fmt::format("particle {}", number), {0, 0, 0}, value);
     if (handler->store().hasSpin) handler->store().rotation[place()].spin = value;
 }
 void GrainReference::setPosition(const Vec3D& position) {
@@ -133,7 +150,7 @@ void GrainReference::setRadius(double radius) {
     handler->renewMass(place());
     (grows ? handler->changes.placed : handler->changes.altered).push_back(number);
 }
-void GrainReference::setSpeciesIndex(int index, const void* owner) {
+void GrainReference::setSpeciesIndex(int index, const SpeciesOwner* owner) {
     requireOwnBody("species");
     handler->requireOwnSpecies(fmt::format("particle {}", number), index, owner);
     static_cast<void>(handler->massOf(getRadius(), index));  // throws if there is no such species
@@ -143,8 +160,13 @@ void GrainReference::setSpeciesIndex(int index, const void* owner) {
 }
 void GrainReference::fixParticle(bool fix) {
     requireOwnBody("being held");
+    const HeldBits held = handler->store().heldAt(place()).with(handler->heldByScene);
+    if (!fix && held.any()) return setHeldAxes({});
+    setFixed(fix);
+}
+
+void GrainReference::setFixed(bool fix) {
     const std::uint32_t at = place();
-    if (!fix && handler->store().heldAt(at).any()) return setHeldAxes({});
     const bool isLetGo = isFixed() && !fix;
     ParticleStore& grains = handler->store();
     grains.setHeldAt(at, {});
@@ -160,12 +182,12 @@ void GrainReference::fixParticle(bool fix) {
 
 void GrainReference::setHeldAxes(const HeldAxes& axes) {
     requireOwnBody("held axes");
-    if (axes == HeldAxes::all() || (axes == HeldAxes{} && isFixed()))
-        return fixParticle(axes == HeldAxes::all());
-    if (isFixed()) fixParticle(false);
+    const HeldBits held = HeldBits(axes).with(handler->heldByScene);
+    if (held.areAll() || (!held.any() && isFixed())) return setFixed(held.areAll());
+    if (isFixed()) setFixed(false);
     const std::uint32_t at = place();
     ParticleStore& grains = handler->store();
-    const HeldBits held(axes), before = grains.heldAt(at);
+    const HeldBits before = grains.heldAt(at);
     // Along axes along which it was held it begins to fall.
     setAcceleration(
         grains, at,
@@ -192,7 +214,40 @@ void ParticleHandler::setSpecies(const GrainSpecies& of) {
     grains.hasSpin = of.turnGrains();
 }
 
-void ParticleHandler::requireOwnSpecies(std::string_view whose, int index, const void* owner) const {
+void ParticleHandler::requireHeld(std::string_view whose, const Vector<double>& velocity,
+                                  const Vector<double>& spin) const {
+    if (!heldByScene.any()) return;
+    const auto require = [&](std::string_view field, const Vector<double>& v, const Vector<double>& part,
+                             std::string_view unit) {
+        if (!(v == part))
+            throw InputError(
+                fmt::format("{}: {} = ({}, {}, {}) {} is not allowed, as all grains are held in a plane or "
+                            "along a line (holdAll(), setSystemDimensions(2)); it must be ({}, {}, {}) {}.",
+                            whose, field, v.x, v.y, v.z, unit, part.x, part.y, part.z, unit));
+    };
+    require("velocity", velocity, heldByScene.partAlong(velocity), "m/s");
+    require("angular velocity", spin, heldByScene.partAbout(spin), "rad/s");
+}
+
+void ParticleHandler::holdAll(const HeldAxes& axes) {
+    if (columnsAreClosed || !grains.bodies.empty())
+        throw InputError(
+            "Simulation: axes along which all grains are held (holdAll(), setSystemDimensions(2)) are set "
+            "before the run and before the first rigid body.");
+    const HeldBits before = std::exchange(heldByScene, HeldBits(axes));
+    try {
+        for (const GrainReference grain : *this)
+            requireHeld(fmt::format("particle {}", grain.getId()), toVector(grain.getVelocity()),
+                        toVector(grain.getAngularVelocity()));
+    } catch (const InputError&) {
+        heldByScene = before;
+        throw;
+    }
+    for (GrainReference grain : *this)
+        if (!grain.isFixed()) grain.setHeldAxes(grain.getHeldAxes());
+}
+
+void ParticleHandler::requireOwnSpecies(std::string_view whose, int index, const SpeciesOwner* owner) const {
     pendular::requireOwnSpecies(*species, whose, index, owner);
 }
 
@@ -205,7 +260,7 @@ double ParticleHandler::massOf(double radius, int of) const {
     const auto index = static_cast<std::size_t>(of);
     const double density = species->density(index);
     checkValue(species->typeName(index), "density", density, "kg/m^3", positive);
-    return sphereMass(radius, density);
+    return species->massOf(index, radius);
 }
 
 double ParticleHandler::massAt(std::uint32_t at) const {
@@ -232,13 +287,17 @@ GrainReference ParticleHandler::copyAndAddObject(const SphericalParticle& grain)
     checkValue(owner, "radius", grain.getRadius(), "m", positive);
     requireOwnSpecies(owner, grain.getSpeciesIndex(), grain.getSpeciesOwner());
     requireResolved(owner, "position", toVector(grain.getPosition()), grain.getRadius());
+    requireHeld(owner, toVector(grain.getVelocity()), toVector(grain.getAngularVelocity()));
     const double mass = massOf(grain.getRadius(), grain.getSpeciesIndex());
+    const HeldBits held = HeldBits(grain.getHeldAxes()).with(heldByScene);
     const TranslationRecord record{toVector(grain.getPosition()), grain.getRadius(),
-                                   toVector(grain.getVelocity()), grain.isFixed() ? 0 : 1 / mass};
+                                   toVector(grain.getVelocity()), held.areAll() ? 0 : 1 / mass};
     const std::uint32_t identity = grains.add(record, toVector(grain.getAngularVelocity()),
                                               static_cast<std::uint16_t>(grain.getSpeciesIndex()));
-    if (!grain.isFixed()) {
-        grains.setHeldAt(grains.place[identity], HeldBits(grain.getHeldAxes()));
+    if (!held.areAll()) {
+        if (species->grainsAreDiscs())
+            setInertia(grains, grains.place[identity], inertiaAt(grains.place[identity]));
+        grains.setHeldAt(grains.place[identity], held);
         setAcceleration(grains, grains.place[identity], gravity);
         followFreely(grains, grains.place[identity]);
     }
@@ -288,6 +347,27 @@ GrainReference ParticleHandler::getLastObject() {
     return {*this, grains.place.last()};
 }
 
+GrainReference ParticleHandler::firstBy(std::string_view call,
+                                        const std::function<bool(double, double)>& isBefore) {
+    if (isEmpty())
+        throw InputError(fmt::format("ParticleHandler: {} needs a grain, and there is none.", call));
+    std::uint32_t found = *grains.place.begin();
+    for (const std::uint32_t place : grains.place)
+        if (isBefore(grains.translation[place].radius, grains.translation[found].radius)) found = place;
+    return {*this, grains.identity[found]};
+}
+GrainReference ParticleHandler::getSmallestParticle() {
+    return firstBy("getSmallestParticle()", std::less{});
+}
+GrainReference ParticleHandler::getLargestParticle() {
+    return firstBy("getLargestParticle()", std::greater{});
+}
+
+void ParticleHandler::clear() {
+    for (const GrainReference grain : *this)
+        if (!grains.bodies.contains(grain.getId())) removeObject(grain.getId());
+}
+
 GrainColumnReference ParticleHandler::addColumn(const std::string& name, const std::string& unit,
                                                 double initial) {
     if (columnsAreClosed)
@@ -309,7 +389,7 @@ void ParticleHandler::renewMass(std::uint32_t at) {
 GrainInertia ParticleHandler::inertiaAt(std::uint32_t at) const {
     const double radius = grains.translation[at].radius, solid = massOf(radius, grains.species[at]);
     const double film = liquidDensity > 0 ? liquidDensity * liquidFilms.of(grains, at) : 0;
-    if (film == 0) return ofSolidSphere(solid, radius);
+    if (film == 0) return ofSolid(solid, radius, species->grainsAreDiscs());
     return {1 / (solid + film), 1 / ((2.0 / 5 * solid + 2.0 / 3 * film) * radius * radius)};
 }
 

@@ -42,6 +42,14 @@ public:
     /// For a grain of a rigid body it is its mass times its acceleration, so it includes what holds it in the
     /// body.
     [[nodiscard]] Vec3D getForce() const;
+    /// The sum of all torques (N m) about its centre in the last step. As the force it is not kept for a
+    /// grain that is held, and zero about axes about which it is held; zero without friction.
+    [[nodiscard]] Vec3D getTorque() const;
+    /// kg m^2, about its centre; infinite for a grain that is held altogether. Of a grain of a rigid body: of
+    /// a sphere of its share of the mass.
+    [[nodiscard]] double getInertia() const;
+    /// m^3, of a sphere of its radius.
+    [[nodiscard]] double getVolume() const { return sphereMass(getRadius(), 1); }
 
     /// The film on the grain (m^3); 0 where no liquid moves. The liquid of its bridges comes on top.
     [[nodiscard]] double getLiquidVolume() const;
@@ -54,6 +62,10 @@ public:
     /// Without effect in scenes without friction.
     void setAngularVelocity(const Vec3D& spin);
     void setPosition(const Vec3D& position);
+    /// Changes the velocity by so much (m/s).
+    void accelerate(const Vec3D& change) { setVelocity(getVelocity() + change); }
+    /// Puts it elsewhere, by so much (m).
+    void move(const Vec3D& way) { setPosition(getPosition() + way); }
     /// The mass follows, at the density of the species.
     void setRadius(double radius);
     template <class S>
@@ -63,14 +75,15 @@ public:
     /// Holds the grain, or lets it go. A grain that is held feels no force, and moves with the velocity and
     /// the spin that are set from then on; at first it has none.
     void fixParticle(bool fix = true);
-    /// Holds the grain along and about these axes of space, and lets it go along and about all others. In
-    /// those it feels no force and no torque, and keeps the velocity and the spin that are set from then on;
-    /// at first it has none. With all axes it is fixParticle().
+    /// Holds the grain along and about these axes of space, and lets it go along and about all others but
+    /// those of holdAll(). In those it feels no force and no torque, and keeps the velocity and the spin that
+    /// are set from then on; at first it has none. With all axes it is fixParticle().
     void setHeldAxes(const HeldAxes& axes);
     [[nodiscard]] HeldAxes getHeldAxes() const;
 
 private:
-    void setSpeciesIndex(int index, const void* owner);
+    void setFixed(bool fix);
+    void setSpeciesIndex(int index, const SpeciesOwner* owner);
     [[nodiscard]] std::uint32_t place() const;
     /// Throws InputError for a grain of a rigid body.
     void requireOwnBody(std::string_view what) const;
@@ -117,6 +130,12 @@ public:
     ParticleHandler() = default;
     ParticleHandler(const ParticleHandler&) = delete;
 
+    /// Holds all grains and rigid bodies along and about these axes, those that are there and those to come,
+    /// besides what is set for each: holdAll(HeldAxes::inPlane()) is a scene in the plane of x and y. A
+    /// velocity or a spin there is refused, so that it is 0 to the bit. At set-up.
+    void holdAll(const HeldAxes& axes);
+    [[nodiscard]] HeldAxes axesOfAllHeld() const { return heldByScene.axes(); }
+
     /// Takes the memory for so many grains at once, instead of bit by bit.
     void reserve(std::size_t count) { grains.reserve(count); }
 
@@ -139,6 +158,11 @@ public:
     [[nodiscard]] GrainReference getParticleById(std::size_t identity) { return getObject(identity); }
     /// The grain that was added last, of those that there are. Throws InputError if there is none.
     [[nodiscard]] GrainReference getLastObject();
+    /// The first with the smallest, or the largest, radius. Throw InputError if there is no grain.
+    [[nodiscard]] GrainReference getSmallestParticle();
+    [[nodiscard]] GrainReference getLargestParticle();
+    /// Removes all grains that are in no rigid body.
+    void clear();
     [[nodiscard]] bool contains(std::size_t identity) const;
     /// The place at which the store keeps a grain, until the next list of contacts. Throws InputError if
     /// there is no such grain.
@@ -214,9 +238,15 @@ private:
     friend class GrainReference;
     friend class GrainColumnReference;
 
+    [[nodiscard]] GrainReference firstBy(std::string_view call,
+                                         const std::function<bool(double, double)>& isBefore);
     void setSpecies(const GrainSpecies& of);
+    /// Throws InputError unless velocity and spin are 0 where all grains are held. @param whose for the
+    /// sentence
+    void requireHeld(std::string_view whose, const Vector<double>& velocity,
+                     const Vector<double>& spin) const;
     /// Throws InputError unless it is one of this scene. @param whose for the sentence
-    void requireOwnSpecies(std::string_view whose, int index, const void* owner) const;
+    void requireOwnSpecies(std::string_view whose, int index, const SpeciesOwner* owner) const;
     void setGravity(const Vector<double>& acceleration);
     void settleSpin();
     void renewMasses();
@@ -232,6 +262,7 @@ private:
     void noteDensityOfJoined(std::uint32_t identity);
 
     const GrainSpecies* species = nullptr;
+    HeldBits heldByScene;
     std::map<std::uint16_t, double> densitiesOfJoined;  // kg/m^3, of species in rigid bodies
     bool columnsAreClosed = false;
     Grains grains;

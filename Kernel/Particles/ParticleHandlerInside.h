@@ -48,6 +48,11 @@ public:
     [[nodiscard]] static const Vector<double>& gravityOf(const ParticleHandler& of) { return of.gravity; }
     /// The body at a place has the mass of its grains' films.
     static void weighFilmsOf(ParticleHandler& of, std::size_t body) { of.weighFilmsOf(body); }
+    /// Throws InputError unless velocity and spin are 0 where all grains are held.
+    static void requireHeld(const ParticleHandler& of, std::string_view whose, const Vector<double>& velocity,
+                            const Vector<double>& spin) {
+        of.requireHeld(whose, velocity, spin);
+    }
     /// The grain's body has been held or let go.
     static void noteHeld(ParticleHandler& of, std::uint32_t grain, bool mayOverlap) {
         (mayOverlap ? of.changes.placed : of.changes.altered).push_back(grain);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <numbers>
 
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/HeldAxes.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Species/Field.h"
+#include "Kernel/Species/SpeciesOwner.h"
 
 namespace pendular {
 
@@ -15,11 +15,6 @@ using Vec3D = Eigen::Vector3d;
 /// m, of a grain: far beyond any real one on both sides, and far from where the fifth power of the radius, in
 /// the moment of inertia, is more or less than a double can hold.
 inline constexpr Range radiusRange{1e-12, 1e9};
-
-/// kg, of a solid sphere; @param radius m; @param density kg/m^3
-inline double sphereMass(double radius, double density) {
-    return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
-}
 
 /// A grain as a driver describes it, before it is added to a scene.
 class SphericalParticle {
@@ -69,7 +64,7 @@ public:
     [[nodiscard]] double getLiquidVolume() const { return liquidVolume; }
     [[nodiscard]] int getSpeciesIndex() const { return speciesIndex; }
     /// The handler of its species.
-    [[nodiscard]] const void* getSpeciesOwner() const { return speciesOwner; }
+    [[nodiscard]] const SpeciesOwner* getSpeciesOwner() const { return speciesOwner; }
     [[nodiscard]] bool isFixed() const { return fixed; }
     [[nodiscard]] HeldAxes getHeldAxes() const { return fixed ? HeldAxes::all() : heldAxes; }
 
@@ -86,7 +81,7 @@ private:
     Vec3D spinValue = Vec3D::Zero();
     double liquidVolume = 0;
     int speciesIndex = -1;
-    const void* speciesOwner = nullptr;
+    const SpeciesOwner* speciesOwner = nullptr;
     bool fixed = false;
     HeldAxes heldAxes;
 };

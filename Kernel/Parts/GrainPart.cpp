@@ -15,8 +15,9 @@ namespace pendular {
 Features GrainPart::features(const StepContext& scene) const {
     Features found{Feature::Grains};
     const ParticleStore& grains = scene.grains();
+    const HeldBits all(scene.particles.axesOfAllHeld());  // along these no flow goes: PlaneScene.h
     for (const std::uint32_t place : grains.place)
-        if (grains.translation[place].inverseMass == 0 || grains.heldAt(place).areAlong()) {
+        if (grains.translation[place].inverseMass == 0 || grains.heldAt(place).without(all).areAlong()) {
             found.add(Feature::HeldGrains, nameOfGrain(grains, grains.identity[place]));
             break;
         }

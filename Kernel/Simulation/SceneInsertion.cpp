@@ -101,6 +101,10 @@ Inserted Scene::insert(const SizeDistribution& sizes, const Region& region, cons
 
 Inserted Scene::insert(const BodyMixture& mixture, const Region& region, const Amount& amount,
                        const InsertOptions& options) {
+    if (laws().grainsAreDiscs())
+        throw InputError(
+            "insert(): it counts by the volume of spheres, and grains are discs (setGrainsAreDiscs(), "
+            "setParticleDimensions(2)); add them one by one.");
     const ImagesForNow images = inside->imagesFor(mixture);
     const std::size_t before = bodyHandler.getSize();
     const Inserted made =

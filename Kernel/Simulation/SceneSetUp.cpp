@@ -8,6 +8,7 @@
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
+#include "Kernel/Simulation/PlaneScene.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -137,6 +138,8 @@ void Scene::Inside::check() {
     context.hasInlets = !scene.inletHandler.isEmpty();
     const Features found = wakeParts();
     refuseConflicts(found);
+    refuseOutOfPlane(context);
+    refuseForDiscs(context);
     parts.refuseOwnConflicts(found);
     refuseWalls(laws().shapes(), scene.wallHandler);
     refuseWear(scene.wallHandler, account.isKept(), laws().layout.hasTorque);
@@ -181,6 +184,10 @@ void Scene::Inside::prepare() {
 void Scene::Inside::warn() const {
     Logger& logger = scene.logger;
     if (scene.isQuiet()) return;
+    if (laws().grainsAreDiscs())
+        logger(LogLevel::Info,
+               "Grains are discs: densities are by area (kg/m^2), masses pi r^2 rho, moments of inertia m "
+               "r^2 / 2; volumes in outputs are those of spheres.");
     if (context.threads > processorCount())
         logger(LogLevel::Warn, "{} threads share {} processors; the run is slower than with {}.",
                context.threads, processorCount(), processorCount());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Kernel/Species/Setter.h"
+#include "Kernel/Species/SpeciesOwner.h"
 #include "Kernel/State/StateArchive.h"
 
 namespace pendular {
@@ -68,7 +69,7 @@ class AnySpecies : public AnyLaws {
 public:
     [[nodiscard]] virtual int getIndex() const = 0;
     /// The handler that has it.
-    [[nodiscard]] virtual const void* getOwner() const = 0;
+    [[nodiscard]] virtual const SpeciesOwner* getOwner() const = 0;
     [[nodiscard]] double getDensity() const { return densityPlace(); }
     /// kg/m^3, where it is kept
     [[nodiscard]] virtual const double& densityPlace() const = 0;

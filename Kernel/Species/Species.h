@@ -11,6 +11,7 @@
 #include "Kernel/Species/Friction/NoFriction.h"
 #include "Kernel/Species/JoinedName.h"
 #include "Kernel/Species/Law.h"
+#include "Kernel/Species/SpeciesOwner.h"
 
 namespace pendular {
 
@@ -88,7 +89,7 @@ inline constexpr std::string_view speciesSuffix = "Species";
 /// Which species of its scene one is. A copy is none of the scene, and what is assigned to stays what it is.
 struct SpeciesIndex {
     int value = -1;
-    const void* owner = nullptr;  // the handler that has it
+    const SpeciesOwner* owner = nullptr;  // the handler that has it
 
     SpeciesIndex() = default;
     SpeciesIndex(const SpeciesIndex&) {}
@@ -116,11 +117,12 @@ struct Species : MixedSpecies<N, F, A> {
         density = value;
     }
     [[nodiscard]] double getDensity() const { return density; }
-    /// kg, of a grain of this material; @param radius m
+    /// kg, of a grain of this material: a sphere, or a disc in a scene of these; @param radius m
     [[nodiscard]] double getMassFromRadius(double radius) const {
         checkValue(name, "density", density, "kg/m^3", positive);
         checkValue(name, "radius", radius, "m", positive);
-        return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
+        const bool isDisc = index.owner && index.owner->grainsAreDiscs();
+        return isDisc ? discMass(radius, density) : sphereMass(radius, density);
     }
 
     /// Values that follow from others where the user has not set them.
@@ -139,7 +141,7 @@ struct Species : MixedSpecies<N, F, A> {
     /// The index in its scene; -1 for a species that no scene has, as a copy of one that it has.
     [[nodiscard]] int getIndex() const { return index.value; }
     /// The handler that has it, by which a scene knows its own species; null for one that no scene has.
-    [[nodiscard]] const void* getOwner() const { return index.owner; }
+    [[nodiscard]] const SpeciesOwner* getOwner() const { return index.owner; }
 
 private:
     template <class>

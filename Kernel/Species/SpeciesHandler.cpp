@@ -12,4 +12,9 @@ void refuseSpeciesNumber(std::ptrdiff_t number, std::size_t count) {
         fmt::format("There is no species {}; the scene has {} (counted from 0).", number, count));
 }
 
+void visitForm(StateArchive& archive, const SpeciesOwner& species) {
+    if (species.grainsAreDiscs() || (archive.isReading() && archive.holds("discs")))
+        archive.same("discs", species.grainsAreDiscs() ? 1.0 : 0.0);
+}
+
 }  // namespace pendular

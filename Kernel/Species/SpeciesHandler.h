@@ -22,11 +22,14 @@ namespace pendular {
 [[noreturn]] void refuseSpeciesWithoutLaws(int number);
 [[noreturn]] void refuseSpeciesNumber(std::ptrdiff_t number, std::size_t count);
 
+/// Refuses to go on with discs as spheres, or the other way round.
+void visitForm(StateArchive& archive, const SpeciesOwner& species);
+
 /// The species of a scene and the values of each pair of them. The laws of a pair are mixed from its two
 /// species by the rule of each field, except for the values that getMixedObject(a, b)->set...() gives to that
 /// pair.
 template <class S>
-class SpeciesHandler {
+class SpeciesHandler : public SpeciesOwner {
 public:
     using Mixed = typename S::Mixed;
 
@@ -96,6 +99,7 @@ public:
     /// @param changedInRun as the scene knows it; read from a file, as the file does
     void visitState(StateArchive& archive, bool& changedInRun) {
         archive.same("name", S::name);
+        visitForm(archive, *this);
         archive.same("count", all.size());
         archive.value("changedInRun", changedInRun);
         for (S& species : all)

@@ -29,7 +29,7 @@ const void* lawOfType(const Mixed& laws, const std::type_info& type) {
 template <class S>
 class SpeciesInScene final : public AnySpecies {
 public:
-    SpeciesInScene(const S& from, int index, const void* owner) : species(from) {
+    SpeciesInScene(const S& from, int index, const SpeciesOwner* owner) : species(from) {
         species.index.value = index;
         species.index.owner = owner;
     }
@@ -42,7 +42,7 @@ public:
         return namedSetters<MixedOf>(species);
     }
     [[nodiscard]] int getIndex() const override { return species.getIndex(); }
-    [[nodiscard]] const void* getOwner() const override { return species.getOwner(); }
+    [[nodiscard]] const SpeciesOwner* getOwner() const override { return species.getOwner(); }
     [[nodiscard]] const double& densityPlace() const override { return species.density; }
     void setDensity(double density) override { species.setDensity(density); }
     void complete() override {

@@ -9,6 +9,17 @@ namespace pendular {
 /// A plane wall. Grains lie on the side from which its normal points away.
 class InfiniteWall final : public RigidWall {
 public:
+    InfiniteWall() = default;
+    template <class S>
+    explicit InfiniteWall(const S* ofWall) {
+        setSpecies(ofWall);
+    }
+    /// set() and setSpecies() at once.
+    template <class S>
+    InfiniteWall(const Vec3D& outward, const Vec3D& point, const S* ofWall) {
+        setSpecies(ofWall);
+        set(outward, point);
+    }
     /// @param outward normal into the wall, of any length; @param point on its surface, m
     void set(const Vec3D& outward, const Vec3D& point);
 

@@ -65,7 +65,7 @@ public:
     /// Its number in the scene's speciesHandler; -1 where none was set.
     [[nodiscard]] int getSpeciesIndex() const { return species; }
     /// The handler of its species.
-    [[nodiscard]] const void* getSpeciesOwner() const { return speciesOwner; }
+    [[nodiscard]] const SpeciesOwner* getSpeciesOwner() const { return speciesOwner; }
 
     [[nodiscard]] virtual std::size_t partCount() const { return 1; }
     /// Whether a contact can be with this part, also of an image.
@@ -195,7 +195,7 @@ private:
     void setForce(const Vector<double>& force, const Vector<double>& torque, std::uint64_t touches);
 
     int species = -1;
-    const void* speciesOwner = nullptr;
+    const SpeciesOwner* speciesOwner = nullptr;
     WallForce kept;
     bool forcesKept = false;
 };

@@ -58,6 +58,7 @@ TEST(MercuryPrograms, fluxBoundary) {
     EXPECT_DOUBLE_EQ(plane->getMassOfParticlesCrossedForw(), 2 * mass);
     EXPECT_DOUBLE_EQ(plane->getMassOfParticlesCrossedBack(), mass);
     EXPECT_DOUBLE_EQ(plane->getMassOfParticlesCrossedNet(), mass);
+    EXPECT_DOUBLE_EQ(plane->getVolumeOfParticlesCrossedForw(), 2 * mass);  // of density 1
 }
 
 // A grain falls from a height of 4 and is deleted where it is below 1.
@@ -104,6 +105,7 @@ void expectDeletion(const Boundary& boundary) {
     EXPECT_LE(scene.wentAt, std::sqrt(6.0) + 2.1e-3);
     EXPECT_EQ(scene.added->getNumberOfParticlesDeleted(), 1u);
     EXPECT_NEAR(scene.added->getMassOfParticlesDeleted(), 1, 1e-15);
+    EXPECT_NEAR(scene.added->getVolumeOfParticlesDeleted(), constants::pi / 6, 1e-15);
     EXPECT_EQ(scene.printed, 31);  // at the start and after each hundred of the 3000 steps
 }
 
@@ -195,6 +197,70 @@ TEST(MercuryPrograms, volumeFlowRate) {
     const double one = 4.0 / 3.0 * constants::pi * mathsFunc::cubic(0.004);
     // The largest number of whole grains that is not above the rate times the time.
     EXPECT_EQ(scene.added->getNumberOfParticlesInserted(), static_cast<std::uint64_t>(1e-4 * 0.2 / one));
+}
+
+// A box that is filled again in each step, from which grains fall.
+class Filled : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    CubeInsertionBoundary* added = nullptr;
+    std::size_t atStart = 0;
+
+    void setupInitialConditions() override {
+        setDomain({0, 0, 0}, {.1, .1, .1});
+        setGravity({0, 0, -9.8});
+        auto s = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        s->setDensity(2000);
+        s->setStiffness(1000);
+        SphericalParticle grain(s);
+        grain.setRadius(0.01);
+        CubeInsertionBoundary insertion;
+        insertion.set(grain, 100, getMin(), getMax());
+        added = boundaryHandler.copyAndAddObject(insertion);
+        setTimeStep(1e-4);
+        setTimeMax(0.1);
+        setQuiet();
+    }
+    void actionsAfterTimeStep() override {
+        if (getNumberOfTimeSteps() == 1) atStart = particleHandler.getNumberOfObjects();
+    }
+};
+
+TEST(MercuryPrograms, insertionBoundary) {
+    Filled scene;
+    scene.solve();
+    // At once so many that the next one finds no place in 101 tries: spheres that are added at random until
+    // then fill a tenth to a third of the box, of 0.02^3 around each centre that fits.
+    const double one = sphereMass(0.01, 1), box = 1e-3;
+    EXPECT_GT(static_cast<double>(scene.atStart) * one, 0.1 * box);
+    EXPECT_LT(static_cast<double>(scene.atStart) * one, 0.35 * box);
+    // They fall by g t^2 / 2 = 49 mm, and others come to their places.
+    EXPECT_GT(scene.particleHandler.getNumberOfObjects(), scene.atStart + scene.atStart / 4);
+    EXPECT_EQ(scene.added->getNumberOfParticlesInserted(), scene.particleHandler.getNumberOfObjects());
+}
+
+// A volume that comes at once, with random velocities.
+TEST(MercuryPrograms, insertionOfVelocities) {
+    Filled scene;
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    species->setDensity(2000);
+    SphericalParticle grain(species);
+    grain.setRadius(0.001);
+    CubeInsertionBoundary insertion;
+    insertion.set(grain, 1, {0, 0, 0}, {.1, .1, .1}, {-1, 2, 0}, {1, 4, 0});
+    insertion.setInitialVolume(1000.5 * sphereMass(0.001, 1));
+    scene.boundaryHandler.copyAndAddObject(insertion);
+    Vec3D sum = Vec3D::Zero(), squares = Vec3D::Zero();
+    for (const GrainReference g : scene.particleHandler) {
+        const Vec3D v = g.getVelocity() - Vec3D(0, 3, 0);
+        EXPECT_LE(v.cwiseAbs().maxCoeff(), 1);
+        EXPECT_EQ(v.z(), 0);
+        sum += v, squares += v.cwiseAbs2();
+    }
+    ASSERT_EQ(scene.particleHandler.getSize(), 1000u);
+    // Even from -1 to 1: a mean of 0 with the deviation 1 / sqrt(3 n), and of the squares 1/3 with 0.3 /
+    // sqrt(n).
+    EXPECT_LT(sum.norm() / 1000, 4 * std::sqrt(2.0 / 3000));
+    EXPECT_NEAR(squares.x() / 1000, 1.0 / 3, 4 * 0.3 / std::sqrt(1000));
 }
 
 // A wedge of two planes, between which nothing is: distances to its faces and its edge.

@@ -141,25 +141,33 @@ TEST(HeldAxes, aClumpHeldAgainstTranslationSwingsBetweenSprings) {
 
 /// Discs in a box, of which some are dimers.
 struct FlatGas : FewGrains<Rough> {
-    explicit FlatGas(int threads = 1)
-        : FewGrains(rough(), discs(), 1e-6,
+    const bool byScene;  // the scene holds them, and not each by itself
+
+    explicit FlatGas(int threads = 1, bool isFlat = false, bool isHeldByScene = false)
+        : FewGrains(rough(), discs(isFlat), 1e-6,
                     {{{-1, 0, 0}, {0, 0, 0}},
                      {{1, 0, 0}, {0.02, 0, 0}},
                      {{0, -1, 0}, {0, 0, 0}},
-                     {{0, 1, 0}, {0, 0.02, 0}}}) {
+                     {{0, 1, 0}, {0, 0.02, 0}}}),
+          byScene(isHeldByScene) {
+        if (byScene) particleHandler.holdAll(inPlane);
         setNumberOfThreads(threads);
         keepEnergyLedger();
         acceptUnstableTimeStep();
     }
     void setupInitialConditions() override {
         if (bodyHandler.getSize() > 0) return;
-        for (std::uint32_t n = 0; n < 8; n += 2) bodyHandler.join({n, n + 1}).setHeldAxes(inPlane);
-        for (std::uint32_t n = 8; n < particleHandler.getSize(); ++n) {
+        for (std::uint32_t n = 0; n < 8; n += 2) {
+            BodyReference body = bodyHandler.join({n, n + 1});
+            if (!byScene) body.setHeldAxes(inPlane);
+        }
+        for (std::uint32_t n = 8; n < particleHandler.getSize() && !byScene; ++n) {
             GrainReference grain = particleHandler.getObject(n);
             grain.setHeldAxes(inPlane);
         }
     }
-    static std::vector<GrainMotion> discs() {
+    /// @param flat moving in the plane from the start
+    static std::vector<GrainMotion> discs(bool flat) {
         std::mt19937 random(7);
         const auto even = [&] { return static_cast<double>(random()) / 0x1p32 - 0.5; };
         std::vector<GrainMotion> all;
@@ -169,6 +177,8 @@ struct FlatGas : FewGrains<Rough> {
                                .position = {0.0025 * x + 0.0013, 0.0025 * y + 0.0013, 1e-4 * even()},
                                .velocity = {even(), even(), even()},
                                .spin = {100 * even(), 100 * even(), 100 * even()}});
+        for (GrainMotion& grain : all)
+            if (flat) grain.velocity.z() = grain.spin.x() = grain.spin.y() = 0;
         return all;
     }
     void steps(int count) {
@@ -221,6 +231,92 @@ TEST(HeldAxes, areTheSameBitsForAnyThreadsAndRestarts) {
     support::expectSameState(folder.path() / "whole.h5", folder.path() / "resumed.h5");
     EXPECT_EQ(resumed.particleHandler.getObject(0).getHeldAxes(), inPlane);
     EXPECT_EQ(resumed.particleHandler.getObject(20).getHeldAxes(), inPlane);
+}
+
+TEST(HeldAxes, allThatTheSceneHoldsMoveAsThoseThatAreHeldOneByOne) {
+    FlatGas one(1, true), scene(1, true, true);
+    one.initialise(), scene.initialise();
+    one.steps(2000), scene.steps(2000);
+    EXPECT_EQ(one.hash(), scene.hash());
+    EXPECT_EQ(scene.particleHandler.getObject(0).getHeldAxes(), inPlane);
+    EXPECT_EQ(scene.particleHandler.getObject(20).getHeldAxes(), inPlane);
+    for (std::size_t k = 0; k < scene.bodyHandler.getSize(); ++k) {
+        EXPECT_EQ(scene.bodyHandler.getObject(k).getVelocity().z(), 0);
+        EXPECT_EQ(scene.bodyHandler.getObject(k).getAngularVelocity().x(), 0);
+    }
+}
+
+TEST(HeldAxes, whatTheSceneHoldsIsNotLetGo) {
+    FewGrains<Rough> scene(rough(),
+                           {{.radius = r, .velocity = {0.1, 0, 0}, .spin = {0, 0, 3}},
+                            {.radius = r, .position = {0, 3 * r, 0}, .fixed = true}},
+                           1e-6);
+    scene.particleHandler.holdAll(inPlane);
+    GrainReference free = scene.particleHandler.getObject(0), fixed = scene.particleHandler.getObject(1);
+    EXPECT_EQ(free.getHeldAxes(), inPlane);
+    EXPECT_TRUE(fixed.isFixed());
+    fixed.fixParticle(false);
+    EXPECT_EQ(fixed.getHeldAxes(), inPlane);
+    EXPECT_EQ(fixed.getMass(), free.getMass());
+    free.setHeldAxes({.x = true});
+    EXPECT_EQ(free.getHeldAxes(), (HeldAxes{true, false, true, true, true, false}));
+    free.setHeldAxes({.x = true, .y = true, .aboutZ = true});
+    EXPECT_TRUE(free.isFixed());
+    free.fixParticle(false);
+    EXPECT_EQ(free.getHeldAxes(), inPlane);
+    SphericalParticle rising(scene.speciesHandler.getLastObject());
+    rising.setRadius(r), rising.setVelocity({0, 0, 1e-300});
+    BodyReference body = scene.bodyHandler.join({1});
+    for (const std::string& said :
+         {support::refusal([&] {
+              free.setVelocity({0, 0, 1});
+          }),
+          support::refusal([&] {
+              free.setAngularVelocity({1, 0, 0});
+          }),
+          support::refusal([&] {
+              body.setVelocity({0, 0, 1});
+          }),
+          support::refusal([&] {
+              body.setAngularVelocity({0, 1, 0});
+          }),
+          support::refusal([&] { scene.particleHandler.copyAndAddObject(rising); }),
+          support::refusal([&] { scene.particleHandler.holdAll({}); }), support::refusal([&] {
+              scene.setGravity({0, 0, -1});
+              scene.initialise();
+          })})
+        EXPECT_TRUE(support::isOneSentence(said) && contains(said, "held")) << said;
+    body.setHeldAxes({});
+    EXPECT_EQ(body.getHeldAxes(), inPlane);
+}
+
+// A disc has the moment m r^2 / 2: down a slope it rolls with 2/3 of g sin, where a sphere has 5/7.
+TEST(HeldAxes, discsRollAsDiscsDo) {
+    const double mass = std::numbers::pi * r * r * density, depth = mass * 9.81 / k;  // 8 % of the radius
+    FewGrains<Rough> scene(rough(), {{.radius = r, .position = {0, r - depth, 0}}}, 1e-6,
+                           {{{0, -1, 0}, {0, 0, 0}}});
+    scene.setGravity({0.5, -9.81, 0});
+    scene.acceptOverlaps(0.1);
+    scene.setIntegrator(integrators::velocityVerlet);
+    scene.speciesHandler.setGrainsAreDiscs();
+    scene.particleHandler.holdAll(inPlane);
+    scene.run(100000);
+    EXPECT_NEAR(scene.particleHandler.getObject(0).getMass(), mass, 1e-14 * mass);
+    EXPECT_NEAR(scene.particleHandler.getObject(0).getInertia(), 0.5 * mass * r * r, 1e-14 * mass * r * r);
+    // Its lever is less by half the depth. What begins at rest swings on the spring of friction, 3/m of it.
+    const double lever = 1 - 0.5 * depth / r, swing = 0.5 / 3 / std::sqrt(3 * 300 / mass);
+    EXPECT_NEAR(scene.motion(0).velocity.x(), 0.05 / (1 + 0.5 / (lever * lever)), 1.1 * swing);
+    EXPECT_EQ(scene.motion(0).velocity.z(), 0);
+    for (const bool withIntegrator : {false, true}) {
+        FewGrains<Rough> other(rough(), {{.radius = r}}, 1e-6);
+        other.speciesHandler.setGrainsAreDiscs();
+        if (withIntegrator) other.setIntegrator(integrators::velocityVerlet);
+        else other.particleHandler.holdAll(inPlane);
+        const std::string said = support::refusal([&] { other.initialise(); });
+        EXPECT_TRUE(support::isOneSentence(said) &&
+                    contains(said, withIntegrator ? "plane of x and y" : "velocityVerlet"))
+            << said;
+    }
 }
 
 // Whatever holds the target, a grain rebounds from it as from a wall, with e = 0.5: dashpots are made for the

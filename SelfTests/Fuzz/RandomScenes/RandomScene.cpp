@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::string_view getName() const override { return S::name; }
     [[nodiscard]] std::vector<NamedField> fields() override { return namedFields<typename S::Mixed>(own); }
     [[nodiscard]] int getIndex() const override { return own.getIndex(); }
-    [[nodiscard]] const void* getOwner() const override { return own.getOwner(); }
+    [[nodiscard]] const SpeciesOwner* getOwner() const override { return own.getOwner(); }
     [[nodiscard]] const double& densityPlace() const override { return density; }
     void setDensity(double value) override { own.setDensity(value), density = value; }
     void complete() override {}

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Species/Friction/Shared/StickSlip.h"
 
 namespace pendular {
@@ -80,6 +81,14 @@ struct RollingTorsion {
     void setTorsionFrictionCoefficient(double value) {
         set(&RollingTorsion::torsionFrictionCoefficient, value);
     }
+    /// For programs that set it: it must be the dynamic coefficient, which must have been set before, as
+    /// springs of rolling and torsion have one coefficient here.
+    void setRollingFrictionCoefficientStatic(double value) {
+        requireDynamic("rollingFrictionCoefficientStatic", value, rollingFrictionCoefficient);
+    }
+    void setTorsionFrictionCoefficientStatic(double value) {
+        requireDynamic("torsionFrictionCoefficientStatic", value, torsionFrictionCoefficient);
+    }
     [[nodiscard]] double getRollingStiffness() const { return rollingStiffness; }
     [[nodiscard]] double getRollingDissipation() const { return rollingDissipation; }
     [[nodiscard]] double getRollingFrictionCoefficient() const { return rollingFrictionCoefficient; }
@@ -136,6 +145,13 @@ struct RollingTorsion {
     }
 
 private:
+    static void requireDynamic(std::string_view field, double value, double dynamic) {
+        if (value != dynamic)
+            throw InputError(
+                fmt::format("{}: {} = {} is not allowed; it must be the dynamic coefficient, {}, as rolling "
+                            "and torsion have one coefficient here.",
+                            Law::name, field, value, dynamic));
+    }
     template <class T>
     [[gnu::always_inline]] static SliderForce<T> turnSpring(const PreparedSlider& p, T normalForce,
                                                             const Slip<T>& slip, Vector<T>& spring) {

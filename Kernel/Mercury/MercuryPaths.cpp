@@ -1,0 +1,45 @@
+#include "Kernel/Mercury/MercuryPaths.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "Kernel/Base/InputError.h"
+
+namespace pendular {
+
+static void requireHeld(const GrainReference& grain) {
+    if (!grain.isFixed())
+        throw InputError(
+            fmt::format("particle {}: it has a prescribed path and is not held; call fixParticle() first.",
+                        grain.getId()));
+}
+
+Features MercuryPaths::features(const StepContext&) const {
+    return paths.empty() ? Features{} : Features{Feature::OwnPart};
+}
+
+void MercuryPaths::setPosition(GrainReference grain, std::function<Vec3D(double)> path, double now) {
+    requireHeld(grain);
+    grain.setPosition(path(now));
+    paths[grain.getId()] = {std::move(path), {}};
+}
+
+void MercuryPaths::setVelocity(const GrainReference& grain, std::function<Vec3D(double)> velocity) {
+    requireHeld(grain);
+    paths[grain.getId()] = {{}, std::move(velocity)};
+}
+
+void MercuryPaths::prepare(StepContext& step) {
+    std::erase_if(paths, [&](const auto& path) { return !step.particles.contains(path.first); });
+    for (const auto& [identity, path] : paths) {
+        GrainReference grain = step.particles.getObject(identity);
+        if (!grain.isFixed() || !(step.length > 0)) continue;
+        // The mean velocity of the step is the exact way over its length; of a velocity, that in its middle.
+        if (path.position)
+            grain.setVelocity((path.position(step.timeAfter) - grain.getPosition()) / step.length);
+        else grain.setVelocity(path.velocity(step.time + 0.5 * step.length));
+    }
+}
+
+}  // namespace pendular

@@ -1,0 +1,322 @@
+// Programs of MercuryDPM's public self-tests with coarse graining in their code, by its names, and what they
+// give there or a closed form. README.md lists them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "CG/CG.h"
+#include "CG/TimeAveragedCG.h"
+#include "Mercury3D.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular::mercuryFieldsTest {
+namespace {
+
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+
+/// The cut-off of a function of this variance, or of that of a sphere of this radius.
+template <class One>
+double cutoff(bool ofRadius) {
+    One cg;
+    if (ofRadius) cg.setRadius(1);
+    else cg.setStandardDeviation(1);
+    return cg.getFunction().getCutoff();
+}
+
+TEST(MercuryPrograms, cgStandardDeviation) {
+    using namespace CGCoordinates;
+    using namespace CGFunctions;
+    for (const bool ofRadius : {false, true}) {
+        const double x = ofRadius ? std::sqrt(.2) : 1, xy = ofRadius ? std::sqrt(.4) : 1,
+                     xyz = ofRadius ? std::sqrt(.6) : 1;
+        EXPECT_NEAR((cutoff<CG<X, Heaviside>>(ofRadius)), constants::sqrt_3 * x, 1e-11);
+        EXPECT_NEAR((cutoff<CG<XY, Heaviside>>(ofRadius)), constants::sqrt_2 * xy, 1e-11);
+        EXPECT_NEAR((cutoff<CG<XYZ, Heaviside>>(ofRadius)), std::sqrt(5. / 3.) * xyz, 1e-11);
+        EXPECT_NEAR((cutoff<CG<X, Lucy>>(ofRadius)), std::sqrt(10.5) * x, 1e-11);
+        EXPECT_NEAR((cutoff<CG<XY, Lucy>>(ofRadius)), std::sqrt(5.6) * xy, 1e-11);
+        EXPECT_NEAR((cutoff<CG<XYZ, Lucy>>(ofRadius)), 2 * xyz, 1e-11);
+        EXPECT_NEAR((cutoff<CG<X, Gauss>>(ofRadius)), 3 * x, 1e-11);
+        EXPECT_NEAR((cutoff<CG<XY, Gauss>>(ofRadius)), 3 / std::sqrt(2) * xy, 1e-11);
+        EXPECT_NEAR((cutoff<CG<XYZ, Gauss>>(ofRadius)), 3 / std::sqrt(3) * xyz, 1e-11);
+    }
+}
+
+/// Grains of 1 kg and radius 1 that are pressed, at one time.
+class Pressed : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    SphericalParticle p;
+
+    Pressed() {
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        species->setDensity(0.75 / constants::pi);  // such that mass = 1
+        species->setStiffnessAndRestitutionCoefficient(2e5, 0.1, 1.0);
+        setDomain({-1, -1, -2}, {1, 1, 2});
+        p.setSpecies(species);
+        p.setRadius(1.0);
+        setTimeStep(1e-4);
+        setTimeMax(0);
+        acceptOverlaps(0.1);
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, cgParticleParticle) {
+    Pressed dpm;
+    dpm.p.setPosition({-0.05, 0, -0.95});
+    dpm.particleHandler.copyAndAddObject(dpm.p);
+    dpm.p.setPosition({0.05, 0, 0.95});
+    dpm.particleHandler.copyAndAddObject(dpm.p);
+    const Mdouble width = 0.15;
+    auto O = dpm.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    auto Z = dpm.cgHandler.copyAndAddObject(CG<CGCoordinates::Z>(width, 1));
+    Z->setMin({-1, -1, 0.95});
+    Z->setMax({1, 1, 0.95});
+    auto G = dpm.cgHandler.copyAndAddObject(CG<CGCoordinates::Z, CGFunctions::Gauss>(width, 1));
+    G->setMin({-1, -1, 0.95});
+    G->setMax({1, 1, 0.95});
+    auto C = dpm.cgHandler.copyAndAddObject(CG<CGCoordinates::Z>(width, 1));
+    auto XYZ = dpm.cgHandler.copyAndAddObject(CG<CGCoordinates::XYZ>(width, 1));
+    XYZ->setMin({-0.95, -1, 0.95});
+    XYZ->setMax({1.05, 1, 0.95});
+    dpm.solve();
+
+    helpers::check(O->getPoint(0).getDensity(), 0.125, 1e-15, "Average density");
+    const Mdouble phiL0 = 1.25 / width;  // Lucy's in the middle
+    helpers::check(Z->getPoint(0).getDensity(), phiL0 / 4.0, 1e-15, "density at the centre");
+    const Mdouble phiG0 =
+        1.0 / (constants::sqrt_2 * constants::sqrt_pi * std::erf(3.0 / constants::sqrt_2)) / width;
+    helpers::check(G->getPoint(0).getDensity(), phiG0 / 4.0, 1e-15, "density with a Gauss");
+    const Mdouble phi30 = 105.0 / 16.0 / constants::pi / mathsFunc::cubic(width);
+    helpers::check(XYZ->getPoint(0).getDensity(), phi30, 1e-11, "density in x, y and z");
+    const Vec3D way =
+        dpm.particleHandler.getObject(1)->getPosition() - dpm.particleHandler.getObject(0)->getPosition();
+    const Mdouble distance = way.norm(), overlap = 2.0 - distance;
+    helpers::check(O->getPoint(0).getContactStress().trace(), 2e5 * overlap * distance / 16, 1e-11,
+                   "Average stress");
+    helpers::check(C->getPoint(0).getContactStress().trace(), 2e5 * overlap * distance / way.z() / 4, 1e-11,
+                   "stress at the contact");
+    EXPECT_EQ(C->getPoint(0).coordinates.getZ(), 0);
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(Z->getPoint(1)); })));
+    Z->setTimeMin(1);
+    EXPECT_TRUE(contains(refusal([&] { static_cast<void>(Z->getPoint(0)); }), "last step"));
+}
+
+TEST(MercuryPrograms, cgParticleWall) {
+    Pressed dpm;
+    dpm.p.setPosition({0.05, 0, 0.95});
+    dpm.particleHandler.copyAndAddObject(dpm.p);
+    dpm.wallHandler.copyAndAddObject(
+        InfiniteWall({-0.05, 0, -0.95}, {0, 0, 0}, dpm.speciesHandler.getLastObject()));
+    auto O = dpm.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    auto C = dpm.cgHandler.copyAndAddObject(CG<CGCoordinates::Z>(0.075, 1));
+    C->setMin({-1, -1, 0.25});
+    C->setMax({1, 1, 0.25});
+    dpm.solve();
+    const auto contact = dpm.interactionHandler.getObject(0);
+    const Vec3D position = dpm.particleHandler.getObject(0)->getPosition();
+    // The contact point is on the surface of the wall here, there in the middle of the overlap.
+    const Mdouble distance = contact->getDistance(), overlap = contact->getOverlap();
+    EXPECT_NEAR((contact->getContactPoint() - position).norm(), distance, 1e-15);
+    helpers::check(O->getPoint(0).getContactStress().trace(), 2e5 * overlap * distance / 16, 1e-11,
+                   "Average stress");
+    helpers::check(C->getPoint(0).getContactStress().trace(), 2e5 * overlap * distance / position.z() / 4,
+                   1e-11, "stress at the contact");
+    // The wall bears the grain: the force density of all of it is that of the contact.
+    EXPECT_LT((O->getPoint(0).getInteractionForceDensity() - contact->getForce() / 16).norm(), 1e-10);
+}
+
+// A cubic packing with all forces 1 N in a periodic box.
+TEST(MercuryPrograms, cg3DPacking) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    const unsigned n = 5;
+    const Mdouble distance = 0.99;
+    LinearViscoelasticSpecies species;
+    species.setStiffnessAndRestitutionCoefficient(100.0, 0.5, 1.0);
+    species.setDensity(6.0 / constants::pi);
+    scene.speciesHandler.copyAndAddObject(species);
+    SphericalParticle p(scene.speciesHandler.getObject(0));
+    p.setRadius(0.5);
+    for (unsigned i = 0; i < n; i++)
+        for (unsigned j = 0; j < n; j++)
+            for (unsigned k = 0; k < n; k++) {
+                p.setPosition(distance * Vec3D(i + .5, j + .5, k + .5));
+                scene.particleHandler.copyAndAddObject(p);
+            }
+    scene.setMin(0, 0, 0);
+    scene.setMax(n * distance, n * distance, n * distance);
+    PeriodicBoundary b;
+    for (const Vec3D& normal : {Vec3D(1, 0, 0), Vec3D(0, 1, 0), Vec3D(0, 0, 1)}) {
+        b.set(normal, scene.getMin(), scene.getMax());
+        scene.boundaryHandler.copyAndAddObject(b);
+    }
+    scene.setTimeStep(0.02 * species.getCollisionTime(1.0));
+    scene.setTimeMax(10 * scene.getTimeStep());
+    auto cg = scene.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    scene.setQuiet();
+    scene.solve();
+    const Mdouble volume = mathsFunc::cubic(n * distance);
+    helpers::check(cg->getPoint(0).getDensity(), n * n * n / volume, 1e-10, "density");
+    for (int axis = 0; axis < 3; ++axis)
+        helpers::check(cg->getPoint(0).getContactStress()(axis, axis), n * n * n * 0.99 / volume, 1e-10,
+                       "pressure");
+}
+
+// Two species that press each other: the force on one is that on the other.
+TEST(MercuryPrograms, cgForceDensity) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    LinearViscoelasticSpecies species;
+    species.setDensity(1.0);
+    species.setCollisionTimeAndRestitutionCoefficient(.01, .1, 1.);
+    auto first = scene.speciesHandler.copyAndAddObject(species),
+         second = scene.speciesHandler.copyAndAddObject(species);
+    scene.setMax(Vec3D(1, 0.5, 0.5));
+    scene.setMin(Vec3D(-1, -0.5, -0.5));
+    SphericalParticle p0(first);
+    p0.setRadius(0.5);
+    p0.setPosition(Vec3D(-0.49, 0.0, 0.0));
+    scene.particleHandler.copyAndAddObject(p0);
+    p0.setSpecies(second);
+    p0.setPosition(Vec3D(0.49, 0.0, 0.0));
+    scene.particleHandler.copyAndAddObject(p0);
+    auto cg0 = scene.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    cg0->selectSpecies(0);
+    auto cg1 = scene.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    cg1->selectSpecies(1);
+    scene.setTimeStep(1e-4);
+    scene.setTimeMax(0);
+    scene.setQuiet();
+    scene.solve();
+    const Vec3D force0 = cg0->evaluateAverage().getInteractionForceDensity(),
+                force1 = cg1->evaluateAverage().getInteractionForceDensity();
+    scene.logger.assert_always(force0.x() < -1 && force1.x() > 1, "wrong direction: % %", force0, force1);
+    helpers::check(Vec3D(force0 + force1), Vec3D(0, 0, 0), 1e-10, "sum of the force densities");
+    // Of an overlap of 0.02 in a box of 2 m^3.
+    EXPECT_NEAR(force1.x(), 0.02 * first->getStiffness() / 2, 1e-9 * first->getStiffness());
+}
+
+// Two grains on a held one, which counts as a wall: a mass of 2, a stress of nearly 2, and a force of 2, in
+// 2.5 m^3.
+class Stack : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    Stack() {
+        setGravity(Vec3D(0., 0., -1.));
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        species->setDensity(6.0 / constants::pi);
+        species->setCollisionTimeAndRestitutionCoefficient(.01, .1, 1.);
+        setTimeStep(.0002);
+        setTimeMax(0.5);
+        setSaveCount(20);
+        setQuiet();
+    }
+    void setupInitialConditions() override {
+        setXMax(1);
+        setYMax(1);
+        setZMax(2);
+        setZMin(-0.5);
+        SphericalParticle P0;
+        P0.setSpecies(speciesHandler.getLastObject());
+        P0.setRadius(0.5);
+        P0.setPosition(Vec3D(0.5, 0.5, 0.5));
+        particleHandler.copyAndAddObject(P0);
+        P0.setPosition(Vec3D(0.5, 0.5, 1.5));
+        particleHandler.copyAndAddObject(P0);
+        P0.setPosition(Vec3D(0.5, 0.5, -0.5));
+        P0.fixParticle();
+        particleHandler.copyAndAddObject(P0);
+    }
+};
+
+TEST(MercuryPrograms, cgHandlerAndStaticBalance) {
+    Stack problem;
+    auto now = problem.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    auto mean = problem.cgHandler.copyAndAddObject(TimeAveragedCG<CGCoordinates::O>());
+    mean->setTimeMin(0.3);
+    auto Z = problem.cgHandler.copyAndAddObject(CG<CGCoordinates::Z>());
+    Z->setNZ(200);
+    Z->setWidth(0.3);
+    auto none = problem.cgHandler.copyAndAddObject(TimeAveragedCG<CGCoordinates::O>());
+    none->setTimeMin(1);
+    problem.solve();
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(none->getPoint(0)); })));
+    const double k = problem.speciesHandler.getObject(0)->getStiffness();
+    for (const CGPoint& point : {now->getPoint(0), mean->getPoint(0)}) {
+        EXPECT_NEAR(point.getDensity(), 0.8, 1e-14);
+        EXPECT_NEAR(point.getParticleNumber(), 0.8, 1e-14);
+        // Force times branch: 2 (1/2 - 1/k) + 1 (1 - 1/k), which is 0.799984 in 2.5 m^3.
+        EXPECT_NEAR(point.getContactStress()(2, 2), (2 - 3 / k) / 2.5, 1e-6);
+        EXPECT_NEAR(point.getContactStress()(2, 2), 0.799984, 1e-6);
+        EXPECT_LT((point.getInteractionForceDensity() + point.getDensity() * problem.getGravity()).norm(),
+                  1e-6);
+        EXPECT_LT(point.getMomentum().norm() + point.getMomentumFlux().norm(), 1e-6);
+    }
+    // Over z: the sum over points 1/80 m apart, of a function 0.6 m wide that is smooth.
+    const CGPoint sum = Z->evaluateAverage();
+    EXPECT_EQ(Z->getPoints().size(), 200u);
+    EXPECT_NEAR(sum.getDensity(), 0.8, 1e-5);
+    EXPECT_NEAR(Z->getPoint(0).coordinates.getZ(), -0.5 + 1.25 / 200, 1e-15);
+    EXPECT_EQ(problem.cgHandler.getNumberOfObjects(), 4u);
+    EXPECT_EQ(problem.cgHandler.getLastObject(), none);
+    EXPECT_TRUE(isOneSentence(refusal([&] { static_cast<void>(problem.cgHandler.getObject(4)); })));
+}
+
+/// 5^3 spheres, or 5^2 discs, of 1 kg in a box of their size, under a small gravity.
+class Packing : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    explicit Packing(int dimensions) {
+        const bool flat = dimensions == 2;
+        setDimension(dimensions);
+        setDomain({0, 0, flat ? -0.5 : 0}, {5, 5, flat ? 0.5 : 5});
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        species->setDensity(6.0 / constants::pi * (flat ? 2. / 3. : 1));
+        species->setCollisionTimeAndRestitutionCoefficient(.01, .1, 1.);
+        setGravity(flat ? Vec3D(0, -1, 0) : Vec3D(0, 0, -1));
+        SphericalParticle P0(species);
+        P0.setRadius(0.5);
+        for (int i = 0; i < 5; i++)
+            for (int j = 0; j < 5; j++)
+                for (int k = 0; k < (flat ? 1 : 5); k++) {
+                    P0.setPosition(0.5 * Vec3D(1. + 2. * i, 1. + 2. * j, flat ? 0 : 1. + 2. * k));
+                    particleHandler.copyAndAddObject(P0);
+                }
+        for (int axis = 0; axis < dimensions; ++axis)
+            for (const double side : {-1.0, 1.0})
+                wallHandler.copyAndAddObject(
+                    InfiniteWall(side * Vec3D::Unit(axis), side < 0 ? getMin() : getMax(), species));
+        setTimeStep(.0002);
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, cubicPacking) {
+    Packing problem(3);
+    problem.setTimeMax(0.2);
+    auto Z = problem.cgHandler.copyAndAddObject(CG<CGCoordinates::Z, CGFunctions::Gauss>(0.1, 500));
+    auto O = problem.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    problem.solve();
+    EXPECT_NEAR(O->getPoint(0).getDensity(), 1, 1e-12);
+    // A tenth of the width apart; what of the Gauss is cut off, at e^-4.5 of its peak, ends between points.
+    EXPECT_NEAR(Z->evaluateAverage().getDensity(), 1,
+                0.1 * 2 * std::exp(-4.5) / std::sqrt(2 * constants::pi));
+}
+
+TEST(MercuryPrograms, squarePacking) {
+    Packing problem(2);
+    problem.setTimeMax(1);
+    auto O = problem.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    problem.solve();
+    EXPECT_NEAR(O->getPoint(0).getDensity(), 1, 1e-12);
+    // The floor bears the discs. The slowest swing of a column of five on a floor has the stiffness 4 k
+    // sin^2(pi / 22) = 0.081 k, and decays by its dashpots, g/2m = 115/s, with 9.3/s: to 1e-4 of the weight.
+    EXPECT_NEAR(problem.wallHandler.getObject(2)->getForce().y(), -25, 25 * std::exp(-9.3));
+    for (auto grain : problem.particleHandler) {
+        EXPECT_NEAR(grain->getMass(), 1, 1e-14);
+        EXPECT_EQ(grain->getVelocity().z(), 0);
+        EXPECT_EQ(grain->getPosition().z(), 0);
+    }
+}
+
+}  // namespace
+}  // namespace pendular::mercuryFieldsTest

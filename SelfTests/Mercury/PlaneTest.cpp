@@ -1,0 +1,591 @@
+// Programs of MercuryDPM's public self-tests and tutorials in two dimensions, with solids of several planes,
+// on prescribed paths, and with rolling and torsion, by its names and its includes. README.md lists them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "Boundaries/LeesEdwardsBoundary.h"
+#include "Boundaries/PeriodicBoundary.h"
+#include "Mercury2D.h"
+#include "Mercury3D.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
+#include "Species/LinearViscoelasticFrictionSpecies.h"
+#include "Species/LinearViscoelasticSpecies.h"
+#include "Walls/AxisymmetricIntersectionOfWalls.h"
+#include "Walls/InfiniteWall.h"
+#include "Walls/IntersectionOfWalls.h"
+
+namespace pendular::mercuryPlaneTest {
+namespace {
+
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+
+/// A grain in a box of four walls, in two dimensions, elastic.
+class Box2D : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    static constexpr double radius = 0.005, stiffness = 258.5;
+    Vec3D position, velocity;
+    std::size_t touches = 0, before = 0;
+
+    Box2D(double width, const Vec3D& at, const Vec3D& with) : position(at), velocity(with) {
+        setSystemDimensions(2);
+        setXMax(width);
+        setYMax(0.5);
+        setZMax(0.1);
+        LinearViscoelasticSpecies species;
+        species.setDensity(2500.0);
+        species.setStiffness(stiffness);
+        species.setDissipation(0.0);
+        speciesHandler.copyAndAddObject(species);
+        setTimeStep(0.005 / 50.0);
+        setQuiet();
+    }
+    void setupInitialConditions() override {
+        SphericalParticle p0;
+        p0.setSpecies(speciesHandler.getObject(0));
+        p0.setRadius(radius);
+        p0.setPosition(position);
+        p0.setVelocity(velocity);
+        particleHandler.copyAndAddObject(p0);
+        InfiniteWall w0;
+        w0.setSpecies(speciesHandler.getObject(0));
+        w0.set(Vec3D(1.0, 0.0, 0.0), Vec3D(getXMax(), 0.0, 0.0));
+        wallHandler.copyAndAddObject(w0);
+        w0.set(Vec3D(-1.0, 0.0, 0.0), Vec3D(getXMin(), 0.0, 0.0));
+        wallHandler.copyAndAddObject(w0);
+        w0.set(Vec3D(0.0, 1.0, 0.0), Vec3D(0.0, getYMax(), 0.0));
+        wallHandler.copyAndAddObject(w0);
+        w0.set(Vec3D(0.0, -1.0, 0.0), Vec3D(0.0, getYMin(), 0.0));
+        wallHandler.copyAndAddObject(w0);
+    }
+    void actionsAfterTimeStep() override {
+        const std::size_t now = interactionHandler.getNumberOfObjects();
+        touches += now > before ? now - before : 0;
+        before = now;
+    }
+    [[nodiscard]] double omega() { return std::sqrt(stiffness / particleHandler.getObject(0)->getMass()); }
+    /// The share of the energy that may be in the ends of touches: they lie in steps.
+    [[nodiscard]] double share() {
+        return static_cast<double>(touches) * mathsFunc::square(omega() * getTimeStep());
+    }
+};
+
+/// Where a grain is that flies to and fro between two walls, which give it back after half a period.
+double bounced(double place, double speed, double low, double high, double touch, double time) {
+    for (;;) {
+        const double way = (speed > 0 ? high - place : place - low) / std::abs(speed);
+        if (way > time) return place + speed * time;
+        place = speed > 0 ? high : low;
+        time -= way + touch;
+        speed = -speed;
+    }
+}
+
+TEST(MercuryPrograms, particleIn2DBox) {
+    Box2D scene(1, {0.5, 0.25, 0}, {1.2, 1.3, 0});
+    scene.setTimeMax(2.5);
+    scene.solve();
+    const auto grain = scene.particleHandler.getObject(0);
+    const double touch = constants::pi / scene.omega();
+    // Each touch begins and ends in a step.
+    const double error = static_cast<double>(scene.touches) * 1.3 * scene.getTimeStep();
+    EXPECT_GE(scene.touches, 8u);
+    EXPECT_NEAR(grain->getPosition().x(), bounced(0.5, 1.2, 0.005, 0.995, touch, scene.getTime()), error);
+    EXPECT_NEAR(grain->getPosition().y(), bounced(0.25, 1.3, 0.005, 0.495, touch, scene.getTime()), error);
+    EXPECT_NEAR(grain->getVelocity().squaredNorm() / (1.44 + 1.69), 1, scene.share());
+    EXPECT_EQ(grain->getPosition().z(), 0);
+    EXPECT_EQ(grain->getVelocity().z(), 0);
+}
+
+/// How far outside of a square of half the width 0.125 about (0.25, 0.25) a point is, after a turn (rad).
+double outsideSquare(const Vec3D& point, double turn) {
+    const double x = point.x() - 0.25, y = point.y() - 0.25;
+    return std::max(std::abs(std::cos(turn) * x + std::sin(turn) * y),
+                    std::abs(std::cos(turn) * y - std::sin(turn) * x)) -
+           0.125;
+}
+
+// A block in the middle of the box.
+class Obstacle : public Box2D {
+public:
+    double nearest = 1;
+
+    Obstacle() : Box2D(0.5, {0.15 * 0.5, 0.3335 * 0.5, 0}, {1.2, 0.2, 0}) {}
+    void setupInitialConditions() override {
+        Box2D::setupInitialConditions();
+        IntersectionOfWalls w1;
+        w1.setSpecies(speciesHandler.getObject(0));
+        w1.addObject(Vec3D(-1.0, 0.0, 0.0), Vec3D(0.75 * getXMax(), 0.0, 0.0));
+        w1.addObject(Vec3D(1.0, 0.0, 0.0), Vec3D(0.25 * getXMax(), 0.0, 0.0));
+        w1.addObject(Vec3D(0.0, -1.0, 0.0), Vec3D(0.0, 0.75 * getYMax(), 0.0));
+        w1.addObject(Vec3D(0.0, 1.0, 0.0), Vec3D(0.0, 0.25 * getYMax(), 0.0));
+        wallHandler.copyAndAddObject(w1);
+    }
+    void actionsAfterTimeStep() override {
+        Box2D::actionsAfterTimeStep();
+        nearest = std::min(nearest, outsideSquare(particleHandler.getObject(0)->getPosition(), 0));
+    }
+};
+
+TEST(MercuryPrograms, particleIn2DBoxWithObstacle) {
+    Obstacle scene;
+    scene.setTimeMax(2);
+    scene.solve();
+    const auto grain = scene.particleHandler.getObject(0);
+    // It has met the block, up to the depth v / omega, and lost nothing.
+    EXPECT_LT(scene.nearest, Box2D::radius);
+    EXPECT_GT(scene.nearest, Box2D::radius - 1.01 * 1.22 / scene.omega());
+    EXPECT_NEAR(grain->getVelocity().squaredNorm() / 1.48, 1, scene.share());
+    EXPECT_EQ(grain->getVelocity().z(), 0);
+}
+
+// The same block, as a prism of four points that turns.
+class Prism : public Box2D {
+public:
+    double nearest = 1;
+
+    Prism() : Box2D(0.5, {0.15 * 0.5, 0.3335 * 0.5, 0}, {1.2, 0.2, 0}) {}
+    void setupInitialConditions() override {
+        Box2D::setupInitialConditions();
+        IntersectionOfWalls w1;
+        w1.setSpecies(speciesHandler.getObject(0));
+        std::vector<Vec3D> Points(4);
+        Points[0] = Vec3D(0.25 * getXMax(), -0.25 * getYMax(), 0.0);
+        Points[1] = Vec3D(-0.25 * getXMax(), -0.25 * getYMax(), 0.0);
+        Points[2] = Vec3D(-0.25 * getXMax(), 0.25 * getYMax(), 0.0);
+        Points[3] = Vec3D(0.25 * getXMax(), 0.25 * getYMax(), 0.0);
+        w1.createPrism(Points);
+        w1.setAngularVelocity(Vec3D(0.0, 0.0, 1.0));
+        w1.setVelocity(Vec3D(0.0, 0.0, 0.0));
+        w1.setPosition(Vec3D(0.5 * getXMax(), 0.5 * getYMax(), 0.0));
+        wallHandler.copyAndAddObject(w1);
+    }
+    void actionsAfterTimeStep() override {
+        Box2D::actionsAfterTimeStep();
+        nearest = std::min(nearest, outsideSquare(particleHandler.getObject(0)->getPosition(), getTime()));
+    }
+};
+
+TEST(MercuryPrograms, prismWalls) {
+    Prism scene;
+    scene.setTimeMax(2);
+    scene.solve();
+    // The rim of the prism goes at up to 0.18 m/s, which the grain may take up at each touch.
+    EXPECT_LT(scene.nearest, Box2D::radius);
+    EXPECT_GT(scene.nearest, 0);
+    EXPECT_EQ(scene.particleHandler.getObject(0)->getVelocity().z(), 0);
+    EXPECT_EQ(scene.particleHandler.getObject(0)->getPosition().z(), 0);
+}
+
+// Discs that meet the faces and the edges of a triangle, at rest and in a moving frame.
+class Triangle2D : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    Vec3D frame = Vec3D::Zero();  // m/s
+
+    explicit Triangle2D(const Vec3D& ofFrame) : frame(ofFrame) {
+        speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    }
+    void setupInitialConditions() override {
+        setParticleDimensions(2);
+        setSystemDimensions(2);
+        setXMin(-2.0);
+        setXMax(2.0);
+        setYMin(-2.0);
+        setYMax(2.0);
+        auto species = speciesHandler.getObject(0);
+        species->setDensity(6.0 / constants::pi);
+        species->setCollisionTimeAndRestitutionCoefficient(0.01, 1.0, 1.0);
+        setTimeStep(0.0002);
+        setTimeMax(1.0);
+        setSaveCount(
+            helpers::getSaveCountFromNumberOfSavesAndTimeMaxAndTimeStep(20, getTimeMax(), getTimeStep()));
+        IntersectionOfWalls w;
+        w.setSpecies(species);
+        const double s = std::sqrt(3);
+        w.createOpenPrism({{0.5, -s / 6, 0}, {0, s / 3, 0}, {-0.5, -s / 6, 0}, {0.5, -s / 6, 0}}, {0, 0, 1});
+        w.setVelocity(frame);
+        wallHandler.copyAndAddObject(w);
+        SphericalParticle p(species);
+        p.setRadius(0.1);
+        for (const double side : {-1.0, 1.5})  // towards the faces, towards the edges
+            for (const Vec3D& edge : {Vec3D(0.5, -s / 6, 0), Vec3D(0, s / 3, 0), Vec3D(-0.5, -s / 6, 0)}) {
+                p.setPosition(side * edge);
+                p.setVelocity((side < 0 ? edge : Vec3D(-edge)) + frame);
+                particleHandler.copyAndAddObject(p);
+            }
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, movingIntersectionOfWalls) {
+    Triangle2D basic({0, 0, 0}), moving({1, 0, 0});
+    basic.solve();
+    moving.solve();
+    for (std::size_t k = 0; k < 6; ++k) {
+        const auto grain = basic.particleHandler.getObject(k), other = moving.particleHandler.getObject(k);
+        helpers::check(other->getPosition(), grain->getPosition() + Vec3D(basic.getTime(), 0, 0), 1e-10,
+                       "position");
+        helpers::check(other->getVelocity(), grain->getVelocity() + Vec3D(1, 0, 0), 1e-10, "velocity");
+        // It has come back, with its speed; a disc has the mass of its area.
+        EXPECT_GT(grain->getVelocity().dot(grain->getPosition()), 0);
+        EXPECT_NEAR(grain->getMass(), 6 * 0.01, 1e-15);
+        EXPECT_NEAR(grain->getInertia(), 0.5 * 6 * 0.01 * 0.01, 1e-17);
+    }
+    EXPECT_NEAR(basic.speciesHandler.getObject(0)->getMassFromRadius(0.1), 6 * 0.01, 1e-15);
+    EXPECT_EQ(basic.getParticleDimensions() + 10 * basic.getSystemDimensions(), 22);
+}
+
+TEST(MercuryPrograms, whatLeavesThePlaneIsRefused) {
+    const auto said = [](auto&& change) {
+        Box2D scene(1, {0.5, 0.25, 0}, {1, 0, 0});
+        scene.setTimeMax(1e-3);
+        return refusal([&] {
+            change(scene);
+            scene.solve();
+        });
+    };
+    EXPECT_EQ(said([](Box2D&) {}), "");
+    for (const std::string& text :
+         {said([](Box2D& scene) { scene.velocity.z() = 0.5; }), said([](Box2D& scene) {
+              scene.setGravity({0, 0, -9.8});
+          }),
+          said([](Box2D& scene) {
+              scene.setParticleDimensions(2);
+              scene.setSystemDimensions(3);
+          }),
+          said([](Box2D& scene) { scene.setSystemDimensions(1); })})
+        EXPECT_TRUE(isOneSentence(text) && contains(text, "imensions")) << text;
+    Mercury2D flat;
+    EXPECT_EQ(flat.getSystemDimensions(), 2);
+}
+
+// A grain in two dimensions that goes through the upper face of a shear: it comes in below with the velocity
+// of its image there, at the place of that one.
+TEST(MercuryPrograms, leesEdwards) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    scene.setSystemDimensions(2);
+    scene.setDomain({0, 0, 0}, {1, 1, 1});
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    species->setDensity(6.0 / constants::pi), species->setStiffness(1000);
+    SphericalParticle p(species);
+    p.setRadius(0.05);
+    p.setPosition({0.5, 0.9, 0});
+    p.setVelocity({0, 0.5, 0});
+    scene.particleHandler.copyAndAddObject(p);
+    LeesEdwardsBoundary boundary;
+    const double velocity = 0.75;
+    boundary.set([velocity](double time) { return time * velocity; }, [velocity](double) { return velocity; },
+                 scene.getXMin(), scene.getXMax(), scene.getYMin(), scene.getYMax());
+    scene.boundaryHandler.copyAndAddObject(boundary);
+    scene.setTimeStep(1e-4);
+    scene.setTimeMax(0.5);
+    scene.setQuiet();
+    scene.solve();
+    const auto grain = scene.particleHandler.getObject(0);
+    EXPECT_NEAR(grain->getVelocity().x(), -velocity, 1e-15);
+    EXPECT_NEAR(grain->getPosition().x(), 0.5 - velocity * 0.5, 1e-12);
+    EXPECT_NEAR(grain->getPosition().y(), 0.9 + 0.25 - 1, 1e-12);
+    EXPECT_EQ(grain->getVelocity().z(), 0);
+    EXPECT_TRUE(isOneSentence(refusal([&] {
+        LeesEdwardsBoundary().set([](double t) { return t * t; }, [](double t) { return 2 * t; }, 0, 1, 0, 1);
+    })));
+}
+
+// A grain that is held goes round the unit circle.
+class DrivenParticle : public MercuryScene<LinearViscoelasticSpecies> {
+public:
+    double farthest = 0;
+
+    void setupInitialConditions() override {
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        species->setDensity(1), species->setStiffness(1);
+        SphericalParticle p0(species);
+        p0.setRadius(0.1);
+        p0.fixParticle();
+        setPrescribedPosition(particleHandler.copyAndAddObject(p0),
+                              [](double time) { return Vec3D(std::cos(time), 0.0, std::sin(time)); });
+        setTimeStep(0.01);
+        setTimeMax(2 * constants::pi);
+        setXMax(1.0);
+        setYMax(1.0);
+        setZMax(1.0);
+    }
+    void actionsAfterTimeStep() override {
+        const Vec3D pos = particleHandler.getObject(0)->getPosition();
+        farthest = std::max(farthest, (pos - Vec3D(std::cos(getTime()), 0, std::sin(getTime()))).norm());
+    }
+};
+
+TEST(MercuryPrograms, drivenParticle) {
+    DrivenParticle scene;
+    scene.setFileType(FileType::NO_FILE);
+    scene.setQuiet();
+    scene.solve();
+    EXPECT_LT(scene.farthest, 1e-14);  // round-off of a step; there 1e-6
+    EXPECT_LT((scene.particleHandler.getObject(0)->getPosition() - Vec3D(1, 0, 0)).norm(), 0.01);
+}
+
+// Three pairs that meet alike: one through the faces of the periods, one across them at the start, one in the
+// middle; grains that are removed on the way change nothing.
+class PeriodicPairs : public Mercury3D {
+public:
+    void setupInitialConditions() override {
+        LinearViscoelasticFrictionSpecies species;
+        const double stiffness = 1e5;
+        species.setDensity(2500);
+        species.setStiffness(stiffness);
+        species.setSlidingStiffness(2.0 / 7.0 * stiffness);
+        species.setSlidingFrictionCoefficient(0.5);
+        species.setRollingStiffness(2.0 / 5.0 * stiffness);
+        species.setRollingFrictionCoefficient(0.5);
+        species.setTorsionStiffness(2.0 / 5.0 * stiffness);
+        species.setTorsionFrictionCoefficient(0.5);
+        auto s = speciesHandler.copyAndAddObject(species);
+        setTimeMax(8e-2);
+        setTimeStep(2.0e-4);
+        setXMax(1.0);
+        setYMax(1.0);
+        setZMax(0.1);
+        PeriodicBoundary b0;
+        b0.set(Vec3D(1, 0, 0), getMin(), getMax());
+        boundaryHandler.copyAndAddObject(b0);
+        b0.set(Vec3D(0, 1, 0), getMin(), getMax());
+        boundaryHandler.copyAndAddObject(b0);
+        SphericalParticle p(s);
+        p.setRadius(0.1);
+        const auto add = [&](double x, double y, double velocity, const Vec3D& spin) {
+            p.setPosition(Vec3D(x, y, 0));
+            p.setVelocity(Vec3D(velocity, 0, 0));
+            p.setAngularVelocity(spin);
+            particleHandler.copyAndAddObject(p);
+        };
+        const Vec3D none(0, 0, 0), spin(0.3, 0.6, 0.9);
+        add(0.1, 0.1, 0, none), add(0.3, 0.3, 0, none);
+        add(0.6, 0.041, -1, spin), add(0.4, 0.001, 1, none);
+        add(0.6, 0.82, -1, spin), add(0.4, 0.78, 1, none);
+        add(0.02, 0.42, -1, spin), add(0.82, 0.38, 1, none);
+        setQuiet();
+    }
+    void actionsBeforeTimeStep() override {
+        if (getTime() > 3.5e-2 && particleHandler.contains(1)) particleHandler.removeObject(1);
+        if (getTime() > 4.5e-2 && particleHandler.contains(0)) particleHandler.removeObject(0);
+    }
+};
+
+TEST(MercuryPrograms, periodicWallsWithSlidingFriction) {
+    PeriodicPairs scene;
+    scene.solve();
+    EXPECT_EQ(scene.particleHandler.getNumberOfObjects(), 6u);
+    const auto wrapped = [](const Vec3D& way) {
+        return Vec3D(way.x() - std::floor(way.x() + 0.5), way.y() - std::floor(way.y() + 0.5), way.z());
+    };
+    for (const std::size_t k : {0u, 1u}) {
+        const auto normal = scene.particleHandler.getObject(4 + k);
+        EXPECT_GT(std::abs(normal->getVelocity().y()), 0.1);  // they have met
+        for (const auto& [other, shift] :
+             {std::pair(6 + k, Vec3D(-0.58, -0.4, 0)), std::pair(2 + k, Vec3D(0, -0.779, 0))}) {
+            const auto grain = scene.particleHandler.getObject(other);
+            EXPECT_LT(wrapped(grain->getPosition() - normal->getPosition() - shift).norm(), 1e-10);
+            EXPECT_LT((grain->getVelocity() - normal->getVelocity()).norm(), 1e-10);
+            EXPECT_LT((grain->getAngularVelocity() - normal->getAngularVelocity()).norm(), 1e-8);
+        }
+    }
+}
+
+// A grain that is squeezed between two held ones turns about their line (torsion), or across it (rolling):
+// the torque goes up to mu R* times the normal force at each of the two, then it swings and decays.
+class Squeezed : public MercuryScene<LinearViscoelasticFrictionSpecies> {
+public:
+    double largest = 0;
+    const bool rolls;
+
+    explicit Squeezed(bool isRolling) : rolls(isRolling) {
+        const Mdouble collisionTime = 2e-2, restitution = 0.7;
+        auto species = speciesHandler.copyAndAddObject(LinearViscoelasticFrictionSpecies());
+        species->setDensity(6.0 / constants::pi);
+        species->setCollisionTimeAndNormalAndTangentialRestitutionCoefficient(collisionTime, restitution,
+                                                                              restitution, 1);
+        if (rolls) {
+            species->setRollingStiffness(0.4 * species->getStiffness());
+            species->setRollingDissipation(0.4 * species->getDissipation());
+            species->setRollingFrictionCoefficient(0.1);
+        } else {
+            species->setTorsionStiffness(0.4 * species->getStiffness());
+            species->setTorsionDissipation(0.4 * species->getDissipation());
+            species->setTorsionFrictionCoefficient(0.1);
+        }
+        setTimeStep(0.02 * collisionTime);
+        setTimeMax(10 * collisionTime);
+        SphericalParticle p(species);
+        p.setRadius(0.5);
+        p.setAngularVelocity(rolls ? Vec3D(0, 1, 0) : Vec3D(0, 0, 1));
+        particleHandler.copyAndAddObject(p);
+        p.fixParticle();
+        for (const double side : {-1.99, 1.99}) {
+            p.setPosition({0, 0, side * p.getRadius()});
+            particleHandler.copyAndAddObject(p);
+        }
+        setDomain({-1, -1, -1}, {1, 1, 1});
+        setQuiet();
+    }
+    void actionsAfterTimeStep() override {
+        const Vec3D torque = particleHandler.getObject(0)->getTorque();
+        largest = std::max(largest, std::abs(rolls ? torque.y() : torque.z()));
+    }
+};
+
+TEST(MercuryPrograms, rollingAndTorsionFriction) {
+    for (const bool rolls : {true, false}) {
+        Squeezed scene(rolls);
+        scene.solve();
+        const double force = scene.speciesHandler.getObject(0)->getStiffness() * 0.005;
+        // R* = r/2 at each of two contacts; the grain stays in the middle.
+        EXPECT_NEAR(scene.largest, 2 * 0.1 * 0.25 * force, 1e-9 * force);
+        EXPECT_LT(scene.particleHandler.getObject(0)->getAngularVelocity().norm(), 0.5);
+    }
+}
+
+// Three grains on a slope of 20 degrees: without friction, with that of sliding, and with that of rolling.
+TEST(MercuryPrograms, threeGrainsOnAnInclinedPlane) {
+    MercuryScene<LinearViscoelasticFrictionSpecies> problem;
+    const double angle = constants::pi / 180.0 * 20.0;
+    problem.setSystemDimensions(3);
+    problem.setGravity(Vec3D(sin(angle), 0.0, -cos(angle)) * 9.81);
+    problem.setXMax(0.3);
+    problem.setYMax(0.3);
+    problem.setZMax(0.05);
+    problem.setTimeMax(0.4);
+    problem.setTimeStep(0.005 / 50.0);
+    std::vector<LinearViscoelasticFrictionSpecies*> species;
+    for (const auto& [sliding, rolling] : {std::pair(0.0, 0.0), std::pair(0.5, 0.0), std::pair(0.5, 0.5)}) {
+        const auto set = [&, s = sliding, r = rolling](auto& laws) {
+            laws.setStiffness(259.018);
+            laws.setDissipation(0.0334);
+            laws.setSlidingStiffness(2.0 / 7.0 * laws.getStiffness());
+            laws.setRollingStiffness(2.0 / 5.0 * laws.getStiffness());
+            laws.setSlidingFrictionCoefficient(s);
+            laws.setRollingFrictionCoefficient(r);
+            laws.setRollingFrictionCoefficientStatic(r);
+        };
+        LinearViscoelasticFrictionSpecies own;
+        own.setDensity(2500.0);
+        set(own);
+        species.push_back(problem.speciesHandler.copyAndAddObject(own));
+        if (species.size() > 1) set(*problem.speciesHandler.getMixedObject(species[0], species.back()));
+        SphericalParticle p0(species.back());
+        p0.setRadius(0.005);
+        p0.setPosition(Vec3D(0.015, 0.06 * static_cast<double>(species.size()), p0.getRadius()));
+        problem.particleHandler.copyAndAddObject(p0);
+    }
+    problem.wallHandler.copyAndAddObject(InfiniteWall({0, 0, -1}, {0, 0, 0}, species[0]));
+    problem.setQuiet();
+    problem.solve();
+    const auto speed = [&](std::size_t k) { return problem.particleHandler.getObject(k)->getVelocity().x(); };
+    const double slides = 9.81 * sin(angle) * 0.4;
+    EXPECT_NEAR(speed(0), slides, 1e-12);
+    // Rolling, on a lever that is less by half the overlap of 1 % of the radius; it swings by 0.2 %.
+    EXPECT_NEAR(speed(1), 5.0 / 7.0 * slides, 0.01 * slides);
+    // tan(20 degrees) = 0.36 < 0.5: it stays, and swings on its springs, by up to m g sin / sqrt(k m). Its
+    // first bounces leave it without force now and then, until they decay in 2 m / g: less than it would roll
+    // by then.
+    const double mass = problem.particleHandler.getObject(2)->getMass();
+    const double pull = mass * 9.81 * sin(angle), spring = 2.0 / 7.0 * 259.018;
+    EXPECT_LT(std::abs(speed(2)), pull / std::sqrt(spring * mass));
+    const double bounces = 2 * mass / 0.0334;  // s
+    EXPECT_NEAR(problem.particleHandler.getObject(2)->getPosition().x(), 0.015,
+                0.5 * 5.0 / 7.0 * pull / mass * bounces * bounces);
+}
+
+// The solid that a triangle makes by turning, and a plane as one of this kind.
+TEST(MercuryPrograms, axisymmetricWall) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    scene.setDomain({-1, -1, -1}, {1, 1, 1});
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    AxisymmetricIntersectionOfWalls w;
+    w.setSpecies(species);
+    w.setPosition({0, 0, 0.5});
+    w.createPrism({{.1, 0, .1}, {.1, 0, .2}, {.2, 0, .1}}, {0, 1, 0});
+    w.setAxis({0, 0, 1});
+    auto ring = scene.wallHandler.copyAndAddObject(w);
+    SphericalParticle p(species);
+    p.setRadius(0.08);
+    struct Expected {
+        double r, z, distance;
+        Vec3D normal;  // (r, 0, z)
+    };
+    const double h = std::sqrt(0.5);
+    for (const auto& [r, z, distance, normal] :
+         {Expected{0.05, 0.15, 0.05, {1, 0, 0}},         // in the bore
+          Expected{0.2, 0.2, 0.1 * h, {-h, 0, -h}},      // on the cone
+          Expected{0.13, 0.07, 0.03, {0, 0, 1}},         // below
+          Expected{0.24, 0.07, 0.05, {-0.8, 0, 0.6}},    // at the outer edge
+          Expected{0.07, 0.06, 0.05, {0.6, 0, 0.8}}}) {  // at the lower edge of the bore
+        p.setPosition({0.6 * r, 0.8 * r, z + 0.5});
+        double found = 0;
+        Vec3D direction;
+        ASSERT_TRUE(ring->getDistanceAndNormal(p, found, direction)) << r << ' ' << z;
+        EXPECT_NEAR(found, distance, 1e-14);
+        EXPECT_LT((direction - Vec3D(0.6 * normal.x(), 0.8 * normal.x(), normal.z())).norm(), 1e-13);
+    }
+    p.setPosition({0, 0, 0.65});
+    double found = 0;
+    Vec3D direction;
+    EXPECT_FALSE(ring->getDistanceAndNormal(p, found, direction));  // on the axis, 0.1 from all of it
+    w.addObject({0, 1, 0}, {0, 0, 0});
+    EXPECT_TRUE(isOneSentence(refusal([&] { scene.wallHandler.copyAndAddObject(w); })));
+}
+
+// A wall that turns about y, as a plane, as an intersection of one plane and as a solid of revolution: a
+// grain that adheres to it goes alike.
+class MovingWalls : public MercuryScene<LinearViscoelasticReversibleAdhesiveSpecies> {
+public:
+    explicit MovingWalls(int kind) {
+        const Vec3D position(0, 0, 1);
+        setMin(position - Vec3D(1, 1, 1));
+        setMax(position + Vec3D(1, 1, 1));
+        LinearViscoelasticReversibleAdhesiveSpecies species;
+        species.setStiffnessAndRestitutionCoefficient(100.0, 0.5, 1.0);
+        species.setAdhesionStiffness(100);
+        species.setAdhesionForceMax(1);
+        species.setDensity(6.0 / constants::pi);
+        auto s = speciesHandler.copyAndAddObject(species);
+        const auto add = [&](auto w) {
+            w.setSpecies(s);
+            w.setPosition(position);
+            w.addObject(Vec3D(0, 0, 1), Vec3D(0, 0, 0));
+            w.setAngularVelocity(Vec3D(0, .1, 0));
+            wallHandler.copyAndAddObject(w);
+        };
+        if (kind == 0)
+            wallHandler.copyAndAddObject(InfiniteWall({0, 0, 1}, position, s))
+                ->setAngularVelocity(Vec3D(0, .1, 0), position);
+        else if (kind == 1) add(IntersectionOfWalls());
+        else add(AxisymmetricIntersectionOfWalls());
+        SphericalParticle p(s);
+        p.setRadius(0.5);
+        p.setPosition(position + Vec3D(1, 0, -0.49));
+        particleHandler.copyAndAddObject(p);
+        setTimeStep(0.02 * species.getCollisionTime(1.0));
+        setTimeMax(3);
+        setQuiet();
+    }
+};
+
+TEST(MercuryPrograms, movingWalls) {
+    MovingWalls plane(0), solid(1), turned(2);
+    plane.solve(), solid.solve(), turned.solve();
+    const auto grain = plane.particleHandler.getObject(0);
+    EXPECT_EQ(plane.interactionHandler.getNumberOfObjects(), 1u);
+    EXPECT_LT(grain->getVelocity().z(), -0.05);  // with the wall
+    for (MovingWalls* other : {&solid, &turned}) {
+        const auto same = other->particleHandler.getObject(0);
+        EXPECT_LT((same->getPosition() - grain->getPosition()).norm(), 1e-11);
+        EXPECT_LT((same->getVelocity() - grain->getVelocity()).norm(), 1e-11);
+    }
+}
+
+}  // namespace
+}  // namespace pendular::mercuryPlaneTest
