@@ -39,6 +39,9 @@ target_link_libraries(PendularPython PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,Pendu
 set_target_properties(PendularPython PROPERTIES OUTPUT_NAME _kernel LIBRARY_OUTPUT_DIRECTORY "${pythonPackage}")
 # Of the bindings alone, which compute nothing: half of the time of -O3.
 target_compile_options(PendularPython PRIVATE $<$<CONFIG:Release>:-O1>)
+# What computes contacts keeps -O3.
+set_source_files_properties("${pythonFolder}/ShapedScene.cpp" ${pythonSpeciesSources} PROPERTIES
+    COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
 add_warnings(PendularPython)
 if(PENDULAR_PRECOMPILED_HEADERS)
     target_precompile_headers(PendularPython PRIVATE "${pythonFolder}/Bindings.h" <fmt/format.h>)
@@ -52,7 +55,7 @@ add_custom_command(TARGET PendularPython POST_BUILD
     COMMENT "Writing the types of the Python module" VERBATIM)
 
 # The files in Python: links, so that an edit is there at once.
-file(GLOB pythonFiles CONFIGURE_DEPENDS "${pythonFolder}/pendular/*")
+file(GLOB pythonFiles CONFIGURE_DEPENDS "${pythonFolder}/Package/*")
 foreach(file IN LISTS pythonFiles)
     cmake_path(GET file FILENAME name)
     file(MAKE_DIRECTORY "${pythonPackage}")
