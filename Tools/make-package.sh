@@ -12,8 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=${1:-build/package}
 for level in v2 v3 v4; do
     cmake -S . -B "$folder/$level" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPENDULAR_INSTRUCTION_SET="x86-64-$level" \
-        -DPENDULAR_BUILD_TESTS=OFF -DPENDULAR_PYTHON=ON -DPENDULAR_PYTHON_KERNEL_FOLDER="x86-64-$level" \
-        -DPENDULAR_PYTHON_SITE=lib/python3/dist-packages
+        -DPENDULAR_BUILD_TESTS=OFF -DPENDULAR_PYTHON=ON -DPENDULAR_PYTHON_KERNEL_FOLDER="x86-64-$level"
     target=PendularPython
     if [[ $level == v2 ]]; then target=all; fi
     cmake --build "$folder/$level" --target "$target"

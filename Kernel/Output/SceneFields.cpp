@@ -113,8 +113,9 @@ SceneFrame frameOf(const FrameContent& content, const AddedFields& added, const 
         frame.grains.pointFields.push_back(fieldOf<Real>(name, valueOf, store));
     if (content.stress) frame.grains.pointFields.push_back(grainStresses<Real>(scene.contacts(), store));
     if (content.contacts)
-        frame.contacts = contactLines<Real>(scene.contacts(), store, scene.laws(),
-                                            content.contactPoints || scene.laws().shapes());
+        frame.contacts =
+            contactLines<Real>(scene.contacts(), store, scene.laws(),
+                               content.contactPoints || scene.laws().shapes(), scene.getNumberOfThreads());
     if (const GrainShapes* const shapes = scene.laws().shapes()) {
         addShapeFields(store, *shapes, frame.grains);
         frame.shapes = shapeSurfaces(store, *shapes);

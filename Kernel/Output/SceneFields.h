@@ -38,9 +38,10 @@ PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& 
 /// The contacts that have a force as lines, from centre to centre (of the nearest image) or to the wall's
 /// surface. The first points are the centres of all grains, in the order of identities. The forces are those
 /// on particle1; particle2 is -1 at a wall, and wall is -1 between grains.
+/// @param threads that observe them; the result does not depend on it
 template <std::floating_point Real = float>
 PolyData contactLines(const ContactSystem& contacts, const ParticleStore& grains, const ContactLaws& laws,
-                      bool withPoints = false);
+                      bool withPoints = false, int threads = 1);
 
 /// The walls as polygons, with their numbers and species; see surfacesOf().
 PolyData wallPolygons(const WallHandler& walls, const Vector<double>& lowest, const Vector<double>& highest);

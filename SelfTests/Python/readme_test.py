@@ -7,7 +7,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("page", ["README.md", "Tools/Python/README.md", "Tools/Python/pendular/__init__.py"])
+@pytest.mark.parametrize("page", ["README.md", "Tools/Python/README.md", "Tools/Python/Package/__init__.py"])
 def test_page(page):
     text = (ROOT / page).read_text()
     if page.endswith(".py"):

@@ -64,3 +64,32 @@ def test_picture():
     pendular.draw(scene, color=np.arange(4), axes=axes)
     with pytest.raises(pendular.InputError, match="each of 4 grains"):
         pendular.draw(scene, color=[1, 2])
+
+
+def test_files_do_not_depend_on_the_threads(tmp_path):
+    """Contacts of grains, of images across the faces of the period, and of walls; with a column of the driver."""
+    from conftest import glass_in
+
+    def files(threads):
+        scene = pendular.Scene(str(tmp_path / f"run-{threads}"), threads=threads)
+        glass = glass_in(scene)
+        scene.set_periodic("x", 0, 8e-3)
+        scene.add_plane(glass, (0, 0, -1), (0, 0, 0))
+        k = np.arange(64)
+        scene.add_grains(glass, 1.99e-3 * np.stack([k % 4, k // 4 % 4, k // 16 + 0.502], 1), 1e-3)
+        scene.add_contact_column("age", "s", initial=1)
+        scene.gravity = (0, 0, -9.81)
+        scene.choose_time_step()
+        scene.write_paraview(1, doubles=True)
+        scene.run(steps=20)
+        scene.finish()
+        contacts = scene.contacts()
+        assert (contacts["wall"] == 0).any() and (contacts["wall"] == -1).sum() > 64
+        names = sorted(p.name.replace(f"run-{threads}", "run") for p in tmp_path.glob(f"run-{threads}-*.vtp"))
+        return names, [p.read_bytes() for p in sorted(tmp_path.glob(f"run-{threads}-*.vtp"))], contacts
+
+    one, three = files(1), files(3)
+    assert one[0] == three[0] and len(one[0]) >= 6
+    assert one[1] == three[1]
+    for name, values in one[2].items():
+        assert np.array_equal(values, three[2][name]), name

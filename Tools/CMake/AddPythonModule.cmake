@@ -39,6 +39,9 @@ target_link_libraries(PendularPython PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,Pendu
 set_target_properties(PendularPython PROPERTIES OUTPUT_NAME _kernel LIBRARY_OUTPUT_DIRECTORY "${pythonPackage}")
 # Of the bindings alone, which compute nothing: half of the time of -O3.
 target_compile_options(PendularPython PRIVATE $<$<CONFIG:Release>:-O1>)
+# What computes contacts keeps -O3.
+set_source_files_properties("${pythonFolder}/ShapedScene.cpp" ${pythonSpeciesSources} PROPERTIES
+    COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
 add_warnings(PendularPython)
 if(PENDULAR_PRECOMPILED_HEADERS)
     target_precompile_headers(PendularPython PRIVATE "${pythonFolder}/Bindings.h" <fmt/format.h>)
@@ -52,24 +55,28 @@ add_custom_command(TARGET PendularPython POST_BUILD
     COMMENT "Writing the types of the Python module" VERBATIM)
 
 # The files in Python: links, so that an edit is there at once.
-file(GLOB pythonFiles CONFIGURE_DEPENDS "${pythonFolder}/pendular/*")
+file(GLOB pythonFiles CONFIGURE_DEPENDS "${pythonFolder}/Package/*")
 foreach(file IN LISTS pythonFiles)
     cmake_path(GET file FILENAME name)
     file(MAKE_DIRECTORY "${pythonPackage}")
     file(CREATE_LINK "${file}" "${pythonPackage}/${name}" SYMBOLIC)
 endforeach()
 
-# Where Python finds it: in Debian's folder for packages below /usr, else in that of the prefix.
-if(Python_SITEARCH MATCHES "/dist-packages$")
-    set(pythonSite "lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/dist-packages")
-else()
-    set(pythonSite "lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/site-packages")
-endif()
-set(PENDULAR_PYTHON_SITE "${pythonSite}" CACHE STRING "Folder below the prefix in which the Python package is installed")
+# Where Python finds it: below /usr in the folder of Debian's packages, else in that of the prefix. (The prefix is known as
+# it is installed.)
 set(PENDULAR_PYTHON_KERNEL_FOLDER "" CACHE STRING
     "Folder in the package for the compiled module, where the package has several: x86-64-v2, -v3 and -v4 (Tools/make-package.sh)")
-install(TARGETS PendularPython LIBRARY DESTINATION "${PENDULAR_PYTHON_SITE}/pendular/${PENDULAR_PYTHON_KERNEL_FOLDER}"
-        COMPONENT python OPTIONAL)
-install(FILES ${pythonFiles} DESTINATION "${PENDULAR_PYTHON_SITE}/pendular" COMPONENT python)
-install(FILES "${pythonPackage}/_kernel.pyi" DESTINATION "${PENDULAR_PYTHON_SITE}/pendular" COMPONENT python OPTIONAL)
-install(DIRECTORY "${pythonFolder}/Examples" DESTINATION share/pendular COMPONENT python)
+set(ownSite "lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/site-packages")
+if(Python_SITEARCH MATCHES "/dist-packages$")
+    string(REPLACE site-packages dist-packages ownSite "${ownSite}")
+endif()
+install(CODE "
+set(pythonSite \"${ownSite}\")
+if(CMAKE_INSTALL_PREFIX MATCHES \"/usr$\" AND pythonSite MATCHES dist-packages)
+    set(pythonSite lib/python3/dist-packages)
+endif()" ALL_COMPONENTS)
+set(site "\${pythonSite}/pendular")
+install(TARGETS PendularPython LIBRARY DESTINATION "${site}/${PENDULAR_PYTHON_KERNEL_FOLDER}" COMPONENT python OPTIONAL)
+install(FILES ${pythonFiles} DESTINATION "${site}" COMPONENT python)
+install(FILES "${pythonPackage}/_kernel.pyi" DESTINATION "${site}" COMPONENT python OPTIONAL)
+install(DIRECTORY "${pythonFolder}/Examples" DESTINATION share/pendular COMPONENT python USE_SOURCE_PERMISSIONS)

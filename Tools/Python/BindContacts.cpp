@@ -14,7 +14,8 @@ py::dict contacts(const PythonScene& scene) {
     {
         const py::gil_scoped_release others;
         const Scene& of = scene.scene();
-        lines = contactLines<double>(of.contacts(), of.particleHandler.store(), of.laws(), true);
+        lines = contactLines<double>(of.contacts(), of.particleHandler.store(), of.laws(), true,
+                                     of.getNumberOfThreads());
     }
     py::dict made;
     for (PolyDataField& field : lines.cellFields) made[py::str(field.name)] = arrayOf(std::move(field));

@@ -128,10 +128,11 @@ void PythonScene::look() {
 void PythonScene::callDue() {
     const std::size_t done = running->getNumberOfTimeSteps();
     const double middle = running->getTime() + 0.5 * running->getTimeStep();
-    const std::vector<Call> now = calls;  // one may add another
-    for (const Call& call : now) {
-        if (call.steps > 0 ? done % call.steps != 0 : middle < call.next) continue;
-        const py::object answer = call.function(py::cast(this, py::return_value_policy::reference));
+    const std::size_t count = calls.size();  // one may add another, or clear them
+    for (std::size_t k = 0; k < count && k < calls.size(); ++k) {
+        if (calls[k].steps > 0 ? done % calls[k].steps != 0 : middle < calls[k].next) continue;
+        const py::function function = calls[k].function;
+        const py::object answer = function(self);
         if (answer.is(py::bool_(false))) running->requestPause();
         if (views > 0) {
             PyErr_SetString(PyExc_BufferError,
@@ -164,6 +165,8 @@ void PythonScene::showProgress() {
 
 void PythonScene::go(const std::function<void()>& part) {
     requireNoViews();
+    const py::object kept = py::cast(this, py::return_value_policy::reference);
+    self = kept;
     raised = nullptr;
     lastClock = Clock::now(), nextClock = 0;
     nextProgress = lastClock + progressInterval;

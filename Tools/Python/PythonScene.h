@@ -112,6 +112,7 @@ private:
     std::size_t nextLook = 0, nextClock = 0, lastClockStep = 0;
     double nextTime = 0;  // s
     std::chrono::steady_clock::time_point lastClock, nextProgress;
+    py::handle self;  // this, for the functions, while it steps
     py::object progressFunction;
     std::exception_ptr raised;  // by a function of the driver, or Ctrl-C
     long views = 0;

@@ -29,6 +29,7 @@ class BuildByCMake(build_ext):
 setup(
     version=re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1])[1],
     packages=["pendular"],
+    package_dir={"pendular": "Package"},
     package_data={"pendular": ["py.typed"]},
     ext_modules=[Extension("pendular._kernel", [])],
     cmdclass={"build_ext": BuildByCMake},
