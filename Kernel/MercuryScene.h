@@ -20,6 +20,7 @@
 #include "Kernel/Mercury/MercuryLogger.h"
 #include "Kernel/Mercury/MercuryPSD.h"
 #include "Kernel/Mercury/MercuryPaths.h"
+#include "Kernel/Mercury/MercuryPlane.h"
 #include "Kernel/Mercury/MercuryWalls.h"
 #include "Kernel/MercuryNames.h"
 
@@ -33,7 +34,10 @@ public:
     MercuryScene() {
         this->setIntegrator(integrators::velocityVerlet);
         this->addOutput(MercuryFiles(settings));
-        settings->atSetUp = [this] { boundaryHandler.settle(); };
+        settings->atSetUp = [this] {
+            boundaryHandler.settle();
+            requireOnePlane(this->particleHandler);
+        };
     }
 
     /// Texts with a % for each value, through the scene's own logger.
@@ -96,9 +100,11 @@ public:
     void setHGridMaxLevels(unsigned /*levels*/) {}
     void setHGridMinCellSize(double /*size*/) {}
     void setAppend(bool /*append*/) {}
+    void removeOldFiles() {}  // a run replaces those of its name
+    MercuryNoFile& getInteractionFile() { return interactionFile; }
     /// 2 or 3. With 2 all grains are held in the plane of x and y: their velocity along z and their spins
-    /// about x and y are 0 to the bit (ParticleHandler::holdAll()). In MercuryDPM this only chooses the
-    /// columns of files, which have all three dimensions here.
+    /// about x and y are 0 to the bit (ParticleHandler::holdAll()), and all begin at one z. In MercuryDPM
+    /// this only chooses the columns of files, which have all three dimensions here.
     void setSystemDimensions(int dimensions) {
         requireTwoOrThree("system", dimensions);
         this->particleHandler.holdAll(dimensions == 2 ? HeldAxes::inPlane() : HeldAxes{});
@@ -174,6 +180,7 @@ public:
     MercuryFile& fStatFile = settings->fStat;
     MercuryFile& eneFile = settings->energies;
     MercuryFile& restartFile = settings->restart;
+    MercuryNoFile interactionFile;  // restart files have the contacts
     MercuryRandom& random = settings->random;
     MercuryWallHandler wallHandler{Scene::wallHandler, domain, settings};
     MercuryBoundaryHandler boundaryHandler{*this};

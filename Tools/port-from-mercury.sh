@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the mechanical changes of a driver of MercuryDPM: X, Y and Z of vectors, their products and lengths, pointers
-# to grains. What is left, the compiler names; Kernel/HOW-DO-I.md has the words ("Port a driver from MercuryDPM").
+# Makes the mechanical changes of a driver of MercuryDPM: X, Y and Z of vectors, XX of tensors, products and lengths,
+# pointers to grains. What is left, the compiler names; Kernel/HOW-DO-I.md has the words ("Port a driver from MercuryDPM").
 #   Tools/port-from-mercury.sh [--driver FILE.cpp] > ported.cpp
 #   Tools/port-from-mercury.sh [--classify FOLDER] [--build build/release] > programs.tsv
 # --driver FILE       prints the driver with these changes
@@ -21,8 +21,10 @@ port() {
     sed -E \
         -e '/^[[:space:]]*(\/\/|\*)/b' \
         -e 's/([]A-Za-z0-9_)])\.(X|Y|Z)\b/\1.\l\2()/g' \
+        -e 's/([]A-Za-z0-9_)])\.([XYZ])([XYZ])\b/\1(\x01\2, \x01\3)/g; s/\x01X/0/g; s/\x01Y/1/g; s/\x01Z/2/g' \
         -e "s/Vec3D::dot\\($operand,[[:space:]]*$operand\\)/(\\1).dot(\\3)/g" \
         -e "s/Vec3D::cross\\($operand,[[:space:]]*$operand\\)/(\\1).cross(\\3)/g" \
+        -e 's/([A-Za-z_.]*)speciesHandler\.addObject\(([A-Za-z_0-9]+)\)/\2 = \1speciesHandler.copyAndAddObject(*\2)/g' \
         -e 's/\.getLengthSquared\(\)/.squaredNorm()/g' \
         -e 's/\.getLength\(\)/.norm()/g' \
         -e 's/\b(const )?(BaseParticle|BaseInteraction|BaseWall|BaseBoundary)[[:space:]]*\*[[:space:]]*/auto /g' \

@@ -209,6 +209,10 @@ void CubeInsertionBoundary::handOver(Scene& of) {
     if (grain.getSpeciesIndex() < 0)
         throw InputError(
             "CubeInsertionBoundary: the grain has no species; call its setSpecies() before set().");
+    if (of.particleHandler.axesOfAllHeld().z)
+        throw InputError(
+            "CubeInsertionBoundary: in two dimensions (setSystemDimensions(2)) its grains would come at all "
+            "heights of the box; add grains at one z in setupInitialConditions() or a hook.");
     const double density = of.particleHandler.massOf(1, grain.getSpeciesIndex()) / sphereMass(1, 1);
     if (initialVolume > 0) insertAtOnce(of, density);
     if (flow > 0 || !(initialVolume > 0)) addInlet(of, density);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Kernel/CoarseGraining/FieldSums.h"
+#include "Kernel/Mercury/MercuryFiles.h"
 #include "Kernel/Particles/SphericalParticle.h"
 #include "Kernel/Simulation/DomainBox.h"
 
@@ -60,6 +61,8 @@ struct StandardFields {};
 
 }  // namespace CGFields
 
+using Matrix3D = Eigen::Matrix3d;
+
 namespace pendular {
 
 /// The fields at a point; without a unit that of the sum over m^3.
@@ -91,6 +94,8 @@ struct CGPoint {
 class MercuryCG {
 public:
     virtual ~MercuryCG() = default;
+
+    MercuryNoFile statFile;  // addOutput(FieldOutput()) writes files of fields
 
     /// m, of the function: the cut-off of Lucy and Heaviside, and a third of that of Gauss.
     void setWidth(double value) { width = value; }

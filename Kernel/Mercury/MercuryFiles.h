@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -32,6 +33,13 @@ private:
     std::string_view name;
     FileType type;
     std::size_t saveCount = 0;
+};
+
+/// A file that is not written here: all that is set of it is without effect.
+struct MercuryNoFile {
+    void setFileType(FileType /*type*/) {}
+    void setSaveCount(std::size_t /*steps*/) {}
+    void setName(const std::string& /*name*/) {}
 };
 
 /// Numbers as MercuryDPM's `random` gives them; the same in each run, and other numbers than there.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -120,6 +121,15 @@ public:
     }
     AxisymmetricWall* copyAndAddObject(const AxisymmetricIntersectionOfWalls& solid) {
         return walls->copyAndAddObject(solid.inDomain(domain->getLowest(), domain->getHighest()));
+    }
+    /// Adds a mesh from a file as one wall (there each triangle is one). Throws InputError.
+    /// @param scale m for one unit of the file
+    template <class S>
+    TriangleWall* readTriangleWall(const std::filesystem::path& file, const S* of, double scale = 1) {
+        TriangleWall mesh;
+        mesh.read(file, scale);
+        mesh.setSpecies(of);
+        return walls->copyAndAddObject(mesh);
     }
     /// Throws InputError if there is no such wall, or if it is a membrane, which is none of MercuryDPM's.
     [[nodiscard]] RigidWall* getObject(std::size_t number) const;

@@ -230,6 +230,7 @@ void ParticleHandler::requireHeld(std::string_view whose, const Vector<double>& 
 }
 
 void ParticleHandler::holdAll(const HeldAxes& axes) {
+    if (axes == heldByScene.axes()) return;
     if (columnsAreClosed || !grains.bodies.empty())
         throw InputError(
             "Simulation: axes along which all grains are held (holdAll(), setSystemDimensions(2)) are set "
@@ -450,6 +451,10 @@ void ParticleHandler::visitState(StateArchive& archive) {
     for (const std::uint16_t index : grains.species)
         archive.require(index < species->speciesCount(), "species", "has one that the scene has not");
     if (!archive.isReading()) return;
+    for (const std::uint32_t at : grains.place)
+        archive.require(
+            grains.translation[at].inverseMass == 0 || !heldByScene.without(grains.heldAt(at)).any(), "held",
+            "lets grains go along axes along which this scene holds all (holdAll())");
     changes = {};
     for (const std::uint32_t identity : grains.identity)
         if (grains.bodies.contains(identity)) noteDensityOfJoined(identity);

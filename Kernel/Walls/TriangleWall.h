@@ -21,6 +21,11 @@ class TriangleWall final : public RigidWall, public WornWall {
 public:
     /// Throws InputError if a coordinate is not finite or no triangle has an area.
     void set(std::span<const Triangle> triangles);
+    /// One triangle, by its corners (m).
+    void setVertices(const Vec3D& a, const Vec3D& b, const Vec3D& c) {
+        const Triangle one{toVector(a), toVector(b), toVector(c)};
+        set({&one, 1});
+    }
     /// Reads a mesh: STL, OBJ, PLY or rows (see readTriangles). Throws InputError.
     /// @param scale m for one unit of the file (1e-3 for a file in mm)
     void read(const std::filesystem::path& path, double scale = 1) { set(readTriangles(path, scale)); }

@@ -68,6 +68,7 @@ TEST(MercuryPrograms, inclinedPlane) {
     InclinedPlane scene;
     auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSlidingFrictionSpecies());
     scene.setFileType(FileType::NO_FILE);
+    scene.setSystemDimensions(2);
     const Mdouble theta = 15.0 * constants::pi / 180.0;
     scene.setGravity(9.8 * Vec3D(std::sin(theta), -std::cos(theta), 0.0));
     species->setDensity(2000);

@@ -2,6 +2,8 @@
 // on prescribed paths, and with rolling and torsion, by its names and its includes. README.md lists them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "Boundaries/LeesEdwardsBoundary.h"
@@ -98,6 +100,38 @@ TEST(MercuryPrograms, particleIn2DBox) {
     EXPECT_NEAR(grain->getVelocity().squaredNorm() / (1.44 + 1.69), 1, scene.share());
     EXPECT_EQ(grain->getPosition().z(), 0);
     EXPECT_EQ(grain->getVelocity().z(), 0);
+}
+
+// Two grains that meet, elastic.
+TEST(MercuryPrograms, elasticCollision) {
+    MercuryScene<LinearViscoelasticSpecies> problem;
+    problem.setXMax(0.5);
+    problem.setYMax(0.25);
+    problem.setZMax(0.5);
+    problem.setTimeMax(2.0);
+    problem.removeOldFiles();
+    LinearViscoelasticSpecies species;
+    species.setDensity(2500.0);
+    species.setStiffness(258.5);
+    species.setDissipation(0.0);
+    SphericalParticle p0(problem.speciesHandler.copyAndAddObject(species));
+    p0.setRadius(0.005);
+    for (const double side : {0.25, 0.75}) {
+        p0.setPosition(Vec3D(side * problem.getXMax(), 0.5 * problem.getYMax(), 0.5 * problem.getZMax()));
+        p0.setVelocity(Vec3D(side < 0.5 ? 0.25 : -0.25, 0.0, 0.0));
+        problem.particleHandler.copyAndAddObject(p0);
+    }
+    problem.setTimeStep(.005 / 50.0);
+    problem.setQuiet();
+    problem.solve();
+    const auto left = problem.particleHandler.getObject(0), right = problem.particleHandler.getObject(1);
+    const double omega = std::sqrt(2 * 258.5 / left->getMass()), touch = constants::pi / omega;
+    // They touch after 0.48 s; the ends of the touch lie in steps.
+    const double share = mathsFunc::square(omega * problem.getTimeStep());
+    EXPECT_NEAR(left->getVelocity().x(), -0.25, share * 0.25);
+    EXPECT_NEAR(left->getPosition().x(), 0.245 - 0.25 * (2 - 0.48 - touch),
+                0.25 * (problem.getTimeStep() + 2 * share));
+    EXPECT_EQ(left->getVelocity(), Vec3D(-right->getVelocity()));
 }
 
 /// How far outside of a square of half the width 0.125 about (0.25, 0.25) a point is, after a turn (rad).
@@ -255,6 +289,18 @@ TEST(MercuryPrograms, whatLeavesThePlaneIsRefused) {
           said([](Box2D& scene) {
               scene.setParticleDimensions(2);
               scene.setSystemDimensions(3);
+          }),
+          said([](Box2D& scene) {
+              SphericalParticle above(scene.speciesHandler.getObject(0));
+              above.setRadius(Box2D::radius), above.setPosition({0.2, 0.2, 0.01});
+              scene.particleHandler.copyAndAddObject(above);
+          }),
+          said([](Box2D& scene) {
+              SphericalParticle grain(scene.speciesHandler.getObject(0));
+              grain.setRadius(Box2D::radius);
+              CubeInsertionBoundary box;
+              box.set(grain, 1, {0, 0, 0}, {0.2, 0.2, 0.1});
+              scene.boundaryHandler.copyAndAddObject(box);
           }),
           said([](Box2D& scene) { scene.setSystemDimensions(1); })})
         EXPECT_TRUE(isOneSentence(text) && contains(text, "imensions")) << text;
@@ -536,6 +582,92 @@ TEST(MercuryPrograms, axisymmetricWall) {
     EXPECT_FALSE(ring->getDistanceAndNormal(p, found, direction));  // on the axis, 0.1 from all of it
     w.addObject({0, 1, 0}, {0, 0, 0});
     EXPECT_TRUE(isOneSentence(refusal([&] { scene.wallHandler.copyAndAddObject(w); })));
+}
+
+// Grains that come down on a triangle: those above it go back, and those at its edges turn aside.
+TEST(MercuryPrograms, triangleWall) {
+    MercuryScene<LinearViscoelasticSpecies> dpm;
+    dpm.setTimeMax(1);
+    dpm.setDomain({0, 0, 0}, {1, 1, 1});
+    const Mdouble d = .1;
+    LinearViscoelasticSpecies species;
+    species.setDensity(constants::pi / 6.0);
+    species.setCollisionTimeAndRestitutionCoefficient(0.5, 1.0, d * d * d);
+    auto s = dpm.speciesHandler.copyAndAddObject(species);
+    dpm.setTimeStep(0.01);
+    SphericalParticle particle(s);
+    particle.setRadius(0.5 * d);
+    particle.setVelocity({0, 0, -.1});
+    std::vector<Vec3D> starts;
+    for (Mdouble x = -d / 8; x < 1 + d; x += d + d / 22)
+        for (Mdouble y = -d / 8; y < 1 + d - x; y += d + d / 22) {
+            particle.setPosition(Vec3D(x, y, .5 * d));
+            dpm.particleHandler.copyAndAddObject(particle);
+            starts.push_back(particle.getPosition());
+        }
+    TriangleWall wall;
+    wall.setSpecies(s);
+    wall.setVertices({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    dpm.wallHandler.copyAndAddObject(wall);
+    dpm.setQuiet();
+    dpm.solve();
+    std::size_t above = 0;
+    for (auto grain : dpm.particleHandler) {
+        const Vec3D velocity = grain->getVelocity(), at = starts[grain->getId()];
+        // Elastic, with some 50 steps a touch.
+        EXPECT_NEAR(velocity.norm(), .1, .1 * std::pow(constants::pi / 50, 2));
+        if (!(std::min({at.x(), at.y(), 1 - at.x() - at.y()}) > 0)) continue;
+        ++above;
+        EXPECT_EQ(velocity.head<2>().norm(), 0);
+        EXPECT_GT(velocity.z(), 0);
+    }
+    EXPECT_GE(above, 30u);
+}
+
+// A stair of eight triangles: the distances are those to its profile, also at its edges.
+TEST(MercuryPrograms, getDistanceAndNormalForTriangleWalls) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    auto s = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    const std::array<std::pair<double, double>, 5> profile{
+        {{-.7, -.7}, {-.7, 0}, {0, 0}, {.7, 0}, {.7, .7}}};  // x, z
+    const double y = .9;
+    TriangleWall wall;
+    wall.setSpecies(s);
+    for (std::size_t i = 0; i < 4; i++) {
+        const auto at = [&](std::size_t k, double side) {
+            return Vec3D(profile[k].first, side * y, profile[k].second);
+        };
+        wall.setVertices(at(i, -1), at(i + 1, -1), at(i, 1));
+        scene.wallHandler.copyAndAddObject(wall);
+        wall.setVertices(at(i, 1), at(i + 1, -1), at(i + 1, 1));
+        scene.wallHandler.copyAndAddObject(wall);
+    }
+    SphericalParticle particle(s);
+    particle.setRadius(0.2);
+    std::size_t touched = 0;
+    for (double x = -1; x <= 1; x += 0.047)
+        for (double z = -1; z <= 1; z += 0.047) {
+            double expected = infinity;  // m, to the profile
+            for (std::size_t i = 0; i < 4; ++i) {
+                const Eigen::Vector2d a(profile[i].first, profile[i].second), p(x, z),
+                    along = Eigen::Vector2d(profile[i + 1].first, profile[i + 1].second) - a;
+                const double share = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+                expected = std::min(expected, (p - a - share * along).norm());
+            }
+            particle.setPosition({x, 0.1, z});
+            double nearest = infinity;
+            for (std::size_t k = 0; k < scene.wallHandler.getNumberOfObjects(); ++k) {
+                double distance = 0;
+                Vec3D normal;
+                if (scene.wallHandler.getObject(k)->getDistanceAndNormal(particle, distance, normal))
+                    nearest = std::min(nearest, distance);
+            }
+            if (expected < 0.2) {
+                ++touched;
+                EXPECT_NEAR(nearest, expected, 1e-14) << x << ' ' << z;
+            } else EXPECT_EQ(nearest, infinity) << x << ' ' << z;
+        }
+    EXPECT_GT(touched, 300u);
 }
 
 // A wall that turns about y, as a plane, as an intersection of one plane and as a solid of revolution: a

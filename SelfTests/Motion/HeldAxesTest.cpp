@@ -246,6 +246,48 @@ TEST(HeldAxes, allThatTheSceneHoldsMoveAsThoseThatAreHeldOneByOne) {
     }
 }
 
+TEST(HeldAxes, aSceneInAPlaneGoesOnFromOneInThatPlane) {
+    const support::TestFolder folder;
+    FlatGas whole(1, true, true);
+    whole.initialise();
+    whole.steps(300);
+    whole.writeRestart(folder.path() / "half.h5");
+    whole.steps(300);
+    FlatGas resumed(1, true, true);
+    resumed.restartFrom(folder.path() / "half.h5");
+    resumed.initialise();
+    resumed.steps(300);
+    EXPECT_EQ(resumed.hash(), whole.hash());
+    FewGrains<Rough> free(rough(), {{.radius = r}}, 1e-6), flat(rough(), {{.radius = r}}, 1e-6);
+    free.initialise();
+    free.writeRestart(folder.path() / "free.h5");
+    flat.particleHandler.holdAll(inPlane);
+    flat.restartFrom(folder.path() / "free.h5");
+    const std::string said = support::refusal([&] { flat.initialise(); });
+    EXPECT_TRUE(support::isOneSentence(said) && contains(said, "holds all")) << said;
+}
+
+TEST(HeldAxes, discsDoNotGoOnAsSpheres) {
+    const support::TestFolder folder;
+    const auto scene = [] {
+        auto made =
+            std::make_unique<FewGrains<Rough>>(rough(), std::vector<GrainMotion>{{.radius = r}}, 1e-6);
+        made->particleHandler.holdAll(inPlane);
+        made->setIntegrator(integrators::velocityVerlet);
+        return made;
+    };
+    const auto discs = scene(), spheres = scene(), more = scene();
+    discs->speciesHandler.setGrainsAreDiscs(), more->speciesHandler.setGrainsAreDiscs();
+    discs->initialise();
+    discs->writeRestart(folder.path() / "discs.h5");
+    spheres->restartFrom(folder.path() / "discs.h5");
+    const std::string said = support::refusal([&] { spheres->initialise(); });
+    EXPECT_TRUE(support::isOneSentence(said) && contains(said, "discs")) << said;
+    more->restartFrom(folder.path() / "discs.h5");
+    more->initialise();
+    EXPECT_EQ(more->particleHandler.getObject(0).getMass(), std::numbers::pi * r * r * density);
+}
+
 TEST(HeldAxes, whatTheSceneHoldsIsNotLetGo) {
     FewGrains<Rough> scene(rough(),
                            {{.radius = r, .velocity = {0.1, 0, 0}, .spin = {0, 0, 3}},

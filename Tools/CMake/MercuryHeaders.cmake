@@ -26,6 +26,11 @@ function(pendular_write_mercury_headers folder)
 
 // Written by CMake (Tools/CMake/MercuryHeaders.cmake).
 
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+
 #include "Kernel/MercuryScene.h"
 
 #ifndef UNUSED  // MercuryDPM's mark of an argument
