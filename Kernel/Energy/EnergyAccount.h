@@ -365,9 +365,9 @@ private:
             ledger.*stored = account.*stored;
         if (!isStep) return;
         for (double L::*summed :
-             {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding, &L::rolling, &L::torsion,
-              &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls, &L::images, &L::migration,
-              &L::evaporation, &L::stepError})
+             {&L::normalDashpots, &L::plastic, &L::sintering, &L::tangentialDashpots, &L::sliding,
+              &L::rolling, &L::torsion, &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls,
+              &L::images, &L::migration, &L::evaporation, &L::stepError})
             ledger.*summed += account.*summed;
     }
 

@@ -24,7 +24,8 @@ struct EnergyLedger {
 
     // Energies that have been lost since the start:
     double normalDashpots = 0;
-    double plastic = 0;  // with its error of the time steps
+    double plastic = 0;    // with its error of the time steps
+    double sintering = 0;  // as contacts creep under their forces
     double tangentialDashpots = 0;
     double sliding = 0;
     double rolling = 0;  // sliders and dashpots
@@ -62,8 +63,8 @@ struct EnergyLedger {
     }
     [[nodiscard]] double stored() const { return springs() + adhesive; }
     [[nodiscard]] double lost() const {
-        return normalDashpots + plastic + tangentialDashpots + sliding + rolling + torsion + brokenAdhesion +
-               viscousBridges + stiffening + membraneDamping + bearings;
+        return normalDashpots + plastic + sintering + tangentialDashpots + sliding + rolling + torsion +
+               brokenAdhesion + viscousBridges + stiffening + membraneDamping + bearings;
     }
     /// Constant except for the error of the time steps.
     [[nodiscard]] double total() const {
@@ -95,6 +96,7 @@ struct EnergyLedger {
                                      {"elastic_of_membranes", &L::membraneElastic},
                                      {"lost_in_normal_dashpots", &L::normalDashpots},
                                      {"lost_plastic", &L::plastic},
+                                     {"lost_in_sintering", &L::sintering},
                                      {"lost_in_tangential_dashpots", &L::tangentialDashpots},
                                      {"lost_in_sliding", &L::sliding},
                                      {"lost_in_rolling", &L::rolling},
