@@ -14,6 +14,13 @@
 
 namespace pendular {
 
+/// What a contact has lost in a step: heat, for who asks for it.
+struct ContactLoss {
+    std::uint32_t first, second;  // identities; second: none at a wall
+    int wall;                     // -1: grain with grain
+    double energy;                // J
+};
+
 /// Keeps the ledger of the energy. In a step h of velocity Verlet the kinetic energy of a grain changes by
 /// exactly h/2 (F + F+) . (v + v+)/2, with the forces and velocities at its start and at its end; with spins
 /// and torques alike. The work of each force of each contact is summed by the same formula, so that the
@@ -99,6 +106,11 @@ public:
         before[number].velocity += velocity;
     }
 
+    /// The account notes what each contact loses in a step, from now on.
+    void noteLosses() { notesLosses = true; }
+    /// Of the last step.
+    [[nodiscard]] const std::vector<ContactLoss>& losses() const { return lossesOfStep; }
+
     /// Ends the account of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
                 const Vector<double>& gravity, double step, const Integrator& scheme, EnergyLedger& ledger) {
@@ -113,6 +125,7 @@ public:
         const std::vector<WornWall*> wornOf = wornWalls(walls);
         for (WornWall* const worn : wornOf)
             if (worn) worn->forgetStep();
+        lossesOfStep.clear();
         EnergyLedger account;  // of this step: small sums are added up before they meet large ones
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                  std::size_t lane, EnergyRecord& record) {
@@ -133,7 +146,7 @@ public:
             }
             const BodyMotion grain = meanMotion(grains, first);
             WornWall* const worn = kind.isWall ? wornOf[static_cast<std::size_t>(bucket.wall)] : nullptr;
-            const double byWalls = account.walls;
+            const double byWalls = account.walls, lostBefore = notesLosses ? account.lost() : 0;
             if (!worn || step == 0) {
                 addContact(record, grain, other, kind, step, account);
             } else {
@@ -150,6 +163,10 @@ public:
             // The membrane's own account has this work, as it was done on the vertices.
             if (kind.isWall && walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
                 account.stepError -= std::exchange(account.walls, byWalls) - byWalls;
+            if (notesLosses && step > 0)
+                lossesOfStep.push_back({grains.identity[first],
+                                        kind.isWall ? ObservedContact::none : grains.identity[second],
+                                        bucket.wall, account.lost() - lostBefore});
         });
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
         account.migration = byLiquid.migration;
@@ -375,6 +392,8 @@ private:
     std::vector<std::uint32_t> rank;  // of the grain at each place in that order
     std::vector<HeldLoad> heldLoads;
     BodyAccount bodies;
+    std::vector<ContactLoss> lossesOfStep;
+    bool notesLosses = false;
     EnergyLedger atBegin;
     double ended = 0, endedAtBegin = 0;  // J
     double potential = 0;                // J, at the places where the grains are
