@@ -14,6 +14,11 @@
 using Mdouble = double;
 /// Any grain has a film where liquid moves.
 using LiquidFilmParticle = pendular::SphericalParticle;
+/// How contacts sinter: species->setSinterType(SINTERTYPE::CONSTANT_RATE).
+struct SINTERTYPE {
+    static constexpr auto PARHAMI_MCKEEPING = pendular::SinterType::GrainBoundaryDiffusion,
+                          CONSTANT_RATE = pendular::SinterType::ConstantRate;
+};
 
 /// The levels of logger(INFO, "{} grains", number). What MercuryDPM logs as ERROR or FATAL ends its program:
 /// throw an InputError or a RunError.

@@ -70,7 +70,7 @@ protected:
         setTimeStep(step * std::sqrt(softening));
         softeningOfAll = softening;
         // A bed that they have settled in is taken up as it is.
-        if (softening > 1) acceptOverlaps(largestOverlapInRun);
+        if (softening > 1) acceptOverlaps(usualOverlapInRun);
     }
     /// s, at the published stiffness: 0.9 of the stability limit in the densest bed of these grains and steel
     /// walls. No grains of the scene itself are needed: one that goes on has them from its restart file only,

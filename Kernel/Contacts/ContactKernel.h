@@ -126,9 +126,14 @@ public:
             }
         }
         LastForces last = loadLastForces(block, geometry);
-        NormalPart normal =
-            computeNormal(block, state, g, last.normalForce, touching, bridged, begins, adhesive, range);
-        if constexpr (JumpsAtEnds<Adhesion>) adhesive = normal.adhesive;
+        Pack pull = 0;  // N, attraction of the normal law
+        if constexpr (PullsInContact<Normal>) {
+            pull = select(touching, Normal::pull(laws.normal, g.effectiveRadius), Pack(0));
+            adhesive = adhesive + pull;
+        }
+        NormalPart normal = computeNormal(block, state, g, last.normalForce, touching, bridged, begins,
+                                          adhesive, pull, range);
+        if constexpr (JumpsAtEnds<Adhesion> || PullsInContact<Normal>) adhesive = normal.adhesive;
         Pack normalForce = normal.repulsion - adhesive;
         if constexpr (resists != BridgeResists::Nothing)
             normalForce = normalForce + select(bridged, normal.viscous, Pack(0));
@@ -138,9 +143,10 @@ public:
                          copyOf(normal.contact.effectiveMass), copyOf(normal.elastic),
                          copyOf(normal.repulsion), copyOf(adhesive),
                          resists != BridgeResists::Nothing ? copyOf(normal.viscous) : Pack(0), touching,
-                         bridged);
+                         PullsInContact<Normal> ? bridged | touching : bridged);
             if constexpr (ShapedGeometry<Geometry>) geometry.writeArms(memory, block);
         }
+        if constexpr (Creeps<Normal>) creep(block, normal.contact, touching);
         Vector<Pack> tangential = zero(), lastTorque = zero();
         if constexpr (resists >= BridgeResists::Rolling) lastTorque = loadTorques(block);
         if constexpr (Friction::acts) {
@@ -181,7 +187,8 @@ private:
         Pack damping;    // kg/s
         Pack approach;   // m/s, at the sample
         Pack viscous;    // N, repulsion of a bridge that resists
-        Pack adhesive;   // N, of an attraction that jumps at its ends: its mean over the time of the sample
+        Pack adhesive;  // N, of an attraction that jumps at its ends, or of the normal law: its mean over the
+                        // time of the sample
         BridgeResistance<Pack> resistance;
         Pack lever;  // m, of the overlap: half of it, each body's lever arm is shorter than its radius
         Contact<Pack> contact;
@@ -194,11 +201,14 @@ private:
     /// + a dt, with the acceleration a of the last step; here it gets the change of this contact's own force,
     /// (F - F_last) dt / (2 m*), in which the dashpot is implicit. For two grains that makes the step exactly
     /// the trapezoidal rule.
+    /// @param adhesive N, all attraction; @param pull N, of it that of the normal law
     /// @param range m, of an attraction that jumps at its end
     NormalPart computeNormal(std::size_t block, const BlockState& state, const ContactGeometry<Pack>& g,
                              const Pack& lastNormalForce, Mask touching, [[maybe_unused]] Mask bridged,
-                             Mask begins, Pack adhesive, [[maybe_unused]] Pack range) {
+                             Mask begins, Pack adhesive, [[maybe_unused]] Pack pull,
+                             [[maybe_unused]] Pack range) {
         NormalPart part;
+        if constexpr (PullsInContact<Normal>) part.adhesive = adhesive;
         part.contact = {max(g.overlap, Pack(0)), g.effectiveRadius, g.effectiveMass};
         part.lever = part.contact.overlap;
         if constexpr (resists >= BridgeResists::Sliding) part.lever = g.lever;
@@ -251,7 +261,9 @@ private:
                 neck.before = select(covered, Pack(0), neck.before);
                 neck.after = select(part.snaps, timeToEnd(left, approachInStep, acceleration), neck.after);
             }
-            part.adhesive = adhesive * (neck.before + neck.after);
+            if constexpr (PullsInContact<Normal>)
+                part.adhesive = fma(adhesive - pull, neck.before + neck.after, pull);
+            else part.adhesive = adhesive * (neck.before + neck.after);
             known = -part.adhesive;
             part.approach = approachWith(part.damping);
         }
@@ -262,6 +274,10 @@ private:
             const Mask covered =
                 part.closing & maskFromBits(state.closing);  // the last step stands for this time too
             part.timing.before = select(covered, Pack(0), part.timing.before);
+            if constexpr (PullsInContact<Normal>) {
+                const Pack missing = pull * (Pack(1) - part.timing.before - part.timing.after);
+                part.adhesive = part.adhesive - missing, known = known + missing;
+            }
             part.damping = force.damping * part.timing.factor(Normal::dampingExponent, begins, part.closing);
             force.elastic = force.elastic * part.timing.factor(Normal::elasticExponent, begins, part.closing);
             part.approach = approachWith(part.damping);
@@ -271,6 +287,16 @@ private:
             part.viscous = fma(part.resistance.normal, part.approach, part.resistance.force);
         part.repulsion = select(touching, fma(part.damping, part.approach, force.elastic), Pack(0));
         return part;
+    }
+
+    /// Brings what eight contacts remember on by the step, at their overlaps.
+    void creep(std::size_t block, const Contact<Pack>& contact, Mask touching) {
+        auto history = memory.normalHistory.load<NormalHistory>(block);
+        Normal::creep(laws.normal, contact, Pack(timeStep), history);
+        memory.normalHistory.store<NormalHistory>(block, selectColumns<NormalHistory>(touching, history));
+        if (ledger) [[unlikely]]
+            writeCreep(block, copyOf(contact.overlap), copyOf(contact.effectiveRadius),
+                       copyOf(contact.effectiveMass), touching);
     }
 
     /// The ways (m) of tangential springs that are at their place at the force, and so move for the time from
@@ -512,10 +538,25 @@ private:
             const Contact<double> contact{overlap[k], effectiveRadius[k], effectiveMass[k]};
             sample.elasticForce = elastic[k];
             sample.dashpotForce = dashpot[k];
-            NormalHistory<double> history{};
-            if constexpr (HasNormalHistory<Normal>)
-                memory.normalHistory.get(at, reinterpret_cast<double*>(&history));
-            sample.elasticEnergy = elasticEnergy<Normal>(laws.normal, contact, history);
+            sample.elasticEnergy = elasticEnergyAt(at, contact);
+        }
+    }
+    [[nodiscard]] double elasticEnergyAt(std::size_t at, const Contact<double>& contact) const {
+        NormalHistory<double> history{};
+        if constexpr (HasNormalHistory<Normal>)
+            memory.normalHistory.get(at, reinterpret_cast<double*>(&history));
+        return elasticEnergy<Normal>(laws.normal, contact, history);
+    }
+    /// Writes what the creep of the law has taken of the elastic energy.
+    [[gnu::noinline, gnu::cold]] void writeCreep(std::size_t block, Pack overlap, Pack effectiveRadius,
+                                                 Pack effectiveMass, Mask touching) {
+        for (int k = 0; k < Pack::lanes; ++k) {
+            if (!laneOf(touching, k)) continue;
+            const std::size_t at = block * Pack::lanes + static_cast<std::size_t>(k);
+            ContactSample& sample = memory.energies[at].now;
+            const double left = elasticEnergyAt(at, {overlap[k], effectiveRadius[k], effectiveMass[k]});
+            sample.creepLoss = sample.elasticEnergy - left;
+            sample.elasticEnergy = left;
         }
     }
     [[gnu::noinline, gnu::cold]] void writeSample(std::size_t block, SliderSample ContactSample::*part,

@@ -77,6 +77,7 @@ public:
     bool resistsMotion = false;  // a bridge
     bool hasLargestCapillaryNumber = false;
     OverlapLimit overlapLimit;
+    double largestOverlapInRun = usualOverlapInRun;  // of the smaller radius; more ends a run
 
     /// The laws of a pair alone: their own names, layout and flags, where a scene has species of several
     /// types.

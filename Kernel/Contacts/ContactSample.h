@@ -38,6 +38,7 @@ struct ContactSample {
     double dashpotForce = 0;               // N, repulsion
     double adhesiveForce = 0;              // N, attraction
     double elasticEnergy = 0;              // J, that the overlap gives back
+    double creepLoss = 0;                  // J of it, that the creep of the law has taken at this sample
     SliderSample sliding;
     SliderSample rolling, torsion;  // torques on body 1 over the effective radius
     BridgeSample bridge;

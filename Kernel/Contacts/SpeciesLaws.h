@@ -35,6 +35,7 @@ public:
         breaks = formsAtContact || resistsMotion;
         isPlastic = HasNormalHistory<typename S::Normal>;
         overlapLimit = pendular::overlapLimit<typename S::Mixed>();
+        largestOverlapInRun = pendular::largestOverlapInRun<typename S::Mixed>();
     }
 
     [[nodiscard]] std::size_t speciesCount() const override { return species.getSize(); }

@@ -142,7 +142,8 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
 
     account.elastic += now.elasticEnergy;
     (kind.isPlastic ? account.plastic : account.stepError) +=
-        against(&ContactSample::elasticForce) - (now.elasticEnergy - last.elasticEnergy);
+        against(&ContactSample::elasticForce) - (now.elasticEnergy + now.creepLoss - last.elasticEnergy);
+    account.sintering += now.creepLoss;
     account.normalDashpots += against(&ContactSample::dashpotForce);
 
     record.adhesionWork -= against(&ContactSample::adhesiveForce);

@@ -16,6 +16,13 @@
 
 namespace pendular {
 
+/// What a contact has lost in a step: heat, for who asks for it.
+struct ContactLoss {
+    std::uint32_t first, second;  // identities; second: none at a wall
+    int wall;                     // -1: grain with grain
+    double energy;                // J
+};
+
 /// Keeps the ledger of the energy. In a step h of velocity Verlet the kinetic energy of a grain changes by
 /// exactly h/2 (F + F+) . (v + v+)/2, with the forces and velocities at its start and at its end; with spins
 /// and torques alike. The work of each force of each contact is summed by the same formula, so that the
@@ -104,6 +111,11 @@ public:
         before[number].velocity += velocity;
     }
 
+    /// The account notes what each contact loses in a step, from now on.
+    void noteLosses() { notesLosses = true; }
+    /// Of the last step.
+    [[nodiscard]] const std::vector<ContactLoss>& losses() const { return lossesOfStep; }
+
     /// Ends the account of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
                 const Vector<double>& gravity, double step, const Integrator& scheme, EnergyLedger& ledger) {
@@ -120,6 +132,7 @@ public:
         for (WornWall* const worn : wornOf)
             if (worn) worn->forgetStep();
         sums.clear();
+        lossesOfStep.clear();
         contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                  std::size_t lane, EnergyRecord& record) {
             const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
@@ -155,6 +168,10 @@ public:
             if (kind.isWall && walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
                 account.stepError -= std::exchange(account.walls, 0);
             sums.add(std::bit_cast<Row>(account));
+            if (notesLosses && step > 0)
+                lossesOfStep.push_back({grains.identity[first],
+                                        kind.isWall ? ObservedContact::none : grains.identity[second],
+                                        bucket.wall, account.lost()});
         });
         auto account = std::bit_cast<EnergyLedger>(sums.value());
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
@@ -372,9 +389,9 @@ private:
             ledger.*stored = account.*stored;
         if (!isStep) return;
         for (double L::*summed :
-             {&L::normalDashpots, &L::plastic, &L::tangentialDashpots, &L::sliding, &L::rolling, &L::torsion,
-              &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls, &L::images, &L::migration,
-              &L::evaporation, &L::stepError})
+             {&L::normalDashpots, &L::plastic, &L::sintering, &L::tangentialDashpots, &L::sliding,
+              &L::rolling, &L::torsion, &L::brokenAdhesion, &L::viscousBridges, &L::stiffening, &L::walls,
+              &L::images, &L::migration, &L::evaporation, &L::stepError})
             ledger.*summed += account.*summed;
     }
 
@@ -383,6 +400,8 @@ private:
     std::vector<HeldLoad> heldLoads;
     BodyAccount bodies;
     ExactRows<ledgerEntries> sums;  // over the contacts of a step
+    std::vector<ContactLoss> lossesOfStep;
+    bool notesLosses = false;
     EnergyLedger atBegin;
     double ended = 0, endedAtBegin = 0;  // J
     double potential = 0;                // J, at the places where the grains are

@@ -21,10 +21,12 @@ struct EnergyLedger {
     double pistons = 0;          // kinetic, of walls with a mass
     double membranes = 0;        // kinetic, of their vertices
     double membraneElastic = 0;  // in their springs and hinges
+    double bondElastic = 0;      // in bonds between grains
 
     // Energies that have been lost since the start:
     double normalDashpots = 0;
-    double plastic = 0;  // with its error of the time steps
+    double plastic = 0;    // with its error of the time steps
+    double sintering = 0;  // as contacts creep under their forces
     double tangentialDashpots = 0;
     double sliding = 0;
     double rolling = 0;  // sliders and dashpots
@@ -32,6 +34,8 @@ struct EnergyLedger {
     double brokenAdhesion = 0;  // net work done against adhesions and bridges that have broken
     double viscousBridges = 0;  // by bridges that resist motion
     double membraneDamping = 0;
+    double bondDamping = 0;
+    double fracture = 0;  // what bonds had stored that have broken
     double bearings = 0;  // in the friction of sliders and rotors, and at their largest speeds
     /// The energy of tangential springs whose stiffness follows the overlap while they are stretched, for
     /// which the laws have no force: lost as contacts open, negative as they close.
@@ -62,12 +66,14 @@ struct EnergyLedger {
     }
     [[nodiscard]] double stored() const { return springs() + adhesive; }
     [[nodiscard]] double lost() const {
-        return normalDashpots + plastic + tangentialDashpots + sliding + rolling + torsion + brokenAdhesion +
-               viscousBridges + stiffening + membraneDamping + bearings;
+        return normalDashpots + plastic + sintering + tangentialDashpots + sliding + rolling + torsion +
+               brokenAdhesion + viscousBridges + stiffening + membraneDamping + bondDamping + fracture +
+               bearings;
     }
     /// Constant except for the error of the time steps.
     [[nodiscard]] double total() const {
-        return kinetic + pistons + membranes + membraneElastic + potential + stored() + lost() - given();
+        return kinetic + pistons + membranes + membraneElastic + bondElastic + potential + stored() + lost() -
+               given();
     }
     [[nodiscard]] double given() const {
         return walls + loads + pressures + driver + images + migration + evaporation;
@@ -93,8 +99,10 @@ struct EnergyLedger {
                                      {"kinetic_of_pistons", &L::pistons},
                                      {"kinetic_of_membranes", &L::membranes},
                                      {"elastic_of_membranes", &L::membraneElastic},
+                                     {"elastic_of_bonds", &L::bondElastic},
                                      {"lost_in_normal_dashpots", &L::normalDashpots},
                                      {"lost_plastic", &L::plastic},
+                                     {"lost_in_sintering", &L::sintering},
                                      {"lost_in_tangential_dashpots", &L::tangentialDashpots},
                                      {"lost_in_sliding", &L::sliding},
                                      {"lost_in_rolling", &L::rolling},
@@ -103,6 +111,8 @@ struct EnergyLedger {
                                      {"lost_in_viscous_bridges", &L::viscousBridges},
                                      {"lost_in_stiffening", &L::stiffening},
                                      {"lost_in_membranes", &L::membraneDamping},
+                                     {"lost_in_bonds", &L::bondDamping},
+                                     {"lost_in_fracture", &L::fracture},
                                      {"lost_in_bearings", &L::bearings},
                                      {"given_by_walls", &L::walls},
                                      {"given_by_loads", &L::loads},

@@ -111,7 +111,7 @@ void Scene::acceptUnstableTimeStep(bool accept) { inside->context.acceptsUnstabl
 
 void Scene::acceptOverlaps(double share) {
     checkValue("Simulation", "accepted overlap", share, "of the smaller radius",
-               fromZeroTo(largestOverlapInRun));
+               fromZeroTo(usualOverlapInRun));
     inside->acceptedOverlap = share;
 }
 

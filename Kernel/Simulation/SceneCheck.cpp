@@ -39,8 +39,8 @@ static InputError initialOverlapError(const ParticleStore& grains, const Initial
     const std::string advice =
         overlap.wall >= 0 && overlap.share > 1
             ? ": the grain's centre is behind the wall, whose normal must point away from the grains"
-        : accepted < largestOverlapInRun
-            ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * largestOverlapInRun)
+        : accepted < usualOverlapInRun
+            ? fmt::format(", unless acceptOverlaps() allows more (up to {:g} %)", 100 * usualOverlapInRun)
             : "";
     return InputError(
         fmt::format("{} and {}: initial overlap = {:.6g} m is {:.3g} % of the smaller radius; it must be at "
@@ -96,10 +96,11 @@ void refuseInitialOverlaps(
 }
 
 /// Ends a run in which two grains, at these places of the store, have come closer than any contact law is
-/// made for: by half the smaller radius.
+/// made for.
+/// @param largestShare of the smaller radius
 static void refuseDeepOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
-                              const PeriodicBox& box, const ContactLaws& laws, double time) {
-    constexpr double largestShare = largestOverlapInRun;
+                              const PeriodicBox& box, const ContactLaws& laws, double largestShare,
+                              double time) {
     const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
     const double smaller = std::min(radiusOrThickness(laws, grains, first),
                                     radiusOrThickness(laws, grains, second)),
@@ -125,7 +126,7 @@ void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, 
         if (bucket.wall >= 0) return;
         const ContactBlock& block = store.blocks[contact / Pack::lanes];
         refuseDeepOverlap(grains, block.first[contact % Pack::lanes], block.second[contact % Pack::lanes],
-                          box, laws, time);
+                          box, laws, laws.ofPair(bucket.species1, bucket.species2).largestOverlapInRun, time);
     });
 }
 

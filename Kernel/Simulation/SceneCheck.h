@@ -8,9 +8,6 @@
 
 namespace pendular {
 
-/// The share of the smaller radius beyond which two grains end a run: no contact law is made for more.
-inline constexpr double largestOverlapInRun = 0.5;
-
 /// Throws InputError if two bodies of a list overlap by more than the accepted share of the smaller radius.
 /// @param isLookedAt (bucket, places of the grains): whether this contact is
 void refuseInitialOverlaps(
@@ -18,8 +15,8 @@ void refuseInitialOverlaps(
     const std::function<bool(const Bucket&, std::uint32_t, std::uint32_t)>& isLookedAt);
 
 /// Ends a run in which two grains of a list that was just made have come closer than any contact law is made
-/// for: by half the smaller radius. At walls, a grain that has gone half its way is
-/// followed until its centre crosses the surface.
+/// for: by half the smaller radius, or what the law says (largestOverlapInRun). At walls, a grain that has
+/// gone half its way is followed until its centre crosses the surface.
 void refuseDeepOverlaps(const ContactStore& store, const ParticleStore& grains, const PeriodicBox& box,
                         const ContactLaws& laws, double time);
 

@@ -30,6 +30,22 @@ concept HasLargestOverlap = requires {
     { Law::largestOverlap } -> std::convertible_to<double>;
 };
 
+/// The share of the smaller radius beyond which two grains end a run; of laws that are made for more it is
+/// their number `largestOverlapInRun`.
+inline constexpr double usualOverlapInRun = 0.5;
+template <class Mixed>
+constexpr double largestOverlapInRun() {
+    double largest = usualOverlapInRun;
+    const auto take = [&]<class Law>() {
+        if constexpr (requires { Law::largestOverlapInRun; })
+            largest = std::max(largest, Law::largestOverlapInRun);
+    };
+    take.template operator()<typename Mixed::Normal>();
+    take.template operator()<typename Mixed::Friction>();
+    take.template operator()<typename Mixed::Adhesion>();
+    return largest;
+}
+
 /// A law's part of what a species is made for.
 struct OverlapLimit {
     std::string_view law = {};

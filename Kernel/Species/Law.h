@@ -110,6 +110,22 @@ struct NormalHistoryOf<Law> {
     using type = typename Law::template History<T>;
 };
 
+/// A normal law whose contacts change with time at a given overlap: creep(p, contact, step, history) brings
+/// the history on by a step (s), after the forces of the step; it must not raise the elastic energy.
+template <class Law>
+concept Creeps = HasNormalHistory<Law> &&
+    requires(const typename Law::Prepared p, const Contact<double>& contact,
+             typename NormalHistoryOf<Law>::template type<double> history) {
+    Law::creep(p, contact, 1.0, history);
+};
+
+/// A normal law with an attraction of its own while bodies touch, pull(p, effective radius) in N: it counts
+/// as adhesion, so that friction sees only what pushes.
+template <class Law>
+concept PullsInContact = requires(const typename Law::Prepared p) {
+    { Law::pull(p, 1.0) } -> std::same_as<double>;
+};
+
 /// The normal force of a law with or without a history, which it brings up to date.
 template <class Law, class T, class History>
 [[gnu::always_inline]] inline NormalForce<T> normalForce(const typename Law::Prepared& p,

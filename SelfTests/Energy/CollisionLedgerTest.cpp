@@ -137,6 +137,7 @@ TEST(CollisionLedger, ofEachAttractionCloses) {
     check.operator()<IrreversibleAdhesive>();
     check.operator()<JKR>();
     check.operator()<DMT>();
+    check.operator()<ParhamiMcMeekingSinter>();
 }
 
 }  // namespace

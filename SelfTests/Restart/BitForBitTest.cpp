@@ -12,8 +12,8 @@
 #include "Kernel/Species/Friction/Mindlin.h"
 #include "Kernel/Species/Friction/MindlinRollingTorsion.h"
 #include "Kernel/Species/Normal/HertzianViscoelastic.h"
-#include "Kernel/Species/Normal/LinearPlasticViscoelastic.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Species/Normal/Sinter.h"
 #include "Kernel/State/Random.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/TriangleWall.h"
@@ -31,8 +31,9 @@ using support::TestFolder;
 using Smooth = Species<LinearViscoelastic>;
 using Wet = Species<HertzianViscoelastic, Mindlin, LiquidBridgeBagheri>;
 
-/// A normal law and a friction law that remember, with a torque of the contact's own.
-using Remembering = Species<LinearPlasticViscoelastic, MindlinRollingTorsion>;
+/// A normal law that remembers and sinters, and a friction law that remembers, with a torque of the contact's
+/// own.
+using Remembering = Species<Sinter, MindlinRollingTorsion>;
 
 template <class Scene>
 void runTo(Scene& scene, std::size_t steps) {

@@ -18,12 +18,21 @@ S boxMaterial(int kind) {
     if constexpr (requires { species.setEffectiveElasticModulus(1.0); }) {
         species.setEffectiveElasticModulus(kind == 0 ? 2e6 : 3e6);
         species.setDissipation(kind == 0 ? 0.25 : 0.4);
+    } else if constexpr (requires { species.setLoadingModulus(1.0); }) {
+        species.setPlasticParameters(1e6, 3e6, 1e5, 0.01);
+        species.setDissipation(2e-3);
+        species.setSinterRate(0.05);
     } else if constexpr (requires { species.setPlasticParameters(1.0, 1.0, 1.0, 1.0); }) {
         species.setPlasticParameters(kind == 0 ? 150 : 200, 500, kind == 0 ? 20 : 50, 0.01);
         species.setDissipation(kind == 0 ? 2e-3 : 4e-3);
     } else {
         species.setStiffness(kind == 0 ? 300 : 400);
         species.setDissipation(kind == 0 ? 2e-3 : 4e-3);
+    }
+    if constexpr (requires { species.setSinterAdhesion(1.0); }) {
+        species.setSinterAdhesion(kind == 0 ? 0.02 : 0.03);
+        species.setSinterRate(0.1);
+        species.sinterType = 1;  // constant rate
     }
     if constexpr (requires { species.setSlidingFrictionCoefficient(1.0); }) {
         if constexpr (requires { species.setEffectiveShearModulus(1.0); }) {

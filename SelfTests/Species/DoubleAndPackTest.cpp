@@ -85,8 +85,12 @@ TEST(DoubleAndPack, normalLawsGiveTheSameBits) {
             if constexpr (HasNormalHistory<Law>) {
                 auto history = packed<Law::template History>(histories);
                 const NormalForce<Pack> pack = Law::force(prepared, packed<Contact>(contacts), history);
+                const double step = draw.logarithmic(1e-9, 1);  // s
+                if constexpr (Creeps<Law>)
+                    Law::creep(prepared, packed<Contact>(contacts), Pack(step), history);
                 for (std::size_t k = 0; k < lanes; ++k) {
                     expectSame(pack, k, Law::force(prepared, contacts[k], histories[k]));
+                    if constexpr (Creeps<Law>) Law::creep(prepared, contacts[k], step, histories[k]);
                     expectSameBits<Law::template History>(history, k, histories[k], Law::name);
                 }
             } else {

@@ -163,6 +163,29 @@ std::vector<Setter<Law>> settersOf() {
         add(
             "penetrationDepthMax", [](L& l, double v) { l.setPenetrationDepthMax(v); },
             [](const L& l) { return l.getPenetrationDepthMax(); });
+    if constexpr (requires(L l) { l.setLoadingModulus(0.0); }) {
+        add(
+            "loadingModulus", [](L& l, double v) { l.setLoadingModulus(v); },
+            [](const L& l) { return l.getLoadingModulus(); });
+        add(
+            "unloadingModulusMax", [](L& l, double v) { l.setUnloadingModulusMax(v); },
+            [](const L& l) { return l.getUnloadingModulusMax(); });
+        add(
+            "cohesionModulus", [](L& l, double v) { l.setCohesionModulus(v); },
+            [](const L& l) { return l.getCohesionModulus(); });
+    }
+    if constexpr (requires(L l) { l.setSinterRate(0.0); })
+        add(
+            "sinterRate", [](L& l, double v) { l.setSinterRate(v); },
+            [](const L& l) { return l.getSinterRate(); });
+    if constexpr (requires(L l) { l.setSinterAdhesion(0.0); }) {
+        add(
+            "sinterAdhesion", [](L& l, double v) { l.setSinterAdhesion(v); },
+            [](const L& l) { return l.getSinterAdhesion(); });
+        add(
+            "sinterType", [](L& l, double v) { setField(l, &L::sinterType, v); },
+            [](const L& l) { return l.sinterType; });
+    }
     if constexpr (requires(L l) { l.setPlasticity(0.0); })
         add(
             "plasticity", [](L& l, double v) { l.setPlasticity(v); },
@@ -286,6 +309,17 @@ std::vector<Setter<Law>> settersOf() {
         add(
             "adhesionStiffness", [](L& l, double v) { l.setAdhesionStiffness(v); },
             [](const L& l) { return l.getAdhesionStiffness(); });
+    if constexpr (requires(L l) { l.setAdhesionCoefficient(0.0); }) {
+        add(
+            "adhesionCoefficient", [](L& l, double v) { l.setAdhesionCoefficient(v); },
+            [](const L& l) { return l.getAdhesionCoefficient(); });
+        add(
+            "viscosityCoefficient", [](L& l, double v) { l.setViscosityCoefficient(v); },
+            [](const L& l) { return l.getViscosityCoefficient(); });
+        add(
+            "slidingViscosityCoefficient", [](L& l, double v) { l.setSlidingViscosityCoefficient(v); },
+            [](const L& l) { return l.getSlidingViscosityCoefficient(); });
+    }
     if constexpr (requires(L l) { l.setWorkOfAdhesion(0.0); })
         add(
             "workOfAdhesion", [](L& l, double v) { l.setWorkOfAdhesion(v); },

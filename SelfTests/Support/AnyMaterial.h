@@ -24,12 +24,16 @@ void setNormal(S& species, const MaterialScale& scale) {
         species.setPlasticity(0.5);
         species.setCohesionRatio(0.1);
     }
-    if constexpr (requires { species.setPlasticParameters(1.0, 1.0, 1.0, 1.0); }) {
+    if constexpr (requires { species.setStiffnessAndRestitutionCoefficient(1.0, 1.0, 1.0); })
+        species.setStiffnessAndRestitutionCoefficient(scale.stiffness, 0.7, scale.mass);
+    if constexpr (requires { species.setLoadingModulus(1.0); }) {
+        const double modulus = computeEffectiveElasticModulus(scale.youngModulus, scale.poissonRatio);
+        species.setPlasticParameters(0.6 * modulus, modulus, 0.1 * modulus, 0.01);
+        species.setDissipation(0.05 * std::sqrt(scale.stiffness * scale.mass));
+    } else if constexpr (requires { species.setPlasticParameters(1.0, 1.0, 1.0, 1.0); }) {
         species.setPlasticParameters(0.4 * scale.stiffness, scale.stiffness, 0.1 * scale.stiffness, 0.01);
         species.setDissipation(0.05 * std::sqrt(scale.stiffness * scale.mass));
     }
-    if constexpr (requires { species.setStiffnessAndRestitutionCoefficient(1.0, 1.0, 1.0); })
-        species.setStiffnessAndRestitutionCoefficient(scale.stiffness, 0.7, scale.mass);
 }
 
 template <class S>
@@ -74,6 +78,11 @@ void setAdhesion(S& species, const MaterialScale& scale) {
     if constexpr (requires { species.setAdhesionForceMax(1.0); }) {
         species.setAdhesionForceMax(1e-3);
         species.setAdhesionStiffness(100);
+    }
+    if constexpr (requires { species.setAdhesionCoefficient(1.0); }) {
+        species.setAdhesionCoefficient(1);
+        species.setViscosityCoefficient(1e13);
+        species.setSlidingViscosityCoefficient(1e9);
     }
     if constexpr (requires { species.setWorkOfAdhesion(1.0); }) species.setWorkOfAdhesion(0.5);
     if constexpr (requires { species.setSurfaceDistance(1.0); }) species.setSurfaceDistance(1e-6);

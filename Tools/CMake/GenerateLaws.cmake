@@ -126,6 +126,10 @@ set(PENDULAR_SPECIES_OF_TESTS
     HertzianBSHPViscoelasticMindlinSpecies
     LinearPlasticViscoelasticMindlinSpecies
     HertzianPlasticViscoelasticMindlinSpecies
+    SinterMindlinSpecies
+    HertzianSinterMindlinSpecies
+    SinterSpecies
+    HertzianViscoelasticParhamiMcMeekingSinterSpecies
     HertzianViscoelasticMindlinIncrementalLiquidBridgeBagheriSpecies
     HertzianViscoelasticMindlinPartialSlipLiquidBridgeBagheriSpecies
     HertzianViscoelasticMindlinRollingTorsionLiquidBridgeBagheriSpecies

@@ -1,14 +1,7 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <array>
-#include <optional>
-#include <string>
-
-#include "Kernel/Species/Normal/Shared/ContactTime.h"
 #include "Kernel/Species/Normal/Shared/PlasticBranches.h"
-#include "Kernel/Species/Setter.h"
+#include "Kernel/Species/Normal/Shared/PlasticSprings.h"
 
 namespace pendular {
 
@@ -18,7 +11,7 @@ namespace pendular {
 /// R*. There the flattening ends: beyond d* the contact loads and unloads along the limit branch
 /// k_p (d - phi 2 R*), elastic. A contact that was pulled open along -k_c d reloads from there. Source:
 /// Luding (2008), Granular Matter 10, 235, adhesive elasto-plastic contacts (d_max at most d*).
-struct LinearPlasticViscoelastic {
+struct LinearPlasticViscoelastic : PlasticSprings<LinearPlasticViscoelastic> {
     static constexpr std::string_view name = "LinearPlasticViscoelastic";
     static constexpr std::string_view summary =
         "linear loading, steeper unloading from the largest overlap, cohesion (Luding)";
@@ -26,74 +19,9 @@ struct LinearPlasticViscoelastic {
         "any overlap; flattens up to the overlap d*, elastic beyond; a contact that has parted forgets its "
         "flattening";
 
-    double loadingStiffness = unset;       // k1, N/m
-    double unloadingStiffnessMax = unset;  // k_p, N/m
-    double cohesionStiffness = 0;          // k_c, N/m
-    double penetrationDepthMax = unset;    // phi
-    double dissipation = 0;                // g, kg/s
+    static constexpr auto fields() { return joinedFields<LinearPlasticViscoelastic>(springFields()); }
 
-    static constexpr auto fields() {
-        using Law = LinearPlasticViscoelastic;
-        constexpr std::string_view source = "Luding (2008), plastic contacts";
-        return std::to_array<Field<Law>>(
-            {{"loadingStiffness", &Law::loadingStiffness, "N/m", positive, Mixing::Harmonic,
-              "slope k1 of the first loading", source},
-             {"unloadingStiffnessMax", &Law::unloadingStiffnessMax, "N/m", positive, Mixing::Harmonic,
-              "largest slope k_p of unloading, at least k1", source},
-             {"cohesionStiffness", &Law::cohesionStiffness, "N/m", notNegative, Mixing::Geometric,
-              "slope k_c of the largest pull; 0: none", source},
-             {"penetrationDepthMax", &Law::penetrationDepthMax, "", positive, Mixing::Arithmetic,
-              "phi: from the largest flattening, with k2 = k_p, unloading ends at an overlap of phi x 2 R*",
-              source},
-             {"dissipation", &Law::dissipation, "kg/s", notNegative, Mixing::Arithmetic, "dashpot constant g",
-              source}});
-    }
-
-    void setLoadingStiffness(double value) { set(&LinearPlasticViscoelastic::loadingStiffness, value); }
-    void setUnloadingStiffnessMax(double value) {
-        set(&LinearPlasticViscoelastic::unloadingStiffnessMax, value);
-    }
-    void setCohesionStiffness(double value) { set(&LinearPlasticViscoelastic::cohesionStiffness, value); }
-    void setPenetrationDepthMax(double value) { set(&LinearPlasticViscoelastic::penetrationDepthMax, value); }
-    void setDissipation(double value) { set(&LinearPlasticViscoelastic::dissipation, value); }
-    [[nodiscard]] double getLoadingStiffness() const { return loadingStiffness; }
-    [[nodiscard]] double getUnloadingStiffnessMax() const { return unloadingStiffnessMax; }
-    [[nodiscard]] double getCohesionStiffness() const { return cohesionStiffness; }
-    [[nodiscard]] double getPenetrationDepthMax() const { return penetrationDepthMax; }
-    [[nodiscard]] double getDissipation() const { return dissipation; }
-    void setPlasticParameters(double k1, double unloadingMax, double cohesion, double depth) {
-        setLoadingStiffness(k1);
-        setUnloadingStiffnessMax(unloadingMax);
-        setCohesionStiffness(cohesion);
-        setPenetrationDepthMax(depth);
-    }
-
-    /// A fiftieth (s) of the shortest collision time of two grains of the given mass (kg) each, that of k_p.
-    [[nodiscard]] double computeTimeStep(double mass) const {
-        checkValue(name, "unloadingStiffnessMax", unloadingStiffnessMax, "N/m", positive);
-        checkValue(name, "mass", mass, "kg", positive);
-        return 0.02 * linearContactTime(unloadingStiffnessMax, dissipation, 0.5 * mass);
-    }
-
-    static std::vector<Setter<LinearPlasticViscoelastic>> setters() {
-        return {{"plasticParameters",
-                 {{"loadingStiffness", "N/m", positive},
-                  {"unloadingStiffnessMax", "N/m", positive},
-                  {"cohesionStiffness", "N/m", notNegative},
-                  {"penetrationDepthMax", "", positive}},
-                 "these four",
-                 [](LinearPlasticViscoelastic& law, std::span<const double> v) {
-                     law.setPlasticParameters(v[0], v[1], v[2], v[3]);
-                 }}};
-    }
-
-    [[nodiscard]] std::optional<std::string> objection(const Bodies&) const {
-        if (unloadingStiffnessMax >= loadingStiffness) return std::nullopt;
-        return fmt::format(
-            "{}: unloadingStiffnessMax = {} N/m is too small; it must be at least the "
-            "loadingStiffness, {} N/m.",
-            name, unloadingStiffnessMax, loadingStiffness);
-    }
+    [[nodiscard]] std::optional<std::string> objection(const Bodies&) const { return softUnloading(); }
 
     template <class T>
     using History = LargestOverlap<T>;
@@ -135,11 +63,6 @@ struct LinearPlasticViscoelastic {
         const double force = k2 * (contact.overlap - history.largest) + p.loading * history.largest;
         return 0.5 * force * force / k2;
     }
-    static double stiffness(const Prepared& p, const Contact<double>&) { return p.unloading; }
-    static constexpr double elasticExponent = 1;
-    static constexpr double dampingExponent = 0;
-
-    [[nodiscard]] double range(const Bodies&) const { return 0; }
 
 private:
     /// k2 (N/m) at the largest overlap.
@@ -155,7 +78,6 @@ private:
         const T half = T(0.5) * d;
         return half + sqrt(half * half + d * (T(p.loading + p.cohesion) / max(growth, T(smallest))));
     }
-    void set(double LinearPlasticViscoelastic::*member, double value) { setField(*this, member, value); }
 };
 
 }  // namespace pendular

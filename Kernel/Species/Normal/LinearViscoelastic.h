@@ -37,25 +37,17 @@ struct LinearViscoelastic {
     /// Sets k and g so that two grains of the given mass (kg) each collide for collisionTime (s) and part
     /// with the restitution coefficient (0 to 1, 0 excluded): the damped oscillator of the reduced mass.
     void setCollisionTimeAndRestitutionCoefficient(double collisionTime, double restitution, double mass) {
-        checkValue(name, "collision time", collisionTime, "s", positive);
-        checkValue(name, "restitution coefficient", restitution, "", positiveUpTo(1));
-        checkValue(name, "mass", mass, "kg", positive);
-        const double reducedMass = 0.5 * mass;
-        const double rate = -std::log(restitution) / collisionTime;
-        const double frequency = std::numbers::pi / collisionTime;
-        setStiffness(reducedMass * (frequency * frequency + rate * rate));
-        setDissipation(2 * reducedMass * rate);
+        const CollisionSpring found = springOfCollision(name, collisionTime, restitution, mass);
+        setStiffness(found.stiffness);
+        setDissipation(found.dissipation);
     }
 
     /// Sets k (N/m) and the g that gives the restitution coefficient to two grains of the given mass (kg)
     /// each.
     void setStiffnessAndRestitutionCoefficient(double stiffness, double restitution, double mass) {
-        checkValue(name, "restitution coefficient", restitution, "", positiveUpTo(1));
-        checkValue(name, "mass", mass, "kg", positive);
+        const double found = dashpotOfCollision(name, stiffness, restitution, mass);
         setStiffness(stiffness);
-        const double logarithm = std::log(restitution);
-        const double dampingRatio = -logarithm / std::hypot(logarithm, std::numbers::pi);
-        setDissipation(2 * dampingRatio * std::sqrt(0.5 * mass * stiffness));
+        setDissipation(found);
     }
 
     static std::vector<Setter<LinearViscoelastic>> setters() {

@@ -74,6 +74,7 @@ TEST(Normal, stiffnessIsTheDerivativeOfTheForce) {
 // The powers that the kernel is told are those of the force itself.
 TEST(Normal, exponentsAreThoseOfTheForce) {
     NormalLaws::forEach([]<class Law>() {
+        if constexpr (Creeps<Law>) return;  // powers for small overlaps only: see SinterTest
         Draw draw(3);
         const auto prepared = randomLaw<Law>(draw).prepare();
         const auto forceAt = [&](double overlap) {

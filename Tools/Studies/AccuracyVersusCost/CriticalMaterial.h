@@ -31,7 +31,10 @@ void setNormal(S& species) {
     if constexpr (requires { species.setElasticModulusAndPoissonRatio(1.0, 0.2); })
         species.setElasticModulusAndPoissonRatio(youngModulus, poissonRatio);
     if constexpr (requires { species.setPlasticity(0.5); }) species.setPlasticity(0.5);
-    if constexpr (requires { species.setPlasticParameters(1.0, 1.0, 1.0, 1.0); })
+    if constexpr (requires { species.setLoadingModulus(1.0); }) {
+        const double modulus = computeEffectiveElasticModulus(youngModulus, poissonRatio);
+        species.setPlasticParameters(0.5 * modulus, modulus, 0, 0.01);
+    } else if constexpr (requires { species.setPlasticParameters(1.0, 1.0, 1.0, 1.0); })
         species.setPlasticParameters(0.5 * stiffness, stiffness, 0, 0.01);
     if constexpr (requires { species.setStiffness(1.0); }) species.setStiffness(stiffness);
 }

@@ -27,6 +27,31 @@ inline double linearContactTime(double stiffness, double dissipation, double eff
     return frequency2 > 0 ? std::numbers::pi / std::sqrt(frequency2) : infinity;
 }
 
+/// A linear spring (N/m) and dashpot (kg/s).
+struct CollisionSpring {
+    double stiffness, dissipation;
+};
+/// Those with which two grains of the given mass (kg) each collide for a time (s) and part with the
+/// restitution coefficient (0 to 1, 0 excluded): the damped oscillator of the reduced mass.
+inline CollisionSpring springOfCollision(std::string_view law, double collisionTime, double restitution,
+                                         double mass) {
+    checkValue(law, "collision time", collisionTime, "s", positive);
+    checkValue(law, "restitution coefficient", restitution, "", positiveUpTo(1));
+    checkValue(law, "mass", mass, "kg", positive);
+    const double reducedMass = 0.5 * mass;
+    const double rate = -std::log(restitution) / collisionTime;
+    const double frequency = std::numbers::pi / collisionTime;
+    return {reducedMass * (frequency * frequency + rate * rate), 2 * reducedMass * rate};
+}
+/// The dashpot (kg/s) that gives the restitution coefficient to two grains of the given mass (kg) each.
+inline double dashpotOfCollision(std::string_view law, double stiffness, double restitution, double mass) {
+    checkValue(law, "restitution coefficient", restitution, "", positiveUpTo(1));
+    checkValue(law, "mass", mass, "kg", positive);
+    const double logarithm = std::log(restitution);
+    const double dampingRatio = -logarithm / std::hypot(logarithm, std::numbers::pi);
+    return 2 * dampingRatio * std::sqrt(0.5 * mass * stiffness);
+}
+
 /// The time (s) that two grains touch by Hertz's law with the dashpot beta sqrt(m* k) d^(1/4), k = 4/3 E*
 /// sqrt(R*); infinite from beta = sqrt(5) on. With ds = sqrt(k/m*) d^(1/4) dt, z = 4/5 d^(5/4) is a damped
 /// oscillator (Antypov and Elliott 2011, EPL 94, 50004), z = v sqrt(m*/k) e^(-beta s/2) sin(w s) / w, w^2 =

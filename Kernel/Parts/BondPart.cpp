@@ -1,0 +1,400 @@
+#include "Kernel/Parts/BondPart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Energy/EnergyLedger.h"
+#include "Kernel/Motion/Integrator.h"
+#include "Kernel/State/StateArchive.h"
+#include "Kernel/Step/SummaryRows.h"
+
+namespace pendular {
+
+std::size_t BondPart::addMaterial(const BondMaterial& material) {
+    const std::string owner = fmt::format("bond material {}", materials.size());
+    checkValue(owner, "radius", material.radius, "m", positive);
+    checkValue(owner, "damping", material.damping, "", notNegative);
+    checkValue(owner, "share of moments", material.strength.momentShare, "", fromZeroTo(1));
+    for (const double strength : {material.strength.tensile, material.strength.shear})
+        if (!(strength > 0))
+            throw InputError(fmt::format("{}: strength = {} Pa; it must be greater than 0 Pa, or infinite.",
+                                         owner, strength));
+    if (!material.stiffness) throw InputError(fmt::format("{}: no stiffness is set.", owner));
+    materials.push_back(material);
+    return materials.size() - 1;
+}
+
+void BondPart::join(std::uint32_t first, std::uint32_t second, std::size_t material, double length) {
+    if (material >= materials.size())
+        throw InputError(fmt::format("bonds: there is no material {}; add it by addMaterial().", material));
+    checkValue(fmt::format("bond of particles {} and {}", first, second), "length", length, "m", notNegative);
+    toJoin.push_back({{first, second, static_cast<std::uint32_t>(material)}, length});
+}
+
+Quaternion BondPart::orientationOf(std::uint32_t identity) const {
+    const auto found = joined.find(identity);
+    return found == joined.end() ? Quaternion{} : found->second.orientation;
+}
+
+std::span<const Conflict> BondPart::ownConflicts() const {
+    constexpr std::string_view leaveOut = "leave the bonds out";
+    constexpr std::string_view single = "bonds join single spheres";
+    static constexpr std::array table{
+        Conflict{Feature::OwnPart, Feature::RigidBodies, single, leaveOut},
+        Conflict{Feature::OwnPart, Feature::Superquadrics, single, leaveOut},
+        Conflict{Feature::OwnPart, Feature::Shear, "bonds do not know images that move", leaveOut},
+        Conflict{Feature::OwnPart, Feature::Strain, "bonds do not know images that move", leaveOut},
+        Conflict{Feature::OwnPart, Feature::AdaptiveStep, "its bound of the step does not know bonds",
+                 "leave setAdaptiveTimeStep() out"},
+        Conflict{Feature::OwnPart, Feature::EarlierAccelerations, "bonds act by the steps of Verlet",
+                 "take integrators::predictedVelocityVerlet or velocityVerlet"}};
+    return table;
+}
+
+void BondPart::check(const StepContext& scene) {
+    if (!scene.grains().hasSpin)
+        throw InputError(
+            "bonds: grains of this scene do not spin; take species with a friction law, as bonds twist and "
+            "bend.");
+}
+
+/// The turn of the x axis to a unit vector.
+static Quaternion turnTo(const Vector<double>& e) {
+    if (e.x < 0) return turnTo(-e) * Quaternion{0, {0, 1, 0}};
+    return Quaternion{1 + e.x, {0, -e.z, e.y}}.normalised();
+}
+static Quaternion inverse(const Quaternion& q) { return {q.real, -q.imaginary}; }
+
+void BondPart::joinNew(StepContext& step) {
+    if (toJoin.empty()) return;
+    const ParticleStore& grains = step.grains();
+    for (const ToJoin& pair : toJoin) {
+        const auto owner = [&] {
+            return fmt::format("bond of particles {} and {}", pair.first, pair.second);
+        };
+        const std::uint32_t first = grains.place[pair.first], second = grains.place[pair.second];
+        if (first == PlaceIndex::none || second == PlaceIndex::none || first == second)
+            throw InputError(owner() + ": they must be two grains of the scene.");
+        const auto isSame = [&](const Bond& b) {
+            return std::minmax(b.first, b.second) == std::minmax(pair.first, pair.second);
+        };
+        if (std::ranges::any_of(bonds, isSame)) throw InputError(owner() + ": they are joined already.");
+        const Vector<double> between =
+            step.box.nearest(grains.translation[second].position - grains.translation[first].position);
+        const double distance = norm(between), length = pair.length > 0 ? pair.length : distance;
+        const Quaternion frame = turnTo((1 / distance) * between);
+        Bond bond{pair.first, pair.second, pair.material, length, {}, {}, {}, {}};
+        const auto frameIn = [&](std::uint32_t identity) {
+            return inverse(joined[identity].orientation) * frame;
+        };
+        bond.frame1 = frameIn(pair.first), bond.frame2 = frameIn(pair.second);
+        const BondStiffness k = stiffnessOf(bond);
+        checkValue(owner(), "normal stiffness", k.normal, "N/m", positive);
+        checkValue(owner(), "shear stiffness", k.shear, "N/m", notNegative);
+        checkValue(owner(), "bending stiffness", k.bending, "N m/rad", notNegative);
+        checkValue(owner(), "twist stiffness", k.twist, "N m/rad", notNegative);
+        bonds.push_back(bond);
+    }
+    toJoin.clear();
+    longest.reset();
+}
+
+/// Where hooks have changed a grain, its acceleration was found anew, without bonds; where a grain has gone,
+/// its neighbours do not feel its bonds any more.
+void BondPart::renewForces(StepContext& step) {
+    ParticleStore& grains = step.grains();
+    const auto isGone = [&](std::uint32_t identity) { return !grains.place.contains(identity); };
+    std::erase_if(joined, [&](const auto& one) { return isGone(one.first); });
+    std::erase_if(bonds, [&](const Bond& bond) {
+        if (!isGone(bond.first) && !isGone(bond.second)) return false;
+        const BondLoad load = bond.elastic + bond.damping;
+        const bool firstStays = !isGone(bond.first);
+        if (firstStays) changeAcceleration(grains, bond.first, load.force, -load.torque1);
+        else if (!isGone(bond.second)) changeAcceleration(grains, bond.second, -load.force, -load.torque2);
+        return true;
+    });
+    for (const auto& [identity, one] : joined)
+        if (grains.acceleration[grains.place[identity]] != one.acceleration)
+            changeAcceleration(grains, identity, one.force, one.torque);
+}
+
+/// By a force (N) and a torque (N m).
+void BondPart::changeAcceleration(ParticleStore& grains, std::uint32_t identity, const Vector<double>& force,
+                                  const Vector<double>& torque) {
+    const std::uint32_t place = grains.place[identity];
+    const HeldBits held = grains.heldAt(place);
+    RotationRecord& turning = grains.rotation[place];
+    grains.acceleration[place] += grains.translation[place].inverseMass * held.partAlong(force);
+    turning.angularAcceleration += turning.inverseInertia * held.partAbout(torque);
+}
+
+BondStiffness BondPart::stiffnessOf(const Bond& bond) const {
+    const BondMaterial& material = materials[bond.material];
+    return material.stiffness(BondSection{material.radius}, bond.length);
+}
+
+BondState BondPart::stateOf(const StepContext& step, const Bond& bond) const {
+    const ParticleStore& grains = step.grains();
+    const auto position = [&](std::uint32_t identity) {
+        return grains.translation[grains.place[identity]].position;
+    };
+    return {step.box.nearest(position(bond.second) - position(bond.first)), bond.length,
+            Axes<double>(joined.at(bond.first).orientation * bond.frame1),
+            Axes<double>(joined.at(bond.second).orientation * bond.frame2)};
+}
+
+double BondPart::energy(const StepContext& step) const {
+    double sum = 0;
+    for (const Bond& bond : bonds) sum += stateOf(step, bond).energy(stiffnessOf(bond));
+    return sum;
+}
+
+/// Dashpots 2 z sqrt(k m*) along and across the bond, 2 z sqrt(k I*) about and across it; the velocity across
+/// is that in the middle, so that forces and torques balance.
+BondLoad BondPart::dampingOf(const StepContext& step, const Bond& bond, const BondState& state) const {
+    const double share = materials[bond.material].damping;
+    if (share == 0) return {};
+    const ParticleStore& grains = step.grains();
+    const std::uint32_t first = grains.place[bond.first], second = grains.place[bond.second];
+    const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
+    const RotationRecord &turnA = grains.rotation[first], &turnB = grains.rotation[second];
+    const auto dashpot = [&](double stiffness, double inverse) {
+        return inverse > 0 ? 2 * share * std::sqrt(stiffness / inverse) : 0;
+    };
+    const double inverseMass = a.inverseMass + b.inverseMass,
+                 inverseInertia = turnA.inverseInertia + turnB.inverseInertia;
+    const BondStiffness k = stiffnessOf(bond);
+    const Vector<double> e = state.axis();
+    const Vector<double> velocity =
+        b.velocity - a.velocity - 0.5 * cross(turnA.spin + turnB.spin, state.between);
+    const Vector<double> turning = turnB.spin - turnA.spin;
+    const double along = dot(velocity, e), about = dot(turning, e);
+    const Vector<double> across = -dashpot(k.shear, inverseMass) * (velocity - along * e);
+    const Vector<double> lever = -0.5 * cross(state.between, across);
+    const Vector<double> couple = -dashpot(k.twist, inverseInertia) * about * e -
+                                  dashpot(k.bending, inverseInertia) * (turning - about * e);
+    return {across - dashpot(k.normal, inverseMass) * along * e, lever - couple, lever + couple};
+}
+
+/// With the masses and inertias of a grain, each bond adds at most max(2 k_n, 4 k_s) / m and (2 max(k_b, k_t)
+/// + k_s L^2) / I to the square of the highest frequency, of which a step is at most 2 over: a bound of the
+/// rows of the stiffness matrix.
+double BondPart::largestStep(const StepContext& scene) const {
+    const ParticleStore& grains = scene.grains();
+    std::map<std::uint32_t, std::array<double, 2>> sums;
+    double largest = 0;
+    for (const Bond& bond : bonds)
+        for (const std::uint32_t identity : {bond.first, bond.second}) {
+            const BondStiffness k = stiffnessOf(bond);
+            const std::uint32_t place = grains.place[identity];
+            auto& [moving, turning] = sums[identity];
+            moving += std::max(2 * k.normal, 4 * k.shear) * grains.translation[place].inverseMass;
+            turning += (2 * std::max(k.bending, k.twist) + k.shear * bond.length * bond.length) *
+                       grains.rotation[place].inverseInertia;
+            largest = std::max({largest, moving, turning});
+        }
+    return largest > 0 ? 2 / std::sqrt(largest) : infinity;
+}
+
+void BondPart::refuseStep(const StepContext& step) {
+    if (!longest) longest = largestStep(step);
+    if (step.acceptsUnstableStep || step.length <= *longest) return;
+    throw InputError(fmt::format(
+        "bonds: time step = {:.6g} s is too large; it must be at most {:.6g} s with the stiffnesses and "
+        "masses of this scene, or acceptUnstableTimeStep().",
+        step.length, *longest));
+}
+
+/// Grains turn as they move: by the spin and half of the change in the step.
+void BondPart::turnGrains(StepContext& step) {
+    const ParticleStore& grains = step.grains();
+    for (auto& [identity, one] : joined) {
+        const std::uint32_t place = grains.place[identity];
+        const RotationRecord& turning = grains.rotation[place];
+        one.before = one.orientation;
+        one.velocity = grains.translation[place].velocity;
+        one.spin = turning.spin;
+        const Vector<double> way = step.length * (turning.spin + (step.scheme->position0 * step.length) *
+                                                                     turning.angularAcceleration);
+        const double angle = norm(way);
+        if (angle > 0)
+            one.orientation = (rationalTurn((1 / angle) * way, angle) * one.orientation).normalised();
+    }
+}
+
+void BondPart::beforeMotion(StepContext& step) {
+    atBegin = bonds;
+    isAccelerated = false;
+    renewForces(step);
+    joinNew(step);
+    refuseStep(step);
+    if (step.ledger && step.length > 0) {
+        const double now = energy(step);
+        step.ledger->driver += now - stored;
+        stored = now;
+    }
+    turnGrains(step);
+}
+
+void BondPart::computeLoads(const StepContext& step) {
+    for (auto& [identity, one] : joined) one.force = one.torque = {0, 0, 0};
+    for (Bond& bond : bonds) {
+        const BondState state = stateOf(step, bond);
+        bond.elastic = state.elastic(stiffnessOf(bond));
+        bond.damping = dampingOf(step, bond, state);
+        const BondLoad load = bond.elastic + bond.damping;
+        Joined &one = joined.at(bond.first), &other = joined.at(bond.second);
+        one.force -= load.force, one.torque += load.torque1;
+        other.force += load.force, other.torque += load.torque2;
+    }
+}
+
+/// Adds a share (s) of the accelerations by bonds to velocities.
+void BondPart::accelerate(StepContext& step, double time) {
+    ParticleStore& grains = step.grains();
+    for (const auto& [identity, one] : joined) {
+        const std::uint32_t place = grains.place[identity];
+        const HeldBits held = grains.heldAt(place);
+        TranslationRecord& moving = grains.translation[place];
+        RotationRecord& turning = grains.rotation[place];
+        moving.velocity += time * moving.inverseMass * held.partAlong(one.force);
+        turning.spin += time * turning.inverseInertia * held.partAbout(one.torque);
+    }
+}
+
+/// The velocities get the part of the new forces that the end of the step gives them: Integrator.h. The
+/// accelerations get theirs when the end has made them of the contacts' forces.
+void BondPart::afterForces(StepContext& step) {
+    computeLoads(step);
+    accelerate(step, step.scheme->corrector * step.length);
+    isAccelerated = true;
+}
+
+void BondPart::takeBack(StepContext& step) {
+    if (isAccelerated) accelerate(step, -step.scheme->corrector * step.length);
+    for (auto& [identity, one] : joined) one.orientation = one.before;
+    bonds = atBegin;
+}
+
+/// W, of a load at the mean velocities of the step.
+double BondPart::power(const StepContext& step, const Bond& bond, const BondLoad& load) const {
+    const ParticleStore& grains = step.grains();
+    const auto mean = [&](std::uint32_t identity) {
+        const std::uint32_t place = grains.place[identity];
+        const Joined& one = joined.at(identity);
+        return std::pair(0.5 * (one.velocity + grains.translation[place].velocity),
+                         0.5 * (one.spin + grains.rotation[place].spin));
+    };
+    const auto [velocity1, spin1] = mean(bond.first);
+    const auto [velocity2, spin2] = mean(bond.second);
+    return dot(load.force, velocity2 - velocity1) + dot(load.torque1, spin1) + dot(load.torque2, spin2);
+}
+
+void BondPart::account(StepContext& step) const {
+    Work work;
+    double onHeld = 0;
+    const ParticleStore& grains = step.grains();
+    const double half = 0.5 * step.length;
+    const auto add = [&](const std::vector<Bond>& some) {
+        for (const Bond& bond : some) {
+            if (!grains.place.contains(bond.first) || !grains.place.contains(bond.second)) continue;
+            work.elastic += half * power(step, bond, bond.elastic);
+            work.damping += half * power(step, bond, bond.damping);
+            for (const bool isFirst : {true, false}) {
+                const std::uint32_t place = grains.place[isFirst ? bond.first : bond.second];
+                const Joined& one = joined.at(isFirst ? bond.first : bond.second);
+                const BondLoad load = bond.elastic + bond.damping;
+                const Vector<double> force = isFirst ? -load.force : load.force,
+                                     torque = isFirst ? load.torque1 : load.torque2;
+                const HeldBits held = grains.heldAt(place);
+                const bool moves = grains.translation[place].inverseMass > 0;
+                const Vector<double> kept = moves ? force - held.partAlong(force) : force,
+                                     turned = moves ? torque - held.partAbout(torque) : torque;
+                onHeld += half * (dot(kept, 0.5 * (one.velocity + grains.translation[place].velocity)) +
+                                  dot(turned, 0.5 * (one.spin + grains.rotation[place].spin)));
+            }
+        }
+    };
+    add(atBegin), add(bonds);
+    step.ledger->bondDamping -= work.damping;
+    step.ledger->walls -= onHeld;
+    if (step.length > 0) step.ledger->stepError -= work.elastic + energy(step) - stored;
+}
+
+/// A bond that breaks has given its grains their part of the velocity of this step, and nothing from here on.
+void BondPart::breakBonds(StepContext& step) {
+    std::vector<Bond> left;
+    for (const Bond& bond : bonds) {
+        const BondMaterial& material = materials[bond.material];
+        const BondState state = stateOf(step, bond);
+        const SectionLoad load(state, bond.elastic, material.strength.atEnds);
+        if (!load.breaks(material.strength, BondSection{material.radius})) {
+            left.push_back(bond);
+            continue;
+        }
+        ++brokenCount;
+        const BondLoad all = bond.elastic + bond.damping;
+        Joined &one = joined.at(bond.first), &other = joined.at(bond.second);
+        one.force += all.force, one.torque -= all.torque1;
+        other.force -= all.force, other.torque -= all.torque2;
+        if (step.ledger) step.ledger->fracture += state.energy(stiffnessOf(bond));
+    }
+    bonds.swap(left);
+}
+
+void BondPart::finish(StepContext& step) {
+    if (step.ledger) account(step);
+    breakBonds(step);
+    ParticleStore& grains = step.grains();
+    for (auto& [identity, one] : joined) {
+        changeAcceleration(grains, identity, one.force, one.torque);
+        one.acceleration = grains.acceleration[grains.place[identity]];
+    }
+    if (step.ledger) stored = step.ledger->bondElastic = energy(step);
+}
+
+void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
+    std::vector<Pair> pairs;
+    std::vector<std::uint32_t> identities;
+    struct Numbers {
+        double length;
+        Quaternion frame1, frame2;
+        BondLoad elastic, damping;
+    };
+    std::vector<Numbers> numbers;
+    std::vector<Joined> motions;
+    for (const Bond& b : bonds) {
+        pairs.push_back({b.first, b.second, b.material});
+        numbers.push_back({b.length, b.frame1, b.frame2, b.elastic, b.damping});
+    }
+    for (const auto& [identity, one] : joined) identities.push_back(identity), motions.push_back(one);
+    archive.column<std::uint32_t>("pairs", pairs);
+    archive.column<double>("numbers", numbers);
+    archive.column<std::uint32_t>("joined", identities);
+    archive.column<double>("motions", motions);
+    archive.finite("stored", stored);
+    archive.value("broken", brokenCount);
+    if (!archive.isReading()) return;
+    archive.require(pairs.size() == numbers.size() && identities.size() == motions.size(), "pairs",
+                    "do not fit their numbers");
+    bonds.clear(), joined.clear(), toJoin.clear();
+    longest.reset();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        archive.require(pairs[k].material < materials.size(), "pairs", "are of materials that are not set");
+        const Numbers& n = numbers[k];
+        bonds.push_back({pairs[k].first, pairs[k].second, pairs[k].material, n.length, n.frame1, n.frame2,
+                         n.elastic, n.damping});
+    }
+    for (std::size_t k = 0; k < identities.size(); ++k) joined[identities[k]] = motions[k];
+}
+
+void BondPart::addTo(SummaryRows& rows) const {
+    rows.add("bonds", bonds.size());
+    rows.add("bonds that have broken", brokenCount);
+}
+
+}  // namespace pendular

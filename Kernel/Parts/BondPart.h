@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Parts/BondLaw.h"
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+/// What bonds are made of.
+struct BondMaterial {
+    double radius = unset;  // m, of the section
+    /// By the length (m) of a bond at rest.
+    std::function<BondStiffness(const BondSection&, double)> stiffness = {};
+    BondStrength strength = {};
+    double damping = 0;  // of the critical one of each of the four springs, between two free grains
+};
+
+/// Bonds that join grains as short beams and break. They act beside the contacts, from where the grains are
+/// when they are joined. Grains have orientations from their first bond on. A bond breaks at the end of a
+/// step, all at once, by the forces at that moment; what it has stored then is lost in fracture.
+///
+///     auto& bonds = scene.addPart<BondPart>();
+///     const auto cement = bonds.addMaterial({.radius = 5e-4, .stiffness = ..., .strength = {.tensile =
+///     1e6}}); bonds.join(a, b, cement);
+class BondPart : public StepPart {
+public:
+    /// Throws InputError for values out of range.
+    std::size_t addMaterial(const BondMaterial& material);
+    /// Joins two grains, by their identities, at set-up or in a run: where they are at the start of the next
+    /// step, which acts. Throws InputError there for grains that are not in the scene, or joined already.
+    /// @param length m, at rest; 0: the distance at which they are
+    void join(std::uint32_t first, std::uint32_t second, std::size_t material, double length = 0);
+
+    struct Bond {
+        std::uint32_t first, second;  // identities
+        std::uint32_t material;
+        double length;              // m, at rest
+        Quaternion frame1, frame2;  // its triad in each grain
+        BondLoad elastic, damping;  // of the last step
+    };
+    [[nodiscard]] const std::vector<Bond>& all() const { return bonds; }
+    [[nodiscard]] std::size_t broken() const { return brokenCount; }
+    /// The orientation of a grain since its first bond.
+    [[nodiscard]] Quaternion orientationOf(std::uint32_t identity) const;
+    /// s: a step that bonds alone are stable with, at least.
+    [[nodiscard]] double largestStep(const StepContext& scene) const;
+
+    [[nodiscard]] std::string_view name() const override { return "bonds"; }
+    [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
+    void check(const StepContext& scene) override;
+    void beforeMotion(StepContext& step) override;
+    void afterForces(StepContext& step) override;
+    void finish(StepContext& step) override;
+    void takeBack(StepContext& step) override;
+    void visitState(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
+
+private:
+    /// A grain that is bonded.
+    struct Joined {
+        Quaternion orientation, before;                   // now, and at the start of the step
+        Vector<double> velocity{0, 0, 0}, spin{0, 0, 0};  // m/s, rad/s, at the start of the step
+        Vector<double> force{0, 0, 0}, torque{0, 0, 0};   // N, N m, sums of its bonds
+        Vector<double> acceleration{0, 0, 0};             // m/s^2, as the last step has left it
+    };
+    struct Pair {
+        std::uint32_t first, second, material;
+    };
+    struct ToJoin : Pair {
+        double length;  // m
+    };
+    /// The work (J) of bonds in a step.
+    struct Work {
+        double elastic = 0, damping = 0;
+    };
+
+    [[nodiscard]] BondStiffness stiffnessOf(const Bond& bond) const;
+    [[nodiscard]] BondState stateOf(const StepContext& step, const Bond& bond) const;
+    [[nodiscard]] BondLoad dampingOf(const StepContext& step, const Bond& bond, const BondState& state) const;
+    [[nodiscard]] double energy(const StepContext& step) const;
+    void joinNew(StepContext& step);
+    void renewForces(StepContext& step);
+    static void changeAcceleration(ParticleStore& grains, std::uint32_t identity, const Vector<double>& force,
+                                   const Vector<double>& torque);
+    void refuseStep(const StepContext& step);
+    void turnGrains(StepContext& step);
+    void computeLoads(const StepContext& step);
+    void accelerate(StepContext& step, double time);
+    void breakBonds(StepContext& step);
+    [[nodiscard]] double power(const StepContext& step, const Bond& bond, const BondLoad& load) const;
+    void account(StepContext& step) const;
+
+    std::vector<BondMaterial> materials;
+    std::vector<ToJoin> toJoin;
+    std::vector<Bond> bonds, atBegin;        // now, and at the start of the step
+    std::map<std::uint32_t, Joined> joined;  // by identity
+    double stored = 0;                       // J, at the end of the last step
+    std::optional<double> longest;           // s, the longest stable step, where it is known
+    bool isAccelerated = false;              // the velocities have the forces of this step
+    std::size_t brokenCount = 0;
+};
+
+}  // namespace pendular

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/Species/Field.h"
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+/// What the heat in grains of a species depends on.
+struct HeatMaterial {
+    double conductivity = unset;  // k, W/(m K); 0: an insulator
+    double heatCapacity = unset;  // c, J/(kg K)
+};
+
+/// How well a contact at an overlap d conducts, W/K.
+enum class Conduction {
+    /// 4 a k1 k2 / (k1 + k2), 2 k a for one material, with the contact radius a = sqrt(R* d) of Hertz: on
+    /// each
+    /// side heat is constricted to a round spot on a half-space, a resistance of 1/(4 k a). As in other codes
+    /// (EDEM's heat conduction model, after Chaudhuri, Muzzio and Tomassone 2006, writes a by the force).
+    Constriction,
+    /// k pi 2 R* d / l with the distance l of the centres, k the harmonic mean: area over distance, as
+    /// MercuryDPM's Thermal species. Small overlaps conduct far less than by the constriction (28 times at
+    /// d = 1e-3 of the radius of equal grains).
+    AreaOverDistance
+};
+
+/// The heat of a scene, J. It is constant but for what is given: closed().
+struct HeatLedger {
+    double stored = 0;        // C T of all grains
+    double fromWalls = 0;     // of held temperatures, since the start
+    double fromContacts = 0;  // what contacts have lost, as far as it went into grains
+    double toWalls = 0;       // of that what went into walls: out of the scene
+    double fromDriver = 0;    // where temperatures, grains or capacities were changed between steps
+
+    [[nodiscard]] double closed() const { return stored - fromWalls - fromContacts - fromDriver; }
+};
+
+/// The temperature of grains: heat is conducted by contacts that touch, comes from walls of a held
+/// temperature, and, if asked for, from what contacts lose in friction and damping. A grain has one
+/// temperature T and the heat capacity C = m c:
+///     C dT/dt = sum over contacts of H (T' - T) + sources.
+/// All heat of a step is summed from temperatures of one time, in the order of identities, then the
+/// temperatures change: no bit depends on the order of contacts or on threads. A step is at most the smallest
+/// C over sum H of a grain: then no temperature leaves the range of its neighbours', and twice that is never
+/// unstable. A longer one ends the run. Air, radiation and expansion are left out.
+///
+///     auto temperature = scene.particleHandler.addColumn("temperature", "K", 293);
+///     auto& heat = scene.addPart<HeatPart>(temperature);
+///     heat.setMaterial(species, {.conductivity = 1, .heatCapacity = 800});
+class HeatPart : public StepPart {
+public:
+    /// @param temperature the column of the grains' temperatures, K
+    explicit HeatPart(GrainColumnReference temperature) : temperatures(temperature) {}
+
+    /// Of all grains and walls of a species. Throws InputError for values out of range.
+    template <class Species>
+    void setMaterial(const Species& species, const HeatMaterial& material) {
+        setMaterialOf(species->getIndex(), material);
+    }
+    /// A wall, by its number, has this temperature (K) and conducts heat: without resistance of its own, or
+    /// with a conductivity (W/(m K)) in series. Other walls are insulators. Also in a run.
+    void holdWall(int wall, double temperature, std::optional<double> conductivity = {});
+    void insulateWall(int wall) { heldWalls.erase(wall); }
+    void setConduction(Conduction law) { conduction = law; }
+    /// For grains that are softer than their material: contact radii are smaller by the cube root of this
+    /// ratio (0 to 1) of the moduli of real and simulated grains, as Hertz's are at equal force.
+    /// @param ratio E of the simulation over that of the material
+    void setSoftening(double ratio);
+    /// What contacts lose in friction, damping, plastic flow and sintering heats both bodies, half each.
+    /// Needs keepEnergyLedger().
+    void heatByContacts(bool heats = true) { contactsHeat = heats; }
+
+    /// W/K, of a contact between species a and b. @param distance m, of the centres
+    [[nodiscard]] double conductance(int a, int b, double effectiveRadius, double overlap,
+                                     double distance) const;
+    [[nodiscard]] const HeatLedger& ledger() const { return heat; }
+    /// s: the longest step at the contacts of the last one; infinite before it.
+    [[nodiscard]] double longestStep() const { return longest; }
+
+    [[nodiscard]] std::string_view name() const override { return "heat"; }
+    [[nodiscard]] bool needsFinishedStep() const override { return false; }
+    [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
+    void check(const StepContext& scene) override;
+    void begin(StepContext& scene, bool isRestarted) override;
+    void atEnd(StepContext& step) override;
+    void visitState(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
+
+private:
+    struct HeldWall {
+        double temperature;   // K
+        double conductivity;  // W/(m K); infinite
+    };
+
+    void setMaterialOf(int species, const HeatMaterial& material);
+    [[nodiscard]] double capacityAt(const StepContext& step, std::uint32_t place) const;
+    [[nodiscard]] double storedIn(StepContext& step) const;
+    [[nodiscard]] double contactRadius(double effectiveRadius, double overlap) const;
+    [[nodiscard]] double conductanceAtWall(const HeldWall& wall, int species, const ObservedContact& seen,
+                                           double radius) const;
+    void conduct(StepContext& step);
+    void conductBetween(const StepContext& step, const ObservedContact& seen);
+    void takeLosses(const StepContext& step);
+    void refuseStep(const StepContext& step, std::uint32_t place, double bound) const;
+    void changeTemperatures(StepContext& step);
+
+    GrainColumnReference temperatures;
+    std::map<int, HeatMaterial> materials;  // by species
+    std::map<int, HeldWall> heldWalls;      // by number
+    Conduction conduction = Conduction::Constriction;
+    double radiusFactor = 1;  // of contact radii
+    bool contactsHeat = false;
+    HeatLedger heat;
+    double longest = infinity;         // s
+    std::vector<double> flow, source;  // W and J, by place
+    std::vector<double> conductances;  // W/K, sum of each grain, by place
+};
+
+}  // namespace pendular
