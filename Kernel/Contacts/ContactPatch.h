@@ -25,11 +25,6 @@
 /// about as wide as its contact, or a step about as high as its overlap, leaves with 0.8 to 1.2 times its
 /// energy (frictionless, without a dashpot, at any step), which the ledger has as its stepError. Outside of
 /// the limits, as over cracks and at edges that are real, nothing is gained.
-///
-/// It follows the overlap, so that within the limits the force has no potential: a grain that hits a slit
-/// about as wide as its contact, or a step about as high as its overlap, leaves with up to 1.2 times its
-/// energy or 0.8 of it (frictionless, without a dashpot, at any step), which the ledger has as its stepError.
-/// Outside of the limits, as over cracks and at edges that are real, nothing is gained.
 
 #include <algorithm>
 #include <cmath>

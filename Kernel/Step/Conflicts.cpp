@@ -29,9 +29,9 @@ constexpr std::array table{
         "take planes across an axis that is not periodic, or leave the images at rest and move walls instead "
         "(setMotion(), setPiston())"},
     Conflict{Shear, HeldGrains, "a grain that is held would not go with the flow as its images do",
-             "let it go by setHeldAxes({}), or make it heavy"},
+             "let it go by setHeldAxes({})"},
     Conflict{Strain, HeldGrains, "a grain that is held would not go with the flow as its images do",
-             "let it go by setHeldAxes({}), or make it heavy"},
+             "let it go by setHeldAxes({})"},
     Conflict{Shear, GravityAlongGradient, "grains would fall through images that move",
              "let gravity act along another axis, or set it to zero"},
     Conflict{Strain, Gravity, "a scene that falls has no state that is strained homogeneously",

@@ -208,7 +208,18 @@ WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part, double rang
     return point;
 }
 
-/// A part is left out where the ball that touches it finds another part that stands for it, as a sphere does.
+/// Whether a ball sees the same point of two parts: that of an edge or a corner that they share, or of
+/// surfaces that lie on each other.
+bool ShapeAtWall::isSeenOnBoth(const Wall& wall, std::uint32_t one, std::uint32_t other,
+                               const Vector<double>& ball) const {
+    const WallPoint a = nearest(wall, one, ball), b = nearest(wall, other, ball);
+    return norm(a.distance * a.normal - b.distance * b.normal) < 1e-9 * ballRadius;
+}
+
+/// A part is left out where the ball that touches it finds that another part, of a contact at least as deep,
+/// stands for it, as a sphere does; or sees the same point of both. The balls of two facets at the edge
+/// between them are the same but for round-off, so that each may see its own facet as the one that stands for
+/// the other.
 void ShapeAtWall::leaveOutCovered(const Wall& wall, double range, std::span<const std::uint32_t> parts,
                                   std::span<WallPoint> points) const {
     thread_local std::vector<std::uint32_t> order;
@@ -227,15 +238,18 @@ void ShapeAtWall::leaveOutCovered(const Wall& wall, double range, std::span<cons
     });
     seen.resize(parts.size());
     for (std::size_t rank = 1; rank < order.size(); ++rank) {
-        WallPoint& point = points[order[rank]];
-        wall.findPoints(coreAt(supportAt(point.normal), point.normal), ballRadius + range, parts, seen);
-        int by = seen[order[rank]].coveredBy;
-        if (by < 0) continue;
-        if (points[static_cast<std::size_t>(by)].coveredBy >= 0)
-            by = points[static_cast<std::size_t>(by)].coveredBy;
-        const auto ahead = order.begin() + static_cast<std::ptrdiff_t>(rank);
-        if (std::find(order.begin(), ahead, static_cast<std::uint32_t>(by)) == ahead) continue;
-        point.coveredBy = by;
+        const std::uint32_t own = order[rank];
+        WallPoint& point = points[own];
+        const Vector<double> ball = coreAt(supportAt(point.normal), point.normal);
+        wall.findPoints(ball, ballRadius + range, parts, seen);
+        const auto standsForIt = [&](std::uint32_t ahead) {
+            return static_cast<std::uint32_t>(seen[own].coveredBy) == ahead ||
+                   isSeenOnBoth(wall, parts[own], parts[ahead], ball);
+        };
+        const std::span<const std::uint32_t> deeper(order.data(), rank);
+        const auto by = std::ranges::find_if(deeper, standsForIt);
+        if (by == deeper.end()) continue;
+        point.coveredBy = points[*by].coveredBy >= 0 ? points[*by].coveredBy : static_cast<int>(*by);
         point.distance = infinity;
     }
 }

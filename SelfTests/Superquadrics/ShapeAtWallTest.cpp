@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "Kernel/Superquadrics/ExtremeContact.h"
@@ -300,6 +301,60 @@ TEST(ShapeAtWall, cornersBelowFlatSidesHaveTheDepthThatTheyWereGiven) {
         // Depths are stationary: a normal that is 1e-8 off changes them by 1e-16.
         EXPECT_NEAR(height - found.distance, depth, 1e-14) << "triangle " << k;
         EXPECT_LT(norm(found.normal - normal), 1e-7) << "triangle " << k;
+    }
+}
+
+/// The parts that a grain at the origin touches, and the depth of each.
+std::vector<double> depthsAt(const Superquadric& shape, const Axes<double>& axes,
+                             const std::vector<Triangle>& mesh) {
+    TriangleWall wall;
+    wall.set(mesh);
+    std::vector<double> depths;
+    for (const WallPoint& found : pointsOf(grainOf(shape, axes, {0, 0, 0}), wall)) {
+        if (!(found.distance < infinity)) continue;
+        const double height =
+            supportPoint(SuperquadricLanes<double>::from(shape), axes.turnBack(found.normal)).height;
+        if (height > found.distance) depths.push_back(height - found.distance);
+    }
+    return depths;
+}
+
+// A point p at s - d m below the point s of the surface with the normal m is the tip of a pyramid of three or
+// eight faces around m, a point of a ridge across m, or of two facets that lie on each other: one contact, of
+// the depth d. In directions at random, so that no facet is favoured by a symmetry.
+TEST(ShapeAtWall, convexEdgesAndCornersAreTouchedOnce) {
+    support::Random random(10);
+    for (int k = 0; k < 400; ++k) {
+        const int exponent = std::array{2, 3, 5, 8}[static_cast<std::size_t>(k) % 4];
+        const Superquadric shape{1, random.uniform(0.5, 1), random.uniform(0.5, 1), exponent, exponent};
+        const Axes<double> axes = axesOf(3 * random.direction());
+        const Vector<double> m = toVector(random.direction());
+        const double depth =
+            random.uniform(0.05, 0.5) * extremeContact(shape).smallestRadius * shape.boundingRadius();
+        const SupportPoint<double> at =
+            supportPoint(SuperquadricLanes<double>::from(shape), axes.turnBack(m));
+        const Vector<double> p = axes.turn(at.point) - depth * m;
+        const TangentPlane<double> plane(m);
+        const double turn = random.uniform(0, 6);
+        const auto around = [&](double angle, double along) {
+            return p + 9 * std::cos(angle + turn) * plane.u + 9 * std::sin(angle + turn) * plane.v +
+                   along * m;
+        };
+        std::vector<std::vector<Triangle>> meshes(3);
+        for (const int faces : {3, 8})
+            for (int face = 0; face < faces; ++face) {
+                const double angle = 2 * std::numbers::pi / faces;
+                meshes[faces == 3 ? 0 : 1].push_back(
+                    {p, around(face * angle, 5), around((face + 1) * angle, 5)});
+            }
+        const Vector<double> begin = around(0, 0), end = around(std::numbers::pi, 0);
+        meshes[2] = {{begin, end, around(1.2, 6)}, {end, begin, around(4.4, 4)}};
+        meshes.push_back({meshes[0][0], meshes[0][0]});
+        for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+            const std::vector<double> depths = depthsAt(shape, axes, meshes[mesh]);
+            ASSERT_EQ(depths.size(), 1u) << "pose " << k << ", mesh " << mesh;
+            EXPECT_NEAR(depths[0], depth, 1e-12) << "pose " << k << ", mesh " << mesh;
+        }
     }
 }
 
