@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "Kernel/Mercury/MercuryPSD.h"
@@ -207,6 +208,12 @@ public:
     template <std::derived_from<MercuryBoundary> Boundary>
     Boundary* copyAndAddObject(const Boundary* boundary) {
         return copyAndAddObject(*boundary);
+    }
+    template <class Other>
+    requires(!std::derived_from<Other, MercuryBoundary> &&
+             !std::is_pointer_v<Other>) void copyAndAddObject(const Other&) {
+        static_assert(std::derived_from<Other, MercuryBoundary>,
+                      "a boundary is added to boundaryHandler, a wall is added to wallHandler");
     }
     [[nodiscard]] std::size_t getNumberOfObjects() const { return all.size(); }
     [[nodiscard]] std::size_t getSize() const { return all.size(); }

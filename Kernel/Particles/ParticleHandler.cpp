@@ -245,7 +245,7 @@ void ParticleHandler::holdAll(const HeldAxes& axes) {
         throw;
     }
     for (GrainReference grain : *this)
-        if (!grain.isFixed()) grain.setHeldAxes(grain.getHeldAxes());
+        if (!grain.isFixed()) grain.setHeldAxes(HeldBits(grain.getHeldAxes()).without(before).axes());
 }
 
 void ParticleHandler::requireOwnSpecies(std::string_view whose, int index, const SpeciesOwner* owner) const {

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
+#include "BuildFolders.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -91,6 +94,30 @@ TEST(MercuryNames, helpersCheckAndWrite) {
     helpers::writeToFile(folder.name(), "set grid\n");
     EXPECT_EQ(support::contentOf(folder.name()), "set grid\n");
     EXPECT_TRUE(isOneSentence(refusal([&] { helpers::writeToFile(folder.name() + "/no/folder", ""); })));
+}
+
+TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
+    const TestFolder folder;
+    const std::string driver = folder.name() + ".cpp";
+    const auto ported = [&](const std::string& line) {
+        helpers::writeToFile(driver, line + '\n');
+        const support::ProgramResult result =
+            support::run((folders::source / "Tools/port-from-mercury.sh").string() + " --driver " + driver);
+        EXPECT_EQ(result.exitCode, 0);
+        return result.output;
+    };
+    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 8>{{
+             {"double z = p->getPosition().Z + v[2].X;", "double z = p->getPosition().z() + v[2].x();"},
+             {"// v.X stays in a comment", "// v.X stays in a comment"},
+             {"Vec3D::dot(a, getMax()) * Vec3D::cross(b, c).getLength()",
+              "(a).dot(getMax()) * (b).cross(c).norm()"},
+             {"for (BaseParticle* p : particleHandler)", "for (auto p : particleHandler)"},
+             {"BaseParticle p0; const BaseWall *w = f();", "SphericalParticle p0; auto w = f();"},
+             {"s.XX - s.ZY", "s(0, 0) - s(2, 1)"},
+             {"x.speciesHandler.addObject(own);", "own = x.speciesHandler.copyAndAddObject(*own);"},
+             {"setXMax(MIN.Xa, atX)", "setXMax(MIN.Xa, atX)"},
+         }})
+        EXPECT_EQ(ported(there), std::string(here) + '\n');
 }
 
 TEST(MercuryNames, helpersReadTheCommandLine) {

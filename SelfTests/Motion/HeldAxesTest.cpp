@@ -297,6 +297,10 @@ TEST(HeldAxes, whatTheSceneHoldsIsNotLetGo) {
     GrainReference free = scene.particleHandler.getObject(0), fixed = scene.particleHandler.getObject(1);
     EXPECT_EQ(free.getHeldAxes(), inPlane);
     EXPECT_TRUE(fixed.isFixed());
+    scene.particleHandler.holdAll({});
+    EXPECT_EQ(free.getHeldAxes(), HeldAxes{});
+    scene.particleHandler.holdAll(inPlane);
+    EXPECT_EQ(free.getHeldAxes(), inPlane);
     fixed.fixParticle(false);
     EXPECT_EQ(fixed.getHeldAxes(), inPlane);
     EXPECT_EQ(fixed.getMass(), free.getMass());

@@ -44,4 +44,7 @@ pendular_write_mercury_headers("${PROJECT_BINARY_DIR}/Generated/MercuryHeaders")
 add_library(PendularMercuryHeaders INTERFACE)
 add_library(Pendular::MercuryHeaders ALIAS PendularMercuryHeaders)
 target_link_libraries(PendularMercuryHeaders INTERFACE Pendular::Kernel)
-target_include_directories(PendularMercuryHeaders INTERFACE "${PROJECT_BINARY_DIR}/Generated/MercuryHeaders")
+set_target_properties(PendularMercuryHeaders PROPERTIES EXPORT_NAME MercuryHeaders)
+target_include_directories(PendularMercuryHeaders INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/Generated/MercuryHeaders>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/pendular/MercuryHeaders>)
