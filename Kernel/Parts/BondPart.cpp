@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Energy/EnergyLedger.h"
@@ -36,8 +38,8 @@ void BondPart::join(std::uint32_t first, std::uint32_t second, std::size_t mater
 }
 
 Quaternion BondPart::orientationOf(std::uint32_t identity) const {
-    const auto found = joined.find(identity);
-    return found == joined.end() ? Quaternion{} : found->second.orientation;
+    const auto found = numbers.find(identity);
+    return found == numbers.end() ? Quaternion{} : joined[found->second].orientation;
 }
 
 std::span<const Conflict> BondPart::ownConflicts() const {
@@ -72,6 +74,11 @@ static Quaternion inverse(const Quaternion& q) { return {q.real, -q.imaginary}; 
 void BondPart::joinNew(StepContext& step) {
     if (toJoin.empty()) return;
     const ParticleStore& grains = step.grains();
+    const auto key = [](std::uint32_t a, std::uint32_t b) {
+        return std::pair(std::min(a, b), std::max(a, b));
+    };
+    std::set<std::pair<std::uint32_t, std::uint32_t>> there;
+    for (const Bond& bond : bonds) there.insert(key(bond.first, bond.second));
     for (const ToJoin& pair : toJoin) {
         const auto owner = [&] {
             return fmt::format("bond of particles {} and {}", pair.first, pair.second);
@@ -79,77 +86,96 @@ void BondPart::joinNew(StepContext& step) {
         const std::uint32_t first = grains.place[pair.first], second = grains.place[pair.second];
         if (first == PlaceIndex::none || second == PlaceIndex::none || first == second)
             throw InputError(owner() + ": they must be two grains of the scene.");
-        const auto isSame = [&](const Bond& b) {
-            return std::minmax(b.first, b.second) == std::minmax(pair.first, pair.second);
-        };
-        if (std::ranges::any_of(bonds, isSame)) throw InputError(owner() + ": they are joined already.");
+        if (!there.insert(key(pair.first, pair.second)).second)
+            throw InputError(owner() + ": they are joined already.");
         const Vector<double> between =
             step.box.nearest(grains.translation[second].position - grains.translation[first].position);
         const double distance = norm(between), length = pair.length > 0 ? pair.length : distance;
         const Quaternion frame = turnTo((1 / distance) * between);
-        Bond bond{pair.first, pair.second, pair.material, length, {}, {}, {}, {}};
-        const auto frameIn = [&](std::uint32_t identity) {
-            return inverse(joined[identity].orientation) * frame;
-        };
-        bond.frame1 = frameIn(pair.first), bond.frame2 = frameIn(pair.second);
-        const BondStiffness k = stiffnessOf(bond);
+        const std::uint32_t at1 = joinedAt(pair.first), at2 = joinedAt(pair.second);
+        const BondStiffness k = stiffnessOf(pair.material, length);
         checkValue(owner(), "normal stiffness", k.normal, "N/m", positive);
         checkValue(owner(), "shear stiffness", k.shear, "N/m", notNegative);
         checkValue(owner(), "bending stiffness", k.bending, "N m/rad", notNegative);
         checkValue(owner(), "twist stiffness", k.twist, "N m/rad", notNegative);
-        bonds.push_back(bond);
+        bonds.push_back({pair.first,
+                         pair.second,
+                         pair.material,
+                         at1,
+                         at2,
+                         k,
+                         length,
+                         inverse(joined[at1].orientation) * frame,
+                         inverse(joined[at2].orientation) * frame,
+                         {},
+                         {}});
     }
+    findPlaces(grains);
     toJoin.clear();
     longest.reset();
+}
+
+std::uint32_t BondPart::joinedAt(std::uint32_t identity) {
+    const auto [found, isNew] = numbers.emplace(identity, static_cast<std::uint32_t>(joined.size()));
+    if (isNew) joined.push_back({.identity = identity, .place = 0, .orientation = {}, .before = {}});
+    return found->second;
+}
+
+/// Grains are sorted now and then: their places are those of this step.
+void BondPart::findPlaces(const ParticleStore& grains) {
+    for (Joined& one : joined) one.place = grains.place[one.identity];
 }
 
 /// Where hooks have changed a grain, its acceleration was found anew, without bonds; where a grain has gone,
 /// its neighbours do not feel its bonds any more.
 void BondPart::renewForces(StepContext& step) {
     ParticleStore& grains = step.grains();
-    const auto isGone = [&](std::uint32_t identity) { return !grains.place.contains(identity); };
-    std::erase_if(joined, [&](const auto& one) { return isGone(one.first); });
+    findPlaces(grains);
+    for (const Joined& one : joined)
+        if (one.place != PlaceIndex::none && grains.acceleration[one.place] != one.acceleration)
+            changeAcceleration(grains, one.place, one.force, one.torque);
     std::erase_if(bonds, [&](const Bond& bond) {
-        if (!isGone(bond.first) && !isGone(bond.second)) return false;
+        const std::uint32_t first = joined[bond.at1].place, second = joined[bond.at2].place;
+        if (first != PlaceIndex::none && second != PlaceIndex::none) return false;
         const BondLoad load = bond.elastic + bond.damping;
-        const bool firstStays = !isGone(bond.first);
-        if (firstStays) changeAcceleration(grains, bond.first, load.force, -load.torque1);
-        else if (!isGone(bond.second)) changeAcceleration(grains, bond.second, -load.force, -load.torque2);
+        if (first != PlaceIndex::none) changeAcceleration(grains, first, load.force, -load.torque1);
+        if (second != PlaceIndex::none) changeAcceleration(grains, second, -load.force, -load.torque2);
         return true;
     });
-    for (const auto& [identity, one] : joined)
-        if (grains.acceleration[grains.place[identity]] != one.acceleration)
-            changeAcceleration(grains, identity, one.force, one.torque);
+    if (std::ranges::none_of(joined, [](const Joined& one) { return one.place == PlaceIndex::none; })) return;
+    std::erase_if(joined, [](const Joined& one) { return one.place == PlaceIndex::none; });
+    numbers.clear();
+    for (const Joined& one : joined)
+        numbers.emplace(one.identity, static_cast<std::uint32_t>(numbers.size()));
+    for (Bond& bond : bonds) bond.at1 = numbers.at(bond.first), bond.at2 = numbers.at(bond.second);
+    atBegin = bonds;  // those of grains that have gone do nothing more
 }
 
 /// By a force (N) and a torque (N m).
-void BondPart::changeAcceleration(ParticleStore& grains, std::uint32_t identity, const Vector<double>& force,
+void BondPart::changeAcceleration(ParticleStore& grains, std::uint32_t place, const Vector<double>& force,
                                   const Vector<double>& torque) {
-    const std::uint32_t place = grains.place[identity];
     const HeldBits held = grains.heldAt(place);
     RotationRecord& turning = grains.rotation[place];
     grains.acceleration[place] += grains.translation[place].inverseMass * held.partAlong(force);
     turning.angularAcceleration += turning.inverseInertia * held.partAbout(torque);
 }
 
-BondStiffness BondPart::stiffnessOf(const Bond& bond) const {
-    const BondMaterial& material = materials[bond.material];
-    return material.stiffness(BondSection{material.radius}, bond.length);
+BondStiffness BondPart::stiffnessOf(std::uint32_t material, double length) const {
+    return materials[material].stiffness(BondSection{materials[material].radius}, length);
 }
 
 BondState BondPart::stateOf(const StepContext& step, const Bond& bond) const {
+    const Joined &one = joined[bond.at1], &other = joined[bond.at2];
     const ParticleStore& grains = step.grains();
-    const auto position = [&](std::uint32_t identity) {
-        return grains.translation[grains.place[identity]].position;
-    };
-    return {step.box.nearest(position(bond.second) - position(bond.first)), bond.length,
-            Axes<double>(joined.at(bond.first).orientation * bond.frame1),
-            Axes<double>(joined.at(bond.second).orientation * bond.frame2)};
+    return {
+        step.box.nearest(grains.translation[other.place].position - grains.translation[one.place].position),
+        bond.length, Axes<double>(one.orientation * bond.frame1),
+        Axes<double>(other.orientation * bond.frame2)};
 }
 
 double BondPart::energy(const StepContext& step) const {
     double sum = 0;
-    for (const Bond& bond : bonds) sum += stateOf(step, bond).energy(stiffnessOf(bond));
+    for (const Bond& bond : bonds) sum += stateOf(step, bond).energy(bond.stiffness);
     return sum;
 }
 
@@ -159,7 +185,7 @@ BondLoad BondPart::dampingOf(const StepContext& step, const Bond& bond, const Bo
     const double share = materials[bond.material].damping;
     if (share == 0) return {};
     const ParticleStore& grains = step.grains();
-    const std::uint32_t first = grains.place[bond.first], second = grains.place[bond.second];
+    const std::uint32_t first = joined[bond.at1].place, second = joined[bond.at2].place;
     const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
     const RotationRecord &turnA = grains.rotation[first], &turnB = grains.rotation[second];
     const auto dashpot = [&](double stiffness, double inverse) {
@@ -167,7 +193,7 @@ BondLoad BondPart::dampingOf(const StepContext& step, const Bond& bond, const Bo
     };
     const double inverseMass = a.inverseMass + b.inverseMass,
                  inverseInertia = turnA.inverseInertia + turnB.inverseInertia;
-    const BondStiffness k = stiffnessOf(bond);
+    const BondStiffness& k = bond.stiffness;
     const Vector<double> e = state.axis();
     const Vector<double> velocity =
         b.velocity - a.velocity - 0.5 * cross(turnA.spin + turnB.spin, state.between);
@@ -189,7 +215,7 @@ double BondPart::largestStep(const StepContext& scene) const {
     double largest = 0;
     for (const Bond& bond : bonds)
         for (const std::uint32_t identity : {bond.first, bond.second}) {
-            const BondStiffness k = stiffnessOf(bond);
+            const BondStiffness& k = bond.stiffness;
             const std::uint32_t place = grains.place[identity];
             auto& [moving, turning] = sums[identity];
             moving += std::max(2 * k.normal, 4 * k.shear) * grains.translation[place].inverseMass;
@@ -212,11 +238,10 @@ void BondPart::refuseStep(const StepContext& step) {
 /// Grains turn as they move: by the spin and half of the change in the step.
 void BondPart::turnGrains(StepContext& step) {
     const ParticleStore& grains = step.grains();
-    for (auto& [identity, one] : joined) {
-        const std::uint32_t place = grains.place[identity];
-        const RotationRecord& turning = grains.rotation[place];
+    for (Joined& one : joined) {
+        const RotationRecord& turning = grains.rotation[one.place];
         one.before = one.orientation;
-        one.velocity = grains.translation[place].velocity;
+        one.velocity = grains.translation[one.place].velocity;
         one.spin = turning.spin;
         const Vector<double> way = step.length * (turning.spin + (step.scheme->position0 * step.length) *
                                                                      turning.angularAcceleration);
@@ -241,13 +266,14 @@ void BondPart::beforeMotion(StepContext& step) {
 }
 
 void BondPart::computeLoads(const StepContext& step) {
-    for (auto& [identity, one] : joined) one.force = one.torque = {0, 0, 0};
+    findPlaces(step.grains());
+    for (Joined& one : joined) one.force = one.torque = {0, 0, 0};
     for (Bond& bond : bonds) {
         const BondState state = stateOf(step, bond);
-        bond.elastic = state.elastic(stiffnessOf(bond));
+        bond.elastic = state.elastic(bond.stiffness);
         bond.damping = dampingOf(step, bond, state);
         const BondLoad load = bond.elastic + bond.damping;
-        Joined &one = joined.at(bond.first), &other = joined.at(bond.second);
+        Joined &one = joined[bond.at1], &other = joined[bond.at2];
         one.force -= load.force, one.torque += load.torque1;
         other.force += load.force, other.torque += load.torque2;
     }
@@ -256,11 +282,10 @@ void BondPart::computeLoads(const StepContext& step) {
 /// Adds a share (s) of the accelerations by bonds to velocities.
 void BondPart::accelerate(StepContext& step, double time) {
     ParticleStore& grains = step.grains();
-    for (const auto& [identity, one] : joined) {
-        const std::uint32_t place = grains.place[identity];
-        const HeldBits held = grains.heldAt(place);
-        TranslationRecord& moving = grains.translation[place];
-        RotationRecord& turning = grains.rotation[place];
+    for (const Joined& one : joined) {
+        const HeldBits held = grains.heldAt(one.place);
+        TranslationRecord& moving = grains.translation[one.place];
+        RotationRecord& turning = grains.rotation[one.place];
         moving.velocity += time * moving.inverseMass * held.partAlong(one.force);
         turning.spin += time * turning.inverseInertia * held.partAbout(one.torque);
     }
@@ -276,21 +301,19 @@ void BondPart::afterForces(StepContext& step) {
 
 void BondPart::takeBack(StepContext& step) {
     if (isAccelerated) accelerate(step, -step.scheme->corrector * step.length);
-    for (auto& [identity, one] : joined) one.orientation = one.before;
+    for (Joined& one : joined) one.orientation = one.before;
     bonds = atBegin;
 }
 
 /// W, of a load at the mean velocities of the step.
 double BondPart::power(const StepContext& step, const Bond& bond, const BondLoad& load) const {
     const ParticleStore& grains = step.grains();
-    const auto mean = [&](std::uint32_t identity) {
-        const std::uint32_t place = grains.place[identity];
-        const Joined& one = joined.at(identity);
-        return std::pair(0.5 * (one.velocity + grains.translation[place].velocity),
-                         0.5 * (one.spin + grains.rotation[place].spin));
+    const auto mean = [&](const Joined& one) {
+        return std::pair(0.5 * (one.velocity + grains.translation[one.place].velocity),
+                         0.5 * (one.spin + grains.rotation[one.place].spin));
     };
-    const auto [velocity1, spin1] = mean(bond.first);
-    const auto [velocity2, spin2] = mean(bond.second);
+    const auto [velocity1, spin1] = mean(joined[bond.at1]);
+    const auto [velocity2, spin2] = mean(joined[bond.at2]);
     return dot(load.force, velocity2 - velocity1) + dot(load.torque1, spin1) + dot(load.torque2, spin2);
 }
 
@@ -301,12 +324,11 @@ void BondPart::account(StepContext& step) const {
     const double half = 0.5 * step.length;
     const auto add = [&](const std::vector<Bond>& some) {
         for (const Bond& bond : some) {
-            if (!grains.place.contains(bond.first) || !grains.place.contains(bond.second)) continue;
             work.elastic += half * power(step, bond, bond.elastic);
             work.damping += half * power(step, bond, bond.damping);
             for (const bool isFirst : {true, false}) {
-                const std::uint32_t place = grains.place[isFirst ? bond.first : bond.second];
-                const Joined& one = joined.at(isFirst ? bond.first : bond.second);
+                const Joined& one = joined[isFirst ? bond.at1 : bond.at2];
+                const std::uint32_t place = one.place;
                 const BondLoad load = bond.elastic + bond.damping;
                 const Vector<double> force = isFirst ? -load.force : load.force,
                                      torque = isFirst ? load.torque1 : load.torque2;
@@ -338,10 +360,10 @@ void BondPart::breakBonds(StepContext& step) {
         }
         ++brokenCount;
         const BondLoad all = bond.elastic + bond.damping;
-        Joined &one = joined.at(bond.first), &other = joined.at(bond.second);
+        Joined &one = joined[bond.at1], &other = joined[bond.at2];
         one.force += all.force, one.torque -= all.torque1;
         other.force -= all.force, other.torque -= all.torque2;
-        if (step.ledger) step.ledger->fracture += state.energy(stiffnessOf(bond));
+        if (step.ledger) step.ledger->fracture += state.energy(bond.stiffness);
     }
     bonds.swap(left);
 }
@@ -350,46 +372,60 @@ void BondPart::finish(StepContext& step) {
     if (step.ledger) account(step);
     breakBonds(step);
     ParticleStore& grains = step.grains();
-    for (auto& [identity, one] : joined) {
-        changeAcceleration(grains, identity, one.force, one.torque);
-        one.acceleration = grains.acceleration[grains.place[identity]];
+    for (Joined& one : joined) {
+        changeAcceleration(grains, one.place, one.force, one.torque);
+        one.acceleration = grains.acceleration[one.place];
     }
     if (step.ledger) stored = step.ledger->bondElastic = energy(step);
 }
 
 void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
-    std::vector<Pair> pairs;
-    std::vector<std::uint32_t> identities;
     struct Numbers {
         double length;
         Quaternion frame1, frame2;
         BondLoad elastic, damping;
     };
-    std::vector<Numbers> numbers;
-    std::vector<Joined> motions;
+    struct Motion {
+        Quaternion orientation;
+        Vector<double> force, torque, acceleration;
+    };
+    std::vector<Pair> pairs;
+    std::vector<std::uint32_t> identities;
+    std::vector<Numbers> ofBonds;
+    std::vector<Motion> motions;
     for (const Bond& b : bonds) {
         pairs.push_back({b.first, b.second, b.material});
-        numbers.push_back({b.length, b.frame1, b.frame2, b.elastic, b.damping});
+        ofBonds.push_back({b.length, b.frame1, b.frame2, b.elastic, b.damping});
     }
-    for (const auto& [identity, one] : joined) identities.push_back(identity), motions.push_back(one);
+    for (const Joined& one : joined) {
+        identities.push_back(one.identity);
+        motions.push_back({one.orientation, one.force, one.torque, one.acceleration});
+    }
     archive.column<std::uint32_t>("pairs", pairs);
-    archive.column<double>("numbers", numbers);
+    archive.column<double>("numbers", ofBonds);
     archive.column<std::uint32_t>("joined", identities);
     archive.column<double>("motions", motions);
     archive.finite("stored", stored);
     archive.value("broken", brokenCount);
     if (!archive.isReading()) return;
-    archive.require(pairs.size() == numbers.size() && identities.size() == motions.size(), "pairs",
+    archive.require(pairs.size() == ofBonds.size() && identities.size() == motions.size(), "pairs",
                     "do not fit their numbers");
-    bonds.clear(), joined.clear(), toJoin.clear();
+    bonds.clear(), joined.clear(), numbers.clear(), toJoin.clear();
     longest.reset();
+    for (std::size_t k = 0; k < identities.size(); ++k) {
+        Joined& one = joined[joinedAt(identities[k])];
+        one.orientation = motions[k].orientation, one.acceleration = motions[k].acceleration;
+        one.force = motions[k].force, one.torque = motions[k].torque;
+    }
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         archive.require(pairs[k].material < materials.size(), "pairs", "are of materials that are not set");
-        const Numbers& n = numbers[k];
-        bonds.push_back({pairs[k].first, pairs[k].second, pairs[k].material, n.length, n.frame1, n.frame2,
-                         n.elastic, n.damping});
+        archive.require(numbers.contains(pairs[k].first) && numbers.contains(pairs[k].second), "pairs",
+                        "are of grains that are not joined");
+        const Numbers& n = ofBonds[k];
+        bonds.push_back({pairs[k].first, pairs[k].second, pairs[k].material, joinedAt(pairs[k].first),
+                         joinedAt(pairs[k].second), stiffnessOf(pairs[k].material, n.length), n.length,
+                         n.frame1, n.frame2, n.elastic, n.damping});
     }
-    for (std::size_t k = 0; k < identities.size(); ++k) joined[identities[k]] = motions[k];
 }
 
 void BondPart::addTo(SummaryRows& rows) const {

@@ -40,6 +40,8 @@ public:
     struct Bond {
         std::uint32_t first, second;  // identities
         std::uint32_t material;
+        std::uint32_t at1, at2;  // where its grains are among those that are joined
+        BondStiffness stiffness;
         double length;              // m, at rest
         Quaternion frame1, frame2;  // its triad in each grain
         BondLoad elastic, damping;  // of the last step
@@ -64,6 +66,7 @@ public:
 private:
     /// A grain that is bonded.
     struct Joined {
+        std::uint32_t identity, place;                    // place: of this step
         Quaternion orientation, before;                   // now, and at the start of the step
         Vector<double> velocity{0, 0, 0}, spin{0, 0, 0};  // m/s, rad/s, at the start of the step
         Vector<double> force{0, 0, 0}, torque{0, 0, 0};   // N, N m, sums of its bonds
@@ -80,13 +83,15 @@ private:
         double elastic = 0, damping = 0;
     };
 
-    [[nodiscard]] BondStiffness stiffnessOf(const Bond& bond) const;
+    [[nodiscard]] BondStiffness stiffnessOf(std::uint32_t material, double length) const;
+    [[nodiscard]] std::uint32_t joinedAt(std::uint32_t identity);
+    void findPlaces(const ParticleStore& grains);
     [[nodiscard]] BondState stateOf(const StepContext& step, const Bond& bond) const;
     [[nodiscard]] BondLoad dampingOf(const StepContext& step, const Bond& bond, const BondState& state) const;
     [[nodiscard]] double energy(const StepContext& step) const;
     void joinNew(StepContext& step);
     void renewForces(StepContext& step);
-    static void changeAcceleration(ParticleStore& grains, std::uint32_t identity, const Vector<double>& force,
+    static void changeAcceleration(ParticleStore& grains, std::uint32_t place, const Vector<double>& force,
                                    const Vector<double>& torque);
     void refuseStep(const StepContext& step);
     void turnGrains(StepContext& step);
@@ -98,11 +103,12 @@ private:
 
     std::vector<BondMaterial> materials;
     std::vector<ToJoin> toJoin;
-    std::vector<Bond> bonds, atBegin;        // now, and at the start of the step
-    std::map<std::uint32_t, Joined> joined;  // by identity
-    double stored = 0;                       // J, at the end of the last step
-    std::optional<double> longest;           // s, the longest stable step, where it is known
-    bool isAccelerated = false;              // the velocities have the forces of this step
+    std::vector<Bond> bonds, atBegin;                // now, and at the start of the step
+    std::vector<Joined> joined;                      // in the order of their first bonds
+    std::map<std::uint32_t, std::uint32_t> numbers;  // among these, by identity
+    double stored = 0;                               // J, at the end of the last step
+    std::optional<double> longest;                   // s, the longest stable step, where it is known
+    bool isAccelerated = false;                      // the velocities have the forces of this step
     std::size_t brokenCount = 0;
 };
 
