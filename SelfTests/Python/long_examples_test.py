@@ -10,15 +10,15 @@ pytest.importorskip("matplotlib")
 def test_hopper_flows_as_beverloo_says():
     from hopper import beverloo, empty, flow_of
 
-    time, mass, bulk = empty(0.012)
-    assert flow_of(time, mass) == pytest.approx(beverloo(0.012, bulk), rel=0.1)
+    time, mass, bulk = empty(0.0105)
+    assert flow_of(time, mass) == pytest.approx(beverloo(0.0105, bulk), rel=0.1)
 
 
 def test_pressure_of_the_shear_is_its_target():
     from wet_shear import PRESSURE, make_shear, shear
 
-    strain, pressure, friction, bridges = shear(make_shear(), 6.0)
-    late = strain > 3
+    strain, pressure, friction, bridges = shear(make_shear(), 4.0)
+    late = strain > 1.5
     assert pressure[late].mean() == pytest.approx(PRESSURE, rel=0.05)
     assert 0.2 < friction[late].mean() < 1.5 and bridges[late].mean() > 1
 
