@@ -28,7 +28,7 @@ def empty(outlet, fill=0.55):
     glass = scene.add_species("HertzianViscoelasticMindlin", density=DENSITY, young_modulus=2e6, poisson_ratio=0.25,
                               restitution_coefficient=0.7, sliding_friction_coefficient=0.25)  # glass beads
     # A flat bottom with a round outlet: that is what Beverloo's constants are for.
-    scene.add_profile(glass, axis=(0, 0, 1), point=(0, 0, 0), 
+    scene.add_profile(glass, axis=(0, 0, 1), point=(0, 0, 0),
                       profile=[(outlet / 2, 0), (WIDTH / 2, 0), (WIDTH / 2, 2 * HEIGHT)])
     gate = scene.add_plane(glass, (0, 0, -1), (0, 0, 0))
     scene.insert(glass, pendular.even_sizes(0.9 * GRAIN, 1.1 * GRAIN),
