@@ -10,15 +10,15 @@ pytest.importorskip("matplotlib")
 def test_hopper_flows_as_beverloo_says():
     from hopper import beverloo, empty, flow_of
 
-    time, mass, bulk = empty(0.012)
-    assert flow_of(time, mass) == pytest.approx(beverloo(0.012, bulk), rel=0.1)
+    time, mass, bulk = empty(0.0105)
+    assert flow_of(time, mass) == pytest.approx(beverloo(0.0105, bulk), rel=0.1)
 
 
 def test_pressure_of_the_shear_is_its_target():
     from wet_shear import PRESSURE, make_shear, shear
 
-    strain, pressure, friction, bridges = shear(make_shear(), 6.0)
-    late = strain > 3
+    strain, pressure, friction, bridges = shear(make_shear(), 4.0)
+    late = strain > 1.5
     assert pressure[late].mean() == pytest.approx(PRESSURE, rel=0.05)
     assert 0.2 < friction[late].mean() < 1.5 and bridges[late].mean() > 1
 
@@ -41,10 +41,14 @@ def test_study_goes_on_two_processes(tmp_path):
 
 
 def test_calibration_finds_back_what_was_put_in():
+    """To twice what two heaps of other seeds differ by (0.7 degrees, 0.4 mm); it begins three times as far away."""
     pytest.importorskip("scipy")
     from calibration import calibrate, heap
 
-    wanted = np.array([heap(0.5, 0.1, seed=seed) for seed in (1, 2)]).mean(0)
-    found = calibrate(*wanted, evaluations=6)
-    reached = np.array([heap(*found.x, seed=seed) for seed in (1, 2)]).mean(0)
-    assert abs(reached[0] - wanted[0]) < 2 and abs(reached[1] - wanted[1]) < 4e-4  # degrees, m
+    def mean(*numbers):
+        return np.array([heap(*numbers, seed=seed) for seed in (1, 2)]).mean(0)
+
+    wanted = mean(0.6, 0.2)
+    assert mean(0.3, 0.05)[0] < wanted[0] - 4
+    angle, width = mean(*calibrate(*wanted, evaluations=6).x)
+    assert abs(angle - wanted[0]) < 1.5 and abs(width - wanted[1]) < 8e-4

@@ -14,7 +14,7 @@ import numpy as np
 
 import pendular
 
-GRAIN, WIDTH, HEIGHT, DENSITY = 1.5e-3, 0.036, 0.08, 2500  # m, m, m, kg/m^3
+GRAIN, WIDTH, HEIGHT, DENSITY = 1.5e-3, 0.027, 0.04, 2500  # m, m, m, kg/m^3
 
 
 def beverloo(outlet, bulk):
@@ -25,12 +25,11 @@ def beverloo(outlet, bulk):
 def empty(outlet, fill=0.55):
     """Columns of time (s) and of the mass (kg) that has come out, and the bulk density (kg/m^3) of the bed."""
     scene = pendular.Scene()
-    glass = scene.add_species("HertzianViscoelasticMindlinRollingTorsion", density=DENSITY, young_modulus=5e6,
-                              poisson_ratio=0.25, restitution_coefficient=0.5, sliding_friction_coefficient=0.5,
-                              rolling_stiffness=1e3, rolling_dissipation=1e-4, rolling_friction_coefficient=0.05,
-                              torsion_stiffness=1e3, torsion_dissipation=1e-4, torsion_friction_coefficient=0.05)
+    glass = scene.add_species("HertzianViscoelasticMindlin", density=DENSITY, young_modulus=2e6, poisson_ratio=0.25,
+                              restitution_coefficient=0.7, sliding_friction_coefficient=0.25)  # glass beads
     # A flat bottom with a round outlet: that is what Beverloo's constants are for.
-    scene.add_profile(glass, axis=(0, 0, 1), point=(0, 0, 0), profile=[(outlet / 2, 0), (WIDTH / 2, 0), (WIDTH / 2, 2 * HEIGHT)])
+    scene.add_profile(glass, axis=(0, 0, 1), point=(0, 0, 0),
+                      profile=[(outlet / 2, 0), (WIDTH / 2, 0), (WIDTH / 2, 2 * HEIGHT)])
     gate = scene.add_plane(glass, (0, 0, -1), (0, 0, 0))
     scene.insert(glass, pendular.even_sizes(0.9 * GRAIN, 1.1 * GRAIN),
                  pendular.cylinder((0, 0, 0), (0, 0, HEIGHT), WIDTH / 2), solid_fraction=fill)
@@ -42,7 +41,7 @@ def empty(outlet, fill=0.55):
     bulk = scene.total_mass / (np.pi * WIDTH**2 / 4 * top)
     scene.remove_wall(gate)
     total, rows = scene.total_mass, []
-    scene.every_time(0.01, lambda s: rows.append((s.time, s.outlet(outside)["mass_kg"])) or rows[-1][1] < 0.5 * total)
+    scene.every_time(0.01, lambda s: rows.append((s.time, s.outlet(outside)["mass_kg"])) or rows[-1][1] < 0.25 * total)
     scene.run(5)
     return (*np.array(rows).T, bulk)
 
@@ -56,7 +55,7 @@ def flow_of(time, mass):
 def main():
     options = argparse.ArgumentParser(description="A hopper empties.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the figure")
-    options.add_argument("--outlet", type=float, default=0.012, help="m, diameter")
+    options.add_argument("--outlet", type=float, default=0.0105, help="m, diameter")
     given = options.parse_args()
     time, mass, bulk = empty(given.outlet)
     print(f"{1e3 * flow_of(time, mass):.2f} g/s; Beverloo {1e3 * beverloo(given.outlet, bulk):.2f} g/s")

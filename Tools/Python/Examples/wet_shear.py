@@ -11,10 +11,10 @@ import numpy as np
 
 import pendular
 
-DIAMETER, RATE, PRESSURE = 2e-3, 20.0, 100.0  # m, 1/s, Pa
+DIAMETER, RATE, PRESSURE = 2e-3, 5.0, 200.0  # m, 1/s, Pa
 
 
-def make_shear(edge=6):
+def make_shear(edge=8):
     """A cube of edge^3 grains, and its length (m)."""
     length = 1.05 * edge * DIAMETER
     scene = pendular.Scene()
@@ -50,7 +50,7 @@ def shear(scene, strain):
 def main():
     options = argparse.ArgumentParser(description="Wet grains in shear.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the figure")
-    options.add_argument("--strain", type=float, default=8.0)
+    options.add_argument("--strain", type=float, default=4.0)
     given = options.parse_args()
     scene = make_shear()
     strain, pressure, friction, bridges = shear(scene, given.strain)
