@@ -13,28 +13,29 @@ public:
     [[nodiscard]] std::size_t rank() const override { return own; }
     [[nodiscard]] std::size_t count() const override { return all.ranks; }
     [[nodiscard]] std::vector<Message> swap(std::vector<Message> toEach) override {
-        for (std::size_t to = 0; to < all.ranks; ++to) all.mail[to][own] = std::move(toEach[to]);
+        auto& mail = nextBoard().mail;
+        for (std::size_t to = 0; to < all.ranks; ++to) mail[to][own] = std::move(toEach[to]);
         all.meet();
-        std::vector<Message> fromEach = std::exchange(all.mail[own], std::vector<Message>(all.ranks));
-        all.meet();
-        return fromEach;
+        return std::exchange(mail[own], std::vector<Message>(all.ranks));
     }
     [[nodiscard]] double largest(double value) override {
-        all.values[own] = value;
+        auto& values = nextBoard().values;
+        values[own] = value;
         all.meet();
-        const double found = std::ranges::max(all.values);
-        all.meet();
-        return found;
+        return std::ranges::max(values);
     }
 
 private:
+    Board& nextBoard() { return all.boards[calls++ % 2]; }
+
     VirtualRanks& all;
-    std::size_t own;
+    std::size_t own, calls = 0;
 };
 
 void VirtualRanks::run(const std::function<void(Exchange&)>& program) {
-    mail.assign(ranks, std::vector<Message>(ranks));
-    values.assign(ranks, 0);
+    for (Board& board : boards)
+        board = {std::vector<std::vector<Message>>(ranks, std::vector<Message>(ranks)),
+                 std::vector<double>(ranks, 0)};
     waiting = 0;
     hasFailed = false;
     std::vector<std::exception_ptr> failures(ranks);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -28,9 +29,15 @@ private:
     void meet();
     void fail();
 
+    /// What is given in a call. There are two: a rank that is ahead gives the next while others still take
+    /// this one.
+    struct Board {
+        std::vector<std::vector<Message>> mail;  // to each rank, from each
+        std::vector<double> values;              // of each rank
+    };
+
     std::size_t ranks;
-    std::vector<std::vector<Message>> mail;  // to each rank, from each
-    std::vector<double> values;              // of each rank
+    std::array<Board, 2> boards;
     std::mutex mutex;
     std::condition_variable changed;
     std::size_t waiting = 0, meetings = 0;
