@@ -19,6 +19,7 @@ public:
 
     /// Keeps the changes of each step, for physics that follows from them.
     void watch(bool on) { watching = on; }
+    [[nodiscard]] bool areListenedTo() const { return listening; }
     /// The changes of contacts in this step, in the order of the list.
     [[nodiscard]] const std::vector<ContactChange>& changes() const { return changesOfStep; }
 

@@ -17,27 +17,7 @@ bool isBridged(const RememberedContacts::Entry& entry) {
 
 }  // namespace
 
-std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old,
-                                 bool keepsCells) {
-    const std::size_t pairsBefore = store.firstWallBlock() * Pack::lanes;
-    store.releaseList();  // so that the old list and the search are not there at the same time
-    formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
-    std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
-    grains.bodies.keepTogether(grains, formerPlace);
-    grains.reorder(formerPlace, threads);
-    grains.bodies.refresh(grains);
-    if (reachOfFilms > 0) reachOfAll = std::max(reachOfAll, std::min(reachOfFilms, largestRange(grains)));
-    findPairs(grains, old, pairsBefore);
-    if (!keepsCells) found.reset();
-    findWallContacts(grains, old);
-    fill(grains, store);
-    const std::size_t recalled =
-        ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old);
-    store.listSides(grains.identity, threads);
-    return recalled;
-}
-
-double ContactList::largestRange(const Grains& grains) const {
+double largestRange(const ContactLaws& laws, const ParticleStore& grains) {
     std::vector<Bodies> extremes(laws.speciesCount(), {infinity, 0});
     for (std::size_t k = 0; k < grains.size(); ++k) {
         Bodies& e = extremes[grains.species[k]];
@@ -51,8 +31,31 @@ double ContactList::largestRange(const Grains& grains) const {
                 for (const double r2 : {extremes[b].radius1, extremes[b].radius2})
                     if (r1 > 0 && r2 > 0 && r1 < infinity && r2 < infinity)
                         largest =
-                            std::max(largest, rangeOf(static_cast<int>(a), static_cast<int>(b), {r1, r2}));
+                            std::max(largest, laws.range(static_cast<int>(a), static_cast<int>(b), {r1, r2}));
     return largest;
+}
+
+std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const RememberedContacts& old,
+                                 bool keepsCells) {
+    const std::size_t pairsBefore = store.firstWallBlock() * Pack::lanes;
+    store.releaseList();  // so that the old list and the search are not there at the same time
+    formerPlace = spatialOrder(grains.translation, 2 * grains.smallestRadius() + skin, threads);
+    std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
+    grains.bodies.keepTogether(grains, formerPlace);
+    if (const std::size_t own = grains.ownSize(); own < grains.size())
+        std::ranges::stable_partition(formerPlace, [own](std::uint32_t place) { return place < own; });
+    grains.reorder(formerPlace, threads);
+    grains.bodies.refresh(grains);
+    if (reachOfFilms > 0)
+        reachOfAll = std::max(reachOfAll, std::min(reachOfFilms, largestRange(laws, grains)));
+    findPairs(grains, old, pairsBefore);
+    if (!keepsCells) found.reset();
+    findWallContacts(grains, old);
+    fill(grains, store);
+    const std::size_t recalled =
+        ContactRecall(laws, grains, formerPlace, threads, keepsBridges).into(store, old);
+    store.listSides(grains.identity, threads);
+    return recalled;
 }
 
 ContactList::Group& ContactList::groupOf(Groups& all, int species1, int species2, int wall) {
@@ -83,8 +86,9 @@ void ContactList::listInParts(std::size_t grainCount, Function&& function) {
 }
 
 void ContactList::findPairs(const Grains& grains, const RememberedContacts& old, std::size_t pairsBefore) {
-    found.emplace(grains.translation, skin + std::max(reachOfAll, laws.actsApart ? largestRange(grains) : 0),
-                  periodic, threads);
+    found.emplace(grains.translation,
+                  skin + std::max(reachOfAll, laws.actsApart ? largestRange(laws, grains) : 0), periodic,
+                  threads);
     const NeighbourSearch& search = *found;
     listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
         for (std::size_t a = 0; a < laws.speciesCount(); ++a)
@@ -99,8 +103,9 @@ void ContactList::findPairs(const Grains& grains, const RememberedContacts& old,
             });
             if (laws.formsAtContact)
                 for (const auto& entry : old.of(formerPlace[i]))
-                    if (entry.wall == 0 && isBridged(entry) && !search.reaches(i, grains.place[entry.other]))
-                        addPair(own, grains, i, grains.place[entry.other]);
+                    if (entry.wall == 0 && isBridged(entry) &&
+                        !search.reaches(i, grains.placeOf(entry.other)))
+                        addPair(own, grains, i, grains.placeOf(entry.other));
         }
     });
 }
@@ -116,6 +121,7 @@ bool ContactList::nearEnough(const Grains& grains, std::uint32_t i, std::uint32_
 
 void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const {
     if (grains.translation[i].inverseMass == 0 && grains.translation[j].inverseMass == 0) return;
+    if (std::min(i, j) >= grains.ownSize()) return;
     if (grains.bodies.areJoinedAt(i, j)) return;
     const std::size_t low = std::min(grains.species[i], grains.species[j]);
     const std::size_t high = std::max(grains.species[i], grains.species[j]);
@@ -128,7 +134,7 @@ void ContactList::addPair(Groups& all, const Grains& grains, std::uint32_t i, st
 void ContactList::findWallContacts(const Grains& grains, const RememberedContacts& old) {
     for (std::size_t w = 0; w < walls.getSize(); ++w)
         if (!walls.isRemoved(w))
-            listInParts(grains.size(), [&](Groups& own, std::size_t begin, std::size_t end) {
+            listInParts(grains.ownSize(), [&](Groups& own, std::size_t begin, std::size_t end) {
                 std::vector<std::uint32_t> parts;
                 for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
                     findWallContacts(grains, old, w, i, own, parts);

@@ -15,6 +15,10 @@ namespace pendular {
 class RememberedContacts;
 class WallHandler;
 
+/// The largest range (m) that two bodies can have of which one is a grain of the scene and the other one too,
+/// or a ghost; a law's range is taken to be monotonous in the radii.
+[[nodiscard]] double largestRange(const ContactLaws& laws, const ParticleStore& grains);
+
 /// Lists again the contacts that can act before two bodies have approached by the skin, and takes over the
 /// memory of those that were listed before. A bridge that forms at contact only needs no search at its own
 /// length: the pairs it joins are remembered, and all others must touch first.
@@ -58,10 +62,6 @@ private:
 
     double rangeOf(int a, int b, const Bodies& bodies) const { return laws.range(a, b, bodies); }
 
-    /// The largest range (m) that two grains of the scene can have; a law's range is taken to be monotonous
-    /// in the radii.
-    double largestRange(const Grains& grains) const;
-
     static Group& groupOf(Groups& all, int species1, int species2, int wall);
 
     /// Calls function(groups, begin, end) for ranges of all grains, each with groups of its own, and adds
@@ -74,6 +74,7 @@ private:
 
     bool nearEnough(const Grains& grains, std::uint32_t i, std::uint32_t j) const;
 
+    /// Two ghosts are no pair of this rank.
     void addPair(Groups& all, const Grains& grains, std::uint32_t i, std::uint32_t j) const;
     void findWallContacts(const Grains& grains, const RememberedContacts& old);
 

@@ -7,6 +7,7 @@
 
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactList.h"
+#include "Kernel/Contacts/ContactMigration.h"
 #include "Kernel/Contacts/FacePassage.h"
 #include "Kernel/Contacts/WakeBlock.h"
 #include "Kernel/Contacts/WallContacts.h"
@@ -40,13 +41,27 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     ++stepsListed;
     const bool isNear = unlisted >= std::min(skin.width(), listBefore) ||
                         (liquid.formsAtFilms(*species) && liquid.largestFilmContact(grains) > filmsReach);
-    const bool isTime =
-        stepsListed % IdleLanes::interval == 0 && idleLanes.newListPays(contacts, skin.listCost());
+    const bool isTime = stepsListed % IdleLanes::interval == 0 && newListPays();
     if (!isNear && !isTime) return false;
     // A list that ends early, because of grains that came later, says nothing of how long a list lasts.
     if (rebuilds > 0 && unlisted >= skin.width()) skin.choose(unlisted, stepsListed);
+    if (sharing) skin.takeWidth(-sharing->largest(-skin.width()));
     listAgain(grains);
     return true;
+}
+
+bool ContactSystem::newListPays() {
+    const bool here = idleLanes.newListPays(contacts, skin.listCost());
+    return sharing ? sharing->largest(here ? 1 : 0) > 0 : here;
+}
+
+void ContactSystem::distribute(Grains& grains, RememberedContacts& remembered, double reach) {
+    if (!sharing->areDistributed()) rangeOfAll = largestRange(*species, grains);
+    ContactMigration migration(remembered, contacts.memory, grains);
+    sharing->distribute(grains, periodic, skin.width() + std::max(reach, rangeOfAll),
+                        migration.luggage(sharing->rank()));
+    const auto [all, unequal] = migration.file();
+    sharing->countHeldTwice(all, unequal);
 }
 
 void ContactSystem::listWithin(Grains& grains, double reach) {
@@ -115,7 +130,9 @@ void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach) {
     RememberedContacts remembered;
     remembered.take(contacts, grains.identity, threads);
     for (const std::uint32_t place : std::exchange(passed, {})) remembered.goOn(place, {});
+    if (sharing) distribute(grains, remembered, reach);
     listAgain(grains, remembered, keepsBridges, reach);
+    if (sharing) sharing->findPlaces(grains);
 }
 std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges,
                                      double reach) {

@@ -22,6 +22,7 @@
 
 namespace pendular {
 
+class GrainSharing;
 class RememberedContacts;
 
 /// How many contacts of a scene there are.
@@ -40,6 +41,8 @@ public:
     /// the steps of the largest shifts of two bodies; @param films of the grains, where liquid moves
     void prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
                  const SkinChoice& skinChoice, bool withLedger, GrainFilms* films = nullptr);
+    /// The scene is one of several that share their grains: they are distributed where contacts are listed.
+    void share(GrainSharing* with) { sharing = with; }
     /// Grains have been added at the end of the store. They are listed when bodies can have approached by the
     /// distance of the nearest of them to all others, so that most need no list of their own. False if one is
     /// so near that contacts must be listed at once, and the first time: lists keep their cells from then on.
@@ -173,10 +176,11 @@ public:
     }
 
     /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
-    /// step, in the order of identities. Only where a ledger is kept.
+    /// step. Only where a ledger is kept.
+    /// @param inOrder of identities; else as they lie in memory, which is faster
     template <class Function>
-    void forEachEnergyRecord(const Grains& grains, Function&& function) {
-        forEachWithMemory(grains, [&](std::uint32_t slot) {
+    void forEachEnergyRecord(const Grains& grains, bool inOrder, Function&& function) {
+        const auto visit = [&](std::uint32_t slot) {
             EnergyRecord& record = contacts.memory.energies[slot];
             if (!record.now.acts() && !record.last.acts()) return;
             const std::uint32_t contact = contacts.contactAt(slot);
@@ -184,7 +188,9 @@ public:
             const Bucket& bucket = contacts.bucketOf(b);
             if (bucket.wall >= 0) showWallMotion(grains, bucket, contact, record);
             function(bucket, contacts.blocks[b], lane, record);
-        });
+        };
+        if (inOrder) return forEachWithMemory(grains, visit);
+        for (std::uint32_t slot = Pack::lanes; slot < contacts.memory.slotCount(); ++slot) visit(slot);
     }
 
     /// The liquid (m^3) of the bridges of the grain at a place: half of each to another grain, all of one to
@@ -239,6 +245,10 @@ private:
     /// listed again.
     std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true,
                           double reach = 0);
+    /// Whether idle lanes cost more than a new list, on any rank.
+    [[nodiscard]] bool newListPays();
+    /// Grains go to the ranks that own them, with what their contacts remember.
+    void distribute(Grains& grains, RememberedContacts& remembered, double reach);
     double endContact(Grains& grains, std::uint32_t contact);
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
     /// act in the first half of the next one. Those of rigid bodies alike.
@@ -279,6 +289,8 @@ private:
     std::optional<NeighbourSearch> cells;
     std::vector<std::uint32_t> passed;  // places of grains whose contacts are no longer in their order
     bool ledger = false;
+    GrainSharing* sharing = nullptr;  // null: this scene has all grains
+    double rangeOfAll = 0;            // m, the largest of two grains on whatever ranks
     int threads = 1;
     std::size_t rebuilds = 0;
     WallPointSearch wallPoints;

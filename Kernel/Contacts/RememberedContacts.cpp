@@ -1,6 +1,7 @@
 #include "Kernel/Contacts/RememberedContacts.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <tuple>
 
@@ -87,6 +88,58 @@ void RememberedContacts::goOn(std::uint32_t place, std::span<const NewPart> part
     std::ranges::sort(own, {}, [](const auto& pair) { return orderOf(pair.first); });
     for (std::size_t k = 0; k < own.size(); ++k)
         std::tie(entries[begins[place] + k], slots[begins[place] + k]) = own[k];
+}
+
+void RememberedContacts::add(const Entry& entry, const std::vector<double>& numbers, ContactMemory& memory) {
+    const bool isNewBlock = added++ % Pack::lanes == 0;
+    slots.push_back(isNewBlock ? memory.add(0) * Pack::lanes : slots.back() + 1);
+    entries.push_back(entry);
+    memory.setNumbers(slots.back(), numbers.data());
+}
+
+RememberedContacts::HeldTwice RememberedContacts::fileAgain(const ParticleStore& grains,
+                                                            const ContactMemory& memory) {
+    // What has got so far away in the last step that it is no ghost any more does not act.
+    const auto isHere = [&](const Entry& e) {
+        const bool isOwn = grains.place.contains(e.owner), isThere = grains.placeOf(e.owner) != none;
+        if (e.wall > 0) return isOwn;
+        return (isOwn || grains.place.contains(e.other)) && isThere && grains.placeOf(e.other) != none;
+    };
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t k = 0; k < entries.size(); ++k)
+        if (isHere(entries[k])) order.push_back(k);
+    const auto keyOf = [&](std::uint32_t k) {
+        return std::tuple(grains.placeOf(entries[k].owner), orderOf(entries[k]));
+    };
+    std::ranges::sort(order, {}, keyOf);
+    HeldTwice twice;
+    const auto isSecond = [&](std::uint32_t a, std::uint32_t b) {
+        if (keyOf(a) != keyOf(b)) return false;
+        ++twice.all;
+        if (!areSame(a, b, memory)) ++twice.unequal;
+        return true;
+    };
+    order.erase(std::unique(order.begin(), order.end(), isSecond), order.end());
+    std::vector<Entry> sorted;
+    std::vector<std::uint32_t> sortedSlots;
+    begins.assign(grains.size() + 1, 0);
+    for (const std::uint32_t k : order) {
+        ++begins[grains.placeOf(entries[k].owner) + 1];
+        sorted.push_back(entries[k]);
+        sortedSlots.push_back(slots[k]);
+    }
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    entries.swap(sorted);
+    slots.swap(sortedSlots);
+    return twice;
+}
+
+bool RememberedContacts::areSame(std::uint32_t a, std::uint32_t b, const ContactMemory& memory) const {
+    std::vector<double> ofA(memory.numberCount()), ofB(ofA);
+    memory.getNumbers(slots[a], ofA.data());
+    memory.getNumbers(slots[b], ofB.data());
+    return entries[a].state == entries[b].state &&
+           std::memcmp(ofA.data(), ofB.data(), ofA.size() * sizeof(double)) == 0;
 }
 
 void RememberedContacts::visitState(StateArchive& archive, ContactMemory& memory, bool ledger,

@@ -48,6 +48,15 @@ public:
     /// Some contacts of the grain that was at a place when they were taken go on with other parts; all of its
     /// contacts are in their order then, also where they were not.
     void goOn(std::uint32_t place, std::span<const NewPart> parts);
+    /// One that another rank has remembered, too or instead.
+    /// @param numbers what it remembers, which goes into the memory of the store
+    void add(const Entry& entry, const std::vector<double>& numbers, ContactMemory& memory);
+    struct HeldTwice {
+        std::size_t all = 0, unequal = 0;
+    };
+    /// After grains have come and gone: files those that have an own grain, each once, by the places that
+    /// grains have now. Returns how many were there twice, and how many of these not with the same bits.
+    HeldTwice fileAgain(const ParticleStore& grains, const ContactMemory& memory);
     /// Sets the bits of an entry in the state of a block.
     static void setState(const Entry& entry, std::size_t lane, BlockState& state);
     /// The number of an entry; `none` if there is none.
@@ -57,12 +66,14 @@ public:
 private:
     static Entry entryOf(const ContactStore& store, const std::vector<std::uint32_t>& identity,
                          std::uint32_t contact);
+    [[nodiscard]] bool areSame(std::uint32_t a, std::uint32_t b, const ContactMemory& memory) const;
     void requireEntries(const StateArchive& archive, const ParticleStore& grains,
                         const WallHandler& walls) const;
 
     std::vector<std::uint32_t> begins;  // of the entries of each place
     std::vector<Entry> entries;
     std::vector<std::uint32_t> slots;  // of each entry
+    std::size_t added = 0;             // by add(), at the end
 };
 
 }  // namespace pendular

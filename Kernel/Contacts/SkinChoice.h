@@ -36,6 +36,9 @@ public:
         chosen = std::min(chosen, 0.1 * radius);
     }
 
+    /// Ranks list with the same skin, the narrowest that one of them has chosen.
+    void takeWidth(double width) { chosen = width; }
+
     /// The list was made again with this skin.
     void listed(const ContactStore& store, std::size_t grains) {
         rebuildCost = rebuildOfGrain * static_cast<double>(grains);

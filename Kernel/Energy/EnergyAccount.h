@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -133,46 +134,52 @@ public:
             if (worn) worn->forgetStep();
         sums.clear();
         lossesOfStep.clear();
-        contacts.forEachEnergyRecord(grains, [&](const Bucket& bucket, const ContactBlock& block,
-                                                 std::size_t lane, EnergyRecord& record) {
-            const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
-            ContactKind kind{
-                .isWall = bucket.wall >= 0, .isPlastic = laws.isPlastic, .adhesionBreaks = laws.breaks};
-            if (kind.isWall) {
-                kind.lastPiston = pistonMotion(walls, static_cast<int>(record.lastWall), record.last, true);
-                kind.piston = pistonMotion(walls, bucket.wall, record.now, false);
-                record.lastWall = bucket.wall;
-            }
-            const std::uint32_t first = block.first[lane], second = block.second[lane];
-            BodyMotion other = kind.isWall ? BodyMotion{} : meanMotion(grains, second);
-            if (!kind.isWall && box.imagesMove) {
-                const Vector<double> apart =
-                    grains.translation[second].position - grains.translation[first].position;
-                other.slide = -box.velocityBetweenImages(apart, box.nearest(apart));
-            }
-            const BodyMotion grain = meanMotion(grains, first);
-            WornWall* const worn = kind.isWall ? wornOf[static_cast<std::size_t>(bucket.wall)] : nullptr;
-            EnergyLedger account;  // of this contact in the step
-            if (!worn || step == 0) {
-                addContact(record, grain, other, kind, step, account);
-            } else {
-                const EnergyRecord then = record;  // addContact() makes the present sample the last one
-                addContact(record, grain, other, kind, step, account);
-                const Vector<double> arm = depthOf(then, grain.radius);
-                if (!grain.isHeld)
-                    worn->takeWear(second, grains.translation[first].position + arm,
-                                   contactWear(then, account.sliding, before[rank[first]].velocity,
-                                               massAtContact(grains, box, first, arm)));
-            }
-            // The membrane's own account has this work, as it was done on the vertices.
-            if (kind.isWall && walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
-                account.stepError -= std::exchange(account.walls, 0);
-            sums.add(std::bit_cast<Row>(account));
-            if (notesLosses && step > 0)
-                lossesOfStep.push_back({grains.identity[first],
-                                        kind.isWall ? ObservedContact::none : grains.identity[second],
-                                        bucket.wall, account.lost()});
-        });
+        // Exact sums need no order, but the wear of a wall and what heats grains are added up in that of
+        // identities.
+        const bool inOrder =
+            notesLosses || std::ranges::any_of(wornOf, [](const WornWall* wall) { return wall != nullptr; });
+        contacts.forEachEnergyRecord(
+            grains, inOrder,
+            [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane, EnergyRecord& record) {
+                const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
+                ContactKind kind{
+                    .isWall = bucket.wall >= 0, .isPlastic = laws.isPlastic, .adhesionBreaks = laws.breaks};
+                if (kind.isWall) {
+                    kind.lastPiston =
+                        pistonMotion(walls, static_cast<int>(record.lastWall), record.last, true);
+                    kind.piston = pistonMotion(walls, bucket.wall, record.now, false);
+                    record.lastWall = bucket.wall;
+                }
+                const std::uint32_t first = block.first[lane], second = block.second[lane];
+                BodyMotion other = kind.isWall ? BodyMotion{} : meanMotion(grains, second);
+                if (!kind.isWall && box.imagesMove) {
+                    const Vector<double> apart =
+                        grains.translation[second].position - grains.translation[first].position;
+                    other.slide = -box.velocityBetweenImages(apart, box.nearest(apart));
+                }
+                const BodyMotion grain = meanMotion(grains, first);
+                WornWall* const worn = kind.isWall ? wornOf[static_cast<std::size_t>(bucket.wall)] : nullptr;
+                EnergyLedger account;  // of this contact in the step
+                if (!worn || step == 0) {
+                    addContact(record, grain, other, kind, step, account);
+                } else {
+                    const EnergyRecord then = record;  // addContact() makes the present sample the last one
+                    addContact(record, grain, other, kind, step, account);
+                    const Vector<double> arm = depthOf(then, grain.radius);
+                    if (!grain.isHeld)
+                        worn->takeWear(second, grains.translation[first].position + arm,
+                                       contactWear(then, account.sliding, before[rank[first]].velocity,
+                                                   massAtContact(grains, box, first, arm)));
+                }
+                // The membrane's own account has this work, as it was done on the vertices.
+                if (kind.isWall && walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
+                    account.stepError -= std::exchange(account.walls, 0);
+                sums.add(std::bit_cast<Row>(account));
+                if (notesLosses && step > 0)
+                    lossesOfStep.push_back({grains.identity[first],
+                                            kind.isWall ? ObservedContact::none : grains.identity[second],
+                                            bucket.wall, account.lost()});
+            });
         auto account = std::bit_cast<EnergyLedger>(sums.value());
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
         account.migration = byLiquid.migration;
@@ -356,7 +363,7 @@ private:
                                const Vector<double>& gravity, double step, const Integrator& scheme,
                                ExactSum& byHolders) const {
         ExactSum sum;
-        for (std::size_t k = 0; k < grains.size(); ++k) {
+        for (std::size_t k = 0; k < grains.ownSize(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
             if (!grains.isFree(k)) continue;
             const BodyMotion mean = meanMotion(grains, k);

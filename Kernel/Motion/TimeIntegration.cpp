@@ -58,7 +58,7 @@ public:
 
     /// Undoes begin, up to round-off.
     static void takeBack(Grains& grains, double step, const Integrator& scheme) {
-        for (std::size_t k = 0; k < grains.size(); ++k) {
+        for (std::size_t k = 0; k < grains.ownSize(); ++k) {
             TranslationRecord& grain = grains.translation[k];
             const Vector<double>& now = grains.acceleration[k];
             const Earlier before = scheme.remembersEarlier() ? grains.earlier[k] : Earlier{};
@@ -110,7 +110,7 @@ private:
         const std::vector<std::uint32_t>& own = grains.bodies.ownPlaces();
         const auto ofAll = [&]<bool remembers, bool isHeld>() {
             inShares(
-                hasBodies ? own.size() : grains.size(), threads,
+                hasBodies ? own.size() : grains.ownSize(), threads,
                 [&](int part, std::size_t first, std::size_t end) {
                     const double most =
                         hasBodies

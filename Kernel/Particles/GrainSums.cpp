@@ -9,7 +9,7 @@ namespace {
 
 void addRotation(const ParticleStore& grains, ExactSum& sum) {
     if (grains.hasSpin)
-        for (std::size_t k = 0; k < grains.size(); ++k)
+        for (std::size_t k = 0; k < grains.ownSize(); ++k)
             if (grains.isFree(k))
                 sum.add(0.5 / grains.rotation[k].inverseInertia * squaredNorm(grains.rotation[k].spin));
     for (std::size_t k = 0; k < grains.bodies.size(); ++k)

@@ -22,7 +22,7 @@ void forEachRigidBody(const ParticleStore& grains, Use&& use) {
 /// then rigid bodies.
 template <class Use>
 void forEachMovingBody(const ParticleStore& grains, Use&& use) {
-    for (std::size_t k = 0; k < grains.size(); ++k) {
+    for (std::size_t k = 0; k < grains.ownSize(); ++k) {
         const TranslationRecord& grain = grains.translation[k];
         if (grains.isFree(k)) use(1 / grain.inverseMass, grain.position, grain.velocity);
     }

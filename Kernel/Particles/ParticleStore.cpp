@@ -85,8 +85,23 @@ void ParticleStore::reorder(const std::vector<std::uint32_t>& order, int threads
     if (!earlier.empty()) permute(earlier, order, threads);
     if (!held.empty()) permute(held, order, threads);
     for (GrainColumn& column : columns) permute(column.values, order, threads);
-    for (std::size_t k = 0; k < identity.size(); ++k) place.set(identity[k], static_cast<std::uint32_t>(k));
+    const std::size_t own = ownSize();
+    for (std::size_t k = 0; k < identity.size(); ++k)
+        (k < own ? place : ghostPlace).set(identity[k], static_cast<std::uint32_t>(k));
     bodies.forgetPlaces();
+}
+
+void ParticleStore::keepOnly(const std::vector<std::uint32_t>& places) {
+    place.clear();
+    ghostPlace.clear();
+    reorder(places);
+}
+
+std::size_t ParticleStore::addPlace(std::uint32_t number, PlaceIndex& index) {
+    const std::uint32_t at = freePlace();
+    index.set(number, at);
+    identity[at] = number;
+    return at;
 }
 
 void ParticleStore::visitState(StateArchive& archive) {
@@ -102,7 +117,7 @@ void ParticleStore::visitState(StateArchive& archive) {
 
 void ParticleStore::visitColumns(StateArchive& archive) {
     // A member that is added has to be added here.
-    auto& [spins, t, r, a, e, h, s, i, p, named, joined, n, free] = *this;
+    auto& [spins, t, r, a, e, h, s, i, p, ghosts, named, joined, n, free] = *this;
     archive.column<double>("translation", t);
     archive.column<double>("rotation", r);
     archive.column<double>("acceleration", a);

@@ -53,6 +53,10 @@ std::size_t bytesOf(const std::vector<Values>&... columns) {
 /// A grain that is removed leaves a gap, a record that nothing touches and nothing moves, until another one
 /// comes to that place, or until the next reorder(): so the places of all others stay, and the list of
 /// contacts with them.
+///
+/// Where a scene is shared by ranks, a store has the grains of its own rank, and behind them ghosts: copies
+/// of grains of other ranks that may touch them. What is said of grains means own ones, unless it says
+/// "places".
 class ParticleStore {
 public:
     bool hasSpin = false;
@@ -63,17 +67,25 @@ public:
     std::vector<HeldBits> held;                // empty unless something is held along some axes only
     std::vector<std::uint16_t> species;
     std::vector<std::uint32_t> identity;  // of the grain at a place
-    PlaceIndex place;                     // of the grain with an identity
+    PlaceIndex place;                     // of the own grain with an identity
+    PlaceIndex ghostPlace;                // of the ghost of a grain
     std::vector<GrainColumn> columns;     // what else is kept of each grain
     RigidBodies bodies;                   // of several grains; a grain in none is its own
 
     /// Numbers of grains are written as 32-bit integers with a sign.
     static constexpr std::uint32_t largestIdentity = std::numeric_limits<std::int32_t>::max();
 
-    /// Places, gaps included.
+    /// Places, gaps and those of ghosts included.
     [[nodiscard]] std::size_t size() const { return translation.size(); }
+    /// Places of own grains, gaps included: the first ones.
+    [[nodiscard]] std::size_t ownSize() const { return size() - ghostPlace.size(); }
     /// Grains.
     [[nodiscard]] std::size_t count() const { return place.size(); }
+    /// Of a grain or a ghost; PlaceIndex::none if it is neither.
+    [[nodiscard]] std::uint32_t placeOf(std::uint32_t number) const {
+        const std::uint32_t own = place[number];
+        return own == PlaceIndex::none ? ghostPlace[number] : own;
+    }
     /// Whether the grain at a place moves by itself: it is not held, and no part of a rigid body.
     [[nodiscard]] bool isFree(std::size_t at) const {
         return translation[at].inverseMass > 0 && !bodies.contains(identity[at]);
@@ -90,8 +102,8 @@ public:
 
     /// The memory (bytes) that the grains take.
     [[nodiscard]] std::size_t bytes() const {
-        std::size_t sum =
-            bytesOf(translation, rotation, acceleration, earlier, held, species, identity) + place.bytes();
+        std::size_t sum = bytesOf(translation, rotation, acceleration, earlier, held, species, identity) +
+                          place.bytes() + ghostPlace.bytes();
         for (const GrainColumn& column : columns) sum += bytesOf(column.values);
         return sum;
     }
@@ -111,13 +123,33 @@ public:
     /// Removes the grain at a place; its contacts must have been ended.
     void remove(std::uint32_t at);
 
-    /// Puts the grain at order[k] to place k, for all k. The order holds all grains, and need hold no gaps.
+    /// Puts the grain at order[k] to place k, for all k. The order holds all grains, and then all ghosts, and
+    /// need hold no gaps.
     void reorder(const std::vector<std::uint32_t>& order, int threads = 1);
+
+    /// Keeps the grains at these places only; there are no ghosts then.
+    void keepOnly(const std::vector<std::uint32_t>& places);
+    /// Adds a place for a grain of another rank, or for a ghost, at the end; its row comes by visitRow().
+    /// First grains, then ghosts.
+    std::size_t addPlace(std::uint32_t number) { return addPlace(number, place); }
+    std::size_t addGhostPlace(std::uint32_t number) { return addPlace(number, ghostPlace); }
+    /// Calls function(value) for all that is kept of the grain at a place, except its identity: to write it,
+    /// or to read it.
+    template <class Function>
+    void visitRow(std::size_t at, Function&& function) {
+        HeldBits axes = heldAt(at);
+        function(translation[at]), function(acceleration[at]), function(species[at]), function(axes);
+        if (hasSpin) function(rotation[at]);
+        if (!earlier.empty()) function(earlier[at]);
+        for (GrainColumn& column : columns) function(column.values[at]);
+        setHeldAt(at, axes);
+    }
     /// Visits the grains in the order of identities.
     void visitState(StateArchive& archive);
 
 private:
     [[nodiscard]] std::uint32_t freePlace();
+    std::size_t addPlace(std::uint32_t number, PlaceIndex& index);
     void visitColumns(StateArchive& archive);
     void visitBodies(StateArchive& archive);
     void requireWhole(const StateArchive& archive) const;

@@ -12,7 +12,8 @@ namespace {
 Vector<double> meanVelocity(const ParticleStore& grains) {
     ExactVectorSum sum;
     double count = 0;
-    for (const TranslationRecord& grain : grains.translation) {
+    for (std::size_t k = 0; k < grains.ownSize(); ++k) {
+        const TranslationRecord& grain = grains.translation[k];
         if (grain.inverseMass == 0) continue;  // held, or a gap
         sum.add(grain.velocity);
         ++count;

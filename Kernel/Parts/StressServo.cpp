@@ -36,7 +36,7 @@ KineticStress kineticStress(const ParticleStore& grains, const PeriodicBox& box,
         }
         mixed.add(velocity[f] * velocity[g] / inverseMass);
     };
-    for (std::size_t place = 0; place < grains.size(); ++place) {
+    for (std::size_t place = 0; place < grains.ownSize(); ++place) {
         const TranslationRecord& grain = grains.translation[place];
         if (grains.isFree(place)) add(grain.inverseMass, grain.position, grain.velocity);
     }

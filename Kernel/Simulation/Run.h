@@ -159,6 +159,8 @@ protected:
     /// The scene has been set up or read: what is changed from now on, is changed in the run.
     void setHasBegun() { begun = true; }
     [[nodiscard]] bool hasBegun() const { return begun; }
+    /// Whether solve(), runTo() or runSteps() began the run.
+    [[nodiscard]] bool hasCourse() const { return course != nullptr; }
     /// Visits what a restart file holds of the run itself: its numbers, and what its outputs and the driver
     /// remember.
     void visitSteps(StateArchive& archive);

@@ -1,5 +1,6 @@
 #include "Kernel/Simulation/Scene.h"
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/Simulation/LastState.h"
@@ -34,7 +35,13 @@ void Scene::setLaws(ContactLaws& of) {
 
 void Scene::setUp() { inside->setUp(); }
 void Scene::advanceByStep(bool another) { inside->advanceByStep(another); }
-void Scene::visitAll(StateArchive& archive) { inside->visitAll(archive); }
+void Scene::visitAll(StateArchive& archive) {
+    if (inside->sharing)
+        throw InputError(
+            "Simulation: a scene on several ranks (setRanks()) writes no restart file yet; run it on one "
+            "rank.");
+    inside->visitAll(archive);
+}
 
 void Scene::tellEvents() {
     for (const ContactEvent& event : contactEvents()) actionsOnContactEvent(event);
@@ -101,6 +108,13 @@ void Scene::setNumberOfThreads(int count) {
     inside->contacts.setThreads(count);
 }
 
+void Scene::setRanks(Exchange& exchange, const RankOptions& options) {
+    requireSetUp("ranks");
+    if (exchange.count() == 1) return;  // all grains are here
+    inside->sharing.emplace(exchange, options);
+    inside->contacts.share(&*inside->sharing);
+}
+
 void Scene::setIntegrator(const Integrator& scheme) {
     requireSetUp("integrator");
     checkIntegrator(scheme);
@@ -141,7 +155,10 @@ void Scene::joinAtStart(double gap) {
     inside->gapOfFirstBridges = gap;
 }
 
-void Scene::listenToContacts(bool listen) { inside->contacts.listen(listen); }
+void Scene::listenToContacts(bool listen) {
+    if (inside->sharing) requireSetUp("events of contacts of a scene on several ranks (setRanks())");
+    inside->contacts.listen(listen);
+}
 
 ContactColumnReference Scene::addContactColumn(const std::string& columnName, const std::string& unit,
                                                double initial) {
@@ -170,6 +187,7 @@ bool Scene::acceptsUnstableTimeStep() const { return inside->context.acceptsUnst
 int Scene::getNumberOfThreads() const { return inside->context.threads; }
 Vec3D Scene::getGravity() const { return toEigen(inside->context.gravity); }
 const ContactSystem& Scene::contacts() const { return inside->contacts; }
+RankCounts Scene::rankCounts() const { return inside->sharing ? inside->sharing->counts() : RankCounts{}; }
 bool Scene::keepsEnergyLedger() const { return inside->account.isKept(); }
 const EnergyLedger& Scene::energyLedger() const { return inside->account.energies(); }
 double Scene::energyUnaccountedFor() const { return inside->account.changeSinceStart(); }

@@ -35,7 +35,10 @@ namespace pendular {
 
 class AdaptiveStep;
 class ContactSystem;
+class Exchange;
 struct GrainSizes;
+struct RankCounts;
+struct RankOptions;
 
 /// A scene of grains, and its run, whatever its species: Simulation has these.
 class Scene : public Run, public DomainBox {
@@ -139,6 +142,13 @@ public:
     [[nodiscard]] const PeriodicBox& getPeriodicBox() const;
     /// Threads, at least 1; the results do not depend on their number.
     void setNumberOfThreads(int count);
+    /// The scene shares its grains with other ranks (Kernel/Ranks): each sets up all of it, and from
+    /// initialise() on has its own grains only; the results do not depend on the number of ranks. What a
+    /// scene tells of grains and contacts is that of its own. Only initialise() and step() run it so far.
+    /// Before the run; the exchange must outlive it.
+    void setRanks(Exchange& exchange, const RankOptions& options);
+    /// What this rank has done; nothing without others.
+    [[nodiscard]] RankCounts rankCounts() const;
     /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
     void setIntegrator(const Integrator& scheme);
     /// Runs also with a step above the stability limit. That is sound only where overlaps stay so small that

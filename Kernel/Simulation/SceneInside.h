@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@
 #include "Kernel/Parts/MembranePart.h"
 #include "Kernel/Parts/OutletPart.h"
 #include "Kernel/Parts/SprayPart.h"
+#include "Kernel/Ranks/GrainSharing.h"
 #include "Kernel/Simulation/PeriodicWalls.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Step/StepList.h"
@@ -119,6 +121,7 @@ public:
     bool gravityChanged = false;                   // since the run began
     bool lawsAreNew = false;                       // prepared ones are to be made again
     bool noRoomWasTold = false;                    // of insert() in the run
+    std::optional<GrainSharing> sharing;           // none: the scene has all grains
 
 private:
     [[nodiscard]] ContactLaws& laws() const { return *context.laws; }
@@ -133,6 +136,9 @@ private:
     void moveAndFindForces(double length);
     void finishStep(bool another);
     void moveAll(StepContext& step);
+    void exchangeMotion(StepContext& step);
+    /// Throws InputError for what several ranks cannot do, and no feature stands for.
+    void refuseForRanks() const;
     void findForces(StepContext& step);
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
     void refuseRunaway(double shift) const;

@@ -49,6 +49,7 @@ void Scene::Inside::refuseUnlessBridgesJoin() const {
 void Scene::Inside::setUp() {
     ParticleHandler& particles = scene.particleHandler;
     scene.setupInitialConditions();
+    if (sharing) refuseForRanks();
     // A wall that wears needs the ledger: it tells what slides.
     if (std::ranges::any_of(wornWalls(scene.wallHandler),
                             [](const WornWall* wall) { return wall != nullptr; }))
@@ -99,7 +100,24 @@ Features Scene::Inside::featuresOfScene() const {
     if (context.gravity != Vector<double>{0, 0, 0}) found.add(Feature::Gravity);
     if (integrator.remembersEarlier()) found.add(Feature::EarlierAccelerations);
     if (integrator.contacts.springsInStep) found.add(Feature::SpringsInStep);
+    if (contacts.events().areListenedTo()) found.add(Feature::ContactEvents);
+    if (sharing) found.add(Feature::Ranks);
     return found;
+}
+
+void Scene::Inside::refuseForRanks() const {
+    if (scene.hasCourse())
+        throw InputError(
+            "Simulation: a scene on several ranks (setRanks()) writes no files yet; call initialise() and "
+            "step() instead of solve().");
+    if (scene.isRestarted())
+        throw InputError(
+            "Simulation: a scene on several ranks (setRanks()) cannot go on from a restart file yet; run it "
+            "on one rank.");
+    if (gapOfFirstBridges > 0)
+        throw InputError(
+            "Simulation: a scene on several ranks (setRanks()) cannot be joined at its start yet; leave "
+            "joinAtStart() out, or run it on one rank.");
 }
 
 Features Scene::Inside::wakeParts() {
@@ -138,6 +156,7 @@ void Scene::Inside::check() {
     context.hasInlets = !scene.inletHandler.isEmpty();
     const Features found = wakeParts();
     refuseConflicts(found);
+    refuseConflicts(found, conflictsOfRanks());
     refuseOutOfPlane(context);
     refuseForDiscs(context);
     parts.refuseOwnConflicts(found);
@@ -158,6 +177,10 @@ void Scene::Inside::check() {
     const double smallest = sizes.smallest();
     periodicWalls.check(scene.wallHandler, scene.wallHandler.hasChanges(), box, laws(), sizes,
                         sizes.hasBodies ? bodies.widest() : 0, std::min(context.smallestRadius, smallest));
+    if (sharing && periodicWalls.haveEnds())
+        throw InputError(
+            "Simulation: a scene on several ranks (setRanks()) cannot repeat walls yet; let them end inside "
+            "the period, or run it on one rank.");
     checkedStep = stepLength();
     scene.wallHandler.changesAreKnown();
     checkedSizes = std::move(sizes);

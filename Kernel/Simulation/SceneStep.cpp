@@ -82,6 +82,7 @@ void Scene::Inside::moveAll(StepContext& step) {
     step.finishesLast = ParticleHandler::Inside::takeUnfinishedStep(scene.particleHandler);
     step.grainsHaveMoved = true;
     parts.call(&StepPart::moveGrains, step);
+    if (sharing) exchangeMotion(step);
     refuseRunaway(step.shifts.grains);
     parts.call(&StepPart::moveSurroundings, step);
     refuseRunaway(step.shifts.grains);  // with what a flow carries them
@@ -89,6 +90,13 @@ void Scene::Inside::moveAll(StepContext& step) {
     periodicWalls.follow(scene.wallHandler, step.shifts.walls, step.time + step.length);
     step.times.enter(StepTimes::Part::Search);
     parts.call(&StepPart::afterMotion, step);
+}
+
+/// All ranks list contacts in the same step.
+void Scene::Inside::exchangeMotion(StepContext& step) {
+    sharing->exchangeMotion(step.grains(), contactScheme(step).contacts.springsInStep);
+    step.shifts.grains = sharing->largest(step.shifts.grains);
+    step.shifts.approach = 2 * step.shifts.grains;
 }
 
 void Scene::Inside::findForces(StepContext& step) {

@@ -44,6 +44,18 @@ constexpr std::array table{
              "velocityVerlet"},
 };
 
+constexpr auto tableOfRanks = [] {
+    constexpr std::array features{RigidBodies,  Superquadrics, Membranes, DrivenWalls,
+                                  WornWalls,    Shear,         Strain,    EarlierAccelerations,
+                                  AdaptiveStep, EnergyLedger,  FilmMass,  MovingLiquid,
+                                  Sprays,       Inlets,        Outlets,   FluxPlanes,
+                                  OwnPart,      ContactEvents};
+    std::array<Conflict, features.size()> all{};
+    for (std::size_t k = 0; k < all.size(); ++k)
+        all[k] = {Ranks, features[k], "ranks cannot share this yet", "run the scene on one rank"};
+    return all;
+}();
+
 bool isOf(const Conflict& conflict, Feature a, Feature b) {
     return (conflict.a == a && conflict.b == b) || (conflict.a == b && conflict.b == a);
 }
@@ -55,6 +67,7 @@ bool isIn(const Conflict& conflict, const Features& scene) {
 }  // namespace
 
 std::span<const Conflict> conflicts() { return table; }
+std::span<const Conflict> conflictsOfRanks() { return tableOfRanks; }
 
 std::string sentence(const Conflict& conflict, const Features& scene) {
     return fmt::format("Simulation: {} and {} cannot be combined: {}; {}.", scene.shown(conflict.a),
@@ -95,6 +108,8 @@ std::string conflictMatrix() {
     text += "\nWhy, and what to do instead:\n\n";
     for (const Conflict& c : table)
         text += fmt::format("- {} and {}: {}; {}.\n", nameOf(c.a), nameOf(c.b), c.why, c.advice);
+    text += fmt::format("\nWhat {} cannot share yet:\n\n", nameOf(Ranks));
+    for (const Conflict& c : tableOfRanks) text += fmt::format("- {}\n", nameOf(c.b));
     return text;
 }
 

@@ -17,6 +17,9 @@ struct Conflict {
 /// All of them that the kernel knows.
 [[nodiscard]] std::span<const Conflict> conflicts();
 
+/// Those of several ranks: what they cannot share yet.
+[[nodiscard]] std::span<const Conflict> conflictsOfRanks();
+
 /// Throws InputError with one sentence if a scene has both features of a conflict.
 void refuseConflicts(const Features& scene, std::span<const Conflict> table = conflicts());
 /// Throws InputError with one sentence for a conflict in which one of these features takes part.

@@ -36,7 +36,9 @@ std::string_view nameOf(Feature feature) {
         "inlets",
         "outlets",
         "flux planes",
-        "a part of the driver's own (addPart())"};
+        "a part of the driver's own (addPart())",
+        "events of contacts (listenToContacts())",
+        "several ranks (setRanks())"};
     return names[static_cast<std::size_t>(feature)];
 }
 

@@ -39,6 +39,8 @@ enum class Feature : std::uint8_t {
     Outlets,
     FluxPlanes,
     OwnPart,
+    ContactEvents,
+    Ranks,
     Count
 };
 

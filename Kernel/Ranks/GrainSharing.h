@@ -1,0 +1,80 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Ranks/Exchange.h"
+#include "Kernel/Ranks/SlabCuts.h"
+
+namespace pendular {
+
+/// How a scene is shared by ranks.
+struct RankOptions {
+    /// Space is cut anew, and unevenly, at each list of contacts, so that many grains change their rank: for
+    /// tests.
+    bool cutsWander = false;
+};
+
+/// What this rank has done so far.
+struct RankCounts {
+    std::size_t lists = 0;      // of contacts
+    std::size_t migrated = 0;   // grains that went to another rank
+    std::size_t ghosts = 0;     // sum over the lists
+    std::size_t heldTwice = 0;  // contacts that came from two ranks, over the lists
+    std::size_t unequal = 0;    // and of these, those that were not the same bit for bit
+};
+
+/// What goes along with grains to other ranks.
+struct Luggage {
+    /// @param owners from now on, of each place of an own grain
+    std::function<void(std::span<const std::size_t> owners, std::span<Message> toEach)> pack;
+    std::function<void(Message&)> unpack;
+};
+
+/// Shares the grains of a scene with other ranks. Each grain is owned by one rank, which sums its forces and
+/// moves it: the rank in whose part of space it is when contacts are listed. A rank has copies (ghosts) of
+/// all grains that may touch one of its own until the next list, and computes all contacts that have an own
+/// grain: those across ranks twice, with the same bits. So no force goes from rank to rank, and grains go
+/// once in a step.
+class GrainSharing {
+public:
+    GrainSharing(Exchange& with, const RankOptions& how) : exchange(with), options(how) {}
+
+    /// Before contacts are listed: grains that have left the part of this rank go to another one, and ghosts
+    /// are found again. The first time all ranks have all grains.
+    /// @param reach m, of surfaces between which contacts must be listed
+    void distribute(ParticleStore& grains, const PeriodicBox& box, double reach, const Luggage& luggage);
+    /// After grains have been sorted.
+    void findPlaces(const ParticleStore& grains);
+    /// Ghosts get the motion of the grains that they stand for.
+    /// @param withAccelerations contacts feel them
+    void exchangeMotion(ParticleStore& grains, bool withAccelerations);
+
+    /// The largest of what the ranks give.
+    [[nodiscard]] double largest(double own) { return exchange.largest(own); }
+    [[nodiscard]] std::size_t rank() const { return exchange.rank(); }
+    /// Whether each rank has its own grains only: from the first list on.
+    [[nodiscard]] bool areDistributed() const { return isDistributed; }
+    [[nodiscard]] const RankCounts& counts() const { return done; }
+    void countHeldTwice(std::size_t all, std::size_t unequal) {
+        done.heldTwice += all, done.unequal += unequal;
+    }
+
+private:
+    void cutAnew(const ParticleStore& grains, const PeriodicBox& box);
+    void migrate(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage);
+    void findGhosts(ParticleStore& grains, const PeriodicBox& box, double reach);
+
+    Exchange& exchange;
+    RankOptions options;
+    SlabCuts cuts;
+    bool isDistributed = false;
+    RankCounts done;
+    std::vector<std::vector<std::uint32_t>> sent, got;              // identities, to and from each rank
+    std::vector<std::vector<std::uint32_t>> sentPlaces, gotPlaces;  // of these
+};
+
+}  // namespace pendular

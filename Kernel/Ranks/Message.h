@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+namespace pendular {
+
+/// Bytes from one rank to another: what is added is taken in the same order.
+class Message {
+public:
+    template <class Value>
+    void add(const Value& value) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof(Value));
+    }
+    template <class Value>
+    void take(Value& value) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        std::memcpy(&value, bytes.data() + taken, sizeof(Value));
+        taken += sizeof(Value);
+    }
+    template <class Value>
+    [[nodiscard]] Value take() {
+        Value value;
+        take(value);
+        return value;
+    }
+    [[nodiscard]] bool isTaken() const { return taken == bytes.size(); }
+    [[nodiscard]] std::size_t size() const { return bytes.size(); }
+
+private:
+    std::string bytes;
+    std::size_t taken = 0;
+};
+
+}  // namespace pendular

@@ -1,0 +1,77 @@
+#include "Kernel/Ranks/VirtualRanks.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+namespace pendular {
+
+class VirtualRanks::Member : public Exchange {
+public:
+    Member(VirtualRanks& of, std::size_t number) : all(of), own(number) {}
+
+    [[nodiscard]] std::size_t rank() const override { return own; }
+    [[nodiscard]] std::size_t count() const override { return all.ranks; }
+    [[nodiscard]] std::vector<Message> swap(std::vector<Message> toEach) override {
+        auto& mail = nextBoard().mail;
+        for (std::size_t to = 0; to < all.ranks; ++to) mail[to][own] = std::move(toEach[to]);
+        all.meet();
+        return std::exchange(mail[own], std::vector<Message>(all.ranks));
+    }
+    [[nodiscard]] double largest(double value) override {
+        auto& values = nextBoard().values;
+        values[own] = value;
+        all.meet();
+        return std::ranges::max(values);
+    }
+
+private:
+    Board& nextBoard() { return all.boards[calls++ % 2]; }
+
+    VirtualRanks& all;
+    std::size_t own, calls = 0;
+};
+
+void VirtualRanks::run(const std::function<void(Exchange&)>& program) {
+    for (Board& board : boards)
+        board = {std::vector<std::vector<Message>>(ranks, std::vector<Message>(ranks)),
+                 std::vector<double>(ranks, 0)};
+    waiting = 0;
+    hasFailed = false;
+    std::vector<std::exception_ptr> failures(ranks);
+    const auto runOne = [&](std::size_t rank) {
+        try {
+            Member member(*this, rank);
+            program(member);
+        } catch (const AnotherHasFailed&) {
+        } catch (...) {
+            failures[rank] = std::current_exception();
+            fail();
+        }
+    };
+    std::vector<std::thread> threads;
+    for (std::size_t rank = 0; rank < ranks; ++rank) threads.emplace_back(runOne, rank);
+    for (std::thread& thread : threads) thread.join();
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+}
+
+void VirtualRanks::meet() {
+    std::unique_lock lock(mutex);
+    const std::size_t meeting = meetings;
+    if (++waiting == ranks) {
+        waiting = 0;
+        ++meetings;
+        changed.notify_all();
+    }
+    changed.wait(lock, [&] { return meetings != meeting || hasFailed; });
+    if (meetings == meeting) throw AnotherHasFailed();
+}
+
+void VirtualRanks::fail() {
+    const std::lock_guard lock(mutex);
+    hasFailed = true;
+    changed.notify_all();
+}
+
+}  // namespace pendular

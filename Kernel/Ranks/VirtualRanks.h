@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "Kernel/Ranks/Exchange.h"
+
+namespace pendular {
+
+/// Ranks that are threads of one process, each with a scene of its own, and messages that are copied in
+/// memory: what several processes would do can be tested without them.
+class VirtualRanks {
+public:
+    explicit VirtualRanks(std::size_t number) : ranks(number) {}
+
+    /// Calls program(exchange) for each rank at the same time, and returns when all have ended. If one
+    /// throws, the others end where they next wait for it; what the lowest rank threw by itself is thrown on.
+    void run(const std::function<void(Exchange&)>& program);
+
+private:
+    class Member;
+    struct AnotherHasFailed {};
+
+    /// Returns when all ranks have called it. Throws AnotherHasFailed when one of them never will.
+    void meet();
+    void fail();
+
+    /// What is given in a call. There are two: a rank that is ahead gives the next while others still take
+    /// this one.
+    struct Board {
+        std::vector<std::vector<Message>> mail;  // to each rank, from each
+        std::vector<double> values;              // of each rank
+    };
+
+    std::size_t ranks;
+    std::array<Board, 2> boards;
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::size_t waiting = 0, meetings = 0;
+    bool hasFailed = false;
+};
+
+}  // namespace pendular

@@ -1,0 +1,216 @@
+// Scenes that several ranks share: they do the same, bit for bit, as on one.
+#include <gtest/gtest.h>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
+#include "Kernel/Contacts/ContactSystem.h"
+#include "SelfTests/Ranks/SharedScene.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Scenes/MovingBenchmark.h"
+#include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Scenes/ShearedCloud.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular::sharedSceneTest {
+namespace {
+
+using ranks::Outcome;
+using ranks::runOnRanks;
+using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
+using Smooth = LinearViscoelasticSpecies;
+
+constexpr RankOptions cutsStay{}, cutsWander{.cutsWander = true};
+
+/// Runs the scene without ranks, for so many steps or more, until contacts have been listed five times, and
+/// on so many ranks, and compares. With cuts that wander grains change their rank at each list.
+template <class Make>
+void expectSameOnRanks(std::size_t leastSteps, Make&& make,
+                       std::initializer_list<std::size_t> rankCounts = {1, 2, 3, 4, 7}) {
+    std::uint64_t expected = 0;
+    std::size_t grains = 0, steps = 0;
+    make([&](Scene& scene) {
+        scene.initialise();
+        scene.step(leastSteps);
+        while (scene.contacts().rebuildCount() < 5) scene.step(20);
+        expected = stateHash(scene.particleHandler.store());
+        grains = scene.particleHandler.getSize();
+        steps = scene.getNumberOfTimeSteps();
+    });
+    for (const RankOptions& options : {cutsStay, cutsWander})
+        for (const std::size_t count : rankCounts) {
+            const Outcome found = runOnRanks(count, options, steps, make);
+            SCOPED_TRACE(fmt::format("{} ranks, cuts {}", count, options.cutsWander ? "wander" : "stay"));
+            EXPECT_EQ(found.hash, expected);
+            EXPECT_EQ(found.grains, grains);
+            EXPECT_EQ(found.counts.unequal, 0u);
+            if (count == 1) continue;
+            EXPECT_GT(found.counts.ghosts, 0u);
+            if (options.cutsWander) {
+                EXPECT_GT(found.counts.migrated, grains / 2);
+            }
+        }
+}
+
+template <class S>
+auto box(int layers, int threads = 1) {
+    return [=](auto&& use) {
+        scenes::SettlingBox<S> scene(layers);
+        scene.setNumberOfThreads(threads);
+        use(scene);
+    };
+}
+
+/// The speeds of a dense cloud are those of grains at rest; contacts are to be listed again soon.
+void letFly(Scene& scene) {
+    for (GrainReference grain : scene.particleHandler) grain.setVelocity(20 * grain.getVelocity());
+}
+
+TEST(SharedScene, boxOfWetGrains) { expectSameOnRanks(1000, box<Wet>(8)); }
+TEST(SharedScene, boxOfSmoothGrains) { expectSameOnRanks(1000, box<Smooth>(8)); }
+TEST(SharedScene, boxOfWetGrainsOnTwoThreadsEach) { expectSameOnRanks(400, box<Wet>(8, 2)); }
+TEST(SharedScene, periodicCloud) {
+    expectSameOnRanks(1000, [](auto&& use) {
+        scenes::ShearedCloud<Wet> scene({});
+        letFly(scene);
+        use(scene);
+    });
+}
+
+TEST(SharedScene, periodicGas) {
+    expectSameOnRanks(1200, [](auto&& use) {
+        Simulation<Smooth> scene;
+        scenes::fillWithGas(scene, scene.speciesHandler.copyAndAddObject(scenes::boxMaterial<Smooth>(0)),
+                            216);
+        scene.setTimeStep(0x1p-17);  // grains fly twice as far as they were apart
+        use(scene);
+    });
+}
+
+/// Bridges that remember how their grains moved.
+TEST(SharedScene, viscousBridges) {
+    using Viscous = HertzianViscoelasticMindlinViscousLiquidBridgeWillettSpecies;
+    expectSameOnRanks(600, [](auto&& use) {
+        Viscous material = scenes::boxMaterial<Viscous>(0);
+        material.setViscosity(1e-2);
+        material.setRoughness(1e-5);
+        scenes::ShearedCloud<Viscous> scene({}, 1, material);
+        letFly(scene);
+        use(scene);
+    });
+}
+
+// Contacts feel accelerations, so that ghosts need them.
+TEST(SharedScene, springsInTheStep) {
+    expectSameOnRanks(600, [](auto&& use) {
+        scenes::SettlingBox<Wet> scene(6);
+        scene.setIntegrator(integrators::springsInStep);
+        use(scene);
+    });
+}
+
+/// One grain that is larger than the parts of all ranks, between small ones: all of them have it as a ghost.
+TEST(SharedScene, oneGrainThatIsLargerThanAllParts) {
+    std::vector<scenes::GrainMotion> grains{{.radius = 8e-3, .position = {0, 0, 0}, .velocity = {0.3, 0, 0}}};
+    for (int k = 0; k < 60; ++k) {
+        const double angle = 0.6 * k, height = 2.2e-3 * (k / 10) - 5.5e-3;
+        grains.push_back({.radius = 0.5e-3,
+                          .position = {0.0095 * std::cos(angle), 0.0095 * std::sin(angle), height},
+                          .velocity = {-2 * std::cos(angle), -2 * std::sin(angle), -100 * height}});
+    }
+    expectSameOnRanks(800, [&](auto&& use) {
+        scenes::FewGrains<Smooth> scene(scenes::boxMaterial<Smooth>(0), grains, 0x1p-19);
+        use(scene);
+    });
+}
+
+TEST(SharedScene, fewerGrainsThanRanks) {
+    const std::vector<scenes::GrainMotion> grains{{.position = {0, 0, 0}, .velocity = {1, 0, 0}},
+                                                  {.position = {2.1e-3, 0.5e-3, 0}},
+                                                  {.position = {4.3e-3, 0, 0}, .velocity = {-1, 0, 0}}};
+    const auto make = [&](auto&& use) {
+        scenes::FewGrains<Wet> scene(scenes::boxMaterial<Wet>(0), grains, 0x1p-19);
+        use(scene);
+    };
+    const std::uint64_t expected = runOnRanks(1, cutsStay, 1500, make).hash;
+    for (const RankOptions& options : {cutsStay, cutsWander}) {
+        const Outcome found = runOnRanks(7, options, 1500, make);
+        EXPECT_EQ(found.hash, expected);
+        EXPECT_EQ(found.fewest, 0u);
+        EXPECT_EQ(found.grains, 3u);
+    }
+}
+
+class HeavySharedBenchmark : public testing::TestWithParam<const char*> {};
+
+TEST_P(HeavySharedBenchmark, hasTheSameBits) {
+    const support::TestFolder folder;
+    const auto choice = scenes::smallBenchmark(GetParam(), folder.path());
+    const auto make = [&](auto&& use) { scenes::withMovingBenchmark(choice, 1, use); };
+    expectSameOnRanks(500, make, {3, 7});
+}
+INSTANTIATE_TEST_SUITE_P(All, HeavySharedBenchmark, testing::Values("wet-bed", "drum"),
+                         scenes::benchmarkTestName);
+
+// What ranks cannot share yet is refused, by all of them.
+
+template <class SetUp>
+std::string refusalOnRanks(SetUp&& setUp) {
+    return support::refusal([&] {
+        VirtualRanks(2).run([&](Exchange& exchange) {
+            scenes::SettlingBox<Wet> scene(1);
+            scene.setQuiet();
+            scene.setRanks(exchange, {});
+            setUp(scene);
+        });
+    });
+}
+
+TEST(SharedScene, refusesWhatRanksCannotShareYet) {
+    const auto expectRefused = [](auto&& change, std::string_view part) {
+        const std::string told = refusalOnRanks([&](auto& scene) {
+            change(scene);
+            scene.initialise();
+        });
+        EXPECT_TRUE(support::isOneSentence(told)) << told;
+        EXPECT_TRUE(support::contains(told, part)) << told;
+        EXPECT_TRUE(support::contains(told, "setRanks()")) << told;
+    };
+    expectRefused([](auto& scene) { scene.keepEnergyLedger(); }, "keepEnergyLedger()");
+    expectRefused([](auto& scene) { scene.setAdaptiveTimeStep(0.2); }, "setAdaptiveTimeStep()");
+    expectRefused([](auto& scene) { scene.bodyHandler.join({0, 1}); }, "rigid bodies");
+    expectRefused([](auto& scene) { scene.listenToContacts(); }, "listenToContacts()");
+    expectRefused([](auto& scene) { scene.joinAtStart(1e-6); }, "joinAtStart()");
+    expectRefused([](auto& scene) { scene.setIntegrator(integrators::adamsMoulton); }, "adamsMoulton");
+    expectRefused([](auto& scene) { scene.setTimeMax(1), scene.solve(); }, "solve()");
+    EXPECT_EQ(refusalOnRanks([](auto& scene) { scene.initialise(); }), "");
+}
+
+TEST(SharedScene, refusesEachConflictInOneSentence) {
+    for (const Conflict& conflict : conflictsOfRanks()) {
+        const std::string told = support::refusal([&] {
+            refuseConflicts({conflict.a, conflict.b}, conflictsOfRanks());
+        });
+        EXPECT_TRUE(support::isOneSentence(told)) << told;
+    }
+}
+
+TEST(SharedScene, refusesChangesInARun) {
+    const auto run = [](auto&& change) {
+        VirtualRanks(2).run([&](Exchange& exchange) {
+            scenes::SettlingBox<Wet> scene(1);
+            scene.setQuiet();
+            scene.setRanks(exchange, {});
+            scene.initialise();
+            scene.step();
+            change(scene);
+            scene.step();
+        });
+    };
+    EXPECT_THROW(run([](auto& scene) { scene.setTimeStep(0x1p-18); }), RunError);
+    EXPECT_THROW(run([](auto& scene) { scene.writeRestart("never.h5"); }), InputError);
+    EXPECT_NO_THROW(run([](auto& scene) { scene.setGravity({0, 0, -1}); }));
+}
+
+}  // namespace
+}  // namespace pendular::sharedSceneTest

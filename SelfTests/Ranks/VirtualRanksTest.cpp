@@ -1,0 +1,84 @@
+#include "Kernel/Ranks/VirtualRanks.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "Kernel/Ranks/SlabCuts.h"
+
+namespace pendular::virtualRanksTest {
+namespace {
+
+TEST(VirtualRanks, sendMessages) {
+    for (const std::size_t count : {1u, 2u, 5u})
+        VirtualRanks(count).run([&](Exchange& exchange) {
+            EXPECT_EQ(exchange.count(), count);
+            for (int round = 0; round < 50; ++round) {
+                std::vector<Message> toEach(count);
+                for (std::size_t to = 0; to < count; ++to)
+                    for (std::size_t k = 0; k < to; ++k) toEach[to].add(10.0 * exchange.rank() + round);
+                std::vector<Message> fromEach = exchange.swap(std::move(toEach));
+                for (std::size_t from = 0; from < count; ++from) {
+                    for (std::size_t k = 0; k < exchange.rank(); ++k)
+                        EXPECT_EQ(fromEach[from].take<double>(), 10.0 * from + round);
+                    EXPECT_TRUE(fromEach[from].isTaken());
+                }
+            }
+        });
+}
+
+TEST(VirtualRanks, findTheLargest) {
+    VirtualRanks(4).run([](Exchange& exchange) {
+        for (int round = 0; round < 50; ++round) {
+            const auto own = static_cast<double>((exchange.rank() + round) % 4) - 10;
+            EXPECT_EQ(exchange.largest(own), -7);
+        }
+        EXPECT_EQ(exchange.ofAll(exchange.rank()), (std::vector<std::size_t>{0, 1, 2, 3}));
+    });
+}
+
+// The others wait for it: they must not do so for ever.
+TEST(VirtualRanks, allEndWhenOneFails) {
+    VirtualRanks ranks(4);
+    const auto failing = [](Exchange& exchange) {
+        for (int round = 0; round < 10; ++round) {
+            if (exchange.rank() == 2 && round == 5) throw std::runtime_error("rank 2");
+            static_cast<void>(exchange.largest(1));
+        }
+        ADD_FAILURE() << "rank " << exchange.rank() << " has not noticed";
+    };
+    try {
+        ranks.run(failing);
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& failure) {
+        EXPECT_STREQ(failure.what(), "rank 2");
+    }
+    ranks.run([](Exchange& exchange) { EXPECT_EQ(exchange.largest(3), 3); });
+}
+
+TEST(SlabCuts, giveEachRankItsShare) {
+    for (const std::vector<double>& shares : {std::vector<double>{1, 1, 1}, {1, 2, 5}})
+        VirtualRanks(3).run([&](Exchange& exchange) {
+            std::vector<SlabCuts::Point> own;  // y is the widest axis
+            for (std::size_t k = exchange.rank(); k < 800; k += 3)
+                own.push_back({{0.3, static_cast<double>(k % 800) * 0.01, 0.2}, k < 400 ? 1.0 : 3.0});
+            SlabCuts cuts;
+            cuts.cut(exchange, own, shares);
+            std::vector<double> weights(3);
+            for (std::size_t k = 0; k < 800; ++k)
+                weights[cuts.ownerOf({0.3, static_cast<double>(k) * 0.01, 0.2})] += k < 400 ? 1 : 3;
+            const double perShare = 1600 / (shares[0] + shares[1] + shares[2]);
+            for (std::size_t q = 0; q < 3; ++q) EXPECT_NEAR(weights[q], shares[q] * perShare, 3);
+        });
+}
+
+TEST(SlabCuts, standWithoutPoints) {
+    VirtualRanks(3).run([](Exchange& exchange) {
+        SlabCuts cuts;
+        cuts.cut(exchange, {}, std::vector<double>{1, 1, 1});
+        EXPECT_LT(cuts.ownerOf({1, 2, 3}), 3u);
+    });
+}
+
+}  // namespace
+}  // namespace pendular::virtualRanksTest
