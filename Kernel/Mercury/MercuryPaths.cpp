@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Math/EigenConversion.h"
 
 namespace pendular {
 
@@ -37,7 +38,10 @@ void MercuryPaths::prepare(StepContext& step) {
         if (!grain.isFixed() || !(step.length > 0)) continue;
         // The mean velocity of the step is the exact way over its length; of a velocity, that in its middle.
         if (path.position)
-            grain.setVelocity((path.position(step.timeAfter) - grain.getPosition()) / step.length);
+            // Where the scene repeats itself the grain is brought back, and its path is not.
+            grain.setVelocity(
+                toEigen(step.box.nearest(toVector(path.position(step.timeAfter) - grain.getPosition()))) /
+                step.length);
         else grain.setVelocity(path.velocity(step.time + 0.5 * step.length));
     }
 }

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Energy/EnergyLedger.h"
-#include "Kernel/Motion/Integrator.h"
+#include "Kernel/Motion/StabilityLimit.h"
+#include "Kernel/Motion/TimeIntegration.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Step/SummaryRows.h"
 
@@ -126,14 +128,20 @@ void BondPart::findPlaces(const ParticleStore& grains) {
     for (Joined& one : joined) one.place = grains.place[one.identity];
 }
 
-/// Where hooks have changed a grain, its acceleration was found anew, without bonds; where a grain has gone,
-/// its neighbours do not feel its bonds any more.
+/// Where hooks have changed a grain, its contacts or the gravity, its acceleration was found anew without
+/// bonds, or changed with them in it: it is made of its contacts, the gravity and its bonds. Where a grain
+/// has gone, its neighbours do not feel its bonds any more.
 void BondPart::renewForces(StepContext& step) {
     ParticleStore& grains = step.grains();
     findPlaces(grains);
-    for (const Joined& one : joined)
-        if (one.place != PlaceIndex::none && grains.acceleration[one.place] != one.acceleration)
-            changeAcceleration(grains, one.place, one.force, one.torque);
+    for (const Joined& one : joined) {
+        if (one.place == PlaceIndex::none ||
+            (grains.acceleration[one.place] == one.acceleration &&
+             grains.rotation[one.place].angularAcceleration == one.angularAcceleration))
+            continue;
+        TimeIntegration::renewAccelerations(grains, step.contacts.store(), step.gravity, {&one.place, 1});
+        changeAcceleration(grains, one.place, one.force, one.torque);
+    }
     std::erase_if(bonds, [&](const Bond& bond) {
         const std::uint32_t first = joined[bond.at1].place, second = joined[bond.at2].place;
         if (first != PlaceIndex::none && second != PlaceIndex::none) return false;
@@ -207,23 +215,45 @@ BondLoad BondPart::dampingOf(const StepContext& step, const Bond& bond, const Bo
 }
 
 /// With the masses and inertias of a grain, each bond adds at most max(2 k_n, 4 k_s) / m and (2 max(k_b, k_t)
-/// + k_s L^2) / I to the square of the highest frequency, of which a step is at most 2 over: a bound of the
-/// rows of the stiffness matrix.
+/// + k_s L L_max) / I to the square of the highest frequency, and as much of its dashpots to what damps it:
+/// the rows of both matrices. The integrator says which step stands both (StabilityLimit.h).
 double BondPart::largestStep(const StepContext& scene) const {
     const ParticleStore& grains = scene.grains();
-    std::map<std::uint32_t, std::array<double, 2>> sums;
-    double largest = 0;
-    for (const Bond& bond : bonds)
-        for (const std::uint32_t identity : {bond.first, bond.second}) {
-            const BondStiffness& k = bond.stiffness;
-            const std::uint32_t place = grains.place[identity];
-            auto& [moving, turning] = sums[identity];
-            moving += std::max(2 * k.normal, 4 * k.shear) * grains.translation[place].inverseMass;
-            turning += (2 * std::max(k.bending, k.twist) + k.shear * bond.length * bond.length) *
-                       grains.rotation[place].inverseInertia;
-            largest = std::max({largest, moving, turning});
+    double longestBond = 0;  // m
+    for (const Bond& bond : bonds) longestBond = std::max(longestBond, bond.length);
+    std::map<std::uint32_t, std::array<SpringAndDashpot, 2>> rows;
+    for (const Bond& bond : bonds) {
+        const std::uint32_t first = grains.place[bond.first], second = grains.place[bond.second];
+        const double share = 2 * materials[bond.material].damping,
+                     inverseMass =
+                         grains.translation[first].inverseMass + grains.translation[second].inverseMass,
+                     inverseInertia =
+                         grains.rotation[first].inverseInertia + grains.rotation[second].inverseInertia;
+        const auto dashpot = [&](double stiffness, double inverse) {
+            return inverse > 0 ? share * std::sqrt(stiffness / inverse) : 0;
+        };
+        const BondStiffness& k = bond.stiffness;
+        const double lever = bond.length * longestBond;
+        for (const std::uint32_t place : {first, second}) {
+            auto& [moving, turning] = rows[place];
+            const double ofMass = grains.translation[place].inverseMass,
+                         ofInertia = grains.rotation[place].inverseInertia;
+            moving.spring += std::max(2 * k.normal, 4 * k.shear) * ofMass;
+            moving.dashpot +=
+                std::max(2 * dashpot(k.normal, inverseMass), 4 * dashpot(k.shear, inverseMass)) * ofMass;
+            turning.spring += (2 * std::max(k.bending, k.twist) + k.shear * lever) * ofInertia;
+            turning.dashpot +=
+                (2 * std::max(dashpot(k.bending, inverseInertia), dashpot(k.twist, inverseInertia)) +
+                 dashpot(k.shear, inverseMass) * lever) *
+                ofInertia;
         }
-    return largest > 0 ? 2 / std::sqrt(largest) : infinity;
+    }
+    const SignChange limitOf(*scene.scheme);
+    double step = infinity;
+    for (const auto& [place, both] : rows)
+        for (const SpringAndDashpot& row : both)
+            if (row.spring > 0) step = std::min(step, limitOf.limit(row));
+    return step;
 }
 
 void BondPart::refuseStep(const StepContext& step) {
@@ -375,6 +405,7 @@ void BondPart::finish(StepContext& step) {
     for (Joined& one : joined) {
         changeAcceleration(grains, one.place, one.force, one.torque);
         one.acceleration = grains.acceleration[one.place];
+        one.angularAcceleration = grains.rotation[one.place].angularAcceleration;
     }
     if (step.ledger) stored = step.ledger->bondElastic = energy(step);
 }
@@ -387,7 +418,7 @@ void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
     };
     struct Motion {
         Quaternion orientation;
-        Vector<double> force, torque, acceleration;
+        Vector<double> force, torque, acceleration, angularAcceleration;
     };
     std::vector<Pair> pairs;
     std::vector<std::uint32_t> identities;
@@ -399,7 +430,8 @@ void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
     }
     for (const Joined& one : joined) {
         identities.push_back(one.identity);
-        motions.push_back({one.orientation, one.force, one.torque, one.acceleration});
+        motions.push_back(
+            {one.orientation, one.force, one.torque, one.acceleration, one.angularAcceleration});
     }
     archive.column<std::uint32_t>("pairs", pairs);
     archive.column<double>("numbers", ofBonds);
@@ -415,6 +447,7 @@ void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
     for (std::size_t k = 0; k < identities.size(); ++k) {
         Joined& one = joined[joinedAt(identities[k])];
         one.orientation = motions[k].orientation, one.acceleration = motions[k].acceleration;
+        one.angularAcceleration = motions[k].angularAcceleration;
         one.force = motions[k].force, one.torque = motions[k].torque;
     }
     for (std::size_t k = 0; k < pairs.size(); ++k) {

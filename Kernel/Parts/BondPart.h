@@ -59,6 +59,7 @@ public:
     void beforeMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;
     void finish(StepContext& step) override;
+    void takeOver(StepContext& /*scene*/, const SceneChanges& /*changes*/) override { longest.reset(); }
     void takeBack(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
     void addTo(SummaryRows& rows) const override;
@@ -70,7 +71,8 @@ private:
         Quaternion orientation, before;                   // now, and at the start of the step
         Vector<double> velocity{0, 0, 0}, spin{0, 0, 0};  // m/s, rad/s, at the start of the step
         Vector<double> force{0, 0, 0}, torque{0, 0, 0};   // N, N m, sums of its bonds
-        Vector<double> acceleration{0, 0, 0};             // m/s^2, as the last step has left it
+        // m/s^2, rad/s^2, as the last step has left them
+        Vector<double> acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};
     };
     struct Pair {
         std::uint32_t first, second, material;

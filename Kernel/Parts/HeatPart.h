@@ -74,8 +74,10 @@ public:
     /// ratio (0 to 1) of the moduli of real and simulated grains, as Hertz's are at equal force.
     /// @param ratio E of the simulation over that of the material
     void setSoftening(double ratio);
-    /// What contacts lose in friction, damping, plastic flow and sintering heats both bodies, half each.
-    /// Needs keepEnergyLedger().
+    /// What contacts lose by EnergyLedger::lost() heats both bodies, half each: in friction, damping, plastic
+    /// flow, sintering, and where adhesion breaks; less what stiffening gives while they close. Bonds heat
+    /// nothing. Needs keepEnergyLedger(). Walls that are held at a temperature, materials and laws are set by
+    /// the driver also before a run goes on from a restart file.
     void heatByContacts(bool heats = true) { contactsHeat = heats; }
 
     /// W/K, of a contact between species a and b. @param distance m, of the centres

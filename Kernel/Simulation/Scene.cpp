@@ -13,6 +13,11 @@ namespace pendular {
 Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
     // A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
     ParticleHandler::Inside::callBeforeRemoval(particleHandler, [this](std::uint32_t place) {
+        if (inside->sharing && inside->sharing->areDistributed())
+            throw InputError(
+                "Grains cannot be removed in a run on several ranks (setRanks()): the others would keep "
+                "them; "
+                "run on one rank.");
         inside->bookEnergyOfEnded(inside->contacts.endContactsOf(particleHandler.store(), place));
     });
     ParticleHandler::Inside::callToFinishStep(particleHandler, [this] {

@@ -387,5 +387,42 @@ TEST(Bond, whatCannotBeIsRefused) {
     expectRefused(refusal([&] { smooth.initialise(); }), "friction law");
 }
 
+// What a hook changes in place has the bonds' forces in it, or not: they count once. A stretched chain of
+// three that swings while the gravity changes; the account, 8e-6 J for each bond, closes to round-off.
+TEST(Bond, gravityThatChangesInARunLeavesTheAccountClosed) {
+    auto grains = Chain::row(3, false);
+    for (std::size_t k = 0; k < grains.size(); ++k) grains[k].position.x() *= 1.01;
+    Chain chain(grains, 1e-6);
+    chain.initialise();
+    const double before = chain.energyLedger().closed();
+    for (int k = 0; k < 40; ++k) {
+        chain.setGravity({0.3 * std::sin(k), 1, 0.1 * k});
+        for (int step = 0; step < 5; ++step) chain.step();
+    }
+    EXPECT_NEAR(chain.energyLedger().closed(), before, 1e-12 * 1.6e-5);
+}
+
+// With critical dashpots the step must be shorter by far than without; at the longest one that is taken,
+// noise of the ends dies out.
+TEST(Bond, theLongestStepKnowsDashpots) {
+    const auto refused = [](double step, double damping) {
+        Chain chain(Chain::row(12), step, {}, damping);
+        return !support::refusal([&] {
+                    chain.initialise();
+                    chain.step();
+                }).empty();
+    };
+    double low = 1e-8, high = 1e-4;
+    while (high / low > 1.001) (refused(std::sqrt(low * high), 1) ? high : low) = std::sqrt(low * high);
+    EXPECT_FALSE(refused(3 * low, 0));
+    Chain chain(Chain::row(12), low, {}, 1);
+    chain.particleHandler.getObject(11).setVelocity({1e-4, 1e-4, 0});
+    chain.particleHandler.getObject(5).setVelocity({-1e-4, 0, 1e-4});
+    chain.initialise();
+    const double before = chain.energyLedger().kinetic;
+    for (int k = 0; k < 20000; ++k) chain.step();
+    EXPECT_LT(chain.energyLedger().kinetic, 0.1 * before);
+}
+
 }  // namespace
 }  // namespace pendular::bondTest

@@ -152,7 +152,11 @@ void bindRun(SceneClass& scene) {
             comment("Run::restartTime"))
         .def(
             "write_restart",
-            [](PythonScene& s, const std::filesystem::path& file) { s.scene().writeRestart(file); },
+            [](PythonScene& s, const std::filesystem::path& file) {
+                s.requireNoViews();  // changes since the last step are taken over first, which may sort
+                                     // grains
+                s.scene().writeRestart(file);
+            },
             py::arg("file"), comment("Run::writeRestart"))
         .def_property(
             "threads", [](const PythonScene& s) { return s.scene().getNumberOfThreads(); },

@@ -22,6 +22,19 @@ std::string shown(py::handle given) {
 /// (4, 2)
 std::string shapeOf(const py::array& numbers) { return py::str(numbers.attr("shape")); }
 
+/// To numbers of another type, also of less range: numpy's safe conversion gives nothing at all of some.
+template <class Array>
+Array converted(const py::array& any, std::string_view name, std::string_view what) {
+    using Number = typename Array::value_type;
+    using Converted = py::array_t<Number, py::array::c_style | py::array::forcecast>;
+    auto made = Converted::ensure(any);
+    if (!made) {
+        PyErr_Clear();
+        throw InputError(fmt::format("{} must be {}; it is {}.", name, what, shown(any)));
+    }
+    return Array::ensure(made);
+}
+
 template <class Array>
 Array numbersOf(py::handle given, std::string_view name, std::string_view what) {
     // numpy would read text as numbers, and take the real part of complex ones.
@@ -30,7 +43,7 @@ Array numbersOf(py::handle given, std::string_view name, std::string_view what) 
         PyErr_Clear();
         throw InputError(fmt::format("{} must be {}; it is {}.", name, what, shown(given)));
     }
-    return Array::ensure(any);
+    return converted<Array>(any, name, what);
 }
 
 /// Copies n rows of numbers into an array.
@@ -76,7 +89,8 @@ std::vector<std::uint32_t> identitiesOf(const ArrayLike& given, std::string_view
         PyErr_Clear();
         throw InputError(fmt::format("{} must be whole numbers; it is {}.", name, shown(given.given)));
     }
-    const Integers numbers = Integers::ensure(any);
+    // A number that 64 bits with a sign do not hold becomes negative, which is refused below.
+    const Integers numbers = converted<Integers>(any, name, "whole numbers");
     std::vector<std::uint32_t> made;
     for (py::ssize_t k = 0; k < numbers.size(); ++k) {
         const std::int64_t number = numbers.data()[k];

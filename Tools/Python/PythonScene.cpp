@@ -183,7 +183,7 @@ void PythonScene::go(const std::function<void()>& part) {
     if (progressFunction) showProgress();
     progressFunction = {};
     if (!raised) return;
-    if (keepsRestart && !scene().hasEnded()) scene().writeRestart(scene().restartFile());
+    if (keepsRestart && !scene().hasEnded() && views == 0) scene().writeRestart(scene().restartFile());
     std::rethrow_exception(std::exchange(raised, nullptr));
 }
 

@@ -152,7 +152,7 @@ struct SpeciesHandle : Handle {
     SpeciesHandle(PythonScene& scene, AnySpecies& of) : Handle(scene), species(&of) {}
     AnySpecies* species;
     [[nodiscard]] int getIndex() const { return species->getIndex(); }
-    [[nodiscard]] const void* getOwner() const { return species->getOwner(); }
+    [[nodiscard]] const SpeciesOwner* getOwner() const { return species->getOwner(); }
 };
 
 /// The object of a class as Python's garbage collector meets it; null while it is being made.

@@ -24,7 +24,7 @@ public:
         return namedSetters<typename S::Mixed>(*species);
     }
     [[nodiscard]] int getIndex() const override { return species->getIndex(); }
-    [[nodiscard]] const void* getOwner() const override { return species->getOwner(); }
+    [[nodiscard]] const SpeciesOwner* getOwner() const override { return species->getOwner(); }
     [[nodiscard]] const double& densityPlace() const override { return density = species->getDensity(); }
     void setDensity(double density) override { species->setDensity(density); }
     void complete() override {}  // the scene does

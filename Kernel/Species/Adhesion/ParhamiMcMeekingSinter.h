@@ -34,9 +34,10 @@ struct DiffusionContact {
 /// D = 2 R* and the neck x^2 = 2 D d at the overlap d
 ///     the attraction a D, the dashpot b x^4, and the resistance c x^2 D to sliding.
 /// Equal grains of radius R that nothing else moves have x^6 = x0^6 + 6 a R^2 t / b; without a first overlap
-/// the dashpot is zero, and they meet at the speed that the attraction gives them. The kernel makes the
-/// dashpots implicit, so that no step is too long for them.
-/// Source: MercuryDPM's ParhamiMcMeekingSinterSpecies.
+/// the dashpot is zero, and they meet at the speed that the attraction gives them. With the default
+/// integrator a contact's own dashpots are implicit, so that no step is too long for a pair; in a bed those
+/// of its neighbours count, which grow by the square of the overlap. Source: MercuryDPM's
+/// ParhamiMcMeekingSinterSpecies.
 struct ParhamiMcMeekingSinter {
     static constexpr std::string_view name = "ParhamiMcMeekingSinter";
     static constexpr std::string_view summary =

@@ -21,8 +21,9 @@ namespace pendular {
 ///     m at most d* = phi D / (1 - (E_s/E_p)^(2/3)), and a contact opened below d_0 remembers m = d / (1 -
 ///     ...), dm/dt = r D / 2.
 /// So the first loading is 4/3 E1 sqrt(2 D) d^(3/2), twice that of Hertz's spheres of the modulus E1. The
-/// neck x^2 = R d of equal grains of radius R that nothing presses grows by (x/R)^2 = r t / 2 times
-/// 1 - (E_s/E_u)^(2/3).
+/// neck x^2 = R d of equal grains of radius R that nothing presses, F = 0, is (x/R)^2 = r t / 2 times
+/// (1 - (E_s/E_u)^(2/3)) / (1 - (E_c/E_u)^(2/3)) with E_u at m. Without cohesion, E_c = 0, it does not grow:
+/// d_0 comes to d, and a contact that is open below d_0 remembers less.
 /// Source: MercuryDPM's HertzianSinterNormalSpecies.
 struct HertzianSinter {
     static constexpr std::string_view name = "HertzianSinter";

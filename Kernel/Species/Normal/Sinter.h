@@ -28,7 +28,8 @@ struct PlasticOverlap {
 /// 9, 385, has C = 3/2; balances of energy that keep the volume have C = 1 for small necks. The laws of
 /// square roots hold for x up to 0.3 R. Source of the form: MercuryDPM's SinterNormalSpecies, CONSTANT_RATE
 /// and PARHAMI_MCKEEPING. Here the rate follows the spring's force without the dashpot's, so that sintering
-/// only loses energy, and is implicit in it, so that no step is too long for it.
+/// only loses energy, and never goes farther in a step than to where that force is zero, so that no step is
+/// too long for it.
 struct Sinter : PlasticSprings<Sinter> {
     static constexpr std::string_view name = "Sinter";
     static constexpr std::string_view summary =
