@@ -91,8 +91,8 @@ void refuseInitialOverlaps(
         const double hidden = hiddenOverlap(contacts.laws(), grains, first, second, contacts.periodicBox());
         if (hidden > 0) keep(deepestHidden, {hidden / smaller, lower, higher, bucket.wall, hidden});
     });
-    if (deepest) throw initialOverlapError(grains, *deepest, accepted);
     if (deepestHidden) throw hiddenOverlapError(grains, *deepestHidden);
+    if (deepest) throw initialOverlapError(grains, *deepest, accepted);
 }
 
 /// Ends a run in which two grains, at these places of the store, have come closer than any contact law is

@@ -78,7 +78,11 @@ TEST(Documentation, referencePageHasEverySetter) {
             names.insert((*at)[1]);
         return names;
     };
-    const std::set<std::string> written = namesIn(headers, "void "), described = namesIn(page, "`");
+    std::set<std::string> written = namesIn(headers, "void "), described = namesIn(page, "`");
+    // Of MercuryDPM's drivers: they set nothing, and refuse what is not the dynamic coefficient.
+    for (const char* checking :
+         {"setRollingFrictionCoefficientStatic", "setTorsionFrictionCoefficientStatic"})
+        EXPECT_EQ(written.erase(checking), 1u) << checking;
     EXPECT_GT(written.size(), 30u);
     EXPECT_EQ(written, described);
 }
@@ -194,14 +198,20 @@ TEST(Scripts, refuseOptionsInOneSentence) {
             contentOf(script).find("\nread_options ") == std::string::npos)
             continue;
         ++count;
-        for (const std::string arguments : {"--build", "--build --help"})
-            EXPECT_EQ(run(script + " " + arguments).output, name + ": --build needs a value; see --help\n");
+        std::smatch option;  // the first that it reads
+        const std::string text = contentOf(script);
+        ASSERT_TRUE(std::regex_search(text, option, std::regex("\nread_options ([\\w-]+) ")));
+        const std::string first = "--" + option[1].str();
+        for (const std::string& arguments : {first, first + " --help"})
+            EXPECT_EQ(run(script + " " + arguments).output,
+                      name + ": " + first + " needs a value; see --help\n");
         const Result unknown = run(script + " --no-such 1"), help = run(script + " --help");
         EXPECT_EQ(unknown.output, name + ": there is no option --no-such; see --help\n");
         EXPECT_EQ(unknown.exitCode, 2);
         EXPECT_EQ(help.exitCode, 0);
-        EXPECT_NE(help.output.find("\n  " + entry.path().lexically_relative(source).string() + " ["),
-                  std::string::npos)
+        const std::string usage = "\n  " + entry.path().lexically_relative(source).string() + " ";
+        EXPECT_TRUE(help.output.find(usage + "[") != std::string::npos ||
+                    help.output.find(usage + "--") != std::string::npos)
             << help.output;
         EXPECT_EQ(help.output.find("set -euo"), std::string::npos);
     }
