@@ -43,7 +43,8 @@ std::size_t ContactList::rebuild(Grains& grains, ContactStore& store, const Reme
     std::erase_if(formerPlace, [&](std::uint32_t place) { return grains.isGap(place); });
     grains.bodies.keepTogether(grains, formerPlace);
     if (const std::size_t own = grains.ownSize(); own < grains.size())
-        std::ranges::stable_partition(formerPlace, [own](std::uint32_t place) { return place < own; });
+        std::stable_partition(formerPlace.begin(), formerPlace.end(),
+                              [own](std::uint32_t place) { return place < own; });
     grains.reorder(formerPlace, threads);
     grains.bodies.refresh(grains);
     if (reachOfFilms > 0)

@@ -105,7 +105,7 @@ TEST(LongShearedGrains, haveTheStressesOfAPlainCode) {
 /// 1e5, by the rate. The error of a mean over a strain of 20 is 0.013 of 0.816 (above), 1.3 times as much
 /// over 12 and of two runs 1.4 times that: 3 %, four of which are 12 %; of the pressure, whose errors are 1.7
 /// times as large at 2.3 times its size, 9 %.
-TEST(HeavyShearedGrains, haveStressesThatGoWithTheSquareOfTheRate) {
+TEST(LongShearedGrains, haveStressesThatGoWithTheSquareOfTheRate) {
     using Smooth = Species<LinearViscoelastic>;
     Smooth material;
     material.setDensity(1);

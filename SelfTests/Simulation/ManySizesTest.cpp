@@ -97,7 +97,7 @@ double hertzOverlap(double force, double effectiveRadius) {
     return std::pow(0.75 * force / (modulus * std::sqrt(effectiveRadius)), 2.0 / 3.0);
 }
 
-TEST(HeavyManySizes, aLargeGrainComesToRestOnSmallOnes) {
+TEST(LongManySizes, aLargeGrainComesToRestOnSmallOnes) {
     LargeOnSmall scene;
     scene.initialise();
     const auto& grains = scene.particleHandler.store();

@@ -227,7 +227,7 @@ double slabOverlap(const Superquadric& shape, const Axes<double>& axes, const Ve
 // ball: the depth is F at its own normal, so it is an upper bound of the least; and no other of 1000 normals,
 // nor of 200 near by, has a smaller one. Where an overlap is larger, the depth is at least not more than F at
 // the normal.
-TEST(HeavyShapeAtWall, noNormalHasASmallerOverlap) {
+TEST(LongShapeAtWall, noNormalHasASmallerOverlap) {
     support::Random random(7);
     const auto anyNormal = [&] { return toVector(random.direction()); };
     int touching = 0, deep = 0;

@@ -52,7 +52,7 @@ void judgeShapesWithEach(Function&& lawOf) {
 }
 
 /// By one law of adhesion after the other.
-TEST(HeavyCompositionOfShapesThatAdhere, withEach) {
+TEST(LongCompositionOfShapesThatAdhere, withEach) {
     judgeShapesWithEach(
         [](int scene) { return lawsOfShapes[static_cast<std::size_t>(scene) % lawsOfShapes.size()]; });
 }
