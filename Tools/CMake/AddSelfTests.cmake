@@ -88,7 +88,7 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
          Species/Normal Stability WetCollisions)
     if(isQuickSanitizer)
         list(REMOVE_ITEM testFolders Benchmark CoarseGraining Contacts Drivers Energy Hosts InFlow Insertion Liquid
-             Membranes Mercury Motion Output Periodic Programs Restart SeveralSpecies Simulation Superquadrics Walls Walls/Bodies)
+             Membranes Mercury Motion Output Periodic Programs Ranks Restart SeveralSpecies Simulation Superquadrics Walls Walls/Bodies)
     endif()
 endif()
 # The precompiled header of all tests, in a target of its own: a test program depends on no other one.
