@@ -207,7 +207,8 @@ void FlowPart::takeVelocitiesOfImages(StepContext& step) {
 
 void FlowPart::setPeriodic(PeriodicBox& box, int axis, double lowest, double highest, double now) {
     checkValue("Simulation", "periodic axis", axis, "", fromZeroTo(2));
-    checkValue("Simulation", "periodic length", highest - lowest, "m", positive);
+    checkValue("Simulation", "periodic length", highest - lowest, "m",
+               {radiusRange.lowest, infinity, true, false});  // of the smallest grains that there may be
     box.lowest.*LeesEdwards::axes[axis] = lowest;
     box.length.*LeesEdwards::axes[axis] = highest - lowest;
     shear.settle(box);
