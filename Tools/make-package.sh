@@ -4,10 +4,7 @@
 #   Tools/make-package.sh [FOLDER]      default: build/package; the package is in it
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
-case ${1:-} in
-    -h | --help) print_head; exit 0 ;;
-    -*) refuse "there is no option $1; see --help" ;;
-esac
+read_argument "$@"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=${1:-build/package}
 for level in v2 v3 v4; do

@@ -9,6 +9,13 @@ require_program() { [[ -f $1 && -x $1 ]] || refuse "there is no program $1; buil
 require_number() { [[ $2 =~ ^[1-9][0-9]{0,17}$ ]] || refuse "--$1 is '$2'; it must be a whole number above 0"; }
 # A file that can be read, or none given: require_file NAME PATH
 require_file() { [[ -z $2 || ( -f $2 && -r $2 ) ]] || refuse "--$1 is '$2'; there is no such file that can be read"; }
+# Of a script with one argument that is no option: --help, and a refusal of any other option.
+read_argument() {
+    case ${1:-} in
+        -h | --help) print_head; exit 0 ;;
+        -*) refuse "there is no option $1; see --help" ;;
+    esac
+}
 # The options, each with a value, into variables of their names (--drum-walls into drum_walls):
 #   read_options NAME... -- "$@"
 read_options() {

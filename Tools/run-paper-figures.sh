@@ -9,10 +9,7 @@
 # What the programs print is in OUTPUT_FOLDER/log.txt; if one fails, its part is shown.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
-case ${1:-} in
-    -h | --help) print_head; exit 0 ;;
-    -*) refuse "there is no option $1; see --help" ;;
-esac
+read_argument "$@"
 (($# <= 1)) || refuse "there is one argument, the output folder, and not $#; see --help"
 mkdir -p "${1:-$(dirname "${BASH_SOURCE[0]}")/../output/paper-figures}"
 output=$(cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../output/paper-figures}" && pwd)

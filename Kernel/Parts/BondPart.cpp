@@ -187,8 +187,30 @@ double BondPart::energy(const StepContext& step) const {
     return sum;
 }
 
-/// Dashpots 2 z sqrt(k m*) along and across the bond, 2 z sqrt(k I*) about and across it; the velocity across
-/// is that in the middle, so that forces and torques balance.
+namespace {
+
+/// Of a bond, each for the stiffness of the same name: 2 z sqrt(k m*) along and across it, kg/s, and 2 z
+/// sqrt(k I*) about and across it, kg m^2/s; none between grains that are held.
+struct BondDashpots {
+    double normal, shear, bending, twist;
+
+    BondDashpots(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
+                 const BondStiffness& k, double share) {
+        const double inverseMass =
+                         grains.translation[first].inverseMass + grains.translation[second].inverseMass,
+                     inverseInertia =
+                         grains.rotation[first].inverseInertia + grains.rotation[second].inverseInertia;
+        const auto dashpot = [&](double stiffness, double inverse) {
+            return inverse > 0 ? 2 * share * std::sqrt(stiffness / inverse) : 0;
+        };
+        normal = dashpot(k.normal, inverseMass), shear = dashpot(k.shear, inverseMass);
+        bending = dashpot(k.bending, inverseInertia), twist = dashpot(k.twist, inverseInertia);
+    }
+};
+
+}  // namespace
+
+/// The velocity across is that in the middle, so that forces and torques balance.
 BondLoad BondPart::dampingOf(const StepContext& step, const Bond& bond, const BondState& state) const {
     const double share = materials[bond.material].damping;
     if (share == 0) return {};
@@ -196,22 +218,16 @@ BondLoad BondPart::dampingOf(const StepContext& step, const Bond& bond, const Bo
     const std::uint32_t first = joined[bond.at1].place, second = joined[bond.at2].place;
     const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
     const RotationRecord &turnA = grains.rotation[first], &turnB = grains.rotation[second];
-    const auto dashpot = [&](double stiffness, double inverse) {
-        return inverse > 0 ? 2 * share * std::sqrt(stiffness / inverse) : 0;
-    };
-    const double inverseMass = a.inverseMass + b.inverseMass,
-                 inverseInertia = turnA.inverseInertia + turnB.inverseInertia;
-    const BondStiffness& k = bond.stiffness;
+    const BondDashpots dashpot(grains, first, second, bond.stiffness, share);
     const Vector<double> e = state.axis();
     const Vector<double> velocity =
         b.velocity - a.velocity - 0.5 * cross(turnA.spin + turnB.spin, state.between);
     const Vector<double> turning = turnB.spin - turnA.spin;
     const double along = dot(velocity, e), about = dot(turning, e);
-    const Vector<double> across = -dashpot(k.shear, inverseMass) * (velocity - along * e);
+    const Vector<double> across = -dashpot.shear * (velocity - along * e);
     const Vector<double> lever = -0.5 * cross(state.between, across);
-    const Vector<double> couple = -dashpot(k.twist, inverseInertia) * about * e -
-                                  dashpot(k.bending, inverseInertia) * (turning - about * e);
-    return {across - dashpot(k.normal, inverseMass) * along * e, lever - couple, lever + couple};
+    const Vector<double> couple = -dashpot.twist * about * e - dashpot.bending * (turning - about * e);
+    return {across - dashpot.normal * along * e, lever - couple, lever + couple};
 }
 
 /// With the masses and inertias of a grain, each bond adds at most max(2 k_n, 4 k_s) / m and (2 max(k_b, k_t)
@@ -224,28 +240,17 @@ double BondPart::largestStep(const StepContext& scene) const {
     std::map<std::uint32_t, std::array<SpringAndDashpot, 2>> rows;
     for (const Bond& bond : bonds) {
         const std::uint32_t first = grains.place[bond.first], second = grains.place[bond.second];
-        const double share = 2 * materials[bond.material].damping,
-                     inverseMass =
-                         grains.translation[first].inverseMass + grains.translation[second].inverseMass,
-                     inverseInertia =
-                         grains.rotation[first].inverseInertia + grains.rotation[second].inverseInertia;
-        const auto dashpot = [&](double stiffness, double inverse) {
-            return inverse > 0 ? share * std::sqrt(stiffness / inverse) : 0;
-        };
         const BondStiffness& k = bond.stiffness;
+        const BondDashpots d(grains, first, second, k, materials[bond.material].damping);
         const double lever = bond.length * longestBond;
         for (const std::uint32_t place : {first, second}) {
             auto& [moving, turning] = rows[place];
             const double ofMass = grains.translation[place].inverseMass,
                          ofInertia = grains.rotation[place].inverseInertia;
             moving.spring += std::max(2 * k.normal, 4 * k.shear) * ofMass;
-            moving.dashpot +=
-                std::max(2 * dashpot(k.normal, inverseMass), 4 * dashpot(k.shear, inverseMass)) * ofMass;
+            moving.dashpot += std::max(2 * d.normal, 4 * d.shear) * ofMass;
             turning.spring += (2 * std::max(k.bending, k.twist) + k.shear * lever) * ofInertia;
-            turning.dashpot +=
-                (2 * std::max(dashpot(k.bending, inverseInertia), dashpot(k.twist, inverseInertia)) +
-                 dashpot(k.shear, inverseMass) * lever) *
-                ofInertia;
+            turning.dashpot += (2 * std::max(d.bending, d.twist) + d.shear * lever) * ofInertia;
         }
     }
     const SignChange limitOf(*scene.scheme);

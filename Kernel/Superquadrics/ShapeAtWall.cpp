@@ -208,18 +208,10 @@ WallPoint ShapeAtWall::pointOf(const Wall& wall, std::uint32_t part, double rang
     return point;
 }
 
-/// Whether a ball sees the same point of two parts: that of an edge or a corner that they share, or of
-/// surfaces that lie on each other.
-bool ShapeAtWall::isSeenOnBoth(const Wall& wall, std::uint32_t one, std::uint32_t other,
-                               const Vector<double>& ball) const {
-    const WallPoint a = nearest(wall, one, ball), b = nearest(wall, other, ball);
-    return norm(a.distance * a.normal - b.distance * b.normal) < 1e-9 * ballRadius;
-}
-
 /// A part is left out where the ball that touches it finds that another part, of a contact at least as deep,
-/// stands for it, as a sphere does; or sees the same point of both. The balls of two facets at the edge
-/// between them are the same but for round-off, so that each may see its own facet as the one that stands for
-/// the other.
+/// stands for it, as a sphere does; or sees the same point of both: that of an edge or a corner that they
+/// share, or of surfaces that lie on each other. The balls of two facets at the edge between them are the
+/// same but for round-off, so that each may see its own facet as the one that stands for the other.
 void ShapeAtWall::leaveOutCovered(const Wall& wall, double range, std::span<const std::uint32_t> parts,
                                   std::span<WallPoint> points) const {
     thread_local std::vector<std::uint32_t> order;
@@ -242,9 +234,11 @@ void ShapeAtWall::leaveOutCovered(const Wall& wall, double range, std::span<cons
         WallPoint& point = points[own];
         const Vector<double> ball = coreAt(supportAt(point.normal), point.normal);
         wall.findPoints(ball, ballRadius + range, parts, seen);
+        const WallPoint here = nearest(wall, parts[own], ball);
         const auto standsForIt = [&](std::uint32_t ahead) {
-            return static_cast<std::uint32_t>(seen[own].coveredBy) == ahead ||
-                   isSeenOnBoth(wall, parts[own], parts[ahead], ball);
+            if (static_cast<std::uint32_t>(seen[own].coveredBy) == ahead) return true;
+            const WallPoint there = nearest(wall, parts[ahead], ball);
+            return norm(here.distance * here.normal - there.distance * there.normal) < 1e-9 * ballRadius;
         };
         const std::span<const std::uint32_t> deeper(order.data(), rank);
         const auto by = std::ranges::find_if(deeper, standsForIt);

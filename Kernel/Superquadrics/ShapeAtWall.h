@@ -66,8 +66,6 @@ private:
     [[nodiscard]] Vector<double> newtonShift(const Wall& wall, std::uint32_t part, const Look& now) const;
     [[nodiscard]] bool isSettled(const Wall& wall, std::uint32_t part, const Look& found) const;
     [[nodiscard]] WallPoint pointOf(const Wall& wall, std::uint32_t part, double range) const;
-    [[nodiscard]] bool isSeenOnBoth(const Wall& wall, std::uint32_t one, std::uint32_t other,
-                                    const Vector<double>& ball) const;
     void leaveOutCovered(const Wall& wall, double range, std::span<const std::uint32_t> parts,
                          std::span<WallPoint> points) const;
 

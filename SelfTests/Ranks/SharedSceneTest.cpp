@@ -209,6 +209,10 @@ TEST(SharedScene, refusesChangesInARun) {
     };
     EXPECT_THROW(run([](auto& scene) { scene.setTimeStep(0x1p-18); }), RunError);
     EXPECT_THROW(run([](auto& scene) { scene.writeRestart("never.h5"); }), InputError);
+    EXPECT_THROW(run([](auto& scene) {
+                     if (scene.particleHandler.contains(0)) scene.particleHandler.removeObject(0);
+                 }),
+                 InputError);
     EXPECT_NO_THROW(run([](auto& scene) { scene.setGravity({0, 0, -1}); }));
 }
 
