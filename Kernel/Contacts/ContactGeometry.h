@@ -106,40 +106,9 @@ struct PairGeometry {
     }
 
     [[nodiscard, gnu::always_inline]] ContactGeometry<Pack> complete() const {
-        ContactGeometry<Pack> g;
-        const Pack distance = sqrt(distance2);
-        const Pack sum = radius1 + radius2;
-        auto [vx1, vy1, vz1, im1] = loadRecords<4>(numbers(translation) + 4, 8, block.first.data());
-        auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
-        g.velocity = {vx1 - vx2, vy1 - vy2, vz1 - vz2};
-        if constexpr (isPeriodic)
-            if (box.imagesMove) g.velocity += imageVelocity;
-        g.inverseMass = max(im1 + im2, Pack(1e-200));  // of two grains that are held, instead of 0
-        // Three reciprocals for one division, which need not wait for the square root.
-        const Pack product = distance2 * sum;
-        const Pack reciprocal = Pack(1) / (product * g.inverseMass);
-        g.effectiveMass = product * reciprocal;
-        g.inverseDistance = distance * (sum * g.inverseMass * reciprocal);
-        g.effectiveRadius = radius1 * radius2 * (distance2 * g.inverseMass * reciprocal);
-        g.normal = shift * g.inverseDistance;
-        g.overlap = sum - distance;
-        if (held) [[unlikely]] {
-            const HeldMasses masses =
-                heldMasses(held, block.first, &block.second, copyOf(g.normal.x), copyOf(g.normal.y),
-                           copyOf(g.normal.z), im1, im2, copyOf(g.inverseMass), copyOf(g.effectiveMass));
-            g.inverseMass = masses.inverse;
-            g.effectiveMass = masses.effective;
-        }
-        if constexpr (S::hasTorque) {
-            g.lever = g.overlap;
-            if constexpr (S::hasContactTorque) {
-                if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
-                    g.asymmetry = (radius2 - radius1) / sum;
-                g.rotationResponse =
-                    Pack(2.5) * fma(im1, square(radius2), im2 * square(radius1)) / square(sum);
-            }
-        }
-        return g;
+        if (held) [[unlikely]]
+            return completeHeld(translation, rotation, block, box, held);
+        return completeFree();
     }
 
     /// Completes what follows from the spins, which only friction and bridges that resist motion read: later
@@ -169,6 +138,51 @@ struct PairGeometry {
     }
 
 private:
+    /// As completeFree(), with the masses of grains that are held along axes. It makes the geometry anew: a
+    /// call in the middle of it costs all scenes 1 % (what lies in registers would have to be put away).
+    [[gnu::noinline, gnu::cold]] static ContactGeometry<Pack> completeHeld(
+        const TranslationRecord* translation, const RotationRecord* rotation, const ContactBlock& block,
+        const PeriodicBox& box, const HeldBits* held) {
+        ContactGeometry<Pack> g = PairGeometry(translation, rotation, block, box).completeFree();
+        const Pack im1 = loadRecords<4>(numbers(translation) + 4, 8, block.first.data())[3],
+                   im2 = loadRecords<4>(numbers(translation) + 4, 8, block.second.data())[3];
+        const HeldMasses masses = heldMasses(held, block.first, &block.second, g.normal.x, g.normal.y,
+                                             g.normal.z, im1, im2, g.inverseMass, g.effectiveMass);
+        g.inverseMass = masses.inverse;
+        g.effectiveMass = masses.effective;
+        return g;
+    }
+
+    [[nodiscard, gnu::always_inline]] ContactGeometry<Pack> completeFree() const {
+        ContactGeometry<Pack> g;
+        const Pack distance = sqrt(distance2);
+        const Pack sum = radius1 + radius2;
+        auto [vx1, vy1, vz1, im1] = loadRecords<4>(numbers(translation) + 4, 8, block.first.data());
+        auto [vx2, vy2, vz2, im2] = loadRecords<4>(numbers(translation) + 4, 8, block.second.data());
+        g.velocity = {vx1 - vx2, vy1 - vy2, vz1 - vz2};
+        if constexpr (isPeriodic)
+            if (box.imagesMove) g.velocity += imageVelocity;
+        g.inverseMass = max(im1 + im2, Pack(1e-200));  // of two grains that are held, instead of 0
+        // Three reciprocals for one division, which need not wait for the square root.
+        const Pack product = distance2 * sum;
+        const Pack reciprocal = Pack(1) / (product * g.inverseMass);
+        g.effectiveMass = product * reciprocal;
+        g.inverseDistance = distance * (sum * g.inverseMass * reciprocal);
+        g.effectiveRadius = radius1 * radius2 * (distance2 * g.inverseMass * reciprocal);
+        g.normal = shift * g.inverseDistance;
+        g.overlap = sum - distance;
+        if constexpr (S::hasTorque) {
+            g.lever = g.overlap;
+            if constexpr (S::hasContactTorque) {
+                if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
+                    g.asymmetry = (radius2 - radius1) / sum;
+                g.rotationResponse =
+                    Pack(2.5) * fma(im1, square(radius2), im2 * square(radius1)) / square(sum);
+            }
+        }
+        return g;
+    }
+
     template <class Record>
     static const double* numbers(const Record* records) {
         return reinterpret_cast<const double*>(records);
@@ -210,34 +224,9 @@ struct WallGeometry {
     [[nodiscard]] Mask isWithin(double gap) const { return distance < radius + Pack(gap); }
 
     [[nodiscard, gnu::always_inline]] ContactGeometry<Pack> complete() const {
-        ContactGeometry<Pack> g;
-        g.normal = load(points.normal);
-        g.overlap = radius - distance;
-        g.inverseDistance = Pack(0);
-        g.effectiveRadius = radius;
-        auto [vx, vy, vz, im] =
-            loadRecords<4>(reinterpret_cast<const double*>(translation) + 4, 8, block.first.data());
-        g.velocity = Vector<Pack>{vx, vy, vz} - load(points.velocity);
-        g.effectiveMass = Pack(1) / im;
-        g.inverseMass = im;
-        if (held) [[unlikely]] {
-            const HeldMasses masses =
-                heldMasses(held, block.first, nullptr, copyOf(g.normal.x), copyOf(g.normal.y),
-                           copyOf(g.normal.z), im, Pack(0), copyOf(g.inverseMass), copyOf(g.effectiveMass));
-            g.inverseMass = masses.inverse;
-            g.effectiveMass = masses.effective;
-        }
-        if constexpr (S::hasTorque) {
-            g.lever = g.overlap;
-            if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Sliding)
-                g.lever = max(g.overlap, Pack(0));
-            if constexpr (S::hasContactTorque) {
-                if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
-                    g.asymmetry = Pack(1);
-                g.rotationResponse = Pack(2.5) * im;
-            }
-        }
-        return g;
+        if (held) [[unlikely]]
+            return completeHeld(translation, rotation, block, points, wallSpin, held);
+        return completeFree();
     }
 
     [[gnu::always_inline]] void completeSpins(ContactGeometry<Pack>& g) const {
@@ -260,6 +249,44 @@ struct WallGeometry {
     }
 
 private:
+    /// As of PairGeometry.
+    [[gnu::noinline, gnu::cold]] static ContactGeometry<Pack> completeHeld(
+        const TranslationRecord* translation, const RotationRecord* rotation, const ContactBlock& block,
+        const WallPointColumns& points, Vector<double> wallSpin, const HeldBits* held) {
+        ContactGeometry<Pack> g = WallGeometry(translation, rotation, block, points, wallSpin).completeFree();
+        const Pack im =
+            loadRecords<4>(reinterpret_cast<const double*>(translation) + 4, 8, block.first.data())[3];
+        const HeldMasses masses = heldMasses(held, block.first, nullptr, g.normal.x, g.normal.y, g.normal.z,
+                                             im, Pack(0), g.inverseMass, g.effectiveMass);
+        g.inverseMass = masses.inverse;
+        g.effectiveMass = masses.effective;
+        return g;
+    }
+
+    [[nodiscard, gnu::always_inline]] ContactGeometry<Pack> completeFree() const {
+        ContactGeometry<Pack> g;
+        g.normal = load(points.normal);
+        g.overlap = radius - distance;
+        g.inverseDistance = Pack(0);
+        g.effectiveRadius = radius;
+        auto [vx, vy, vz, im] =
+            loadRecords<4>(reinterpret_cast<const double*>(translation) + 4, 8, block.first.data());
+        g.velocity = Vector<Pack>{vx, vy, vz} - load(points.velocity);
+        g.effectiveMass = Pack(1) / im;
+        g.inverseMass = im;
+        if constexpr (S::hasTorque) {
+            g.lever = g.overlap;
+            if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Sliding)
+                g.lever = max(g.overlap, Pack(0));
+            if constexpr (S::hasContactTorque) {
+                if constexpr (bridgeResists<typename S::Adhesion> >= BridgeResists::Rolling)
+                    g.asymmetry = Pack(1);
+                g.rotationResponse = Pack(2.5) * im;
+            }
+        }
+        return g;
+    }
+
     static Vector<Pack> load(const std::array<LaneColumn, 3>& v) {
         return {Pack::load(v[0].lane.data()), Pack::load(v[1].lane.data()), Pack::load(v[2].lane.data())};
     }
