@@ -77,7 +77,6 @@ double gapBetween(const Facet& nearFacet, const Facet& farFacet, const Vector<do
 void WallPatches::listed(const ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains) {
     several.clear(), members.clear(), ranges.clear();
     if (contacts.wallPoints.empty()) return;
-    const GrainShapes* const shapes = laws.shapes();
     std::vector<std::uint32_t> next(grains.size() + 1);  // first counts, then where members go
     const auto forEachAtWalls = [&](auto&& function) {
         for (std::size_t k = 0; k < contacts.buckets.size(); ++k) {
@@ -93,7 +92,7 @@ void WallPatches::listed(const ContactStore& contacts, const ContactLaws& laws, 
     constexpr std::uint32_t alone = ~std::uint32_t{0};
     for (std::uint32_t place = 0; place < grains.size(); ++place) {
         const std::uint32_t own = std::exchange(next[place], alone);
-        if (own < 2 || (shapes && shapes->isShaped(grains, place))) continue;  // no spheres: not by distances
+        if (own < 2) continue;
         several.push_back({place, count});
         next[place] = count;
         count += own;
@@ -122,7 +121,8 @@ void WallPatches::join(ContactStore& contacts, const ContactLaws& laws, const Pa
         [&](int part, std::size_t begin, std::size_t end) {
             std::vector<Point> points;
             for (std::size_t k = begin; k < end; ++k)
-                joinOf(k, contacts, grains, walls, points, handOvers[static_cast<std::size_t>(part)]);
+                joinOf(k, contacts, laws.shapes(), grains, walls, points,
+                       handOvers[static_cast<std::size_t>(part)]);
         },
         worthAThread);
     for (const auto& part : handOvers)
@@ -134,31 +134,59 @@ void WallPatches::join(ContactStore& contacts, const ContactLaws& laws, const Pa
         }
 }
 
-void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const ParticleStore& grains,
-                         const WallHandler& walls, std::vector<Point>& points,
-                         std::vector<HandOver>& found) const {
-    const TranslationRecord& body = grains.translation[several[grain].place];
+/// Fills in the points of a grain that are near enough to act.
+void WallPatches::findNear(std::size_t grain, const ContactStore& contacts, const GrainShapes* shapes,
+                           const ParticleStore& grains, std::vector<Point>& points) const {
+    const std::uint32_t place = several[grain].place;
+    const TranslationRecord& body = grains.translation[place];
     const std::uint32_t begin = several[grain].begin, end = several[grain + 1].begin;
-    const auto reachOf = [&](std::uint32_t m) {
-        return ranges.empty() ? body.radius : body.radius + ranges[m];
-    };
+    const bool isShaped = shapes && shapes->isShaped(grains, place);
+    const auto rangeOf = [&](std::uint32_t m) { return ranges.empty() ? 0 : ranges[m]; };
+    points.clear();
     std::uint32_t near = 0;
     for (std::uint32_t m = begin; m < end; ++m)
-        near += distanceOf(contacts, members[m].contact) < reachOf(m) ? 1 : 0;
+        near += distanceOf(contacts, members[m].contact) < body.radius + rangeOf(m) ? 1 : 0;
     if (near < 2) return;
-
-    points.clear();
     for (std::uint32_t m = begin; m < end; ++m) {
         const std::uint32_t contact = members[m].contact;
         const double distance = distanceOf(contacts, contact);
-        if (!(distance < reachOf(m))) continue;
+        if (!(distance < body.radius + rangeOf(m))) continue;
         if (!ContactStore::bitOf(contacts.states[contact / Pack::lanes].listed, contact)) continue;
         const Bucket& bucket = contacts.buckets[static_cast<std::size_t>(members[m].bucket)];
-        points.push_back({contact, &bucket, normalOf(contacts, contact), distance, reachOf(m),
-                          distance + orderOfWalls * body.radius * bucket.wall, 1});
+        Point point{contact,
+                    &bucket,
+                    normalOf(contacts, contact),
+                    distance,
+                    body.radius + rangeOf(m),
+                    distance + orderOfWalls * body.radius * bucket.wall,
+                    1,
+                    0};
+        if (isShaped) {  // the deepest first
+            const InnerBall ball = shapes->ballAt(grains, place, point.normal);
+            point.beyondBall = dot(ball.centre - body.position, point.normal);
+            const double height = point.beyondBall + ball.radius;
+            point.reach = height + rangeOf(m);
+            point.order -= height;
+            if (!(distance < point.reach)) continue;
+        }
+        points.push_back(point);
     }
     std::stable_sort(points.begin(), points.end(),
                      [](const Point& a, const Point& b) { return a.order < b.order; });
+}
+
+void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const GrainShapes* shapes,
+                         const ParticleStore& grains, const WallHandler& walls, std::vector<Point>& points,
+                         std::vector<HandOver>& found) const {
+    findNear(grain, contacts, shapes, grains, points);
+    const std::uint32_t place = several[grain].place;
+    const TranslationRecord& body = grains.translation[place];
+    const bool isShaped = shapes && shapes->isShaped(grains, place);
+    const auto shareOf = [&](const Point& near, const Point& far) {
+        if (!isShaped) return ownShare(contacts, walls, near, far, body.position, body.radius);
+        if (near.bucket->wall == far.bucket->wall) return 1.0;
+        return ownShareOfShape(grain, contacts, walls, shapes->ballAt(grains, place, far.normal), near, far);
+    };
     // A point takes from those behind it by how far it counts itself, so that nothing jumps where two of
     // several change places. A facet that is left out goes on for the one that it continues, as the next
     // facets of a finely cut cavity lie beside it and not beside that one.
@@ -172,8 +200,7 @@ void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const Partic
             const Point* const first = other.share > 0 ? &other : continued[k];
             if (!first || !(dot(first->normal, point.normal) > endOfChain)) continue;
             const double weight = other.share > 0 ? other.share : first->share;
-            const double taken =
-                weight * (1 - ownShare(contacts, walls, other, point, body.position, body.radius));
+            const double taken = weight * (1 - shareOf(other, point));
             if (taken > most) most = taken, cover = first;
             point.share *= 1 - taken;
         }
@@ -189,6 +216,30 @@ void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const Partic
         if (cover->bucket->species2 == point.bucket->species2)
             found.push_back({point.contact, cover->contact, point.normal, cover->normal});
     }
+}
+
+/// As the ball below the touch of the less deep contact sees both walls: of the other wall all parts that are
+/// listed, since the ball may be beside the one that the grain touches.
+double WallPatches::ownShareOfShape(std::size_t grain, const ContactStore& contacts, const WallHandler& walls,
+                                    const InnerBall& ball, const Point& near, const Point& far) const {
+    Point own = far, other = near;
+    own.distance = far.distance - far.beyondBall;
+    own.reach = far.reach - far.beyondBall;
+    other.distance = infinity;
+    other.reach = near.reach - near.beyondBall;
+    const Wall& wall = walls.getObject(static_cast<std::size_t>(near.bucket->wall));
+    for (std::uint32_t m = several[grain].begin; m < several[grain + 1].begin; ++m) {
+        const std::uint32_t contact = members[m].contact, part = partOf(contacts, contact);
+        if (contacts.buckets[static_cast<std::size_t>(members[m].bucket)].wall != near.bucket->wall) continue;
+        WallPoint seen{};
+        wall.findPoints(ball.centre, other.reach, {&part, 1}, {&seen, 1});
+        if (!(seen.distance < other.distance)) continue;
+        other.contact = contact, other.distance = seen.distance, other.normal = seen.normal;
+    }
+    if (!(other.distance < other.reach)) return 1;
+    const bool isNearer = other.distance <= own.distance;
+    return ownShare(contacts, walls, isNearer ? other : own, isNearer ? own : other, ball.centre,
+                    ball.radius);
 }
 
 double WallPatches::ownShare(const ContactStore& contacts, const WallHandler& walls, const Point& near,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Contacts/GrainShapes.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -15,6 +16,10 @@ namespace pendular {
 /// points only, once they are found and before forces are computed: a point that is part of another one's
 /// contact gets an infinite distance, so that it has neither force nor bridge, and what the contact remembers
 /// goes on with the other one. Where it counts in part, its overlap gets smaller by its share.
+///
+/// Of a grain that is no sphere, contacts with different walls are compared as the ball below the touch of
+/// the less deep one sees both walls (GrainShapes::ballAt()); those with parts of one wall are none of this
+/// class (Kernel/Superquadrics/ShapeAtWall.h).
 ///
 /// Which pieces are near to several is known when contacts are listed: a scene whose grains touch one wall
 /// each pays nothing.
@@ -46,14 +51,20 @@ private:
         double distance, reach;  // m; reach: at which the contact ends
         double order;            // m, by which they are sorted
         double share;            // how far it counts
+        double beyondBall;  // m, from the grain's centre to that of the ball, along the normal; 0: a sphere
     };
     struct HandOver {
         std::uint32_t from, to;  // contacts
         Vector<double> oldNormal, newNormal;
     };
 
-    void joinOf(std::size_t grain, ContactStore& contacts, const ParticleStore& grains,
-                const WallHandler& walls, std::vector<Point>& points, std::vector<HandOver>& found) const;
+    void joinOf(std::size_t grain, ContactStore& contacts, const GrainShapes* shapes,
+                const ParticleStore& grains, const WallHandler& walls, std::vector<Point>& points,
+                std::vector<HandOver>& found) const;
+    void findNear(std::size_t grain, const ContactStore& contacts, const GrainShapes* shapes,
+                  const ParticleStore& grains, std::vector<Point>& points) const;
+    double ownShareOfShape(std::size_t grain, const ContactStore& contacts, const WallHandler& walls,
+                           const InnerBall& ball, const Point& near, const Point& far) const;
     static double ownShare(const ContactStore& contacts, const WallHandler& walls, const Point& near,
                            const Point& far, const Vector<double>& centre, double radius);
 

@@ -1,13 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "Kernel/Superquadrics/ExtremeContact.h"
 #include "Kernel/Walls/InfiniteCylinder.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
+#include "SelfTests/Support/Random.h"
 
 // Superquadrics on walls that are no planes.
 
@@ -46,6 +50,8 @@ std::vector<Triangle> floorOf(double half, int squares) {
     return triangles;
 }
 
+using Meshes = std::vector<std::vector<Triangle>>;
+
 /// One superquadric under gravity along a slope.
 class Rolling : public FewSuperquadrics<Rough> {
 public:
@@ -58,11 +64,15 @@ public:
         wall.setSpecies(speciesHandler.getObject(0));
         wallHandler.copyAndAddObject(wall);
     }
-    void addFloor(int squares, double half = 0.05) {
+    void addMesh(const std::vector<Triangle>& triangles) {
         TriangleWall mesh;
-        mesh.set(floorOf(half, squares));
+        mesh.set(triangles);
         addWall(mesh);
     }
+    void addMeshes(const Meshes& meshes) {
+        for (const std::vector<Triangle>& triangles : meshes) addMesh(triangles);
+    }
+    void addFloor(int squares, double half = 0.05) { addMesh(floorOf(half, squares)); }
 };
 
 // The plane of the mesh has the depth and the normal of the plane to round-off: with an overlap of 1e-5 of
@@ -89,6 +99,92 @@ TEST(ShapesOnWalls, anEllipsoidRollsOnAMeshAsOnAPlane) {
     EXPECT_LT((onMesh.body(0).getPosition() - place).norm(), 1e-12);
     // It rises and falls by 1e-10 m over 0.5 mm: 2e-7 of tilt, which turns gravity by as much.
     EXPECT_LT((onParts.body(0).getPosition() - place).norm(), 1e-7);
+}
+
+/// The triangles of a surface, by a rule which of several walls each belongs to.
+template <class WallOf>
+Meshes shared(const std::vector<Triangle>& surface, std::size_t walls, WallOf&& wallOf) {
+    Meshes parts(walls);
+    for (const Triangle& triangle : surface)
+        parts[wallOf((triangle[0] + triangle[1] + triangle[2]) * (1.0 / 3))].push_back(triangle);
+    return parts;
+}
+
+// A seam between two walls anywhere below a grain that is pressed into their plane, across its patch or
+// beside it: one contact, of the depth and the normal of the plane.
+TEST(ShapesOnWalls, aSeamBetweenTwoWallsIsNone) {
+    support::Random random(37);
+    for (int k = 0; k < 400; ++k) {
+        const int exponent = std::array{2, 3, 5, 8}[static_cast<std::size_t>(k) % 4];
+        const Superquadric shape{1e-3, random.uniform(0.5e-3, 1e-3), random.uniform(0.5e-3, 1e-3), exponent,
+                                 exponent};
+        const Eigen::Quaterniond turn = turnedBy(random.uniform(0, 3), random.direction());
+        const double depth =
+            random.uniform(1e-4, 5e-2) * extremeContact(shape).smallestRadius * shape.boundingRadius();
+        const Vector<double> lowest =
+            supportPoint(SuperquadricLanes<double>::from(shape), toVector(turn.conjugate() * Vec3D(0, 0, -1)))
+                .point;
+        const Vec3D under = turn * toEigen(lowest);
+        Rolling scene({shape, {0, 0, -under.z() - depth}, {0, 0, 0}, {0, 0, 0}, turn}, 3000, 5e-7, 0);
+        const double angle = random.uniform(0, 6), shift = random.uniform(-1, 1) * 0.2e-3;
+        const auto at = [&](double along, double across) {
+            const double c = std::cos(angle), s = std::sin(angle), off = across + shift;
+            return Vector<double>{under.x() + c * along - s * off, under.y() + s * along + c * off, 0};
+        };
+        const auto half = [&](double across) {
+            return std::vector<Triangle>{{at(-0.02, 0), at(0.02, 0), at(0.02, across)},
+                                         {at(-0.02, 0), at(0.02, across), at(-0.02, across)}};
+        };
+        scene.addMeshes({half(0.02), half(-0.02)});
+        scene.initialise();
+        const auto contacts = scene.interactions();
+        ASSERT_EQ(contacts.size(), 1u) << "pose " << k;
+        EXPECT_NEAR(contacts[0].overlap(), depth, 1e-15) << "pose " << k;
+        EXPECT_NEAR(contacts[0].normal().z, -1, 1e-12) << "pose " << k;
+    }
+}
+
+// Walls that continue each other are one surface: a floor of two or four meshes whose seams the grain
+// crosses, and a mesh that lies in a plane, give the motion on the plane, as near as one mesh does, with one
+// contact.
+TEST(ShapesOnWalls, severalWallsAreOneFloor) {
+    const auto leftAndRight = [](const Vector<double>& at) { return at.x > 1.3e-3 ? 1u : 0u; };
+    const auto quarters = [](const Vector<double>& at) {
+        return (at.x > 1.3e-3 ? 1u : 0u) + (at.y > 0.4e-3 ? 2u : 0u);
+    };
+    for (const int exponent : {2, 4, 8}) {
+        const SuperquadricMotion motion{{2e-3, 1.2e-3, 1.5e-3, exponent, exponent},
+                                        {0, 0, 2.0e-3},
+                                        {0.1, 0.05, 0},
+                                        {5, 30, 2},
+                                        turnedBy(0.4, {1, 2, 0.5})};
+        const auto end = [&](auto&& addWalls) {
+            Rolling scene(motion, 3000, 2e-6, 0.2);
+            addWalls(scene);
+            scene.initialise();
+            std::size_t touching = 0, most = 0;
+            for (int k = 0; k < 20000; ++k) {
+                scene.step();
+                const std::size_t now = scene.interactions().size();
+                touching += now;
+                most = std::max(most, now);
+            }
+            EXPECT_GT(touching, 90u);
+            EXPECT_EQ(most, 1u) << "exponent " << exponent;
+            return scene.body(0).getPosition();
+        };
+        const Vec3D onPlane = end([](Rolling& scene) { scene.addPlane({0, 0, -1}, {0, 0, 0}); });
+        const std::vector<Triangle> fine = floorOf(0.05, 100);
+        const Vec3D onTwo = end([&](Rolling& scene) { scene.addMeshes(shared(fine, 2, leftAndRight)); });
+        const Vec3D onFour = end([&](Rolling& scene) { scene.addMeshes(shared(fine, 4, quarters)); });
+        const Vec3D onBoth = end([&](Rolling& scene) {
+            scene.addMesh(shared(fine, 2, leftAndRight)[0]);
+            scene.addPlane({0, 0, -1}, {0, 0, 0});
+        });
+        EXPECT_GT(onPlane.x(), 3e-3);
+        for (const Vec3D& place : {onTwo, onFour, onBoth})
+            EXPECT_LT((place - onPlane).norm(), 1e-11) << "exponent " << exponent;
+    }
 }
 
 // Rolling without slip of a rigid ellipsoid, by an integration of order 8 of another program: where it is
@@ -121,38 +217,41 @@ TEST(ShapesOnWalls, anEllipsoidOnAMeshRollsByTheEquationsOfRolling) {
 // straight up.
 TEST(ShapesOnWalls, anEllipsoidRestsOnARidge) {
     const Superquadric shape{1e-3, 1e-3, 1.5e-3};
-    Rolling scene({shape, {0, 0, 1.495e-3}}, 3000, 2e-6, 0);
-    TriangleWall ridge;
     const Vector<double> p{-0.01, 0, 0}, q{0.01, 0, 0}, s{-0.01, 0.01, -0.01}, t{0.01, 0.01, -0.01},
         u{-0.01, -0.01, -0.01}, v{0.01, -0.01, -0.01};
-    ridge.set(std::vector<Triangle>{{p, q, t}, {p, t, s}, {q, p, u}, {q, u, v}});
-    scene.addWall(ridge);
-    scene.initialise();
-    const auto contacts = scene.interactions();
-    ASSERT_EQ(contacts.size(), 1u);  // of the two sides one stands for both
-    EXPECT_NEAR(contacts[0].overlap(), 5e-6, 1e-12);
-    EXPECT_NEAR(contacts[0].normal().z, -1, 1e-12);
+    const Triangle one{p, q, t}, two{p, t, s}, three{q, p, u}, four{q, u, v};
+    for (const auto& meshes : {Meshes{{one, two, three, four}}, Meshes{{one, two}, {three, four}},
+                               Meshes{{four, three}, {one}, {two}}}) {
+        Rolling scene({shape, {0, 0, 1.495e-3}}, 3000, 2e-6, 0);
+        scene.addMeshes(meshes);
+        scene.initialise();
+        const auto contacts = scene.interactions();
+        ASSERT_EQ(contacts.size(), 1u) << meshes.size();  // of the two sides one stands for both
+        EXPECT_NEAR(contacts[0].overlap(), 5e-6, 1e-12);
+        EXPECT_NEAR(contacts[0].normal().z, -1, 1e-12);
+    }
 }
 
 // In a groove of 90 degrees a block touches both sides, on each with its own point.
 TEST(ShapesOnWalls, aGrooveIsTouchedOnBothSides) {
     const Superquadric shape{1e-3, 1e-3, 1e-3, 6, 6};
-    TriangleWall groove;
     const Vector<double> p{-0.01, 0, 0}, q{0.01, 0, 0}, s{-0.01, 0.01, 0.01}, t{0.01, 0.01, 0.01},
         u{-0.01, -0.01, 0.01}, v{0.01, -0.01, 0.01};
-    groove.set(std::vector<Triangle>{{p, q, t}, {p, t, s}, {q, p, u}, {q, u, v}});
-    // Its faces are across the sides of the groove.
-    Rolling scene({shape,
-                   {0, 0, 0.999e-3 * std::numbers::sqrt2},
-                   {0, 0, 0},
-                   {0, 0, 0},
-                   turnedBy(0.25 * std::numbers::pi, {1, 0, 0})},
-                  3000, 2e-6, 0);
-    scene.addWall(groove);
-    scene.initialise();
-    const auto contacts = scene.interactions();
-    ASSERT_EQ(contacts.size(), 2u);
-    for (const auto& contact : contacts) EXPECT_NEAR(contact.overlap(), 1e-6, 1e-11);
+    const Triangle one{p, q, t}, two{p, t, s}, three{q, p, u}, four{q, u, v};
+    for (const auto& meshes : {Meshes{{one, two, three, four}}, Meshes{{one, two}, {three, four}}}) {
+        // Its faces are across the sides of the groove.
+        Rolling scene({shape,
+                       {0, 0, 0.999e-3 * std::numbers::sqrt2},
+                       {0, 0, 0},
+                       {0, 0, 0},
+                       turnedBy(0.25 * std::numbers::pi, {1, 0, 0})},
+                      3000, 2e-6, 0);
+        scene.addMeshes(meshes);
+        scene.initialise();
+        const auto contacts = scene.interactions();
+        ASSERT_EQ(contacts.size(), 2u) << meshes.size();
+        for (const auto& contact : contacts) EXPECT_NEAR(contact.overlap(), 1e-6, 1e-11);
+    }
 }
 
 // A mesh that moves with the frame gives the motion of a mesh at rest seen from it.
