@@ -58,6 +58,15 @@ double BodyKind::density(double ofSpecies) const {
     return shape.massOf(ofSpecies, 1).mass / shape.getVolume();
 }
 
+std::vector<Ball> placedBalls(std::span<const Ball> balls, double scale, const Vector<double>& place,
+                              const Eigen::Quaterniond& turn) {
+    const Eigen::Matrix3d matrix = turn.normalized().toRotationMatrix();
+    std::vector<Ball> all;
+    for (const Ball& ball : balls)
+        all.push_back({toEigen(place) + scale * (matrix * ball.centre), scale * ball.radius});
+    return all;
+}
+
 double BodyKind::scale(double radius) const {
     if (grain()) return radius / grain()->getRadius();
     const double own = clump() ? clump()->getTemplate().getDiameter()
@@ -80,14 +89,8 @@ double BodyKind::reach(double radius) const {
 
 std::vector<Ball> BodyKind::spheres(double radius, const Vector<double>& place,
                                     const Eigen::Quaterniond& turn) const {
-    const Vec3D centre = toEigen(place);
-    if (!clump()) return {{centre, reach(radius)}};
-    const Eigen::Matrix3d matrix = turn.normalized().toRotationMatrix();
-    const double factor = scale(radius);
-    std::vector<Ball> all;
-    for (const Ball& ball : clump()->getTemplate().getSpheres())
-        all.push_back({centre + factor * (matrix * ball.centre), factor * ball.radius});
-    return all;
+    if (!clump()) return {{toEigen(place), reach(radius)}};
+    return placedBalls(clump()->getTemplate().getSpheres(), scale(radius), place, turn);
 }
 
 void BodyKind::addTo(const InsertionScene& scene, double radius, const Vector<double>& place,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -12,6 +13,10 @@ namespace pendular {
 class GrainShapes;
 struct InsertionScene;
 class ParticleHandler;
+
+/// Balls (m) about the origin, made larger by a factor, turned and brought to a place (m).
+std::vector<Ball> placedBalls(std::span<const Ball> balls, double scale, const Vector<double>& place,
+                              const Eigen::Quaterniond& turn);
 
 /// One kind of bodies of a mixture: grains, clumps of one template, or superquadrics of one shape. Sizes are
 /// diameters (m) of grains, and of the spheres that have the volume of a clump or a superquadric.

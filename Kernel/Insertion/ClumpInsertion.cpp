@@ -173,23 +173,25 @@ std::vector<PlacedBody> placeOneByOne(const InsertionScene& scene, const std::ve
 
 void placeDensely(const InsertionScene& scene, std::vector<PlacedBody>& bodies, const Region& region,
                   const InsertOptions& options, double fraction) {
+    const StandInSpheres standIns(bodies);
     double smallest = infinity, largest = 0;  // m, of spheres
-    for (const PlacedBody& body : bodies) {
-        smallest = std::min(smallest, body.kind->smallestSphere(body.radius));
-        largest = std::max(largest, body.kind->largestSphere(body.radius));
-    }
+    for (const PlacedBody& body : bodies)
+        for (const Ball& sphere : standIns.of(body)) {
+            smallest = std::min(smallest, sphere.radius);
+            largest = std::max(largest, sphere.radius);
+        }
     refuseWithoutRoom(owner, region, scene.walls, scene.periodic, smallest, largest, options.wholeGrains);
-    const DenseBodies found = denseBodies(bodies, scene, region, options);
+    const DenseBodies found = denseBodies(bodies, standIns, scene, region, options);
     if (found.scale < 1) refuseLessDense(fraction, found.scale, found.iterations);
     PeriodicBox fromRegion = scene.periodic;  // a region may go across a face
     fromRegion.lowest = region.bounds().lowest;
     for (const PlacedBody& body : bodies)
-        for (const auto& [place, radius] : body.kind->spheres(body.radius, body.place, body.turn))
+        for (const auto& [place, radius] : standIns.of(body))
             if (!region.contains(fromRegion.wrap(options.wholeGrains ? toVector(place) : body.place),
                                  options.wholeGrains ? radius * (1 - 1e-9) : 0))
                 throw InputError(fmt::format(
-                    "{}: a clump of the size {:.6g} m was pushed out of the region; take a smaller amount.",
-                    owner, 2 * body.radius));
+                    "{}: a {} of the size {:.6g} m was pushed out of the region; take a smaller amount.",
+                    owner, body.kind->word(), 2 * body.radius));
 }
 
 /// Bodies find their places; those that find no room are left out. Grains of one kind, which need not turn,

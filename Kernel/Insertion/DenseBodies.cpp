@@ -10,6 +10,7 @@
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
+#include "Kernel/Shapes/CoveringBalls.h"
 
 namespace pendular {
 
@@ -24,9 +25,9 @@ constexpr int mostIterations = 2000, patience = 200;
 /// Bodies that push and turn each other. Spheres behind those of bodies are grains of the scene, which stay.
 class Relaxation {
 public:
-    Relaxation(std::vector<PlacedBody>& wanted, const InsertionScene& of, const Region& within,
-               const InsertOptions& options)
-        : placed(wanted), scene(of), region(within), hasMargin(options.wholeGrains) {
+    Relaxation(std::vector<PlacedBody>& wanted, const StandInSpheres& spheresOf, const InsertionScene& of,
+               const Region& within, const InsertOptions& options)
+        : placed(wanted), standIns(spheresOf), scene(of), region(within), hasMargin(options.wholeGrains) {
         placeAll(options.seed);
         double volume = 0;
         for (const PlacedBody& body : placed) volume += sphereMass(body.radius, 1);
@@ -109,8 +110,7 @@ private:
             const PlacedBody& one = placed[k];
             const auto first = static_cast<std::uint32_t>(spheres.size());
             double lever = 0;
-            for (const Ball& ball :
-                 one.kind->spheres(one.radius, {0, 0, 0}, Eigen::Quaterniond::Identity())) {
+            for (const Ball& ball : standIns.of({one.kind, one.radius})) {
                 arms.push_back(ball.centre);
                 lever = std::max(lever, ball.centre.norm());
                 spheres.push_back({one.place, ball.radius, static_cast<std::uint32_t>(bodies.size())});
@@ -294,6 +294,7 @@ private:
     }
 
     std::vector<PlacedBody>& placed;
+    const StandInSpheres& standIns;
     const InsertionScene& scene;
     const Region& region;
     bool hasMargin;
@@ -312,10 +313,22 @@ private:
 
 }  // namespace
 
-DenseBodies denseBodies(std::vector<PlacedBody>& bodies, const InsertionScene& scene, const Region& region,
-                        const InsertOptions& options) {
+StandInSpheres::StandInSpheres(const std::vector<PlacedBody>& bodies) {
+    for (const PlacedBody& body : bodies)
+        if (const auto* const grain = body.kind->shaped(); grain && !covers.contains(body.kind))
+            covers.emplace(body.kind, coveringBalls(grain->getShape()));
+}
+
+std::vector<Ball> StandInSpheres::of(const PlacedBody& body) const {
+    const auto cover = covers.find(body.kind);
+    if (cover == covers.end()) return body.kind->spheres(body.radius, body.place, body.turn);
+    return placedBalls(cover->second, body.kind->scale(body.radius), body.place, body.turn);
+}
+
+DenseBodies denseBodies(std::vector<PlacedBody>& bodies, const StandInSpheres& standIns,
+                        const InsertionScene& scene, const Region& region, const InsertOptions& options) {
     if (bodies.empty()) return {};
-    return Relaxation(bodies, scene, region, options).run();
+    return Relaxation(bodies, standIns, scene, region, options).run();
 }
 
 }  // namespace pendular

@@ -1,6 +1,9 @@
 #include "Kernel/Particles/OrientationOrder.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Math/EigenConversion.h"
@@ -18,17 +21,19 @@ OrientationOrder orientationOrder(std::span<const Vec3D> axes) {
 }
 
 std::optional<int> axisOf(const Vector<double>& moments) {
-    const double below = moments.y - moments.x, above = moments.z - moments.y;
-    if (!(below + above > 1e-6 * moments.z)) return std::nullopt;
-    return below >= above ? 0 : 2;
+    std::array<std::pair<double, int>, 3> m{{{moments.x, 0}, {moments.y, 1}, {moments.z, 2}}};
+    std::ranges::sort(m);
+    const double below = m[1].first - m[0].first, above = m[2].first - m[1].first;
+    if (!(below + above > 1e-6 * m[2].first)) return std::nullopt;
+    return (below >= above ? m[0] : m[2]).second;
 }
 
 OrientationOrder orientationOrder(const RigidBodies& bodies, std::size_t first) {
     std::vector<Vec3D> axes;
     for (std::size_t k = first; k < bodies.size(); ++k)
         if (const auto axis = axisOf(bodies[k].inertia))
-            axes.push_back(toEigen(
-                bodies[k].orientation.turn(*axis == 0 ? Vector<double>{1, 0, 0} : Vector<double>{0, 0, 1})));
+            axes.push_back(toEigen(bodies[k].orientation.turn(
+                {*axis == 0 ? 1.0 : 0.0, *axis == 1 ? 1.0 : 0.0, *axis == 2 ? 1.0 : 0.0})));
     return orientationOrder(axes);
 }
 

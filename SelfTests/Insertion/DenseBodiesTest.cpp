@@ -192,6 +192,9 @@ TEST(OrientationOrder, hasItsClosedForms) {
     EXPECT_EQ(orientationOrder(std::vector<Vec3D>{}).count, 0u);
     EXPECT_EQ(axisOf({1, 5, 5}), 0);
     EXPECT_EQ(axisOf({1, 1, 2}), 2);
+    EXPECT_EQ(axisOf({5, 5, 1}), 2);
+    EXPECT_EQ(axisOf({5, 1, 4}), 1);
+    EXPECT_EQ(axisOf({9, 1, 2}), 0);
     EXPECT_EQ(axisOf({3, 3, 3}), std::nullopt);
 }
 

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Shapes/CoveringBalls.h"
 #include "Kernel/Shapes/SuperquadricSupport.h"
+#include "Kernel/Shapes/UnionOfSpheres.h"
 #include "SelfTests/Support/Random.h"
 #include "SelfTests/Support/Refusal.h"
 
@@ -202,6 +205,33 @@ TEST(SuperquadricSupport, givesTheSameBitsForEightAndForOne) {
         EXPECT_EQ(all.xx[k], one.xx);
         EXPECT_EQ(all.xy[k], one.xy);
     }
+}
+
+// No point of the surface is outside of all balls; and they take much less room than one sphere where that is
+// much too large.
+TEST(Superquadric, isHeldByItsCoveringBalls) {
+    std::vector<Superquadric> shapes = someShapes;
+    shapes.push_back({1, 1, 0.2, 2, 2}), shapes.push_back({0.2, 1, 0.2, 8, 8});
+    support::Random random(5);
+    for (const Superquadric& s : shapes) {
+        const std::vector<Ball> balls = coveringBalls(s);
+        const auto isHeld = [&](const Eigen::Vector3d& p) {
+            return std::ranges::any_of(balls, [&](const Ball& ball) {
+                return (p - ball.centre).norm() < ball.radius * (1 + 1e-12);
+            });
+        };
+        for (int k = 0; k < 20000; ++k) {
+            const Eigen::Vector3d direction = random.direction();
+            const Eigen::Vector3d point = direction / std::pow(inside(s, direction), 1.0 / s.n1);
+            ASSERT_TRUE(isHeld(point)) << s.a << ' ' << s.b << ' ' << s.c << ' ' << s.n1 << ' ' << s.n2;
+            ASSERT_TRUE(isHeld(random.uniform(0, 1) * point));
+        }
+        const double around = 4 * std::numbers::pi / 3 * std::pow(s.boundingRadius(), 3),
+                     held = balls.size() == 1 ? around : unionOfSpheres(balls, 1e-3).volume;
+        EXPECT_LE(held, around);
+        if (around > 3 * s.volume()) EXPECT_LT(held, 2 * s.volume());
+    }
+    EXPECT_EQ(coveringBalls({1, 1, 1}).size(), 1u);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "Kernel/Sizes/SizeTable.h"
 #include "Kernel/Species/Friction/SlidingFriction.h"
 #include "Kernel/Species/Normal/LinearViscoelastic.h"
+#include "SelfTests/Insertion/ClumpScene.h"
 #include "SelfTests/Restart/SameBits.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Superquadrics/FewSuperquadrics.h"
@@ -90,6 +91,31 @@ public:
         inletHandler.copyAndAddObject(inlet);
     }
 };
+
+// Up to solid fractions that one sphere around each could not reach; no two touch.
+TEST(ShapesCome, byDenseStarts) {
+    struct Case {
+        Superquadric shape;  // of any size
+        double fraction;
+    };
+    constexpr std::size_t number = 250;
+    for (const auto& [shape, fraction] :
+         {Case{{1, 1, 1.2}, 0.5}, Case{{1, 1, 2}, 0.47}, Case{{2, 1, 1, 4, 4}, 0.42}, Case{{1, 1, 0.5}, 0.42},
+          Case{{1, 1, 1, 8, 8}, 0.4}, Case{{1, 0.7, 0.4, 3, 5}, 0.45}}) {
+        FewSuperquadrics<Rough> scene(rough(), {}, 2e-6);
+        const double edge = d * std::cbrt(number * std::numbers::pi / 6 / fraction);
+        for (int axis = 0; axis < 3; ++axis) scene.setPeriodic(axis, 0, edge);
+        const Inserted made =
+            scene.insert(equalSizes(d), BoxRegion({0, 0, 0}, {edge, edge, edge}), Amount::grains(number),
+                         lens(scene.speciesHandler.getObject(0), shape));
+        EXPECT_EQ(made.number, number);
+        EXPECT_NEAR(made.solidFraction, fraction, 1e-9);
+        EXPECT_LT(made.orientationOrder, scenes::mostOrder(number));
+        if (shape.n1 < 8) EXPECT_GT(made.orientationOrder, 0);  // a cube has no axis
+        scene.initialise();
+        EXPECT_TRUE(scene.interactions().empty()) << fraction;
+    }
+}
 
 // What has come by a time is exact to one body: 4000 a second for 0.04 s are 160.
 TEST(ShapesCome, throughAnInletExactToOneBody) {
