@@ -58,6 +58,7 @@ void beginAlongWay(const RigidWall& wall, WallBody& body, const Step& step) {
     body.startSpeed = v;
     body.speed = v + h * (s.velocity0 * a + s.velocity1 * e);
     body.way += h * limited(body, v + h * (s.position0 * a + s.position1 * e) + 0.5 * held);
+    body.carried += h * body.across;
     body.seen = body.velocityAt(limited(body, body.speed + (s.velocity0 + s.velocity1) * held));
 }
 

@@ -40,7 +40,8 @@ public:
     // forces. The shape must be set before. The forces on the wall are kept. Throw InputError.
 
     /// It slides along a direction (of any length): mass x acceleration = force of the grains along it +
-    /// force + weight.
+    /// force + weight. The part of its velocity across the direction stays as it is: a lid that is pressed
+    /// and moved along.
     void setSlider(const Vec3D& direction, const SliderSettings& settings);
     /// It turns about an axis (of any length) through a point (m): inertia x angular acceleration = torque of
     /// the grains + torque. Its weight does not turn it. An endless surface must turn into itself.
@@ -68,7 +69,7 @@ public:
     void takeBack(const Pose& before, const Vector<double>& linear);
     // The same for a wall that is a body: to where the body is; with these velocities; back.
     void followBody();
-    void showVelocity(const RigidVelocity& shown) { velocity = shown; }
+    void showVelocity(const RigidVelocity& ofBody);
     void takeBack(const WallBody& before, const Pose& placed, const RigidVelocity& shown);
     [[nodiscard]] const RigidVelocity& shownVelocity() const { return velocity; }
     /// m, how far any point of its surface has gone by the last followBody()

@@ -147,8 +147,14 @@ void RigidWall::setVelocitiesOfBody(const RigidVelocity& before) {
         own.free.setSpin(before.spin);
     } else {
         own.speed = dot(own.turns() ? before.spin : before.linear, own.asked.axis);
+        if (!own.turns()) own.across = before.linear - own.speed * own.asked.axis;
     }
-    velocity = own.velocity();
+    showVelocity(own.velocity());
+}
+
+void RigidWall::showVelocity(const RigidVelocity& ofBody) {
+    velocity = ofBody;
+    velocity.linear += bodily->across;
 }
 
 void RigidWall::followBody() {

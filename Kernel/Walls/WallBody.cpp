@@ -31,7 +31,7 @@ Pose WallBody::poseFrom(const Pose& origin) const {
     if (asked.kind == Kind::Rotor) return Pose::turnedAbout(asked.axis, asked.centre, way).after(origin);
     if (asked.kind == Kind::Slider) {
         Pose pose = origin;
-        pose.shift += way * asked.axis;
+        pose.shift += way * asked.axis + carried;
         return pose;
     }
     const Axes<double> inSpace(free.orientation), inWall(asked.axes);
@@ -84,6 +84,8 @@ void WallBody::visitState(StateArchive& archive) {
     archive.finite("speed", speed);
     archive.finite("way", way);
     archive.finite("earlier", earlier);
+    archive.finite("across", across);
+    archive.finite("carried", carried);
     archive.finite("free", free);
     archive.finite("earlierAcceleration", earlierAcceleration);
     archive.finite("earlierTorque", earlierTorque);

@@ -66,6 +66,10 @@ struct WallBody {
     double speed = 0;    // m/s or rad/s, at the end of the last step
     double way = 0;      // m or rad, since it began
     double earlier = 0;  // m/s^2 or rad/s^2, at the start of the last step
+    // Of a slider: what it keeps of its velocity across the direction, as a belt does, whatever the grains
+    // do.
+    Vector<double> across{0, 0, 0};   // m/s
+    Vector<double> carried{0, 0, 0};  // m, that it has gone with it
     // Of a free body:
     RigidBody free{};  // acceleration and torque: at the end of the last step
     Vector<double> earlierAcceleration{0, 0, 0}, earlierTorque{0, 0, 0};  // at the start of it

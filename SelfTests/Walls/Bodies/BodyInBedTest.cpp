@@ -22,6 +22,7 @@ public:
         stirrer = add({{a, b, c}, {a, c, d}});
         stirrer->setRotor({0, 0, 1}, axis, stirring);
         slab = add(closedBox({0.00625, 0.00625, 0.016}, {0.011, 0.011, 0.0002}));
+        slab->setVelocity({0.01, 0.02, -0.1});
         slab->setSlider({0.1, 0, 1}, {.mass = 2e-4, .force = -0.02, .friction = 1e-4});
         box = add(closedBox({0.00625, 0.00625, 0.0135}, {0.003, 0.002, 0.001}));
         box->setVelocity({0, 0, -0.8});

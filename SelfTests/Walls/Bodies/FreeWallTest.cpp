@@ -54,6 +54,21 @@ TEST(WallBody, aSliderFallsAlongItsDirection) {
     EXPECT_NEAR(wall->getPose().shift.z, 0.5 * a / std::numbers::sqrt2 + 1, 1e-12);
 }
 
+TEST(WallBody, aSliderKeepsItsVelocityAcross) {
+    Scene scene(plain(), {}, 1e-3);
+    TriangleWall* const wall = scene.add(mesh(sheet(0.01, 0.01, 0.01)));
+    wall->setVelocity({0.3, 0.2, 0.1});
+    wall->setSlider({0, 0, 1}, {.mass = 0.1, .force = 0.3});
+    scene.run(1000);
+    wall->setSlider({0, 0, 1}, {.mass = 0.1, .force = -0.3});  // goes on, with another load
+    scene.step(1000);
+    EXPECT_NEAR(wall->getBodySpeed(), 0.1, 1e-12);
+    EXPECT_NEAR(wall->getPose().shift.x, 0.6, 1e-12);
+    EXPECT_NEAR(wall->getPose().shift.y, 0.4, 1e-12);
+    EXPECT_NEAR(wall->getPose().shift.z, 0.2 + 3, 1e-12);  // 2 x 3 / 2 m by the force
+    EXPECT_LT((wall->getVelocityAt({0, 0, 0}) - Vec3D(0.3, 0.2, 0.1)).norm(), 1e-12);
+}
+
 TEST(WallBody, theSummaryTellsHowFarItWent) {
     Scene scene(plain(), {}, 1e-3);
     scene.add(wheel())->setRotor({0, 0, 1}, {0, 0, 0}, {.inertia = 2e-6, .torque = 1e-6});

@@ -2,6 +2,8 @@
 // (shared/reference/drives-and-shapes.md, section 1).
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactSystem.h"
 #include "SelfTests/Support/Refusal.h"
@@ -28,6 +30,37 @@ TEST(WallBody, aFreeLidOnAColumnComesToRest) {
     EXPECT_NEAR(0.01 + lid->getBodyWay(), 9.99257304880341e-3, 1e-13);
     EXPECT_NEAR(lid->getForce().z(), 9.81e-4, 1e-6 * 9.81e-4);
     EXPECT_NEAR(scene.wallHandler.getObject(0).getForce().z(), -1.49465039886193e-3, 1e-6 * 1.5e-3);
+}
+
+/// A lid that is pressed onto grains and moved along is one whose surface runs, as long as it is flat: the
+/// same motion to round-off, and the same work of what moves it.
+TEST(WallBody, aLidThatIsMovedAlongIsABelt) {
+    const auto run = [](bool isBelt) {
+        std::vector<GrainMotion> grains;
+        for (int k = 0; k < 9; ++k)
+            grains.push_back({.radius = 1e-3, .position = {k % 3 * 3e-3, k / 3 * 3e-3, 1e-3}});
+        auto scene = std::make_unique<BodyScene<Rough>>(material<Rough>(1e4, 0.05, 2500), grains, 5e-6);
+        scene->setGravity({0, 0, -g});
+        InfiniteWall floor;
+        floor.set({0, 0, -1}, {0, 0, 0});
+        scene->add(floor);
+        TriangleWall* const lid = scene->add(mesh(sheet(0.0021, 0.1, 0.1)));
+        if (isBelt) lid->setSurfaceVelocity({0.2, 0.1, 0});
+        else lid->setVelocity({0.2, 0.1, 0});
+        lid->setSlider({0, 0, 1}, {.mass = 1e-3, .force = -0.1});
+        scene->keepEnergyLedger();
+        scene->run(10000);
+        return scene;
+    };
+    const auto belt = run(true), moved = run(false);
+    EXPECT_GT(belt->particleHandler.getObject(0).getVelocity().x(), 0.05);
+    for (std::uint32_t k = 0; k < 9; ++k)
+        EXPECT_LT((moved->particleHandler.getObject(k).getPosition() -
+                   belt->particleHandler.getObject(k).getPosition())
+                      .norm(),
+                  1e-11);
+    EXPECT_GT(belt->energyLedger().walls, 0);
+    EXPECT_NEAR(moved->energyLedger().walls, belt->energyLedger().walls, 1e-9 * belt->energyLedger().walls);
 }
 
 /// The plate of lid_plate.csv: 20 x 30 x 2 mm, 3 g, on grains that no force moves, with springs of 10 kN/m.
