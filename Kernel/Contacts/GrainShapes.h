@@ -34,12 +34,6 @@ struct ShapeExtremes {
     double lever;    // m, |arm x n|: times the spin, the speed by which the surface comes nearer
 };
 
-/// A ball that touches the surface of a grain from inside.
-struct InnerBall {
-    Vector<double> centre;  // m
-    double radius;          // m, at most the smallest radius of curvature of the grain
-};
-
 /// A grain's shape, and where its axes point to in space.
 struct ShapeInSpace {
     Superquadric shape;  // three equal half lengths: a sphere
@@ -68,10 +62,6 @@ public:
     /// m, from the centre of a grain to its farthest point along a normal (unit).
     [[nodiscard]] virtual Vector<double> farthest(const ParticleStore& grains, std::uint32_t place,
                                                   const Vector<double>& normal) const = 0;
-    /// The ball that touches a grain's surface where the surface has this normal (unit, outwards); a sphere
-    /// is its own ball.
-    [[nodiscard]] virtual InnerBall ballAt(const ParticleStore& grains, std::uint32_t place,
-                                           const Vector<double>& normal) const = 0;
     /// How the grains at two places of the store touch.
     /// @param shift m, centre 2 - centre 1
     [[nodiscard]] virtual ShapedTouch touch(const ParticleStore& grains, std::uint32_t first,

@@ -146,27 +146,29 @@ void WallPatches::findNear(std::size_t grain, const ContactStore& contacts, cons
     std::uint32_t near = 0;
     for (std::uint32_t m = begin; m < end; ++m)
         near += distanceOf(contacts, members[m].contact) < body.radius + rangeOf(m) ? 1 : 0;
-    if (near < 2) return;
+    if (near < 2 || (isShaped && isAtOneWall(grain, contacts))) return;
     for (std::uint32_t m = begin; m < end; ++m) {
         const std::uint32_t contact = members[m].contact;
         const double distance = distanceOf(contacts, contact);
         if (!(distance < body.radius + rangeOf(m))) continue;
         if (!ContactStore::bitOf(contacts.states[contact / Pack::lanes].listed, contact)) continue;
         const Bucket& bucket = contacts.buckets[static_cast<std::size_t>(members[m].bucket)];
+        const Vector<double> normal = normalOf(contacts, contact);
         Point point{contact,
                     &bucket,
-                    normalOf(contacts, contact),
+                    normal,
                     distance,
                     body.radius + rangeOf(m),
                     distance + orderOfWalls * body.radius * bucket.wall,
                     1,
-                    0};
+                    body.radius,
+                    distance * normal};
         if (isShaped) {  // the deepest first
-            const InnerBall ball = shapes->ballAt(grains, place, point.normal);
-            point.beyondBall = dot(ball.centre - body.position, point.normal);
-            const double height = point.beyondBall + ball.radius;
-            point.reach = height + rangeOf(m);
-            point.order -= height;
+            const Vector<double> farthest = shapes->farthest(grains, place, normal);
+            point.height = dot(farthest, normal);
+            point.touched = farthest - (point.height - distance) * normal;
+            point.reach = point.height + rangeOf(m);
+            point.order -= point.height;
             if (!(distance < point.reach)) continue;
         }
         points.push_back(point);
@@ -183,9 +185,7 @@ void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const GrainS
     const TranslationRecord& body = grains.translation[place];
     const bool isShaped = shapes && shapes->isShaped(grains, place);
     const auto shareOf = [&](const Point& near, const Point& far) {
-        if (!isShaped) return ownShare(contacts, walls, near, far, body.position, body.radius);
-        if (near.bucket->wall == far.bucket->wall) return 1.0;
-        return ownShareOfShape(grain, contacts, walls, shapes->ballAt(grains, place, far.normal), near, far);
+        return isShaped ? ownShareOfShape(near, far) : ownShare(contacts, walls, near, far, body.position);
     };
     // A point takes from those behind it by how far it counts itself, so that nothing jumps where two of
     // several change places. A facet that is left out goes on for the one that it continues, as the next
@@ -218,39 +218,34 @@ void WallPatches::joinOf(std::size_t grain, ContactStore& contacts, const GrainS
     }
 }
 
-/// As the ball below the touch of the less deep contact sees both walls: of the other wall all parts that are
-/// listed, since the ball may be beside the one that the grain touches.
-double WallPatches::ownShareOfShape(std::size_t grain, const ContactStore& contacts, const WallHandler& walls,
-                                    const InnerBall& ball, const Point& near, const Point& far) const {
-    Point own = far, other = near;
-    own.distance = far.distance - far.beyondBall;
-    own.reach = far.reach - far.beyondBall;
-    other.distance = infinity;
-    other.reach = near.reach - near.beyondBall;
-    const Wall& wall = walls.getObject(static_cast<std::size_t>(near.bucket->wall));
-    for (std::uint32_t m = several[grain].begin; m < several[grain + 1].begin; ++m) {
-        const std::uint32_t contact = members[m].contact, part = partOf(contacts, contact);
-        if (contacts.buckets[static_cast<std::size_t>(members[m].bucket)].wall != near.bucket->wall) continue;
-        WallPoint seen{};
-        wall.findPoints(ball.centre, other.reach, {&part, 1}, {&seen, 1});
-        if (!(seen.distance < other.distance)) continue;
-        other.contact = contact, other.distance = seen.distance, other.normal = seen.normal;
-    }
-    if (!(other.distance < other.reach)) return 1;
-    const bool isNearer = other.distance <= own.distance;
-    return ownShare(contacts, walls, isNearer ? other : own, isNearer ? own : other, ball.centre,
-                    ball.radius);
+bool WallPatches::isAtOneWall(std::size_t grain, const ContactStore& contacts) const {
+    const auto wallOf = [&](std::uint32_t m) {
+        return contacts.buckets[static_cast<std::size_t>(members[m].bucket)].wall;
+    };
+    const std::uint32_t begin = several[grain].begin;
+    for (std::uint32_t m = begin + 1; m < several[grain + 1].begin; ++m)
+        if (wallOf(m) != wallOf(begin)) return false;
+    return true;
+}
+
+/// m, how deep the contact at the near point reaches into the surface, beside the far one.
+double WallPatches::depthBeside(const Point& near, const Point& far) {
+    const double radius = near.height, range = near.reach - radius, gap = far.distance - far.height,
+                 pressed = patchDepth(radius, near.distance, 0),
+                 wetted = patchDepth(radius, near.distance, range) - pressed;
+    return pressed +
+           (range > 0 ? std::clamp(gap / (fadingOfLiquid * range), leastOfLiquid, 1.0) * wetted : 0);
+}
+
+/// How far the point q rises out of the tangent plane at p does not ask for a centre: n_p . (p - q).
+double WallPatches::ownShareOfShape(const Point& near, const Point& far) {
+    if (near.bucket->wall == far.bucket->wall) return 1;
+    return ownShareByRise(dot(near.normal, near.touched - far.touched), depthBeside(near, far));
 }
 
 double WallPatches::ownShare(const ContactStore& contacts, const WallHandler& walls, const Point& near,
-                             const Point& far, const Vector<double>& centre, double radius) {
-    const double cosine = dot(near.normal, far.normal);
-    const double range = near.reach - radius, gap = far.distance - radius,
-                 pressed = patchDepth(radius, near.distance, 0),
-                 wetted = patchDepth(radius, near.distance, range) - pressed,
-                 depth = pressed +
-                         (range > 0 ? std::clamp(gap / (fadingOfLiquid * range), leastOfLiquid, 1.0) * wetted
-                                    : 0);
+                             const Point& far, const Vector<double>& centre) {
+    const double cosine = dot(near.normal, far.normal), radius = near.height, depth = depthBeside(near, far);
     const double byRise = ownShareByRise(near.distance - far.distance * cosine, depth);
     if (byRise == 0 || !(cosine > smoothCosine)) return byRise;
     const Facet a{walls.getObject(static_cast<std::size_t>(near.bucket->wall)),

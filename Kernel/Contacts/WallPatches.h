@@ -17,9 +17,8 @@ namespace pendular {
 /// contact gets an infinite distance, so that it has neither force nor bridge, and what the contact remembers
 /// goes on with the other one. Where it counts in part, its overlap gets smaller by its share.
 ///
-/// Of a grain that is no sphere, contacts with different walls are compared as the ball below the touch of
-/// the less deep one sees both walls (GrainShapes::ballAt()); those with parts of one wall are none of this
-/// class (Kernel/Superquadrics/ShapeAtWall.h).
+/// Of a grain that is no sphere, contacts with different walls are compared by where it touches them; those
+/// with parts of one wall are left to Kernel/Superquadrics/ShapeAtWall.h.
 ///
 /// Which pieces are near to several is known when contacts are listed: a scene whose grains touch one wall
 /// each pays nothing.
@@ -51,7 +50,8 @@ private:
         double distance, reach;  // m; reach: at which the contact ends
         double order;            // m, by which they are sorted
         double share;            // how far it counts
-        double beyondBall;  // m, from the grain's centre to that of the ball, along the normal; 0: a sphere
+        double height;           // m, of the grain's surface above its centre, along the normal
+        Vector<double> touched;  // m, from the centre to the point of the wall
     };
     struct HandOver {
         std::uint32_t from, to;  // contacts
@@ -63,10 +63,11 @@ private:
                 std::vector<HandOver>& found) const;
     void findNear(std::size_t grain, const ContactStore& contacts, const GrainShapes* shapes,
                   const ParticleStore& grains, std::vector<Point>& points) const;
-    double ownShareOfShape(std::size_t grain, const ContactStore& contacts, const WallHandler& walls,
-                           const InnerBall& ball, const Point& near, const Point& far) const;
+    [[nodiscard]] bool isAtOneWall(std::size_t grain, const ContactStore& contacts) const;
+    static double depthBeside(const Point& near, const Point& far);
+    static double ownShareOfShape(const Point& near, const Point& far);
     static double ownShare(const ContactStore& contacts, const WallHandler& walls, const Point& near,
-                           const Point& far, const Vector<double>& centre, double radius);
+                           const Point& far, const Vector<double>& centre);
 
     std::vector<Grain> several;   // and one more, for the end of the last one's members
     std::vector<Member> members;  // of each grain in the order of walls and parts

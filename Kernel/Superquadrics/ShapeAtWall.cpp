@@ -232,7 +232,7 @@ void ShapeAtWall::leaveOutCovered(const Wall& wall, double range, std::span<cons
     for (std::size_t rank = 1; rank < order.size(); ++rank) {
         const std::uint32_t own = order[rank];
         WallPoint& point = points[own];
-        const Vector<double> ball = ballAt(point.normal);
+        const Vector<double> ball = coreAt(supportAt(point.normal), point.normal);
         wall.findPoints(ball, ballRadius + range, parts, seen);
         const WallPoint here = nearest(wall, parts[own], ball);
         const auto standsForIt = [&](std::uint32_t ahead) {

@@ -34,12 +34,6 @@ public:
     void findPoints(const Wall& wall, double range, std::span<const std::uint32_t> parts,
                     std::span<WallPoint> points) const;
 
-    /// m, the centre of the ball that touches the surface where it has this normal (unit, outwards).
-    [[nodiscard]] Vector<double> ballAt(const Vector<double>& normal) const {
-        return coreAt(supportAt(normal), normal);
-    }
-    [[nodiscard]] double radiusOfBall() const { return ballRadius; }
-
 private:
     /// What the ball at a point of the core sees of a part.
     struct Look {

@@ -177,16 +177,6 @@ ShapeAtWall SuperquadricHandler::atWalls(const ParticleStore& grains, std::uint3
             balls[kind]};
 }
 
-InnerBall SuperquadricHandler::ballAt(const ParticleStore& grains, std::uint32_t place,
-                                      const Vector<double>& normal) const {
-    if (!blocks.empty() || !isShaped(grains, place)) {  // the corners of blocks touch walls, as spheres
-        const TranslationRecord& sphere = grains.translation[place];
-        return {sphere.position, sphere.radius};
-    }
-    const ShapeAtWall shape = atWalls(grains, place);
-    return {shape.ballAt(normal), shape.radiusOfBall()};
-}
-
 void SuperquadricHandler::findPoints(const ParticleStore& grains, std::uint32_t grain, const Wall& wall,
                                      double range, std::span<const std::uint32_t> parts,
                                      std::span<WallPoint> points) const {

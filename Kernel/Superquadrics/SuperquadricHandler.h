@@ -49,8 +49,6 @@ public:
     [[nodiscard]] ShapeExtremes extremesAt(const ParticleStore& grains, std::uint32_t place) const override;
     /// The smallest half length is the radius that overlaps are held against, that of its edges of a block.
     [[nodiscard]] double thickness(const ParticleStore& grains, std::uint32_t grain) const override;
-    [[nodiscard]] InnerBall ballAt(const ParticleStore& grains, std::uint32_t place,
-                                   const Vector<double>& normal) const override;
     [[nodiscard]] ShapedTouch touch(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
                                     const Vector<double>& shift) const override;
     [[nodiscard]] double hiddenOverlap(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
