@@ -214,7 +214,7 @@ void placeBodies(const InsertionScene& scene, std::vector<PlacedBody>& bodies, c
     if (fraction <= looseFraction * (1 + roundOffOfLimits))
         bodies = placeOneByOne(scene, bodies, region, options, firstLeftOut);
     else {
-        refuseTooDense("clumps", amount, fraction);
+        refuseTooDense("bodies", amount, fraction);
         placeDensely(scene, bodies, region, options, fraction);
     }
     if (scene.periodic.imagesMove)

@@ -174,9 +174,12 @@ Vec3D RigidWall::getVelocityAt(const Vec3D& point) const {
 Eigen::Isometry3d RigidWall::askedPose(double time) const {
     const Eigen::Isometry3d asked = motion(time);
     const double error = (asked.linear() * asked.linear().transpose() - Eigen::Matrix3d::Identity()).norm();
-    if (!(error < 1e-9) || !(asked.linear().determinant() > 0) || !asked.translation().allFinite())
-        throw InputError(
-            fmt::format("Wall: the function of the motion gives no rigid pose at time {:.6g} s.", time));
+    constexpr double farthest = 1e100;  // m: squares of distances and speeds are finite numbers
+    if (!(error < 1e-9) || !(asked.linear().determinant() > 0) ||
+        !(asked.translation().array().abs() <= farthest).all())
+        throw InputError(fmt::format(
+            "Wall: the function of the motion gives no rigid pose within {:g} m at time {:.6g} s.", farthest,
+            time));
     return asked;
 }
 

@@ -22,6 +22,7 @@ struct FreeWallsScene : FirstDriver {
         TriangleWall plate;
         plate.set(std::vector<Triangle>{{{{0, 0, 0.012}, {0.03, 0, 0.012}, {0, 0.03, 0.012}}}});
         plate.setSpecies(material);
+        plate.setVelocity({0.002, 0, 0});  // m/s; across its direction it keeps it: a lid that shears
         plate.setSlider({0, 0, 1}, {.mass = 1e-4, .force = -1e-3});  // kg, N; its weight comes on top of it
         lid = wallHandler.copyAndAddObject(plate);
 

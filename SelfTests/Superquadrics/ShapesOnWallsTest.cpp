@@ -144,6 +144,38 @@ TEST(ShapesOnWalls, aSeamBetweenTwoWallsIsNone) {
     }
 }
 
+// A groove whose right face is of two walls, one of which goes on as the left face: the contact above the
+// seam is one of the right face, wherever the seam is, and the left one does not stand for it.
+TEST(ShapesOnWalls, aSeamBesideAGrooveTakesNoContactAway) {
+    const double slope = 20 * std::numbers::pi / 180;
+    const auto at = [&](double x, double y) { return Vector<double>{x, y, std::abs(y) * std::tan(slope)}; };
+    const auto strip = [&](double from, double to) {
+        return std::vector<Triangle>{{at(-0.02, from), at(0.02, from), at(0.02, to)},
+                                     {at(-0.02, from), at(0.02, to), at(-0.02, to)}};
+    };
+    const auto together = [](std::vector<Triangle> a, const std::vector<Triangle>& b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+    };
+    for (const double aside : {-1e-6, 0.0, 1e-6})
+        for (double seam = 0.30e-3; seam < 0.40e-3; seam += 0.01e-3) {
+            const SuperquadricMotion motion{{1.2e-3, 1e-3, 1e-3}, {0, aside, 1e-3 / std::cos(slope) - 5e-6}};
+            const std::vector<Triangle> left = together(strip(0, -0.02), strip(0, seam)),
+                                        right = strip(seam, 0.02);
+            double carried[2] = {0, 0};  // m, sums of overlaps times n_z
+            for (const bool isOneMesh : {false, true}) {
+                Rolling scene(motion, 3000, 2e-6, 0);
+                scene.addMeshes(isOneMesh ? Meshes{together(left, right)} : Meshes{left, right});
+                scene.initialise();
+                const auto contacts = scene.interactions();
+                EXPECT_EQ(contacts.size(), 2u) << seam;
+                for (const auto& contact : contacts)
+                    carried[isOneMesh] -= contact.overlap() * contact.normal().z;
+            }
+            EXPECT_NEAR(carried[0], carried[1], 1e-14) << seam;
+        }
+}
+
 // Walls that continue each other are one surface: a floor of two or four meshes whose seams the grain
 // crosses, and a mesh that lies in a plane, give the motion on the plane, as near as one mesh does, with one
 // contact.

@@ -37,6 +37,8 @@ INSTANTIATE_TEST_SUITE_P(
             "strainOfWetGrains",
             "seed=1585 features=HertzianViscoelasticMindlinViscousLiquidMigrationLS,Strain,Grains,Films "
             "grains=16"},
+        FoundScene{"aPlaneThatVibratesBeyondAllNumbers",
+                   "seed=8774 features=Grains,VibratingPlane wrong=VibratingPlane#3:1e+300 steps=2 grains=4"},
         FoundScene{"wallForcesWhenAServoIsTakenAway",
                    "seed=1641 features=Grains,ForceServo,WallForces steps=16 grains=1"},
         FoundScene{"wallForcesOfAWallThatComes",
