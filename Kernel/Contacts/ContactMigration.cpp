@@ -23,6 +23,7 @@ void ContactMigration::pack(std::size_t self, std::span<const std::size_t> owner
             memory.getNumbers(remembered.slotOf(k), numbers.data());
             toEach[last].add(entry);
             for (const double number : numbers) toEach[last].add(number);
+            if (!memory.energies.empty()) toEach[last].add(memory.energies[remembered.slotOf(k)]);
         };
         sendWith(entry.owner);
         if (entry.wall == 0) sendWith(entry.other);
@@ -35,6 +36,8 @@ void ContactMigration::unpack(Message& message) {
         const auto entry = message.take<RememberedContacts::Entry>();
         for (double& number : numbers) message.take(number);
         remembered.add(entry, numbers, memory);
+        if (memory.energies.empty()) continue;
+        message.take(memory.energies[remembered.slotOf(static_cast<std::uint32_t>(remembered.size() - 1))]);
     }
 }
 

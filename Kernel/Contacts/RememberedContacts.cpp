@@ -138,7 +138,11 @@ bool RememberedContacts::areSame(std::uint32_t a, std::uint32_t b, const Contact
     std::vector<double> ofA(memory.numberCount()), ofB(ofA);
     memory.getNumbers(slots[a], ofA.data());
     memory.getNumbers(slots[b], ofB.data());
-    return entries[a].state == entries[b].state &&
+    const auto haveSameEnergies = [&] {
+        return memory.energies.empty() ||
+               std::memcmp(&memory.energies[slots[a]], &memory.energies[slots[b]], sizeof(EnergyRecord)) == 0;
+    };
+    return entries[a].state == entries[b].state && haveSameEnergies() &&
            std::memcmp(ofA.data(), ofB.data(), ofA.size() * sizeof(double)) == 0;
 }
 
