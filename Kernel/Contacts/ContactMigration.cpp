@@ -13,6 +13,7 @@ Luggage ContactMigration::luggage(std::size_t self) {
 void ContactMigration::pack(std::size_t self, std::span<const std::size_t> owners,
                             std::span<Message> toEach) const {
     std::vector<double> numbers(memory.numberCount());
+    remembered.noteCounted(grains);
     for (std::uint32_t k = 0; k < remembered.size(); ++k) {
         const RememberedContacts::Entry& entry = remembered.entry(k);
         std::size_t last = self;  // the rank that has got it

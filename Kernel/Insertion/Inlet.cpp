@@ -434,7 +434,8 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
         std::vector<std::optional<Room>> rooms;
         for (std::uint32_t k = 0; k < count; ++k) rooms.push_back(roomOf(kept.attempts + k));
         const std::vector<bool> free = areFree(rooms, ranks);
-        const auto first = static_cast<std::uint32_t>(std::ranges::find(free, true) - free.begin());
+        const auto first =
+            static_cast<std::uint32_t>(std::find(free.begin(), free.end(), true) - free.begin());
         kept.attempts += std::min(first + 1, count);
         if (first < count) return rooms[first];
     }
