@@ -114,10 +114,10 @@ void Scene::Inside::refuseForRanks() const {
         throw InputError(
             "Simulation: a scene on several ranks (setRanks()) cannot go on from a restart file yet; run it "
             "on one rank.");
-    if (gapOfFirstBridges > 0)
+    if (scene.hasOutputs())
         throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) cannot be joined at its start yet; leave "
-            "joinAtStart() out, or run it on one rank.");
+            "Simulation: a scene on several ranks (setRanks()) writes no outputs yet; leave addOutput() out, "
+            "or run it on one rank.");
 }
 
 Features Scene::Inside::wakeParts() {
