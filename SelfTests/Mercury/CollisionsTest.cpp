@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "Kernel/MercuryScene.h"
+#include "Kernel/Simulation/StateHash.h"
 #include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/TestFolder.h"
 
 namespace pendular::mercuryCollisionsTest {
 namespace {
@@ -389,6 +392,47 @@ TEST(MercuryBond, endsWhereGrainsPart) {
     scene.interactionHandler.getInteraction(a, b)->unbond();
     scene.step();
     EXPECT_NEAR(force(), -100 * scene.interactionHandler.getInteraction(a, b)->getOverlap(), 1e-12);
+}
+
+// A run goes on from its restart file with its bonds, also one that a hook has just asked for.
+TEST(MercuryBond, isInTheRestartFile) {
+    const support::TestFolder folder;
+    const auto make = [] {
+        auto scene = std::make_unique<MercuryScene<LinearViscoelasticBondedSpecies>>();
+        auto s = scene->speciesHandler.copyAndAddObject(LinearViscoelasticBondedSpecies());
+        s->setDensity(2000), s->setStiffness(100), s->setBondForceMax(1e-3);
+        SphericalParticle p(s);
+        p.setRadius(1e-3);
+        for (const double x : {0.0, 1.99, 3.985, 5.97}) {
+            p.setPosition({1e-3 * x, 0, 0});
+            scene->particleHandler.copyAndAddObject(p);
+        }
+        scene->setTimeStep(1e-6);
+        scene->setQuiet();
+        return scene;
+    };
+    const auto bond = [](auto& scene, std::size_t k) {
+        scene.interactionHandler
+            .getInteraction(scene.particleHandler.getObject(k), scene.particleHandler.getObject(k + 1))
+            ->bond();
+    };
+    auto whole = make(), second = make();
+    bond(*whole, 0), bond(*second, 0);
+    whole->initialise();
+    for (int k = 0; k < 100; ++k) whole->step();
+    bond(*whole, 2);
+    whole->writeRestart(folder.path() / "bonded.h5");
+    second->restartFrom(folder.path() / "bonded.h5");
+    second->initialise();
+    for (int k = 0; k < 3000; ++k) whole->step(), second->step();
+    EXPECT_EQ(stateHash(whole->particleHandler.store()), stateHash(second->particleHandler.store()));
+    // Both pairs are still together, and parted from each other.
+    EXPECT_TRUE(second->interactionHandler.getInteraction(second->particleHandler.getObject(0),
+                                                          second->particleHandler.getObject(1)));
+    EXPECT_TRUE(second->interactionHandler.getInteraction(second->particleHandler.getObject(2),
+                                                          second->particleHandler.getObject(3)));
+    EXPECT_FALSE(second->interactionHandler.getInteraction(second->particleHandler.getObject(1),
+                                                           second->particleHandler.getObject(2)));
 }
 
 TEST(MercuryBond, whatCannotBeIsRefused) {
