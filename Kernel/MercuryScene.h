@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "Kernel/Mercury/MercuryArguments.h"
+#include "Kernel/Mercury/MercuryBonds.h"
 #include "Kernel/Mercury/MercuryBoundaries.h"
 #include "Kernel/Mercury/MercuryCG.h"
 #include "Kernel/Mercury/MercuryData.h"
@@ -171,6 +172,7 @@ private:
 
     int systemDimensions = 3;
     MercuryPaths& paths = this->template addPart<MercuryPaths>();
+    MercuryBonds& bonds = this->template addPart<MercuryBonds>();
 
     std::shared_ptr<MercurySettings> settings = std::make_shared<MercurySettings>();
     MercuryDomain domain{*this};
@@ -184,7 +186,7 @@ public:
     MercuryRandom& random = settings->random;
     MercuryWallHandler wallHandler{Scene::wallHandler, domain, settings};
     MercuryBoundaryHandler boundaryHandler{*this};
-    MercuryInteractionHandler interactionHandler{*this, settings};
+    MercuryInteractionHandler interactionHandler{*this, settings, bonds};
     MercuryCGHandler cgHandler{*this};
 };
 
@@ -201,10 +203,10 @@ void MercuryScene<Types...>::readDataFile(const std::filesystem::path& file) {
 using Mercury3D = MercuryScene<>;
 using DPMBase = MercuryScene<>;
 
-/// The same in two dimensions: setSystemDimensions(2).
+/// The same in two dimensions, of discs: setDimension(2). For spheres in a plane setParticleDimensions(3).
 class Mercury2D : public Mercury3D {
 public:
-    Mercury2D() { setSystemDimensions(2); }
+    Mercury2D() { setDimension(2); }
 };
 
 }  // namespace pendular

@@ -25,6 +25,7 @@ port() {
         -e "s/Vec3D::dot\\($operand,[[:space:]]*$operand\\)/(\\1).dot(\\3)/g" \
         -e "s/Vec3D::cross\\($operand,[[:space:]]*$operand\\)/(\\1).cross(\\3)/g" \
         -e 's/([A-Za-z_.]*)speciesHandler\.addObject\(([A-Za-z_0-9]+)\)/\2 = \1speciesHandler.copyAndAddObject(*\2)/g' \
+        -e 's/dynamic_cast<[^()]*\*>\((([A-Za-z_0-9]+(->|\.))*interactionHandler\.getInteraction\((.*)\))\)/\1/' \
         -e 's/\.getLengthSquared\(\)/.squaredNorm()/g' \
         -e 's/\.getLength\(\)/.norm()/g' \
         -e 's/\b(const )?(BaseParticle|BaseInteraction|BaseWall|BaseBoundary)[[:space:]]*\*[[:space:]]*/auto /g' \

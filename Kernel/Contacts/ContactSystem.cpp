@@ -509,6 +509,9 @@ double& ContactSystem::columnOf(const ObservedContact& seen, std::size_t column)
 double ContactSystem::columnOf(const ObservedContact& seen, std::size_t column) const {
     return contacts.memory.named.at(slotOf(seen), column);
 }
+double& ContactSystem::adhesionNumberOf(const ObservedContact& seen, std::size_t number) {
+    return contacts.memory.interaction.at(slotOf(seen), number);
+}
 std::size_t ContactSystem::slotOf(const ObservedContact& seen) const {
     if (seen.list != rebuilds)
         throw InputError(fmt::format(

@@ -240,6 +240,9 @@ public:
     [[nodiscard]] double& columnOf(const ObservedContact& seen, std::size_t column);
     [[nodiscard]] double columnOf(const ObservedContact& seen, std::size_t column) const;
 
+    /// A number that the adhesion law of a contact remembers, as for columnOf().
+    [[nodiscard]] double& adhesionNumberOf(const ObservedContact& seen, std::size_t number);
+
     [[nodiscard]] ObservedContact observe(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
     /// The length (m) of the tangential spring.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Mercury/InletVelocities.h"
 #include "Kernel/Sizes/SizeTable.h"
 #include "Kernel/State/Random.h"
 
@@ -232,10 +233,6 @@ void CubeInsertionBoundary::insertAtOnce(Scene& of, double density) {
 }
 
 void CubeInsertionBoundary::addInlet(Scene& of, double density) {
-    if (lowVelocity != highVelocity)
-        throw InputError(
-            "CubeInsertionBoundary: the bounds of the velocity differ, and grains that come in the run have "
-            "one velocity; give it twice, in m/s, or set velocities in a hook.");
     Inlet stream;
     stream.setRegion(*region);
     stream.setSizes(sizesOfGrains());
@@ -248,6 +245,8 @@ void CubeInsertionBoundary::addInlet(Scene& of, double density) {
         stream.setNoRoom(NoRoom::Lost);
     }
     inlet = of.inletHandler.copyAndAddObject(stream);
+    if (lowVelocity != highVelocity)
+        of.addPart<InletVelocities>(of.inletHandler, *inlet, lowVelocity, highVelocity);
 }
 
 std::uint64_t CubeInsertionBoundary::getNumberOfParticlesInserted() const {
@@ -258,6 +257,11 @@ std::uint64_t CubeInsertionBoundary::getNumberOfParticlesInserted() const {
 double CubeInsertionBoundary::getMassOfParticlesInserted() const {
     const Scene& in = sceneThatHasIt();
     return atOnce.mass + (inlet ? in.inletHandler.countOf(*inlet).mass : 0);
+}
+
+double CubeInsertionBoundary::getVolumeOfParticlesInserted() const {
+    const auto species = static_cast<std::size_t>(grain.getSpeciesIndex());
+    return getMassOfParticlesInserted() / sceneThatHasIt().laws().density(species);
 }
 
 MercuryBoundary* MercuryBoundaryHandler::getObject(std::size_t number) const {

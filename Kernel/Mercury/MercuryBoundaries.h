@@ -151,17 +151,20 @@ public:
     CubeInsertionBoundary() : MercuryBoundary("CubeInsertionBoundary") {}
     /// @param like species, radius (without a PSD) and film of the grains
     /// @param maxFailed random places that a grain is tried at in a step, less one
-    /// @param lowestVelocity m/s; bounds that differ are for a volume at once: each part is even between them
+    /// @param lowestVelocity m/s: each part is even between the bounds
     void set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
              const Vec3D& lowestVelocity = Vec3D::Zero(), const Vec3D& highestVelocity = Vec3D::Zero());
     /// The same, with as many grains of each radius (m) between two.
     void set(const SphericalParticle& like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
              const Vec3D& lowestVelocity, const Vec3D& highestVelocity, double smallest, double largest);
     /// The same, with a pointer to the grain.
-    template <class... More>
     void set(const SphericalParticle* like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
-             const More&... more) {
-        set(*like, maxFailed, lowest, highest, more...);
+             const Vec3D& lowestVelocity = Vec3D::Zero(), const Vec3D& highestVelocity = Vec3D::Zero()) {
+        set(*like, maxFailed, lowest, highest, lowestVelocity, highestVelocity);
+    }
+    void set(const SphericalParticle* like, unsigned maxFailed, const Vec3D& lowest, const Vec3D& highest,
+             const Vec3D& lowestVelocity, const Vec3D& highestVelocity, double smallest, double largest) {
+        set(*like, maxFailed, lowest, highest, lowestVelocity, highestVelocity, smallest, largest);
     }
     void setPSD(const PSD& distribution);
     /// m^3, of the grains that come at once
@@ -169,7 +172,8 @@ public:
     /// m^3/s, of the grains that come while the scene runs
     void setVolumeFlowRate(double rate);
     [[nodiscard]] std::uint64_t getNumberOfParticlesInserted() const;
-    [[nodiscard]] double getMassOfParticlesInserted() const;  // kg
+    [[nodiscard]] double getMassOfParticlesInserted() const;    // kg
+    [[nodiscard]] double getVolumeOfParticlesInserted() const;  // m^3
 
 private:
     /// It has a box and one of the two volumes.

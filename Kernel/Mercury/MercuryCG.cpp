@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/CoarseGraining/SceneState.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Simulation/Scene.h"
+#include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/Field.h"
 
 namespace pendular {
@@ -66,6 +69,11 @@ void makeBoundary(GrainState& state, const std::vector<bool>& isOut) {
     state.contacts = std::move(contacts);
 }
 
+/// Whether a grain counts: it moves, and is of the species that is selected (negative: of any).
+bool isCounted(const ParticleStore& grains, std::uint32_t place, int species) {
+    return grains.translation[place].inverseMass != 0 && (species < 0 || grains.species[place] == species);
+}
+
 /// The state of a scene, in which only grains that move, and of one species if one is selected, count.
 GrainState countedState(const Scene& scene, int species) {
     GrainState state = stateOf(scene);
@@ -74,12 +82,24 @@ GrainState countedState(const Scene& scene, int species) {
     std::vector<bool> isOut;
     bool any = false;
     for (const std::uint32_t place : grains.place) {
-        isOut.push_back(grains.translation[place].inverseMass == 0 ||
-                        (species >= 0 && grains.species[place] != species));
+        isOut.push_back(!isCounted(grains, place, species));
         any |= isOut.back();
     }
     if (any) makeBoundary(state, isOut);
     return state;
+}
+
+/// Tells states apart: by grains, their sizes and masses, which hooks may change, and the box.
+std::uint64_t hashOf(const Scene& scene) {
+    const ParticleStore& grains = scene.particleHandler.store();
+    std::uint64_t hash = stateHash(grains);
+    const auto add = [&hash](double number) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3u;
+    };
+    for (const std::uint32_t place : grains.place)
+        add(grains.translation[place].radius), add(grains.translation[place].inverseMass);
+    for (int axis = 0; axis < 3; ++axis) add(scene.getMin()[axis]), add(scene.getMax()[axis]);
+    return hash;
 }
 
 /// The mean of the squared distance from the middle of a function over the square of its width.
@@ -154,11 +174,7 @@ FieldSums MercuryCG::emptySums(const Scene& of) const {
     return {grid, SmoothingKernel(shape, grid.dimensions(), width, getCutoff())};
 }
 
-FieldSums MercuryCG::sumsNow() const {
-    if (averages) {
-        if (mean) return *mean;
-        throw InputError("TimeAveragedCG: no output was due in its times, so that there is no mean.");
-    }
+const Scene& MercuryCG::sceneInTime() const {
     if (!scene)
         throw InputError(
             "CG: it is of no scene; take the pointer that cgHandler.copyAndAddObject() returned.");
@@ -166,9 +182,42 @@ FieldSums MercuryCG::sumsNow() const {
         throw InputError(
             fmt::format("CG: the last step is at {:.6g} s; it must be between {:.6g} s and {:.6g} s.",
                         scene->getTime(), timeMin, timeMax));
-    FieldSums sums = emptySums(*scene);
-    sums.add(countedState(*scene, species), scene->getNumberOfThreads());
-    return sums;
+    return *scene;
+}
+
+const FieldSums& MercuryCG::sumsNow() const {
+    if (averages) {
+        if (mean) return *mean;
+        throw InputError("TimeAveragedCG: no output was due in its times, so that there is no mean.");
+    }
+    const Scene& of = sceneInTime();
+    const std::size_t step = of.getNumberOfTimeSteps();
+    const std::uint64_t state = hashOf(of);
+    if (last && last->step == step && last->state == state) return last->sums;
+    last = Last{step, state, emptySums(of)};
+    last->sums.add(countedState(of, species), of.getNumberOfThreads());
+    return last->sums;
+}
+
+std::array<double, 6> MercuryCG::getStandardisedParticleSizeMomenta() const {
+    const Scene& of = sceneInTime();
+    const ParticleStore& grains = of.particleHandler.store();
+    std::vector<double> radii;
+    for (const std::uint32_t place : grains.place)
+        if (isCounted(grains, place, species)) radii.push_back(grains.translation[place].radius);
+    const double number = static_cast<double>(radii.size());
+    const auto meanOf = [&](auto&& power) {
+        ExactSum sum;
+        for (const double radius : radii) sum.add(power(radius));
+        return radii.empty() ? 0 : sum.value() / number;
+    };
+    const double middle = meanOf([](double radius) { return radius; });
+    const auto about = [&](int n) { return meanOf([&](double r) { return std::pow(r - middle, n); }); };
+    const double variance = about(2);
+    std::array<double, 6> found{number, middle, variance};
+    for (std::size_t n = 3; n < 6 && variance > 0; ++n)
+        found[n] = about(static_cast<int>(n)) / std::pow(variance, 0.5 * static_cast<double>(n));
+    return found;
 }
 
 void MercuryCG::sample(const Scene& of) {
@@ -178,7 +227,7 @@ void MercuryCG::sample(const Scene& of) {
 }
 
 CGPoint MercuryCG::getPoint(std::size_t point) const {
-    const FieldSums sums = sumsNow();
+    const FieldSums& sums = sumsNow();
     if (point >= sums.grid().size())
         throw InputError(
             fmt::format("CG: there is no point {}; it has {}, counted from 0.", point, sums.grid().size()));
@@ -186,7 +235,7 @@ CGPoint MercuryCG::getPoint(std::size_t point) const {
 }
 
 std::vector<CGPoint> MercuryCG::getPoints() const {
-    const FieldSums sums = sumsNow();
+    const FieldSums& sums = sumsNow();
     std::vector<CGPoint> points;
     for (std::size_t k = 0; k < sums.grid().size(); ++k) points.push_back(pointOf(sums, k));
     return points;

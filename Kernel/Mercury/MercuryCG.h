@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -98,7 +100,7 @@ public:
     MercuryNoFile statFile;  // addOutput(FieldOutput()) writes files of fields
 
     /// m, of the function: the cut-off of Lucy and Heaviside, and a third of that of Gauss.
-    void setWidth(double value) { width = value; }
+    void setWidth(double value) { width = value, last.reset(); }
     /// The variance of the function (m^2) is that of a sphere of this radius (m) in so many dimensions.
     void setRadius(double radius);
     /// m, the root of the mean of the squared distance from the middle.
@@ -108,28 +110,32 @@ public:
     [[nodiscard]] const MercuryCG& getFunction() const { return *this; }
     [[nodiscard]] double getCutoff() const { return shape == KernelShape::Gauss ? 3 * width : width; }
     /// Points along each direction that is resolved.
-    void setN(std::size_t points) { counts = {points, points, points}; }
-    void setNX(std::size_t points) { counts[0] = points; }
-    void setNY(std::size_t points) { counts[1] = points; }
-    void setNZ(std::size_t points) { counts[2] = points; }
+    void setN(std::size_t points) { counts = {points, points, points}, last.reset(); }
+    void setNX(std::size_t points) { counts[0] = points, last.reset(); }
+    void setNY(std::size_t points) { counts[1] = points, last.reset(); }
+    void setNZ(std::size_t points) { counts[2] = points, last.reset(); }
     /// Points in the middle of cells of this length (m).
-    void setH(double spacing) { cell = spacing; }
+    void setH(double spacing) { cell = spacing, last.reset(); }
     /// m, corners of the box; that of the scene where they are not set. One may be flat in a direction that
     /// is resolved: the point is then there.
-    void setMin(const Vec3D& corner) { lowest = corner; }
-    void setMax(const Vec3D& corner) { highest = corner; }
+    void setMin(const Vec3D& corner) { lowest = corner, last.reset(); }
+    void setMax(const Vec3D& corner) { highest = corner, last.reset(); }
     /// s: a state outside of these times does not count.
     void setTimeMin(double time) { timeMin = time; }
     void setTimeMax(double time) { timeMax = time; }
     /// Only grains of this species count; all others are boundary.
-    void selectSpecies(std::size_t number) { species = static_cast<int>(number); }
+    void selectSpecies(std::size_t number) { species = static_cast<int>(number), last.reset(); }
 
-    /// The fields at a point (x the slowest) as of the last step, or the mean over time. Throws InputError
-    /// where there is no such point, or no state in the times that were set.
+    /// The fields at a point (x the slowest) as of the last step, or the mean over time. The sums are made
+    /// once for all points of a state. Throws InputError where there is no such point, or no state in the
+    /// times that were set.
     [[nodiscard]] CGPoint getPoint(std::size_t point) const;
     [[nodiscard]] std::vector<CGPoint> getPoints() const;
     /// The mean over all points.
     [[nodiscard]] CGPoint evaluateAverage() const;
+    /// Of the radii of all grains that count, wherever they are: their number, mean (m) and variance (m^2),
+    /// then the third to fifth moment about the mean over that power of the standard deviation.
+    [[nodiscard]] std::array<double, 6> getStandardisedParticleSizeMomenta() const;
 
     /// Called where output of the scene is due.
     void sample(const Scene& of);
@@ -145,7 +151,8 @@ private:
 
     [[nodiscard]] FieldSums emptySums(const Scene& of) const;
     [[nodiscard]] bool isInTime(const Scene& of) const;
-    [[nodiscard]] FieldSums sumsNow() const;
+    [[nodiscard]] const Scene& sceneInTime() const;
+    [[nodiscard]] const FieldSums& sumsNow() const;
     [[nodiscard]] int dimensions() const;
 
     std::string_view coordinates;
@@ -160,6 +167,13 @@ private:
     int species = -1;                                          // all
     const Scene* scene = nullptr;
     std::optional<FieldSums> mean;
+    /// The sums that were asked for last, and of which state they are.
+    struct Last {
+        std::size_t step;
+        std::uint64_t state;
+        FieldSums sums;
+    };
+    mutable std::optional<Last> last;
 };
 
 /// The fields of the last step. @param ofWidth m; @param points along each direction that is resolved

@@ -34,20 +34,22 @@ void MercuryFiles::addPictures(Scene& scene) const {
 void MercuryFiles::addFrames(Scene& scene) const {
     const MercuryFile &data = settings->data, &contacts = settings->fStat, &energies = settings->energies;
     if (energies.isWritten()) scene.keepEnergyLedger();
-    // Files of one count together.
-    std::set<std::size_t> counts;
-    for (const MercuryFile* file : {&data, &contacts, &energies}) {
-        if (file->isWritten()) counts.insert(file->getSaveCount());
-        if (file->isSplit())
-            scene.logger(LogLevel::Info, "{}: it is one file with all frames, not many files.",
-                         file->getName());
-    }
-    for (const std::size_t count : counts) {
-        const auto isOfThese = [count](const MercuryFile& file) {
-            return file.isWritten() && file.getSaveCount() == count;
+    // Files of one count and one form together.
+    std::set<std::pair<std::size_t, FileType>> kinds;
+    const auto kindOf = [](const MercuryFile& file) {
+        return std::pair(file.getSaveCount(), file.getFileType());
+    };
+    for (const MercuryFile* file : {&data, &contacts, &energies})
+        if (file->isWritten()) kinds.insert(kindOf(*file));
+    for (const auto& kind : kinds) {
+        const auto isOfThese = [&](const MercuryFile& file) {
+            return file.isWritten() && kindOf(file) == kind;
         };
+        const auto& [count, type] = kind;
         MercuryOutput frames;
         frames.withData(isOfThese(data)).withContacts(isOfThese(contacts)).withEnergies(isOfThese(energies));
+        if (type != FileType::ONE_FILE)
+            frames.withManyFiles(true, type == FileType::MULTIPLE_FILES_PADDED ? 5 : 1);
         if (count > 0) frames.withInterval(static_cast<double>(count) * scene.getTimeStep());
         scene.addOutput(frames);
     }

@@ -12,8 +12,8 @@
 
 namespace pendular {
 
-/// How MercuryDPM writes a file. A file of frames is always one here, with all frames, and the log says so
-/// where it was to be many; pictures for ParaView are always many, and a restart file is the last one.
+/// How MercuryDPM writes a file of frames: one with all, or NAME.data.0, NAME.data.1, ..., padded to five
+/// digits if asked for. Pictures for ParaView are always many, and a restart file is the last one.
 enum class FileType { NO_FILE, ONE_FILE, MULTIPLE_FILES, MULTIPLE_FILES_PADDED };
 
 /// A file of a scene: scene.dataFile.setFileType(FileType::NO_FILE).
@@ -26,7 +26,6 @@ public:
     [[nodiscard]] std::size_t getSaveCount() const { return saveCount; }
     [[nodiscard]] FileType getFileType() const { return type; }
     [[nodiscard]] bool isWritten() const { return type != FileType::NO_FILE; }
-    [[nodiscard]] bool isSplit() const { return isWritten() && type != FileType::ONE_FILE; }
     [[nodiscard]] std::string_view getName() const { return name; }
 
 private:

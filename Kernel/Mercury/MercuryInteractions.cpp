@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 
 namespace pendular {
 
@@ -12,34 +13,41 @@ MercuryInteraction MercuryInteractionHandler::getObject(std::size_t number) cons
         throw InputError(fmt::format(
             "InteractionHandler: there is no interaction {}; the last step has {}, counted from 0.", number,
             all.size()));
-    return MercuryInteraction(all[number]);
+    return {all[number], *bonds};
 }
 
 MercuryInteraction MercuryInteractionHandler::getLastObject() const {
     const std::vector<ObservedContact> all = scene->interactions();
     if (all.empty())
         throw InputError("InteractionHandler: getLastObject() needs an interaction, and there is none.");
-    return MercuryInteraction(all.back());
+    return {all.back(), *bonds};
+}
+
+/// None before they are listed at the start of the run.
+static std::vector<ObservedContact> contactsOf(const Scene& scene, const GrainReference& grain) {
+    return scene.contacts().rebuildCount() > 0 ? scene.interactionsOf(grain.getId())
+                                               : std::vector<ObservedContact>{};
 }
 
 MercuryInteraction MercuryInteractionHandler::getInteraction(const GrainReference& one,
-                                                             const GrainReference& other) const {
+                                                             const GrainReference& other,
+                                                             double /*time*/) const {
     const std::uint32_t a = one.getId(), b = other.getId();
-    for (const ObservedContact& contact : scene->interactionsOf(a))
+    for (const ObservedContact& contact : contactsOf(*scene, one))
         if (contact.wall < 0 && ((contact.particle1 == a && contact.particle2 == b) ||
                                  (contact.particle1 == b && contact.particle2 == a)))
-            return MercuryInteraction(contact);
-    return {};
+            return {contact, *bonds};
+    return {MercuryBonds::Pair{a, b, -1}, *bonds};
 }
 
-MercuryInteraction MercuryInteractionHandler::getInteraction(const GrainReference& grain,
-                                                             const Wall* wall) const {
-    MercuryInteraction found;
-    for (const ObservedContact& contact : scene->interactionsOf(grain.getId()))
-        if (contact.wall >= 0 &&
-            &scene->wallHandler.getObject(static_cast<std::size_t>(contact.wall)) == wall &&
-            (!found || contact.overlap() > found.getOverlap()))
-            found = MercuryInteraction(contact);
+MercuryInteraction MercuryInteractionHandler::getInteraction(const GrainReference& grain, const Wall* wall,
+                                                             double /*time*/) const {
+    int number = 0;
+    while (&scene->wallHandler.getObject(static_cast<std::size_t>(number)) != wall) ++number;
+    MercuryInteraction found(MercuryBonds::Pair{grain.getId(), ObservedContact::none, number}, *bonds);
+    for (const ObservedContact& contact : contactsOf(*scene, grain))
+        if (contact.wall == number && (!found || contact.overlap() > found.getOverlap()))
+            found = {contact, *bonds};
     return found;
 }
 

@@ -6,6 +6,7 @@
 
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Mercury/MercuryBonds.h"
 #include "Kernel/Mercury/MercuryFiles.h"
 #include "Kernel/Particles/SphericalParticle.h"
 #include "Kernel/Simulation/Scene.h"
@@ -17,9 +18,22 @@ namespace pendular {
 class MercuryInteraction {
 public:
     MercuryInteraction() = default;
-    explicit MercuryInteraction(const ObservedContact& of) : contact(of), exists(true) {}
+    MercuryInteraction(const ObservedContact& of, MercuryBonds& ofScene)
+        : contact(of),
+          exists(true),
+          pair{of.particle1, of.particle2, static_cast<std::int32_t>(of.wall)},
+          bonds(&ofScene) {}
+    /// Of a pair that has no contact yet, as before the first step.
+    MercuryInteraction(const MercuryBonds::Pair& of, MercuryBonds& ofScene) : pair(of), bonds(&ofScene) {}
 
     [[nodiscard]] const MercuryInteraction* operator->() const { return this; }
+
+    /// Joins its bodies, which have the adhesion law Bonded and overlap when the next step begins: with the
+    /// force of their species, or with the one that acts now; unbond() lets them go.
+    void bond() const { ask(-1); }
+    void bondInPlace() const { ask(getAbsoluteNormalForce()); }
+    void unbond() const { ask(0); }
+
     explicit operator bool() const { return exists; }
 
     /// The identities of the grains; of a wall, I is its number.
@@ -45,23 +59,30 @@ public:
     [[nodiscard]] const ObservedContact& observed() const { return contact; }
 
 private:
+    void ask(double force) const {
+        if (bonds) bonds->ask(pair, force);
+    }
+
     ObservedContact contact{};
     bool exists = false;
+    MercuryBonds::Pair pair{};
+    MercuryBonds* bonds = nullptr;
 };
 
 /// The contacts of a scene in the last step, in the order of identities: for (auto i : interactionHandler).
 /// Each loop and each call takes them anew.
 class MercuryInteractionHandler {
 public:
-    MercuryInteractionHandler(const Scene& ofScene, std::shared_ptr<MercurySettings> ofFiles)
-        : scene(&ofScene), settings(std::move(ofFiles)) {}
+    MercuryInteractionHandler(const Scene& ofScene, std::shared_ptr<MercurySettings> ofFiles,
+                              MercuryBonds& ofBonds)
+        : scene(&ofScene), settings(std::move(ofFiles)), bonds(&ofBonds) {}
     MercuryInteractionHandler(const MercuryInteractionHandler&) = delete;
 
     class Iterator {
     public:
-        explicit Iterator(std::vector<ObservedContact> contacts)
-            : all(std::make_shared<std::vector<ObservedContact>>(std::move(contacts))) {}
-        MercuryInteraction operator*() const { return MercuryInteraction((*all)[at]); }
+        Iterator(std::vector<ObservedContact> contacts, MercuryBonds& ofScene)
+            : all(std::make_shared<std::vector<ObservedContact>>(std::move(contacts))), bonds(&ofScene) {}
+        MercuryInteraction operator*() const { return {(*all)[at], *bonds}; }
         Iterator& operator++() { return ++at, *this; }
         friend bool operator==(const Iterator& here, std::default_sentinel_t) {
             return here.at == here.all->size();
@@ -69,9 +90,10 @@ public:
 
     private:
         std::shared_ptr<std::vector<ObservedContact>> all;
+        MercuryBonds* bonds;
         std::size_t at = 0;
     };
-    [[nodiscard]] Iterator begin() const { return Iterator(scene->interactions()); }
+    [[nodiscard]] Iterator begin() const { return {scene->interactions(), *bonds}; }
     [[nodiscard]] static std::default_sentinel_t end() { return {}; }
 
     [[nodiscard]] std::size_t getNumberOfObjects() const { return scene->interactions().size(); }
@@ -79,20 +101,22 @@ public:
     /// Throw InputError where there is none.
     [[nodiscard]] MercuryInteraction getObject(std::size_t number) const;
     [[nodiscard]] MercuryInteraction getLastObject() const;
-    /// The contact of two grains; false where they have none. (MercuryDPM would make one.)
-    [[nodiscard]] MercuryInteraction getInteraction(const GrainReference& one,
-                                                    const GrainReference& other) const;
+    /// The contact of two grains; false where they have none, but they may be bonded. (MercuryDPM would make
+    /// one, with the time that it takes.)
+    MercuryInteraction getInteraction(const GrainReference& one, const GrainReference& other,
+                                      double time = 0) const;
 
     /// Files for ParaView, of grains, contacts and walls together: addOutput(ParaViewOutput()).
     void setWriteVTK(bool write = true) { settings->picturesOfContacts = write; }
     void setWriteVTK(FileType type) { setWriteVTK(type != FileType::NO_FILE); }
 
     /// The contact of a grain with a wall, at the part of it that it overlaps most; false where it has none.
-    [[nodiscard]] MercuryInteraction getInteraction(const GrainReference& grain, const Wall* wall) const;
+    MercuryInteraction getInteraction(const GrainReference& grain, const Wall* wall, double time = 0) const;
 
 private:
     const Scene* scene;
     std::shared_ptr<MercurySettings> settings;
+    MercuryBonds* bonds;
 };
 
 }  // namespace pendular

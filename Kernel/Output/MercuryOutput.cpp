@@ -55,11 +55,24 @@ MercuryOutput::MercuryOutput(std::string beginning) : name(std::move(beginning))
     if (!name.empty()) requireFileName("MercuryOutput", name);
 }
 
+FrameFile MercuryOutput::textOf(const std::string& ending) {
+    return FrameFile(
+        ending, ending.starts_with(".ene") ? "time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM\n" : "");
+}
+
+/// Where each frame has files of its own, these begin.
+void MercuryOutput::beginFrame() {
+    if (!many) return;
+    const std::string number = fmt::format(".{:0{}}", frames++, digitsOfNumber);
+    data = textOf(".data" + number), contacts = textOf(".fstat" + number), energies = textOf(".ene" + number);
+}
+
 void MercuryOutput::write(const Scene& scene) {
     if (times.isGiven() && scene.getTime() <= last) return;  // they have this state
     last = scene.getTime();
+    beginFrame();
     const std::string beginning = nameIn(scene);
-    const bool goesOn = scene.isRestarted();
+    const bool goesOn = scene.isRestarted() && !many;
     const auto& grains = scene.particleHandler.store();
     const Domain box = domainIn(scene);
     const auto frame = [&](FrameFile& file, auto&& writeInto) {
@@ -81,18 +94,23 @@ void MercuryOutput::write(const Scene& scene) {
 
 void MercuryOutput::visitState(StateArchive& archive, const Scene& scene) {
     const std::string beginning = nameIn(scene);
-    if (dataToo) data.visitState(archive, beginning);
-    if (contactsToo) contacts.visitState(archive, beginning);
-    if (energiesToo) energies.visitState(archive, beginning);
-    if (times.isGiven()) visitLast(archive, beginning);
+    if (dataToo && !many) data.visitState(archive, beginning);
+    if (contactsToo && !many) contacts.visitState(archive, beginning);
+    if (energiesToo && !many) energies.visitState(archive, beginning);
+    if (times.isGiven() || many) visitOwn(archive, beginning);
 }
 
-void MercuryOutput::visitLast(StateArchive& archive, const std::string& beginning) {
+/// The time of the last frame, and how many there are.
+void MercuryOutput::visitOwn(StateArchive& archive, const std::string& beginning) {
     // Files of other intervals have an output of their own.
     const std::string_view ending = dataToo ? "data" : contactsToo ? "fstat" : "ene";
-    const std::string entry =
-        fmt::format("{}.{}-last-time", std::filesystem::path(beginning).filename().string(), ending);
-    if (archive.isWriting() ? last >= 0 : archive.holds(entry)) archive.value(entry, last);
+    const std::string own =
+        fmt::format("{}.{}-", std::filesystem::path(beginning).filename().string(), ending);
+    const auto visit = [&](const std::string& entry, auto& value, bool isThere) {
+        if (archive.isWriting() ? isThere : archive.holds(entry)) archive.value(entry, value);
+    };
+    if (times.isGiven()) visit(own + "last-time", last, last >= 0);
+    if (many) visit(own + "frames", frames, frames > 0);
 }
 
 std::string MercuryOutput::nameIn(const Scene& scene) const { return name.empty() ? scene.getName() : name; }

@@ -28,6 +28,11 @@ public:
     MercuryOutput& withData(bool yes = true) { return dataToo = yes, *this; }
     /// NAME.fstat, on by default.
     MercuryOutput& withContacts(bool yes = true) { return contactsToo = yes, *this; }
+    /// A file for each frame instead of one with all: NAME.data.0, NAME.data.1, ..., and so on.
+    /// @param digits at least so many in the number
+    MercuryOutput& withManyFiles(bool yes = true, int digits = 1) {
+        return many = yes, digitsOfNumber = digits, *this;
+    }
     /// The box in the headers, m; if not given that of the scene (setDomain()), or else that of the grains.
     MercuryOutput& withDomain(const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest) {
         return domain = {toVector(lowest), toVector(highest)}, *this;
@@ -47,8 +52,10 @@ private:
         Vector<double> lowest, highest;  // m
     };
 
+    static FrameFile textOf(const std::string& ending);
+    void beginFrame();
     [[nodiscard]] std::string nameIn(const Scene& scene) const;
-    void visitLast(StateArchive& archive, const std::string& beginning);
+    void visitOwn(StateArchive& archive, const std::string& beginning);
     [[nodiscard]] Domain domainIn(const Scene& scene) const;
     static Domain domainOf(const ParticleStore& grains);
     /// N time xmin ymin zmin xmax ymax zmax, then for each grain rx ry rz vx vy vz rad alpha beta gamma omex
@@ -65,9 +72,10 @@ private:
     std::optional<Domain> domain;
     OutputInterval times;
     double last = -1;  // s, of the last frame; negative: none
-    bool dataToo = true, energiesToo = true, contactsToo = true;
-    FrameFile data{".data"}, contacts{".fstat"},
-        energies{".ene", "time ene_gra ene_kin ene_rot ene_ela X_COM Y_COM Z_COM\n"};
+    bool dataToo = true, energiesToo = true, contactsToo = true, many = false;
+    int digitsOfNumber = 1;
+    std::uint64_t frames = 0;  // that have been written, where each has a file
+    FrameFile data = textOf(".data"), contacts = textOf(".fstat"), energies = textOf(".ene");
 };
 
 }  // namespace pendular

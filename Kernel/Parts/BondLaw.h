@@ -15,6 +15,8 @@ namespace pendular {
 struct BondStiffness {
     double normal, shear;   // k_n, k_s, N/m
     double bending, twist;  // k_b, k_t, N m/rad
+
+    bool operator==(const BondStiffness&) const = default;
 };
 
 /// The cross-section of a bond, a full circle.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -109,6 +110,7 @@ void BondPart::joinNew(StepContext& step) {
                          length,
                          inverse(joined[at1].orientation) * frame,
                          inverse(joined[at2].orientation) * frame,
+                         between,
                          {},
                          {}});
     }
@@ -172,19 +174,29 @@ BondStiffness BondPart::stiffnessOf(std::uint32_t material, double length) const
     return materials[material].stiffness(BondSection{materials[material].radius}, length);
 }
 
+/// The difference of two positions, to the image that was there in the last step.
+static Vector<double> sameImage(const PeriodicBox& box, const Vector<double>& apart,
+                                const Vector<double>& last) {
+    const auto along = [](double d, double before, double length) {
+        return length > 0 ? d + length * std::nearbyint((before - d) / length) : d;
+    };
+    return {along(apart.x, last.x, box.length.x), along(apart.y, last.y, box.length.y),
+            along(apart.z, last.z, box.length.z)};
+}
+
 BondState BondPart::stateOf(const StepContext& step, const Bond& bond) const {
     const Joined &one = joined[bond.at1], &other = joined[bond.at2];
     const ParticleStore& grains = step.grains();
-    return {
-        step.box.nearest(grains.translation[other.place].position - grains.translation[one.place].position),
-        bond.length, Axes<double>(one.orientation * bond.frame1),
-        Axes<double>(other.orientation * bond.frame2)};
+    const Vector<double> apart =
+        grains.translation[other.place].position - grains.translation[one.place].position;
+    return {sameImage(step.box, apart, bond.between), bond.length,
+            Axes<double>(one.orientation * bond.frame1), Axes<double>(other.orientation * bond.frame2)};
 }
 
 double BondPart::energy(const StepContext& step) const {
-    double sum = 0;
-    for (const Bond& bond : bonds) sum += stateOf(step, bond).energy(bond.stiffness);
-    return sum;
+    ExactSum sum;
+    for (const Bond& bond : bonds) sum.add(stateOf(step, bond).energy(bond.stiffness));
+    return sum.value();
 }
 
 namespace {
@@ -276,6 +288,7 @@ void BondPart::turnGrains(StepContext& step) {
     for (Joined& one : joined) {
         const RotationRecord& turning = grains.rotation[one.place];
         one.before = one.orientation;
+        one.forceBefore = one.force, one.torqueBefore = one.torque;
         one.velocity = grains.translation[one.place].velocity;
         one.spin = turning.spin;
         const Vector<double> way = step.length * (turning.spin + (step.scheme->position0 * step.length) *
@@ -286,11 +299,16 @@ void BondPart::turnGrains(StepContext& step) {
     }
 }
 
-void BondPart::beforeMotion(StepContext& step) {
-    atBegin = bonds;
-    isAccelerated = false;
+/// What hooks have asked for is done before the step, and is not taken back with it.
+void BondPart::prepare(StepContext& step) {
     renewForces(step);
     joinNew(step);
+}
+
+void BondPart::beforeMotion(StepContext& step) {
+    if (step.length == 0) prepare(step);  // the start of a run, where forces are found
+    atBegin = bonds;
+    isAccelerated = false;
     refuseStep(step);
     if (step.ledger && step.length > 0) {
         const double now = energy(step);
@@ -305,6 +323,7 @@ void BondPart::computeLoads(const StepContext& step) {
     for (Joined& one : joined) one.force = one.torque = {0, 0, 0};
     for (Bond& bond : bonds) {
         const BondState state = stateOf(step, bond);
+        bond.between = state.between;
         bond.elastic = state.elastic(bond.stiffness);
         bond.damping = dampingOf(step, bond, state);
         const BondLoad load = bond.elastic + bond.damping;
@@ -330,14 +349,25 @@ void BondPart::accelerate(StepContext& step, double time) {
 /// accelerations get theirs when the end has made them of the contacts' forces.
 void BondPart::afterForces(StepContext& step) {
     computeLoads(step);
+    for (Joined& one : joined) {
+        one.velocityBefore = step.grains().translation[one.place].velocity;
+        one.spinBefore = step.grains().rotation[one.place].spin;
+    }
     accelerate(step, step.scheme->corrector * step.length);
     isAccelerated = true;
 }
 
 void BondPart::takeBack(StepContext& step) {
-    if (isAccelerated) accelerate(step, -step.scheme->corrector * step.length);
-    for (Joined& one : joined) one.orientation = one.before;
+    ParticleStore& grains = step.grains();
+    for (Joined& one : joined) {
+        one.orientation = one.before;
+        one.force = one.forceBefore, one.torque = one.torqueBefore;
+        if (!isAccelerated) continue;
+        grains.translation[one.place].velocity = one.velocityBefore;
+        grains.rotation[one.place].spin = one.spinBefore;
+    }
     bonds = atBegin;
+    isAccelerated = false;
 }
 
 /// W, of a load at the mean velocities of the step.
@@ -352,39 +382,39 @@ double BondPart::power(const StepContext& step, const Bond& bond, const BondLoad
     return dot(load.force, velocity2 - velocity1) + dot(load.torque1, spin1) + dot(load.torque2, spin2);
 }
 
+/// Half of that of a step, as a bond gives it at the loads of one of its ends.
+void BondPart::addWork(const StepContext& step, const Bond& bond, Work& work) const {
+    const double half = 0.5 * step.length;
+    work.elastic.add(half * power(step, bond, bond.elastic));
+    work.damping.add(half * power(step, bond, bond.damping));
+    const ParticleStore& grains = step.grains();
+    const BondLoad load = bond.elastic + bond.damping;
+    for (const bool isFirst : {true, false}) {
+        const Joined& one = joined[isFirst ? bond.at1 : bond.at2];
+        const Vector<double> force = isFirst ? -load.force : load.force,
+                             torque = isFirst ? load.torque1 : load.torque2;
+        const HeldBits held = grains.heldAt(one.place);
+        const bool moves = grains.translation[one.place].inverseMass > 0;
+        const Vector<double> kept = moves ? force - held.partAlong(force) : force,
+                             turned = moves ? torque - held.partAbout(torque) : torque;
+        work.onHeld.add(half * (dot(kept, 0.5 * (one.velocity + grains.translation[one.place].velocity)) +
+                                dot(turned, 0.5 * (one.spin + grains.rotation[one.place].spin))));
+    }
+}
+
 void BondPart::account(StepContext& step) const {
     Work work;
-    double onHeld = 0;
-    const ParticleStore& grains = step.grains();
-    const double half = 0.5 * step.length;
-    const auto add = [&](const std::vector<Bond>& some) {
-        for (const Bond& bond : some) {
-            work.elastic += half * power(step, bond, bond.elastic);
-            work.damping += half * power(step, bond, bond.damping);
-            for (const bool isFirst : {true, false}) {
-                const Joined& one = joined[isFirst ? bond.at1 : bond.at2];
-                const std::uint32_t place = one.place;
-                const BondLoad load = bond.elastic + bond.damping;
-                const Vector<double> force = isFirst ? -load.force : load.force,
-                                     torque = isFirst ? load.torque1 : load.torque2;
-                const HeldBits held = grains.heldAt(place);
-                const bool moves = grains.translation[place].inverseMass > 0;
-                const Vector<double> kept = moves ? force - held.partAlong(force) : force,
-                                     turned = moves ? torque - held.partAbout(torque) : torque;
-                onHeld += half * (dot(kept, 0.5 * (one.velocity + grains.translation[place].velocity)) +
-                                  dot(turned, 0.5 * (one.spin + grains.rotation[place].spin)));
-            }
-        }
-    };
-    add(atBegin), add(bonds);
-    step.ledger->bondDamping -= work.damping;
-    step.ledger->walls -= onHeld;
-    if (step.length > 0) step.ledger->stepError -= work.elastic + energy(step) - stored;
+    for (const auto* const some : {&atBegin, &bonds})
+        for (const Bond& bond : *some) addWork(step, bond, work);
+    step.ledger->bondDamping -= work.damping.value();
+    step.ledger->walls -= work.onHeld.value();
+    if (step.length > 0) step.ledger->stepError -= work.elastic.value() + energy(step) - stored;
 }
 
 /// A bond that breaks has given its grains their part of the velocity of this step, and nothing from here on.
 void BondPart::breakBonds(StepContext& step) {
     std::vector<Bond> left;
+    ExactSum lost;
     for (const Bond& bond : bonds) {
         const BondMaterial& material = materials[bond.material];
         const BondState state = stateOf(step, bond);
@@ -398,8 +428,9 @@ void BondPart::breakBonds(StepContext& step) {
         Joined &one = joined[bond.at1], &other = joined[bond.at2];
         one.force += all.force, one.torque -= all.torque1;
         other.force -= all.force, other.torque -= all.torque2;
-        if (step.ledger) step.ledger->fracture += state.energy(bond.stiffness);
+        lost.add(state.energy(bond.stiffness));
     }
+    if (step.ledger) step.ledger->fracture += lost.value();
     bonds.swap(left);
 }
 
@@ -415,10 +446,47 @@ void BondPart::finish(StepContext& step) {
     if (step.ledger) stored = step.ledger->bondElastic = energy(step);
 }
 
+static std::string text(const BondStiffness& k) {
+    return fmt::format("{} N/m, {} N/m, {} N m/rad, {} N m/rad", k.normal, k.shear, k.bending, k.twist);
+}
+
+/// Materials are those with which the run began; stiffnesses are compared for each bond, by visitState().
+void BondPart::visitMaterials(StateArchive& archive) const {
+    archive.same("materials", static_cast<std::uint64_t>(materials.size()));
+    for (std::size_t k = 0; k < materials.size(); ++k)
+        archive.group(fmt::format("material{}", k), [&] {
+            const BondMaterial& m = materials[k];
+            archive.same("radius", m.radius, "m");
+            archive.same("tensileStrength", m.strength.tensile, "Pa");
+            archive.same("shearStrength", m.strength.shear, "Pa");
+            archive.same("momentShare", m.strength.momentShare);
+            archive.same("strengthAtEnds", m.strength.atEnds ? 1 : 0);
+            archive.same("damping", m.damping);
+        });
+}
+
+/// Grains that a hook has joined since the last step.
+void BondPart::visitWaiting(StateArchive& archive) {
+    std::vector<Pair> pairs;
+    std::vector<double> lengths;
+    for (const ToJoin& one : toJoin) pairs.push_back(one), lengths.push_back(one.length);
+    archive.column<std::uint32_t>("toJoin", pairs);
+    archive.column<double>("lengthsToJoin", lengths);
+    if (!archive.isReading()) return;
+    archive.require(pairs.size() == lengths.size(), "toJoin", "do not fit their lengths");
+    toJoin.clear();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        archive.require(pairs[k].material < materials.size(), "toJoin", "are of materials that are not set");
+        toJoin.push_back({pairs[k], lengths[k]});
+    }
+}
+
 void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
     struct Numbers {
         double length;
+        BondStiffness stiffness;
         Quaternion frame1, frame2;
+        Vector<double> between;
         BondLoad elastic, damping;
     };
     struct Motion {
@@ -431,13 +499,15 @@ void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
     std::vector<Motion> motions;
     for (const Bond& b : bonds) {
         pairs.push_back({b.first, b.second, b.material});
-        ofBonds.push_back({b.length, b.frame1, b.frame2, b.elastic, b.damping});
+        ofBonds.push_back({b.length, b.stiffness, b.frame1, b.frame2, b.between, b.elastic, b.damping});
     }
     for (const Joined& one : joined) {
         identities.push_back(one.identity);
         motions.push_back(
             {one.orientation, one.force, one.torque, one.acceleration, one.angularAcceleration});
     }
+    visitMaterials(archive);
+    visitWaiting(archive);
     archive.column<std::uint32_t>("pairs", pairs);
     archive.column<double>("numbers", ofBonds);
     archive.column<std::uint32_t>("joined", identities);
@@ -447,7 +517,7 @@ void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
     if (!archive.isReading()) return;
     archive.require(pairs.size() == ofBonds.size() && identities.size() == motions.size(), "pairs",
                     "do not fit their numbers");
-    bonds.clear(), joined.clear(), numbers.clear(), toJoin.clear();
+    bonds.clear(), joined.clear(), numbers.clear();
     longest.reset();
     for (std::size_t k = 0; k < identities.size(); ++k) {
         Joined& one = joined[joinedAt(identities[k])];
@@ -460,9 +530,12 @@ void BondPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
         archive.require(numbers.contains(pairs[k].first) && numbers.contains(pairs[k].second), "pairs",
                         "are of grains that are not joined");
         const Numbers& n = ofBonds[k];
+        const BondStiffness now = stiffnessOf(pairs[k].material, n.length);
+        archive.requireSame(n.stiffness == now, "stiffness", text(n.stiffness), text(now), "",
+                            "a run goes on with the values it began with");
         bonds.push_back({pairs[k].first, pairs[k].second, pairs[k].material, joinedAt(pairs[k].first),
-                         joinedAt(pairs[k].second), stiffnessOf(pairs[k].material, n.length), n.length,
-                         n.frame1, n.frame2, n.elastic, n.damping});
+                         joinedAt(pairs[k].second), now, n.length, n.frame1, n.frame2, n.between, n.elastic,
+                         n.damping});
     }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Parts/BondLaw.h"
 #include "Kernel/Step/StepPart.h"
@@ -33,7 +34,8 @@ public:
     /// Throws InputError for values out of range.
     std::size_t addMaterial(const BondMaterial& material);
     /// Joins two grains, by their identities, at set-up or in a run: where they are at the start of the next
-    /// step, which acts. Throws InputError there for grains that are not in the scene, or joined already.
+    /// step, which acts. Throws InputError there for grains that are not in the scene, or joined already. In
+    /// a periodic scene it joins the nearest images, and stays with them however far they part.
     /// @param length m, at rest; 0: the distance at which they are
     void join(std::uint32_t first, std::uint32_t second, std::size_t material, double length = 0);
 
@@ -44,6 +46,7 @@ public:
         BondStiffness stiffness;
         double length;              // m, at rest
         Quaternion frame1, frame2;  // its triad in each grain
+        Vector<double> between;     // m, from the first to the image of the second, in the last step
         BondLoad elastic, damping;  // of the last step
     };
     [[nodiscard]] const std::vector<Bond>& all() const { return bonds; }
@@ -56,6 +59,7 @@ public:
     [[nodiscard]] std::string_view name() const override { return "bonds"; }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
+    void prepare(StepContext& step) override;
     void beforeMotion(StepContext& step) override;
     void afterForces(StepContext& step) override;
     void finish(StepContext& step) override;
@@ -70,7 +74,10 @@ private:
         std::uint32_t identity, place;                    // place: of this step
         Quaternion orientation, before;                   // now, and at the start of the step
         Vector<double> velocity{0, 0, 0}, spin{0, 0, 0};  // m/s, rad/s, at the start of the step
-        Vector<double> force{0, 0, 0}, torque{0, 0, 0};   // N, N m, sums of its bonds
+        // m/s, rad/s, before the forces of the step give it a part of their motion
+        Vector<double> velocityBefore{0, 0, 0}, spinBefore{0, 0, 0};
+        Vector<double> force{0, 0, 0}, torque{0, 0, 0};              // N, N m, sums of its bonds
+        Vector<double> forceBefore{0, 0, 0}, torqueBefore{0, 0, 0};  // the same, of the last step
         // m/s^2, rad/s^2, as the last step has left them
         Vector<double> acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};
     };
@@ -82,7 +89,7 @@ private:
     };
     /// The work (J) of bonds in a step.
     struct Work {
-        double elastic = 0, damping = 0;
+        ExactSum elastic, damping, onHeld;
     };
 
     [[nodiscard]] BondStiffness stiffnessOf(std::uint32_t material, double length) const;
@@ -93,6 +100,9 @@ private:
     [[nodiscard]] double energy(const StepContext& step) const;
     void joinNew(StepContext& step);
     void renewForces(StepContext& step);
+    void addWork(const StepContext& step, const Bond& bond, Work& work) const;
+    void visitMaterials(StateArchive& archive) const;
+    void visitWaiting(StateArchive& archive);
     static void changeAcceleration(ParticleStore& grains, std::uint32_t place, const Vector<double>& force,
                                    const Vector<double>& torque);
     void refuseStep(const StepContext& step);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -21,6 +22,7 @@ void HeatPart::setMaterialOf(int species, const HeatMaterial& material) {
     checkValue(owner, "conductivity", material.conductivity, "W/(m K)", notNegative);
     checkValue(owner, "heatCapacity", material.heatCapacity, "J/(kg K)", positive);
     materials[species] = material;
+    changedInRun |= hasBegun;
 }
 
 void HeatPart::holdWall(int wall, double temperature, std::optional<double> conductivity) {
@@ -28,17 +30,38 @@ void HeatPart::holdWall(int wall, double temperature, std::optional<double> cond
     checkValue(owner, "temperature", temperature, "K", notNegative);
     if (conductivity) checkValue(owner, "conductivity", *conductivity, "W/(m K)", positive);
     heldWalls[wall] = {temperature, conductivity.value_or(infinity)};
+    changedInRun |= hasBegun;
+}
+
+void HeatPart::insulateWall(int wall) {
+    heldWalls.erase(wall);
+    changedInRun |= hasBegun;
+}
+
+void HeatPart::setConduction(Conduction law) {
+    conduction = law;
+    changedInRun |= hasBegun;
 }
 
 void HeatPart::setSoftening(double ratio) {
     checkValue("heat", "softening", ratio, "", positiveUpTo(1));
     radiusFactor = std::cbrt(ratio);
+    changedInRun |= hasBegun;
+}
+
+void HeatPart::heatByContacts(bool heats) {
+    contactsHeat = heats;
+    changedInRun |= hasBegun;
 }
 
 std::span<const Conflict> HeatPart::ownConflicts() const {
-    static constexpr Conflict shapes{Feature::OwnPart, Feature::Superquadrics,
-                                     "its contact radii are those of spheres", "leave the heat out"};
-    return {&shapes, 1};
+    static constexpr std::array table{
+        Conflict{Feature::OwnPart, Feature::Superquadrics, "its contact radii are those of spheres",
+                 "leave the heat out"},
+        Conflict{Feature::OwnPart, Feature::RigidBodies,
+                 "the spheres of a clump would have a temperature each, and conduct no heat to each other",
+                 "leave the heat out"}};
+    return table;
 }
 
 void HeatPart::check(const StepContext& scene) {
@@ -67,6 +90,7 @@ void HeatPart::check(const StepContext& scene) {
 }
 
 void HeatPart::begin(StepContext& scene, bool isRestarted) {
+    hasBegun = true;
     if (contactsHeat) scene.account->noteLosses();
     if (!isRestarted) heat.stored = storedIn(scene);
 }
@@ -76,11 +100,11 @@ double HeatPart::capacityAt(const StepContext& step, std::uint32_t place) const 
 }
 
 double HeatPart::storedIn(StepContext& step) const {
-    double sum = 0;
+    ExactSum sum;
     const ParticleStore& grains = step.grains();
     for (const std::uint32_t place : grains.place)
-        sum += capacityAt(step, place) * temperatures[grains.identity[place]];
-    return sum;
+        sum.add(capacityAt(step, place) * temperatures[grains.identity[place]]);
+    return sum.value();
 }
 
 double HeatPart::contactRadius(double effectiveRadius, double overlap) const {
@@ -117,7 +141,7 @@ void HeatPart::conductBetween(const StepContext& step, const ObservedContact& se
         const double found = conductanceAtWall(held->second, grains.species[first], seen, one.radius);
         const double power = found * (held->second.temperature - temperature);
         flow[first] += power, conductances[first] += found;
-        heat.fromWalls += step.length * power;
+        fromWalls.add(step.length * power);
         return;
     }
     const std::uint32_t second = grains.place[seen.particle2];
@@ -147,11 +171,11 @@ void HeatPart::takeLosses(const StepContext& step) {
             const std::uint32_t place = grains.place[identity];
             if (place == PlaceIndex::none) return;  // it has left the scene in this step
             source[place] += half;
-            heat.fromContacts += half;
+            fromContacts.add(half);
         };
         give(loss.first);
         if (loss.wall < 0) give(loss.second);
-        else heat.toWalls += half;
+        else toWalls.add(half);
     }
 }
 
@@ -173,17 +197,76 @@ void HeatPart::changeTemperatures(StepContext& step) {
     }
 }
 
+/// A driver may have set a temperature that cannot be; plastic work that stiffening gives back takes heat.
+void HeatPart::requireTemperatures(StepContext& step) const {
+    const ParticleStore& grains = step.grains();
+    for (const std::uint32_t place : grains.place) {
+        const std::uint32_t identity = grains.identity[place];
+        const double temperature = temperatures[identity];
+        if (!(temperature >= 0 && std::isfinite(temperature)))
+            throw RunError(
+                fmt::format("At time {:.6g} s heat: the temperature of {} is {:.6g} K; it must be at least "
+                            "0 K, and finite.",
+                            step.time, nameOfGrain(grains, identity), temperature));
+    }
+}
+
 void HeatPart::atEnd(StepContext& step) {
     const std::size_t size = step.grains().size();
     for (std::vector<double>* const column : {&flow, &source, &conductances}) column->assign(size, 0);
+    for (ExactSum* const sum : {&fromWalls, &fromContacts, &toWalls}) *sum = {};
+    requireTemperatures(step);
     heat.fromDriver += storedIn(step) - heat.stored;
     conduct(step);
     if (contactsHeat) takeLosses(step);
     changeTemperatures(step);
+    requireTemperatures(step);
+    heat.fromWalls += fromWalls.value();
+    heat.fromContacts += fromContacts.value();
+    heat.toWalls += toWalls.value();
     heat.stored = storedIn(step);
 }
 
-void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) { archive.finite("ledger", heat); }
+/// Settings are those with which the run began, or, where it has changed them, those of the file.
+void HeatPart::visitSettings(StateArchive& archive) {
+    struct MaterialRow {
+        double species, conductivity, heatCapacity;
+    };
+    struct WallRow {
+        double wall, temperature, conductivity;
+    };
+    std::vector<MaterialRow> ofSpecies;
+    std::vector<WallRow> ofWalls;
+    std::array<double, 3> laws{static_cast<double>(conduction), radiusFactor, contactsHeat ? 1.0 : 0.0};
+    for (const auto& [species, m] : materials)
+        ofSpecies.push_back({static_cast<double>(species), m.conductivity, m.heatCapacity});
+    for (const auto& [wall, held] : heldWalls)
+        ofWalls.push_back({static_cast<double>(wall), held.temperature, held.conductivity});
+    archive.value("settingsChanged", changedInRun);
+    if (!changedInRun) {
+        archive.same<double>("materials", std::span<const MaterialRow>(ofSpecies));
+        archive.same<double>("heldWalls", std::span<const WallRow>(ofWalls));
+        archive.sameRecord<double>("laws", laws);
+        return;
+    }
+    archive.column<double>("materials", ofSpecies);
+    archive.column<double>("heldWalls", ofWalls);
+    archive.record<double>("laws", laws);
+    if (!archive.isReading()) return;
+    materials.clear(), heldWalls.clear();
+    for (const MaterialRow& row : ofSpecies)
+        materials[static_cast<int>(row.species)] = {row.conductivity, row.heatCapacity};
+    for (const WallRow& row : ofWalls)
+        heldWalls[static_cast<int>(row.wall)] = {row.temperature, row.conductivity};
+    archive.require(laws[0] == 0 || laws[0] == 1, "laws", "are not known");
+    conduction = static_cast<Conduction>(static_cast<int>(laws[0]));
+    radiusFactor = laws[1], contactsHeat = laws[2] != 0;
+}
+
+void HeatPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
+    archive.finite("ledger", heat);
+    visitSettings(archive);
+}
 
 void HeatPart::addTo(SummaryRows& rows) const {
     rows.addNumber("heat: stored in grains", heat.stored, "J");

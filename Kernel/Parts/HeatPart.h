@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/ObservedContact.h"
+#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Species/Field.h"
 #include "Kernel/Step/StepPart.h"
@@ -50,7 +51,9 @@ struct HeatLedger {
 /// All heat of a step is summed from temperatures of one time, in the order of identities, then the
 /// temperatures change: no bit depends on the order of contacts or on threads. A step is at most the smallest
 /// C over sum H of a grain: then no temperature leaves the range of its neighbours', and twice that is never
-/// unstable. A longer one ends the run. Air, radiation and expansion are left out.
+/// unstable. A longer one ends the run, and so does a temperature below 0 K. Air, radiation and expansion are
+/// left out. Materials, held walls and laws are, when a run goes on from a restart file, those with which it
+/// began, unless the run itself has changed them: then the file has them.
 ///
 ///     auto temperature = scene.particleHandler.addColumn("temperature", "K", 293);
 ///     auto& heat = scene.addPart<HeatPart>(temperature);
@@ -68,17 +71,16 @@ public:
     /// A wall, by its number, has this temperature (K) and conducts heat: without resistance of its own, or
     /// with a conductivity (W/(m K)) in series. Other walls are insulators. Also in a run.
     void holdWall(int wall, double temperature, std::optional<double> conductivity = {});
-    void insulateWall(int wall) { heldWalls.erase(wall); }
-    void setConduction(Conduction law) { conduction = law; }
+    void insulateWall(int wall);
+    void setConduction(Conduction law);
     /// For grains that are softer than their material: contact radii are smaller by the cube root of this
     /// ratio (0 to 1) of the moduli of real and simulated grains, as Hertz's are at equal force.
     /// @param ratio E of the simulation over that of the material
     void setSoftening(double ratio);
     /// What contacts lose by EnergyLedger::lost() heats both bodies, half each: in friction, damping, plastic
     /// flow, sintering, and where adhesion breaks; less what stiffening gives while they close. Bonds heat
-    /// nothing. Needs keepEnergyLedger(). Walls that are held at a temperature, materials and laws are set by
-    /// the driver also before a run goes on from a restart file.
-    void heatByContacts(bool heats = true) { contactsHeat = heats; }
+    /// nothing. Needs keepEnergyLedger().
+    void heatByContacts(bool heats = true);
 
     /// W/K, of a contact between species a and b. @param distance m, of the centres
     [[nodiscard]] double conductance(int a, int b, double effectiveRadius, double overlap,
@@ -103,6 +105,8 @@ private:
     };
 
     void setMaterialOf(int species, const HeatMaterial& material);
+    void visitSettings(StateArchive& archive);
+    void requireTemperatures(StepContext& step) const;
     [[nodiscard]] double capacityAt(const StepContext& step, std::uint32_t place) const;
     [[nodiscard]] double storedIn(StepContext& step) const;
     [[nodiscard]] double contactRadius(double effectiveRadius, double overlap) const;
@@ -120,10 +124,12 @@ private:
     Conduction conduction = Conduction::Constriction;
     double radiusFactor = 1;  // of contact radii
     bool contactsHeat = false;
+    bool hasBegun = false, changedInRun = false;  // of these settings
     HeatLedger heat;
-    double longest = infinity;         // s
-    std::vector<double> flow, source;  // W and J, by place
-    std::vector<double> conductances;  // W/K, sum of each grain, by place
+    ExactSum fromWalls, fromContacts, toWalls;  // J, of the step
+    double longest = infinity;                  // s
+    std::vector<double> flow, source;           // W and J, by place
+    std::vector<double> conductances;           // W/K, sum of each grain, by place
 };
 
 }  // namespace pendular

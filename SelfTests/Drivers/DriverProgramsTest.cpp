@@ -79,6 +79,7 @@ TEST(Drivers, printNothingWhereTheyAreQuietAndGoOnAtTheirEnd) {
          "--elastic-modulus-Pa 1e6 --begin-s 0.06 --end-time-s 0.12"},
         {"Penetration", "--number 120 --softening 100 --end-time-s 0.001"},
         {"RodPacking", "--number 30 --width 3.5 --aspects 1 1.4"},
+        {"ShatteringPlate", "--plate-radius-m 0.008 --end-time-s 0.0003"},
         {"RotatingDrum", "--number 120 --softening 1000 --end-time-s 0.001"},
         {"ShearCell", "--number 108 --stiffness 1e4 --strain 0.2 --interval-strain 0.1"},
         {"SiloFilling", "--mass-kg 0.002 --fill-time-s 0.02 --end-time-s 0.04 --average-s 0.01"},

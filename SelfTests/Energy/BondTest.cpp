@@ -337,6 +337,87 @@ TEST(Bond, goesOnWithTheSameBits) {
     EXPECT_EQ(whole->energyLedger().closed(), second->energyLedger().closed());
 }
 
+// Grains that a hook has joined are joined in the file, too, though no step has passed; other materials are
+// refused.
+TEST(Bond, waitingBondsAndMaterialsAreInTheFile) {
+    const support::TestFolder folder;
+    auto grains = Chain::row(4, false);
+    grains[3].velocity = {0, 0.1, 0};
+    const auto make = [&](double damping) {
+        return std::make_unique<Chain>(grains, 2e-6, BondStrength{}, damping);
+    };
+    auto whole = make(0);
+    whole->initialise();
+    for (int k = 0; k < 50; ++k) whole->step();
+    whole->bonds.join(0, 3, 0);
+    whole->writeRestart(folder.path() / "joined.h5");
+    for (int k = 0; k < 50; ++k) whole->step();
+    auto second = make(0);
+    second->restartFrom(folder.path() / "joined.h5");
+    second->initialise();
+    for (int k = 0; k < 50; ++k) second->step();
+    EXPECT_EQ(second->bonds.all().size(), 4u);
+    EXPECT_EQ(stateHash(whole->particleHandler.store()), stateHash(second->particleHandler.store()));
+    auto other = make(0.1);
+    other->restartFrom(folder.path() / "joined.h5");
+    const std::string message = support::refusal([&] { other->initialise(); });
+    EXPECT_TRUE(support::isOneSentence(message)) << message;
+    EXPECT_TRUE(contains(message, "material0/damping is 0 in the file and 0.1 in the scene"));
+}
+
+/// Throws in a step of its choice, after the forces.
+struct Failing : StepPart {
+    [[nodiscard]] std::string_view name() const override { return "failing"; }
+    void afterForces(StepContext& step) override {
+        if (step.number == at) throw RunError("As was asked for.");
+    }
+    std::size_t at = 0;
+};
+
+// A step that fails leaves bonds as they were, to the bit; also one that a hook has joined before it. The
+// grains' own motion is taken back up to round-off.
+TEST(Bond, stepsThatFailAreTakenBack) {
+    auto grains = Chain::row(4, false);
+    for (auto& grain : grains) grain.spin = {100, 300 * grain.position.x() / spacing, 3000};
+    Chain chain(grains, 2e-6, {}, 0.1);
+    chain.addPart<Failing>().at = 30;
+    chain.initialise();
+    for (int k = 0; k < 30; ++k) chain.step();
+    const auto before = chain.bonds.all();
+    const Quaternion orientation = chain.bonds.orientationOf(2);
+    const Vec3D velocity = chain.motion(2).velocity;
+    chain.bonds.join(0, 3, 0);
+    EXPECT_THROW(chain.step(), RunError);
+    const auto& after = chain.bonds.all();
+    ASSERT_EQ(after.size(), 4u);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        EXPECT_EQ(before[k].elastic.force, after[k].elastic.force);
+        EXPECT_EQ(before[k].damping.torque1, after[k].damping.torque1);
+        EXPECT_EQ(before[k].between, after[k].between);
+    }
+    EXPECT_EQ(orientation.real, chain.bonds.orientationOf(2).real);
+    EXPECT_EQ(orientation.imaginary, chain.bonds.orientationOf(2).imaginary);
+    EXPECT_LT((chain.motion(2).velocity - velocity).norm(), 1e-15 * velocity.norm());
+}
+
+// A bond through a periodic face that is pulled beyond half a period, where another image comes nearer.
+TEST(Bond, staysWithItsImage) {
+    constexpr double period = 8e-3, step = 1e-6;
+    Chain chain(Chain::row(2, false), step);
+    chain.setPeriodic(0, -3e-3, 5e-3);
+    for (const std::uint32_t k : {0, 1}) chain.particleHandler.getObject(k).setHeldAxes(HeldAxes::all());
+    chain.particleHandler.getObject(1).setPosition({-2e-3, 0, 0});
+    chain.particleHandler.getObject(1).setVelocity({-10, 0, 0});  // through the lower face
+    chain.initialise();
+    constexpr int steps = 700;  // 7 mm, so that both meet again in the box
+    for (int k = 0; k < steps; ++k) chain.step();
+    const double stretch = 10 * steps * step;
+    const auto& bond = chain.bonds.all().front();
+    EXPECT_NEAR(bond.between.x / -(spacing + stretch), 1, 1e-12);
+    EXPECT_GT(-bond.between.x, period);
+    EXPECT_NEAR(bond.elastic.force.x / (beam.normal * stretch), 1, 1e-12);
+}
+
 // Hooks may change bonded grains, and take them away.
 TEST(Bond, grainsMayBeChangedAndGo) {
     Chain chain(Chain::row(4, false), 2e-6);

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -200,6 +201,55 @@ TEST(Heat, stepsThatAreTooLongEndTheRun) {
         EXPECT_TRUE(contains(error.what(), "particle 1"));
         EXPECT_TRUE(contains(error.what(), "93.66"));
     }
+}
+
+// A temperature below 0 K, which a driver has set in the run, ends it; a clump has no temperature.
+TEST(Heat, temperaturesBelowZeroEndTheRun) {
+    Column column(3, 1);
+    column.initialise();
+    column.temperature[1] = -5;
+    try {
+        column.step();
+        FAIL();
+    } catch (const RunError& error) {
+        EXPECT_TRUE(support::isOneSentence(error.what())) << error.what();
+        EXPECT_TRUE(contains(error.what(), "particle 1 is -5 K"));
+    }
+    Column joined(2, 1);
+    joined.particleHandler.getObject(1).setPosition({2 * radius, 0, 0});
+    joined.bodyHandler.join({0, 1});
+    EXPECT_TRUE(contains(support::refusal([&] { joined.initialise(); }), "clump"));
+}
+
+// A run goes on with the walls that it has changed, but not with others that a driver sets up.
+TEST(Heat, settingsGoOnWithTheRun) {
+    const support::TestFolder folder;
+    const auto make = [](double conducts, double atWall) {
+        auto column = std::make_unique<Column>(4, 1, overlap);
+        column->heat.setMaterial(column->speciesHandler.getObject(0), {conducts, capacity});
+        column->heat.holdWall(0, atWall);
+        return column;
+    };
+    const auto goOn = [&](Column& column, const char* file) {
+        column.restartFrom(folder.path() / file);
+        column.initialise();
+    };
+    auto run = make(1, 400);
+    run->run(3);
+    run->writeRestart(folder.path() / "before.h5");
+    run->heat.holdWall(0, 500), run->heat.holdWall(1, 250);
+    run->step(3);
+    run->writeRestart(folder.path() / "after.h5");
+    run->step(3);
+    EXPECT_TRUE(contains(support::refusal([&] { goOn(*make(2, 400), "before.h5"); }),
+                         "heat/materials is not the same"));
+    EXPECT_TRUE(contains(support::refusal([&] { goOn(*make(1, 401), "before.h5"); }),
+                         "heat/heldWalls is not the same"));
+    auto second = make(1, 400);
+    goOn(*second, "after.h5");
+    second->step(3);
+    for (std::uint32_t k = 0; k < 4; ++k) EXPECT_EQ(run->temperature[k], second->temperature[k]);
+    EXPECT_EQ(run->heat.ledger().fromWalls, second->heat.ledger().fromWalls);
 }
 
 /// Grains that fall into a box whose floor is hot, and warm themselves by their collisions.

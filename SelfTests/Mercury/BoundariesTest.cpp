@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "Kernel/MercuryScene.h"
 #include "SelfTests/Support/TestFolder.h"
@@ -261,6 +262,97 @@ TEST(MercuryPrograms, insertionOfVelocities) {
     // sqrt(n).
     EXPECT_LT(sum.norm() / 1000, 4 * std::sqrt(2.0 / 3000));
     EXPECT_NEAR(squares.x() / 1000, 1.0 / 3, 4 * 0.3 / std::sqrt(1000));
+}
+
+// Two streams of random speeds, to the right and to the left, through a plane in the middle, to outlets at
+// both ends: nothing is lost. They come into boxes of their own, and meet.
+TEST(MercuryPrograms, fluxBoundaryOfTwoStreams) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    species->setDensity(1);
+    species->setCollisionTimeAndRestitutionCoefficient(1e-2, 0.5, sphereMass(0.05, 1));
+    SphericalParticle grain(species);
+    grain.setRadius(0.05);
+    const auto stream = [&](double from, double slow, double fast) {
+        CubeInsertionBoundary insertion;
+        insertion.set(&grain, 1, {from, 0, 0}, {from + 0.2, 0.4, 0.4}, {slow, 0, 0}, {fast, 0, 0}, 0.045,
+                      0.055);
+        insertion.setVolumeFlowRate(0.02);
+        return scene.boundaryHandler.copyAndAddObject(insertion);
+    };
+    CubeInsertionBoundary *const right = stream(-1.1, 3, 4), *const left = stream(0.9, -5, -4);
+    const auto outlet = [&](double side) {
+        DeletionBoundary deletion;
+        deletion.set(Vec3D(side, 0, 0), 1.3);
+        return scene.boundaryHandler.copyAndAddObject(deletion);
+    };
+    DeletionBoundary *const atRight = outlet(1), *const atLeft = outlet(-1);
+    FluxBoundary plane;
+    plane.set(Vec3D(1, 0, 0), 0);
+    FluxBoundary* const flux = scene.boundaryHandler.copyAndAddObject(plane);
+    scene.setDomain({-1.3, 0, 0}, {1.3, 0.4, 0.4});
+    scene.setTimeStep(2e-4);
+    scene.setTimeMax(1);
+    scene.setQuiet();
+    scene.solve();
+    std::int64_t onRight = 0, slowOnes = 0, fastOnes = 0;
+    for (auto g : scene.particleHandler) {
+        if (g->getPosition().x() > 0) ++onRight;
+        if (g->getPosition().x() < -0.9) g->getVelocity().x() < 3.5 ? ++slowOnes : ++fastOnes;
+    }
+    const auto came = static_cast<std::int64_t>(right->getNumberOfParticlesInserted()),
+               cameLeft = static_cast<std::int64_t>(left->getNumberOfParticlesInserted());
+    const auto wentRight = static_cast<std::int64_t>(atRight->getNumberOfParticlesDeleted()),
+               wentLeft = static_cast<std::int64_t>(atLeft->getNumberOfParticlesDeleted());
+    EXPECT_GT(came, 30);
+    EXPECT_GT(wentRight + wentLeft, 0);  // most meet another one, and leave sideways
+    EXPECT_EQ(came + cameLeft - wentRight - wentLeft,
+              static_cast<std::int64_t>(scene.particleHandler.getSize()));
+    EXPECT_EQ(cameLeft + flux->getNumberOfParticlesCrossedNet() - wentRight, onRight);
+    EXPECT_NEAR(right->getVolumeOfParticlesInserted(), 0.02, sphereMass(0.055, 1));
+    EXPECT_NEAR(left->getMassOfParticlesInserted(), 0.02, sphereMass(0.055, 1));
+    EXPECT_GT(slowOnes + fastOnes, 0);
+}
+
+// The velocities of grains that come in a run are even between their bounds, and the same after a restart.
+TEST(MercuryPrograms, velocitiesOfAnInlet) {
+    const TestFolder folder;
+    const auto make = [&](double end) {
+        auto scene = std::make_unique<MercuryScene<LinearViscoelasticSpecies>>();
+        auto species = scene->speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+        species->setDensity(2000), species->setStiffness(10);
+        SphericalParticle grain(species);
+        grain.setRadius(1e-4);
+        CubeInsertionBoundary insertion;
+        insertion.set(grain, 100, {0, 0, 0}, {.1, .1, .1}, {-1, 2, 0}, {1, 4, 0});
+        insertion.setVolumeFlowRate(1000.5 * sphereMass(1e-4, 1) / 1e-3);
+        scene->boundaryHandler.copyAndAddObject(insertion);
+        scene->setDomain({0, 0, 0}, {.1, .1, .1});
+        scene->setTimeStep(1e-5);
+        scene->setTimeMax(end);
+        scene->setQuiet();
+        return scene;
+    };
+    auto whole = make(1e-3);
+    whole->solve();
+    Vec3D sum = Vec3D::Zero(), squares = Vec3D::Zero();
+    for (const GrainReference g : whole->particleHandler) {
+        const Vec3D v = g.getVelocity() - Vec3D(0, 3, 0);
+        EXPECT_LE(v.cwiseAbs().maxCoeff(), 1);
+        EXPECT_EQ(v.z(), 0);
+        sum += v, squares += v.cwiseAbs2();
+    }
+    ASSERT_EQ(whole->particleHandler.getSize(), 1000u);
+    EXPECT_LT(sum.norm() / 1000, 4 * std::sqrt(2.0 / 3000));
+    EXPECT_NEAR(squares.x() / 1000, 1.0 / 3, 4 * 0.3 / std::sqrt(1000));
+    auto first = make(4e-4), second = make(1e-3);
+    first->solve();
+    first->writeRestart(folder.path() / "inlet.h5");
+    second->restartFrom(folder.path() / "inlet.h5");
+    second->solve();
+    for (const std::uint32_t k : {10, 399, 400, 999})
+        EXPECT_EQ(whole->particleHandler.getObject(k).getVelocity(),
+                  second->particleHandler.getObject(k).getVelocity());
 }
 
 // A wedge of two planes, between which nothing is: distances to its faces and its edge.

@@ -2,8 +2,11 @@
 // give there or a closed form. README.md lists them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include "CG/CG.h"
 #include "CG/TimeAveragedCG.h"
@@ -316,6 +319,121 @@ TEST(MercuryPrograms, squarePacking) {
         EXPECT_EQ(grain->getVelocity().z(), 0);
         EXPECT_EQ(grain->getPosition().z(), 0);
     }
+}
+
+// 10 000 grains, normal in size, in a pile: the moments of their radii. The numbers are those of the C++
+// library's mt19937 and normal_distribution, by g++.
+TEST(MercuryPrograms, cgMoment) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    species->setDensity(6.0 / constants::pi), species->setStiffness(1);
+    scene.setDomain({0, 0, 0}, {1, 1, 1});
+    std::mt19937 generator(0);
+    std::normal_distribution<> sizes(1, 0.1);
+    SphericalParticle p(species);
+    double height = 0;
+    for (int i = 0; i < 10000; ++i) {
+        p.setRadius(std::min(2.0, std::max(0.0, sizes(generator))));
+        p.setPosition({0, 0, height += 4 * p.getRadius()});
+        scene.particleHandler.copyAndAddObject(p);
+    }
+    scene.setTimeStep(1e-4);
+    scene.setTimeMax(0);
+    scene.setQuiet();
+    auto cg = scene.cgHandler.copyAndAddObject(CG<CGCoordinates::O>());
+    scene.solve();
+    const auto moments = cg->getStandardisedParticleSizeMomenta();
+    helpers::check(moments[0], 10000, 1e-5, "number");
+    helpers::check(moments[1], 1.001, 1e-5, "mean");
+    helpers::check(moments[2], 0.0101141, 1e-5, "variance");
+    helpers::check(moments[3], -0.0198724, 1e-5, "skewness");
+    helpers::check(moments[4], 2.91938, 1e-5, "kurtosis");
+    helpers::check(moments[5], -0.0762574, 1e-5, "fifth moment");
+}
+
+// A leaning stack on a grain that is held: whatever is resolved, and by whichever function, the mean over the
+// box is that of all, to what points along a direction can tell of a smooth function.
+TEST(MercuryPrograms, cgBasic) {
+    using namespace CGCoordinates;
+    using namespace CGFunctions;
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    scene.setGravity({-0.1, 0, -1.0});
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    species->setDensity(6.0 / constants::pi);
+    species->setCollisionTimeAndRestitutionCoefficient(.01, .1, 1.);
+    scene.setTimeStep(species->getCollisionTime(1.0) / 50.0);
+    scene.setTimeMax(0.21);
+    scene.setDomain({-0.1, 0, -0.6}, {1.1, 1, 2.1});
+    SphericalParticle p(species);
+    p.setRadius(0.5 * std::sqrt(1.01));
+    p.setPosition({0.5, 0.5, 0.5});
+    scene.particleHandler.copyAndAddObject(p);
+    p.setPosition({0.6, 0.5, 1.5});
+    scene.particleHandler.copyAndAddObject(p);
+    p.setPosition({0.4, 0.5, -0.5});
+    p.fixParticle();
+    scene.particleHandler.copyAndAddObject(p);
+    auto all = scene.cgHandler.copyAndAddObject(CG<O>());
+    const double gauss = 0.5 / 3.01, other = 0.5 / 2.01;
+    std::vector<MercuryCG*> resolved{scene.cgHandler.copyAndAddObject(CG<Z, Gauss>(gauss, 200)),
+                                     scene.cgHandler.copyAndAddObject(CG<YZ, Gauss>(gauss, 33)),
+                                     scene.cgHandler.copyAndAddObject(CG<XYZ, Gauss>(gauss, 20)),
+                                     scene.cgHandler.copyAndAddObject(CG<Z, Heaviside>(other, 1000)),
+                                     scene.cgHandler.copyAndAddObject(CG<Z, Lucy>(other, 200)),
+                                     scene.cgHandler.copyAndAddObject(CG<YZ, Lucy>(other, 33)),
+                                     scene.cgHandler.copyAndAddObject(CG<XYZ, Lucy>(other, 20)),
+                                     scene.cgHandler.copyAndAddObject(CG<X, Lucy>(other, 200)),
+                                     scene.cgHandler.copyAndAddObject(CG<X, Gauss>(gauss, 200)),
+                                     scene.cgHandler.copyAndAddObject(CG<Y, Lucy>(other, 200)),
+                                     scene.cgHandler.copyAndAddObject(CG<Y, Gauss>(gauss, 200))};
+    scene.setQuiet();
+    scene.solve();
+    const double volume = 1.2 * 1 * 2.7, mass = 2 * std::pow(1.01, 1.5);
+    const CGPoint whole = all->getPoint(0);
+    helpers::check(whole.getDensity(), mass / volume, 1e-13, "mean density");
+    for (std::size_t k = 0; k < resolved.size(); ++k) {
+        const CGPoint mean = resolved[k]->evaluateAverage();
+        EXPECT_NEAR(mean.getDensity() / whole.getDensity(), 1, 2e-3) << k;
+        EXPECT_NEAR(mean.getContactStress()(2, 2) / whole.getContactStress()(2, 2), 1, 2e-3) << k;
+    }
+}
+
+// A cubic packing of 5^3 grains: the share of their volume in a sphere about the middle, by the grains whose
+// centres are in it, counted by hand and as a field.
+TEST(MercuryPrograms, computeVolumeFraction) {
+    MercuryScene<LinearViscoelasticSpecies> scene;
+    auto species = scene.speciesHandler.copyAndAddObject(LinearViscoelasticSpecies());
+    species->setDensity(1), species->setStiffness(1);
+    scene.setMax({5, 5, 5});
+    SphericalParticle p(species);
+    p.setRadius(0.5);
+    int inside = 0;
+    for (int i = 0; i < 5; ++i)
+        for (int j = 0; j < 5; ++j)
+            for (int k = 0; k < 5; ++k) {
+                p.setPosition(Vec3D(.5 + i, .5 + j, .5 + k));
+                scene.particleHandler.copyAndAddObject(p);
+                inside += (i - 2) * (i - 2) + (j - 2) * (j - 2) + (k - 2) * (k - 2) <= 6 ? 1 : 0;
+            }
+    const double cutoff = 2.5;  // between the roots of 6 and of 8
+    auto cg = scene.cgHandler.copyAndAddObject(CG<CGCoordinates::XYZ, CGFunctions::Heaviside>(cutoff, 1));
+    cg->setMin({2.5, 2.5, 2.5});
+    cg->setMax({2.5, 2.5, 2.5});
+    scene.setTimeStep(1e-3);
+    scene.setTimeMax(0);
+    scene.setQuiet();
+    scene.solve();
+    double counted = 0;
+    for (auto grain : scene.particleHandler)
+        if ((grain->getPosition() - Vec3D(2.5, 2.5, 2.5)).squaredNorm() < cutoff * cutoff)
+            counted += grain->getVolume();
+    const double sphere = 4. / 3. * constants::pi * mathsFunc::cubic(cutoff);
+    EXPECT_EQ(inside, 81);
+    EXPECT_NEAR(counted / sphere, inside * 0.001 * 8, 1e-13);
+    helpers::check(cg->getPoint(0).getVolumeFraction(), counted / sphere, 1e-13, "volume fraction");
+    // What a hook changes is in the fields at once.
+    scene.particleHandler.getObject(62)->setRadius(0.25);
+    EXPECT_NEAR(cg->getPoint(0).getVolumeFraction(), (counted - 7. / 8 * constants::pi / 6) / sphere, 1e-13);
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
         EXPECT_EQ(result.exitCode, 0);
         return result.output;
     };
-    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 8>{{
+    for (const auto& [there, here] : std::array<std::pair<const char*, const char*>, 9>{{
              {"double z = p->getPosition().Z + v[2].X;", "double z = p->getPosition().z() + v[2].x();"},
              {"// v.X stays in a comment", "// v.X stays in a comment"},
              {"Vec3D::dot(a, getMax()) * Vec3D::cross(b, c).getLength()",
@@ -116,6 +116,8 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
              {"s.XX - s.ZY", "s(0, 0) - s(2, 1)"},
              {"x.speciesHandler.addObject(own);", "own = x.speciesHandler.copyAndAddObject(*own);"},
              {"setXMax(MIN.Xa, atX)", "setXMax(MIN.Xa, atX)"},
+             {"auto i = dynamic_cast<BondedInteraction*>(interactionHandler.getInteraction(f(p), q, 0));",
+              "auto i = interactionHandler.getInteraction(f(p), q, 0);"},
          }})
         EXPECT_EQ(ported(there), std::string(here) + '\n');
 }
@@ -191,8 +193,12 @@ TEST(MercuryNames, eachFileHasItsSaveCount) {
         for (std::size_t at = text.find(head); at != std::string::npos; at = text.find(head, at + 1)) ++count;
         return count;
     };
-    EXPECT_EQ(frames(".data", " -0.1 -0.1 0 0.1 0.1 0.2\n"), 6u);  // at the start, and each second step
-    EXPECT_EQ(frames(".fstat", " 1\n# "), 2u);                     // at the start and at the end
+    // At the start, and each second step, a file for each.
+    for (const char* const end : {".data.0", ".data.1", ".data.5"})
+        EXPECT_EQ(frames(end, " -0.1 -0.1 0 0.1 0.1 0.2\n"), 1u) << end;
+    EXPECT_FALSE(std::filesystem::exists(folder.name() + ".data.6"));
+    EXPECT_FALSE(std::filesystem::exists(folder.name() + ".data"));
+    EXPECT_EQ(frames(".fstat", " 1\n# "), 2u);  // at the start and at the end
 }
 
 TEST(MercuryNames, energiesAddUp) {

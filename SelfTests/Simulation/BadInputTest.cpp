@@ -221,6 +221,7 @@ TEST(BadInput, fieldsThatAreNotSet) {
     Species<HertzianViscoelastic, Mindlin> rough;
     rough.setDensity(2000);
     rough.setEffectiveElasticModulus(1e7);
+    rough.setSlidingFrictionCoefficient(0.5);
     expectRefused([&] { start(rough); },
                   {"Mindlin", "effectiveShearModulus", "not set", "greater than 0 Pa and finite"});
 }

@@ -127,5 +127,33 @@ TEST(FirstDay, aLoopOverGrainsMayRemoveThem) {
     EXPECT_EQ((*scene.particleHandler.begin()).getId(), 3u);
 }
 
+// Without friction, which is so where no coefficient is set, nothing is asked of the tangential spring, and a
+// grain that slides on a floor keeps its speed and does not turn.
+TEST(FirstDay, frictionThatIsNotSetIsOff) {
+    const auto check = []<class S>(S species) {
+        Simulation<S> scene;
+        auto* const own = scene.speciesHandler.copyAndAddObject(species);
+        SphericalParticle grain(own);
+        grain.setRadius(1e-3), grain.setPosition({0, 0, 0.999e-3}), grain.setVelocity({0.1, 0, 0});
+        const auto added = scene.particleHandler.copyAndAddObject(grain);
+        InfiniteWall floor;
+        floor.set({0, 0, -1}, {0, 0, 0}), floor.setSpecies(own);
+        scene.wallHandler.copyAndAddObject(floor);
+        scene.setTimeStep(1e-6), scene.setTimeMax(1e-3), scene.setQuiet();
+        scene.solve();
+        EXPECT_EQ(added->getVelocity().x(), 0.1);
+        EXPECT_EQ(added->getAngularVelocity(), Vec3D(0, 0, 0));
+    };
+    Rough linear;
+    linear.setDensity(2500), linear.setStiffness(100);
+    check(linear);
+    HertzianViscoelasticMindlinSpecies hertzian;
+    hertzian.setDensity(2500), hertzian.setEffectiveElasticModulusAndRestitutionCoefficient(1e6, 0.5);
+    check(hertzian);
+    linear.setSlidingFrictionCoefficient(0.5);  // now it is asked for
+    const std::string said = refusal([&] { check(linear); });
+    EXPECT_TRUE(isOneSentence(said) && contains(said, "slidingStiffness is not set")) << said;
+}
+
 }  // namespace
 }  // namespace pendular::firstDayTest

@@ -309,6 +309,14 @@ std::vector<Setter<Law>> settersOf() {
         add(
             "adhesionStiffness", [](L& l, double v) { l.setAdhesionStiffness(v); },
             [](const L& l) { return l.getAdhesionStiffness(); });
+    if constexpr (requires(L l) { l.setBondForceMax(0.0); }) {
+        add(
+            "bondForceMax", [](L& l, double v) { l.setBondForceMax(v); },
+            [](const L& l) { return l.getBondForceMax(); });
+        add(
+            "bondDissipation", [](L& l, double v) { l.setBondDissipation(v); },
+            [](const L& l) { return l.getBondDissipation(); });
+    }
     if constexpr (requires(L l) { l.setAdhesionCoefficient(0.0); }) {
         add(
             "adhesionCoefficient", [](L& l, double v) { l.setAdhesionCoefficient(v); },

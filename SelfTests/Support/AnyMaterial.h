@@ -79,6 +79,7 @@ void setAdhesion(S& species, const MaterialScale& scale) {
         species.setAdhesionForceMax(1e-3);
         species.setAdhesionStiffness(100);
     }
+    if constexpr (requires { species.setBondForceMax(1.0); }) species.setBondForceMax(1e-3);
     if constexpr (requires { species.setAdhesionCoefficient(1.0); }) {
         species.setAdhesionCoefficient(1);
         species.setViscosityCoefficient(1e13);

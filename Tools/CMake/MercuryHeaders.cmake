@@ -9,13 +9,13 @@ function(pendular_write_mercury_headers folder)
         Boundaries/PeriodicBoundary Boundaries/CubeInsertionBoundary Boundaries/DeletionBoundary
         Boundaries/CubeDeletionBoundary Boundaries/FluxBoundary Boundaries/LeesEdwardsBoundary
         CG/CG CG/TimeAveragedCG CG/Functions/Gauss CG/Functions/Lucy CG/Functions/Heaviside
-        Math/ExtendedMath Math/Helpers Math/PSD Math/RNG Math/Vector)
+        Species/Species Math/ExtendedMath Math/Helpers Math/PSD Math/RNG Math/Vector)
     foreach(normal IN ITEMS LinearViscoelastic LinearPlasticViscoelastic HertzianViscoelastic
-                            HertzianBSHPViscoelastic)
+                            HertzianBSHPViscoelastic Sinter HertzianSinter)
         foreach(friction IN ITEMS "" SlidingFriction Friction Mindlin MindlinRollingTorsion)
             foreach(adhesion IN ITEMS "" ReversibleAdhesive IrreversibleAdhesive LiquidBridgeWillet
                                       LiquidBridgeClassicalWillet LiquidBridgeBagheri LiquidMigrationWillet
-                                      LiquidMigrationLS)
+                                      LiquidMigrationLS Bonded ParhamiMcMeekingSinter)
                 list(APPEND names "Species/${normal}${friction}${adhesion}Species")
             endforeach()
         endforeach()

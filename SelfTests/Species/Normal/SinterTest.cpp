@@ -254,6 +254,28 @@ TEST(HertzianSinter, pathHasItsBranches) {
     EXPECT_NEAR(force(below) / (-ec * power(below)), 1, 1e-12);
 }
 
+// A pair that nothing presses stays where spring and pull are equal, while m = m0 + r R t / 2:
+// d = m (1 - (E_s/E_u)^(2/3)) / (1 - (E_c/E_u)^(2/3)). Against the dashpot it is late by g d'/k, at 0.05 s
+// 0.01 kg/s x 0.6 mm/s / (700 N/m) of 51 um, 1.7e-4; later less.
+TEST(HertzianSinter, neckGrowsAsItsClosedForm) {
+    constexpr double radius = 1e-3, e1 = 1e6, ep = 8e6, ec = 2e5, phi = 0.2, rate = 1.5, start = 0.05;
+    HertzianSinterSpecies species;
+    species.setPlasticParameters(e1, ep, ec, phi);
+    species.setSinterRate(rate);
+    species.setDissipation(0.1);  // so that they do not part at the start
+    Pair<HertzianSinterSpecies> pair(species, radius, 1e-5, start * radius, 4e-6);
+    pair.runUntil(0.02);
+    pair.speciesHandler.getObject(0)->setDissipation(0.01);
+    const double es = e1 + ec, limit = phi / (1 - std::pow(es / ep, 2.0 / 3));  // of m / R
+    for (const double time : {0.05, 0.1, 0.2}) {
+        pair.runUntil(time);
+        const double m = start + 0.5 * rate * time, modulus = es + (ep - es) * m / limit;
+        const double expected =
+            m * (1 - std::pow(es / modulus, 2.0 / 3)) / (1 - std::pow(ec / modulus, 2.0 / 3));
+        EXPECT_NEAR(pair.overlap() / (expected * radius), 1, 3e-4) << time;
+    }
+}
+
 // A pair without force: x^6 = x0^6 + 6 a R^2 t / b, x^2 = 2 R d. Hertz's force is 1e-6 of the attraction.
 // The first steps err by the step over the time in which the neck grows, 4e-4.
 TEST(ParhamiMcMeekingSinter, neckHasItsClosedForm) {

@@ -34,6 +34,16 @@ struct LinearSpring : SlidingSpring<Law> {
     void setSlidingStiffness(double value) { this->set(&LinearSpring::slidingStiffness, value); }
     [[nodiscard]] double getSlidingStiffness() const { return slidingStiffness; }
 
+    /// Without friction the spring does nothing: where the user has not set it, k_t is then 2/7 of the normal
+    /// stiffness.
+    template <class Normal>
+    void deriveUnset(const Normal& normal) {
+        if (this->slidingFrictionCoefficient != 0 || isSet(slidingStiffness)) return;
+        if constexpr (requires { normal.getStiffness(); }) slidingStiffness = 2.0 / 7 * normal.getStiffness();
+        else if constexpr (requires { normal.getLoadingStiffness(); })
+            slidingStiffness = 2.0 / 7 * normal.getLoadingStiffness();
+    }
+
     /// Sets k_t and g_t so that the surfaces of two grains of the given mass (kg) each, which stick, swing
     /// back once in collisionTime (s), with this share (0 to 1, 0 excluded) of their tangential speed: the
     /// damped oscillator of 2/7 of the reduced mass, as the rims of spheres turn. Source: Luding (1998), in

@@ -48,9 +48,13 @@ struct MindlinSpring : SlidingSpring<Law> {
     [[nodiscard]] double getSpringFactor() const { return springFactor; }
 
     /// Derives what the user has not set and the normal law can give: beta_t by equation 4.8. A normal law
-    /// whose damping is not such a factor leaves it to the user.
+    /// whose damping is not such a factor leaves it to the user. Without friction the spring does nothing: G*
+    /// is then a fifth of E*, as for a Poisson ratio of 1/3.
     template <class Normal>
     void deriveUnset(const Normal& normal) {
+        if constexpr (requires { normal.getEffectiveElasticModulus(); })
+            if (this->slidingFrictionCoefficient == 0 && !isSet(effectiveShearModulus))
+                effectiveShearModulus = 0.2 * normal.getEffectiveElasticModulus();
         if constexpr (requires {
                           typename Normal::Prepared;
                           normal.prepare().dampingFactor;
