@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Says which .h and .cpp files do not have the format of .clang-format, and ends with exit code 1 if there are any.
 #   Tools/check-format.sh [--fix] [FILE...]
-# Without names: all of them. --fix writes the format.
+# Without names: all of them; files of other kinds are left as they are. --fix writes the format.
 # clang-format 14 it is; other versions break lines in other places.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
@@ -19,4 +19,6 @@ if (($# == 0)); then
     mapfile -t files < <(find Kernel Drivers SelfTests Tools -name '*.h' -o -name '*.cpp')
     set -- "${files[@]}"
 fi
-"$program" "${mode[@]}" "$@"
+sources=()
+for file; do [[ $file != *.h && $file != *.cpp ]] || sources+=("$file"); done
+if ((${#sources[@]} > 0)); then "$program" "${mode[@]}" "${sources[@]}"; fi

@@ -49,6 +49,10 @@ python3-h5py||h5py, for pendular.frames()
 python3-pandas||tables, for pendular.table()
 python3-matplotlib||pictures, for pendular.draw()
 python3-scipy||the calibration among the examples
+python3-nbclient||tests of the notebooks
+python3-nbformat||tests of the notebooks
+python3-ipykernel||notebooks
+python3-tqdm||bars of progress
 mypy|mypy|types of the module'
 fi
 if [[ $clang == yes ]]; then

@@ -43,3 +43,21 @@ def test_study(tmp_path):
     run("study.py", "--output", tmp_path, "--only", "0", "--processes", "1")
     row = pandas.read_csv(tmp_path / "study-0.csv").iloc[0]
     assert row["hash"] == heap(0.0)["hash"]  # another process, the same bits
+
+
+def test_plate_bends_as_under_its_load():
+    """At rest the finite elements have the deflection of the load that the grains make; and about that of an even one."""
+    pytest.importorskip("matplotlib")
+    from plate import ELEMENTS, LENGTH, Plate, couple, make_scene
+
+    scene, strips = make_scene()
+    plate, loads = Plate(), []
+    couple(scene, strips, plate)
+    scene.every_steps(200, lambda s: loads.append(plate.load) if s.time > 0.15 else None)
+    scene.run(0.2)
+    load = np.mean(loads, 0)
+    assert load[::2].sum() == pytest.approx(-9.81 * scene.total_mass, rel=0.02)
+    deflection = plate.w[::2]
+    assert deflection == pytest.approx(plate.at_rest(load), abs=0.01 * np.abs(deflection).max())
+    even = 9.81 * scene.total_mass * LENGTH**3 / (384 * plate.bending)
+    assert -deflection[ELEMENTS // 2] == pytest.approx(even, rel=0.08)

@@ -6,9 +6,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "Tools/Python/HOW-DO-I.md").read_text()
-# A Python script needs no project; the last one is about MercuryDPM's C++.
-ONLY_CPP = {"Write a driver outside this repository", "Port a driver from MercuryDPM", "Add an output of my own",
-            "Bond grains, until the bonds break", "Let grains conduct heat", "Choose how soft the grains are"}
+# A Python script needs no project; the other one is about MercuryDPM's C++.
+ONLY_CPP = {"Write a driver outside this repository", "Port a driver from MercuryDPM"}
 
 
 def sections():

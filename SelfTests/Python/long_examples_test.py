@@ -52,3 +52,13 @@ def test_calibration_finds_back_what_was_put_in():
     assert mean(0.3, 0.05)[0] < wanted[0] - 4
     angle, width = mean(*calibrate(*wanted, evaluations=6).x)
     assert abs(angle - wanted[0]) < 1.5 and abs(width - wanted[1]) < 8e-4
+
+
+@pytest.mark.parametrize("name, options", [("drum.py", ("--time", "0.1")), ("hopper.py", ()), ("wet_shear.py", ("--strain", "0.5")),
+                                           ("calibration.py", ("--evaluations", "1")), ("restart.py", ()), ("study.py", ())])
+def test_notebook(tmp_path, monkeypatch, name, options):
+    pytest.importorskip("nbclient")
+    from notebooks_test import made, run as run_notebook
+
+    text, _ = run_notebook(*made(tmp_path, name), monkeypatch, options)
+    assert text

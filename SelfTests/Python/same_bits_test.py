@@ -15,10 +15,15 @@ VALUES = dict(
     sliding_stiffness=60, sliding_friction_coefficient=0.4, rolling_stiffness=50, rolling_friction_coefficient=0.1,
     torsion_stiffness=50, torsion_friction_coefficient=0.1, liquid_bridge_volume=2e-12, contact_angle=0.3,
     surface_tension=0.05, liquid_bridge_volume_max=4e-12, distribution_coefficient=0.8, viscosity=1e-3,
-    surface_energy=0.02, roughness=1e-6, work_of_adhesion=0.02)
+    loading_stiffness=200, unloading_stiffness_max=400, cohesion_stiffness=20, penetration_depth_max=0.5,
+    sliding_dissipation=1e-4, rolling_dissipation=1e-6, torsion_dissipation=1e-6, cohesion_modulus=1e5,
+    loading_modulus=1e6, unloading_modulus_max=2e6, surface_energy=0.02, roughness=1e-6, work_of_adhesion=0.02)
 # Overrides of defaults, so that something happens.
 CHANGED = dict(sliding_friction_coefficient=0.4, rolling_friction_coefficient=0.1, torsion_friction_coefficient=0.1,
-               rolling_stiffness=50, torsion_stiffness=50, dissipation=1e-3, viscosity=1e-3)
+               rolling_stiffness=50, torsion_stiffness=50, dissipation=1e-3, viscosity=1e-3, sinter_rate=1,
+               sinter_adhesion=1e-2)
+# Not fields of this law, but values from which some are computed.
+COMPUTED_FROM = {("Sinter", "surface_tension"), ("Sinter", "viscosity"), ("Sinter", "surface_energy")}
 COUNT, STEPS = 64, 300
 
 
@@ -29,7 +34,9 @@ def camel(name):
 def values_of(species):
     """The fields of a species that must be set, or that make it do something."""
     chosen = {}
-    for _, field, _, _, default in pendular.fields(species):
+    for law, field, _, _, default in pendular.fields(species):
+        if (law, field) in COMPUTED_FROM:
+            continue
         if field in CHANGED:
             chosen[field] = CHANGED[field]
         elif np.isnan(default) and field in VALUES:
@@ -90,7 +97,7 @@ def test_same_bits(species):
         second.restart_from("half.h5")
         second.run(steps=STEPS - STEPS // 2)
         hashes += [whole.hash(), second.hash()]
-    assert start not in hashes and len(whole.contacts()["wall"]) > 8  # they move and touch
+    assert start not in hashes and len(whole.contacts()["wall"]) > 3  # they move and touch
     write("scene.txt", species, values, step)
     program = subprocess.run([PROGRAM, "scene.txt"], capture_output=True, text=True)
     assert program.returncode == 0, program.stderr

@@ -1,14 +1,18 @@
 # The Python package pendular, of Tools/Python/: in the build folder it is Python/pendular, so that
 # PYTHONPATH=build/release/Python finds it.
 
-set(PENDULAR_PYTHON_SPECIES "" CACHE STRING "Species that the Python module has besides the popular ones, by their names (a list)")
+set(PENDULAR_PYTHON_SPECIES SinterMindlinSpecies HertzianSinterMindlinSpecies LinearViscoelasticSlidingRollingTorsionSpecies
+    LinearPlasticViscoelasticSlidingRollingTorsionSpecies CACHE STRING
+    "Species that the Python module has besides the popular ones, by their names (a list): 10 s each to compile")
 set(PENDULAR_PYTHON_SHAPED_SPECIES HertzianViscoelasticMindlinSpecies LinearViscoelasticSlidingFrictionSpecies CACHE STRING
     "Species of superquadrics and blocks in the Python module (a list): 10 s each to compile")
 
 set(pythonFolder "${PROJECT_SOURCE_DIR}/Tools/Python")
 set(pythonPackage "${PROJECT_BINARY_DIR}/Python/pendular")
 set(pythonGenerated "${PROJECT_BINARY_DIR}/Generated/Python")
-pendular_instantiate_species("${pythonGenerated}" PythonSpecies "${PENDULAR_PYTHON_SPECIES}" pythonSpeciesSources)
+set(pythonSpecies "${PENDULAR_PYTHON_SPECIES}")
+list(REMOVE_ITEM pythonSpecies ${PENDULAR_POPULAR_SPECIES})
+pendular_instantiate_species("${pythonGenerated}" PythonSpecies "${pythonSpecies}" pythonSpeciesSources)
 list(JOIN PENDULAR_PYTHON_SHAPED_SPECIES ", " shapedSpecies)
 file(CONFIGURE OUTPUT "${pythonGenerated}/ShapedSpecies.h" @ONLY CONTENT [[
 #pragma once
@@ -32,15 +36,21 @@ add_custom_command(OUTPUT "${pythonGenerated}/Comments.cpp"
     DEPENDS "${pythonFolder}/make-comments.py" ${pythonSources} ${kernelHeaders}
     COMMENT "Taking what help() says from the kernel's comments" VERBATIM)
 
+# What computes contacts, with -O3: also for the program SameBits of the tests.
+list(REMOVE_ITEM pythonSources "${pythonFolder}/MoreSpecies.cpp")
+add_library(PendularPythonSpecies OBJECT "${pythonFolder}/MoreSpecies.cpp" ${pythonSpeciesSources})
+target_link_libraries(PendularPythonSpecies PRIVATE PendularKernel)
+add_warnings(PendularPythonSpecies)
+
 pybind11_add_module(PendularPython MODULE NO_EXTRAS ${pythonSources} "${pythonGenerated}/Comments.cpp"
-                    ${pythonSpeciesSources})
+                    $<TARGET_OBJECTS:PendularPythonSpecies>)
 # Whole: a library of species that is loaded calls functions which the module itself does not.
 target_link_libraries(PendularPython PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,PendularKernel>")
 set_target_properties(PendularPython PROPERTIES OUTPUT_NAME _kernel LIBRARY_OUTPUT_DIRECTORY "${pythonPackage}")
 # Of the bindings alone, which compute nothing: half of the time of -O3.
 target_compile_options(PendularPython PRIVATE $<$<CONFIG:Release>:-O1>)
 # What computes contacts keeps -O3.
-set_source_files_properties("${pythonFolder}/ShapedScene.cpp" ${pythonSpeciesSources} PROPERTIES
+set_source_files_properties("${pythonFolder}/ShapedScene.cpp" PROPERTIES
     COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
 add_warnings(PendularPython)
 if(PENDULAR_PRECOMPILED_HEADERS)
@@ -53,6 +63,16 @@ add_custom_command(TARGET PendularPython POST_BUILD
     COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${pythonPackage}" PYTHONDONTWRITEBYTECODE=1
             "${Python_EXECUTABLE}" "${pythonFolder}/make-stubs.py" "${pythonPackage}/_kernel.pyi"
     COMMENT "Writing the types of the Python module" VERBATIM)
+
+# The examples as notebooks.
+file(GLOB pythonExamples CONFIGURE_DEPENDS "${pythonFolder}/Examples/*.py")
+set(notebooks "${PROJECT_BINARY_DIR}/Python/Notebooks")
+add_custom_command(OUTPUT "${notebooks}/collision.ipynb"
+    COMMAND "${Python_EXECUTABLE}" "${pythonFolder}/make-notebooks.py" "${notebooks}"
+    DEPENDS "${pythonFolder}/make-notebooks.py" ${pythonExamples}
+    COMMENT "Making notebooks of the examples in Python" VERBATIM)
+add_custom_target(PendularNotebooks DEPENDS "${notebooks}/collision.ipynb")
+add_dependencies(PendularPython PendularNotebooks)
 
 # The files in Python: links, so that an edit is there at once.
 file(GLOB pythonFiles CONFIGURE_DEPENDS "${pythonFolder}/Package/*")
@@ -80,3 +100,4 @@ install(TARGETS PendularPython LIBRARY DESTINATION "${site}/${PENDULAR_PYTHON_KE
 install(FILES ${pythonFiles} DESTINATION "${site}" COMPONENT python)
 install(FILES "${pythonPackage}/_kernel.pyi" DESTINATION "${site}" COMPONENT python OPTIONAL)
 install(DIRECTORY "${pythonFolder}/Examples" DESTINATION share/pendular COMPONENT python USE_SOURCE_PERMISSIONS)
+install(DIRECTORY "${notebooks}" DESTINATION share/pendular COMPONENT python OPTIONAL)

@@ -10,7 +10,7 @@ if(noPytest)
     return()
 endif()
 
-add_executable(SameBits "${selfTests}/Python/SameBits/SameBits.cpp")
+add_executable(SameBits "${selfTests}/Python/SameBits/SameBits.cpp" $<TARGET_OBJECTS:PendularPythonSpecies>)
 target_link_libraries(SameBits PRIVATE Pendular::Kernel)
 set_target_properties(SameBits PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
 target_compile_options(SameBits PRIVATE ${testOptimisation})

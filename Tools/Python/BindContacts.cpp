@@ -12,7 +12,7 @@ namespace {
 py::dict contacts(const PythonScene& scene) {
     PolyData lines;
     {
-        const py::gil_scoped_release others;
+        const PythonScene::WithoutPython others(scene);
         const Scene& of = scene.scene();
         lines = contactLines<double>(of.contacts(), of.particleHandler.store(), of.laws(), true,
                                      of.getNumberOfThreads());

@@ -34,7 +34,7 @@ py::dict fields(const PythonScene& scene, const std::string& coordinates, const 
     const FieldContent content = withContacts ? FieldContent::All : FieldContent::WithoutContacts;
     FieldSums sums(grid, weight, groupsNamed(by, speciesIn(scene.scene())), content);
     {
-        const py::gil_scoped_release others;
+        const PythonScene::WithoutPython others(scene);
         GrainState state;
         takeState(scene.scene(), state, content);
         sums.add(state, scene.scene().getNumberOfThreads());

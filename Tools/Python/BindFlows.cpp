@@ -9,30 +9,37 @@ namespace pendular::python {
 
 namespace {
 
-std::size_t addInlet(PythonScene& scene, const SpeciesHandle& species, const SizeDistribution& sizes,
-                     const AnyRegion& region, std::optional<double> massFlow,
-                     std::optional<double> numberFlow, const std::optional<AnyShape>& shape,
-                     const Vec3D& velocity, const Vec3D& spin, double film, double start, double end,
-                     bool lost, std::uint64_t seed, bool wholeGrains,
-                     const std::optional<std::tuple<Vec3D, double, double>>& followsFill,
-                     const std::optional<WallHandle>& followsWall) {
-    if (massFlow.has_value() + numberFlow.has_value() != 1)
-        throw InputError("add_inlet() takes one of mass_flow (kg/s) and number_flow (1/s).");
-    BodyMixture mixture;
-    addTo(mixture, {species, shape, velocity, spin, film}, sizes, 1);
+/// What inlets have, whatever comes by them.
+struct InletSettings {
+    std::optional<double> massFlow, numberFlow;  // kg/s, 1/s
+    double start, end;                           // s
+    bool lost;
+    std::uint64_t seed;
+    bool wholeGrains;
+    std::optional<std::tuple<Vec3D, double, double>> followsFill;
+    std::optional<WallHandle> followsWall;
+};
+
+std::size_t addInlet(PythonScene& scene, const Mixture& mixture, const AnyRegion& region,
+                     const InletSettings& s) {
+    if (s.massFlow.has_value() + s.numberFlow.has_value() != 1)
+        throw InputError("An inlet takes one of mass_flow (kg/s) and number_flow (1/s).");
     Inlet inlet;
-    region.giveTo(inlet);
-    inlet.setBodies(mixture);
-    if (massFlow) inlet.setMassFlow(*massFlow);
-    else inlet.setNumberFlow(*numberFlow);
-    if (start > 0 || end < infinity) inlet.setTimes(start, end);
-    inlet.setNoRoom(lost ? NoRoom::Lost : NoRoom::Later);
-    inlet.setSeed(seed), inlet.setWholeGrains(wholeGrains);
-    if (followsFill) {
-        const auto& [direction, step, most] = *followsFill;
+    region.giveTo(inlet, scene);
+    inlet.setBodies(mixture.in(scene));
+    if (s.massFlow) inlet.setMassFlow(*s.massFlow);
+    else inlet.setNumberFlow(*s.numberFlow);
+    if (s.start > 0 || s.end < infinity) inlet.setTimes(s.start, s.end);
+    inlet.setNoRoom(s.lost ? NoRoom::Lost : NoRoom::Later);
+    inlet.setSeed(s.seed), inlet.setWholeGrains(s.wholeGrains);
+    if (s.followsFill) {
+        const auto& [direction, step, most] = *s.followsFill;
         inlet.setFollowsFill(direction, step, most);
     }
-    if (followsWall) inlet.setFollowsWall(followsWall->number);
+    if (s.followsWall) {
+        s.followsWall->requireOf(scene, "wall");
+        inlet.setFollowsWall(s.followsWall->number);
+    }
     return scene.scene().inletHandler.copyAndAddObject(inlet);
 }
 
@@ -43,7 +50,7 @@ std::size_t addOutlet(PythonScene& scene, const std::optional<AnyRegion>& region
     if (region.has_value() == (normal && point))
         throw InputError("add_outlet() takes a region, or the normal and a point (m) of a plane.");
     Outlet outlet;
-    if (region) region->giveTo(outlet);
+    if (region) region->giveTo(outlet, scene);
     else outlet.setPlane(*normal, *point);
     if (sizeClasses) {
         const Doubles borders = rowsOf(*sizeClasses, "size_classes", 1);
@@ -51,9 +58,8 @@ std::size_t addOutlet(PythonScene& scene, const std::optional<AnyRegion>& region
     }
     if (leastAge > 0) outlet.setLeastAge(leastAge);
     if (condition)
-        outlet.setCondition([kept = shared(std::move(*condition))](const GrainReference& grain) {
-            const py::gil_scoped_acquire python;
-            return (*kept)(grain.getId()).cast<bool>();
+        outlet.setCondition([kept = shared(std::move(*condition)), &scene](const GrainReference& grain) {
+            return scene.ask([&] { return (*kept)(grain.getId()).cast<bool>(); });
         });
     return scene.scene().outletHandler.copyAndAddObject(outlet);
 }
@@ -98,13 +104,43 @@ py::dict flux(const PythonScene& scene, std::size_t number) {
 
 void bindFlows(SceneClass& scene) {
     scene
-        .def("add_inlet", &addInlet, py::arg("species"), py::arg("sizes"), py::arg("region"), py::kw_only(),
-             py::arg("mass_flow") = py::none(), py::arg("number_flow") = py::none(),
-             py::arg("shape") = py::none(), py::arg("velocity") = Vec3D(0, 0, 0),
-             py::arg("spin") = Vec3D(0, 0, 0), py::arg("film") = 0.0, py::arg("start") = 0.0,
-             py::arg("end") = infinity, py::arg("lost") = false, py::arg("seed") = 1,
-             py::arg("whole_grains") = true, py::arg("follows_fill") = py::none(),
-             py::arg("follows_wall") = py::none(), comment("Inlet"))
+        .def(
+            "add_inlet",
+            [](PythonScene& s, const SpeciesHandle& species, const SizeDistribution& sizes,
+               const AnyRegion& region, std::optional<double> massFlow, std::optional<double> numberFlow,
+               const std::optional<AnyShape>& shape, const Vec3D& velocity, const Vec3D& spin, double film,
+               double start, double end, bool lost, std::uint64_t seed, bool wholeGrains,
+               const std::optional<std::tuple<Vec3D, double, double>>& followsFill,
+               const std::optional<WallHandle>& followsWall) {
+                Mixture one;
+                one.add({species, shape, velocity, spin, film}, sizes);
+                return addInlet(
+                    s, one, region,
+                    {massFlow, numberFlow, start, end, lost, seed, wholeGrains, followsFill, followsWall});
+            },
+            py::arg("species"), py::arg("sizes"), py::arg("region"), py::kw_only(),
+            py::arg("mass_flow") = py::none(), py::arg("number_flow") = py::none(),
+            py::arg("shape") = py::none(), py::arg("velocity") = Vec3D(0, 0, 0),
+            py::arg("spin") = Vec3D(0, 0, 0), py::arg("film") = 0.0, py::arg("start") = 0.0,
+            py::arg("end") = infinity, py::arg("lost") = false, py::arg("seed") = 1,
+            py::arg("whole_grains") = true, py::arg("follows_fill") = py::none(),
+            py::arg("follows_wall") = py::none(), comment("Inlet"))
+        .def(
+            "add_mixture_inlet",
+            [](PythonScene& s, const Mixture& mixture, const AnyRegion& region,
+               std::optional<double> massFlow, std::optional<double> numberFlow, double start, double end,
+               bool lost, std::uint64_t seed, bool wholeGrains,
+               const std::optional<std::tuple<Vec3D, double, double>>& followsFill,
+               const std::optional<WallHandle>& followsWall) {
+                return addInlet(
+                    s, mixture, region,
+                    {massFlow, numberFlow, start, end, lost, seed, wholeGrains, followsFill, followsWall});
+            },
+            py::arg("mixture"), py::arg("region"), py::kw_only(), py::arg("mass_flow") = py::none(),
+            py::arg("number_flow") = py::none(), py::arg("start") = 0.0, py::arg("end") = infinity,
+            py::arg("lost") = false, py::arg("seed") = 1, py::arg("whole_grains") = true,
+            py::arg("follows_fill") = py::none(), py::arg("follows_wall") = py::none(),
+            "An inlet at which grains of several kinds come, by a Mixture; the rest is as in add_inlet().")
         .def("inlet", &inlet, py::arg("number"), comment("InletCount"))
         .def("add_outlet", &addOutlet, py::kw_only(), py::arg("region") = py::none(),
              py::arg("normal") = py::none(), py::arg("point") = py::none(),

@@ -113,7 +113,8 @@ void setFilms(PythonScene& scene, const ArrayLike& rows, const Which& which) {
 
 /// An array that looks into the memory of the scene, which it keeps alive.
 py::array viewOf(const std::shared_ptr<PythonScene>& scene, const std::string& what) {
-    scene->requireThisThread();  // pybind11 asks the scene itself only where it is given by reference
+    scene->requireThisThread(),
+        scene->requireMayChange();  // pybind11 asks the scene itself only where it is given by reference
     ParticleStore& grains = scene->scene().particleHandler.store();
     using Kept = std::shared_ptr<PythonScene>;
     const auto look = [&]<class Number>(Number* first, py::ssize_t width, std::size_t bytes) {
@@ -143,7 +144,7 @@ py::dict fieldsOfGrains(const PythonScene& scene, bool stress) {
     content.doubles = true, content.contacts = false, content.stress = stress;
     SceneFrame frame;
     {
-        const py::gil_scoped_release others;
+        const PythonScene::WithoutPython others(scene);
         frame = content.of(scene.scene());
     }
     py::dict made;

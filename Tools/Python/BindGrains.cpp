@@ -111,6 +111,19 @@ void bindGrains(SceneClass& scene) {
             },
             py::arg("identities"), py::arg("axes") = "all", comment("GrainReference::setHeldAxes"))
         .def(
+            "hold_all",
+            [](PythonScene& s, const std::string& axes) {
+                s.scene().particleHandler.holdAll(axes == "in_plane" ? HeldAxes::inPlane() : axesNamed(axes));
+            },
+            py::arg("axes") = "in_plane",
+            "Holds all grains and rigid bodies along and about these axes, those that are there and those to "
+            "come: "
+            "'in_plane' is a scene in the plane of x and y. A velocity or a spin there is refused. At "
+            "set-up.")
+        .def(
+            "set_grains_are_discs", [](PythonScene& s) { s.setGrainsAreDiscs(); },
+            comment("SpeciesOwner::setGrainsAreDiscs"))
+        .def(
             "set_species",
             [](PythonScene& s, const ArrayLike& identities, const SpeciesHandle& species) {
                 for (const std::uint32_t identity : identitiesOf(identities, "identities"))

@@ -30,7 +30,8 @@ py::array cornersOf(const std::vector<Triangle>& triangles) {
 /// The vertices for which a function of Python is true.
 void hold(const WallHandle& wall, const py::function& where, const Vec3D& velocity) {
     wall.as<Membrane>("vertices")
-        .hold([&](const Vec3D& place) { return where(place).cast<bool>(); }, velocity);
+        .hold([&](const Vec3D& place) { return wall.owner->ask([&] { return where(place).cast<bool>(); }); },
+              velocity);
 }
 
 template <class Of>

@@ -18,15 +18,14 @@ Amount amountOf(std::optional<std::size_t> number, std::optional<double> mass,
     return mass ? Amount::mass(*mass) : Amount::solidFraction(*fraction);
 }
 
-py::dict insert(PythonScene& scene, const SpeciesHandle& species, const SizeDistribution& sizes,
-                const AnyRegion& region, std::optional<std::size_t> number, std::optional<double> mass,
-                std::optional<double> fraction, const std::optional<AnyShape>& shape, const Vec3D& velocity,
-                const Vec3D& spin, double film, std::uint64_t seed, bool isRandom, bool wholeGrains,
-                bool withFlow) {
+py::dict insertMixture(PythonScene& scene, const Mixture& mixture, const AnyRegion& region,
+                       std::optional<std::size_t> number, std::optional<double> mass,
+                       std::optional<double> fraction, std::uint64_t seed, bool isRandom, bool wholeGrains,
+                       bool withFlow) {
     scene.requireNoViews();
     const Amount amount = amountOf(number, mass, fraction);
-    BodyMixture mixture;
-    addTo(mixture, {species, shape, velocity, spin, film}, sizes, 1);
+    const BodyMixture& bodies = mixture.in(scene);
+    const Region& in = region.regionIn(scene);
     InsertOptions options;
     options.seed = seed;
     options.sample = isRandom ? Sample::Random : Sample::Exact;
@@ -34,8 +33,8 @@ py::dict insert(PythonScene& scene, const SpeciesHandle& species, const SizeDist
     options.withFlow = withFlow;
     Inserted made;
     {
-        const py::gil_scoped_release others;
-        made = scene.scene().insert(mixture, region.region(), amount, options);
+        const PythonScene::WithoutPython others(scene);
+        made = scene.scene().insert(bodies, in, amount, options);
     }
     py::dict answer;
     answer["number"] = made.number, answer["wanted"] = made.wanted;
@@ -44,9 +43,38 @@ py::dict insert(PythonScene& scene, const SpeciesHandle& species, const SizeDist
     return answer;
 }
 
+py::dict insert(PythonScene& scene, const SpeciesHandle& species, const SizeDistribution& sizes,
+                const AnyRegion& region, std::optional<std::size_t> number, std::optional<double> mass,
+                std::optional<double> fraction, const std::optional<AnyShape>& shape, const Vec3D& velocity,
+                const Vec3D& spin, double film, std::uint64_t seed, bool isRandom, bool wholeGrains,
+                bool withFlow) {
+    Mixture one;
+    one.add({species, shape, velocity, spin, film}, sizes);
+    return insertMixture(scene, one, region, number, mass, fraction, seed, isRandom, wholeGrains, withFlow);
+}
+
+void bindMixture(py::module_& module) {
+    py::class_<Mixture>(module, "Mixture", comment("BodyMixture"))
+        .def(py::init([](const std::string& by) { return Mixture{BodyMixture(basisNamed(by))}; }),
+             py::arg("by") = "number", "by: what shares count, number or volume.")
+        .def(
+            "add",
+            [](Mixture& of, const SpeciesHandle& species, const SizeDistribution& sizes, double share,
+               const std::optional<AnyShape>& shape, const Vec3D& velocity, const Vec3D& spin, double film) {
+                of.add({species, shape, velocity, spin, film}, sizes, share);
+            },
+            py::arg("species"), py::arg("sizes"), py::arg("share") = 1.0, py::kw_only(),
+            py::arg("shape") = py::none(), py::arg("velocity") = Vec3D(0, 0, 0),
+            py::arg("spin") = Vec3D(0, 0, 0), py::arg("film") = 0.0, py::keep_alive<1, 2>(),
+            "Adds a kind of grains, with its share in any unit. shape: of grains that are no spheres; sizes "
+            "are then diameters of spheres of their volume. velocity: m/s, spin: rad/s, film: m^3.")
+        .def("__len__", [](const Mixture& of) { return of.of.size(); });
+}
+
 }  // namespace
 
 void bindRegions(py::module_& module, SceneClass& scene) {
+    bindMixture(module);
     py::class_<AnyRegion>(module, "Region", "A part of space: where grains come, or where they go.")
         .def_property_readonly(
             "volume", [](const AnyRegion& r) { return r.region().volume(); }, "m^3")
@@ -82,7 +110,7 @@ void bindRegions(py::module_& module, SceneClass& scene) {
         .def(
             "between_walls",
             [](PythonScene& s, const Vec3D& lowest, const Vec3D& highest) {
-                return AnyRegion{BetweenWalls(s.scene().wallHandler, lowest, highest)};
+                return AnyRegion{BetweenWalls(s.scene().wallHandler, lowest, highest), &s};
             },
             py::arg("lowest"), py::arg("highest"), py::keep_alive<0, 1>(), comment("BetweenWalls"))
         .def("insert", &insert, py::arg("species"), py::arg("sizes"), py::arg("region"), py::kw_only(),
@@ -90,7 +118,14 @@ void bindRegions(py::module_& module, SceneClass& scene) {
              py::arg("solid_fraction") = py::none(), py::arg("shape") = py::none(),
              py::arg("velocity") = Vec3D(0, 0, 0), py::arg("spin") = Vec3D(0, 0, 0), py::arg("film") = 0.0,
              py::arg("seed") = 1, py::arg("random_sizes") = false, py::arg("whole_grains") = true,
-             py::arg("with_flow") = false, comment("Scene::insert"));
+             py::arg("with_flow") = false, comment("Scene::insert"))
+        .def(
+            "insert_mixture", &insertMixture, py::arg("mixture"), py::arg("region"), py::kw_only(),
+            py::arg("number") = py::none(), py::arg("mass") = py::none(),
+            py::arg("solid_fraction") = py::none(), py::arg("seed") = 1, py::arg("random_sizes") = false,
+            py::arg("whole_grains") = true, py::arg("with_flow") = false,
+            "Inserts grains of several kinds, by a Mixture, as exactly in its shares as their number allows; "
+            "the rest is as in insert().");
 }
 
 }  // namespace pendular::python

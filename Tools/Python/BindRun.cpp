@@ -128,7 +128,18 @@ void bindRun(SceneClass& scene) {
             py::arg("interval"), py::arg("function"),
             "Calls function(scene) after the steps nearest to the multiples of a time (s), as every_steps() "
             "does.")
-        .def("clear_calls", &PythonScene::clearCalls, "No function is called any more.")
+        .def(
+            "at_end",
+            [](PythonScene& s, py::function f) {
+                s.callAtEnd(f);
+                return f;
+            },
+            py::arg("function"),
+            "Calls function(scene) once the run has ended, whatever has ended it: files of your own are to "
+            "be "
+            "completed there.")
+        .def("clear_calls", &PythonScene::clearCalls,
+             "No function of every_steps() and every_time() is called any more.")
         .def_readwrite(
             "remembered", &PythonScene::remembered,
             "Numbers and arrays by name that are kept in restart files: what functions of the driver "

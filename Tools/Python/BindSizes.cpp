@@ -3,10 +3,9 @@
 #include "Kernel/Sizes/SizeTable.h"
 #include "Kernel/Species/LawNames.h"
 #include "Tools/Python/Bindings.h"
+#include "Tools/Python/Insertable.h"
 
 namespace pendular::python {
-
-namespace {
 
 SizeBasis basisNamed(std::string_view name) {
     for (const SizeBasis basis : {SizeBasis::Number, SizeBasis::Length, SizeBasis::Area, SizeBasis::Volume})
@@ -14,6 +13,8 @@ SizeBasis basisNamed(std::string_view name) {
     if (name == "mass") return SizeBasis::Volume;
     unknownName("basis of sizes", name, {"number", "length", "area", "volume", "mass"});
 }
+
+namespace {
 
 std::vector<double> numbersOf(const ArrayLike& given, std::string_view name) {
     const Doubles rows = rowsOf(given, name, 1);

@@ -149,7 +149,7 @@ void bindSpecies(py::module_& module, SceneClass& scene) {
         .def(
             "set",
             [](const SpeciesHandle& s, const py::kwargs& values) {
-                s.owner->requireThisThread();
+                s.owner->requireThisThread(), s.owner->requireMayChange();
                 setValues(*s.species, valuesOf(values));
             },
             "Sets fields by their names, also during a run: from the next step on. Raises InputError.")
@@ -174,6 +174,7 @@ void bindSpecies(py::module_& module, SceneClass& scene) {
             "set_pair",
             [](PythonScene& s, const SpeciesHandle& a, const SpeciesHandle& b,
                std::optional<std::string> type, const py::kwargs& values) {
+                a.requireOf(s, "species"), b.requireOf(s, "species");
                 const std::string name(type ? typeNamed(*type) : std::string(a.species->getName()));
                 if (!type && a.species->getName() != b.species->getName())
                     throw InputError(

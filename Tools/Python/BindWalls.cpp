@@ -86,24 +86,27 @@ WallHandle addSolid(PythonScene& scene, const SpeciesHandle& species, const Arra
     return addWall(scene, species, wall, forces);
 }
 
+Eigen::Isometry3d poseOf(const py::object& answer) {
+    const Doubles numbers = Doubles::ensure(answer);
+    if (!numbers || (numbers.size() != 3 && numbers.size() != 16)) {
+        PyErr_Clear();
+        throw InputError(
+            "The function of set_motion() must return a shift (three numbers, m), or a matrix 4 x 4.");
+    }
+    const double* const n = numbers.data();
+    if (numbers.size() == 3) return Eigen::Isometry3d(Eigen::Translation3d(n[0], n[1], n[2]));
+    Eigen::Isometry3d pose;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) pose.matrix()(row, column) = n[4 * row + column];
+    return pose;
+}
+
 /// The pose of a wall as a function of Python: it returns a shift (m), or a matrix 4 x 4.
 void setMotion(const WallHandle& handle, py::function function) {
-    handle.as<RigidWall>("motion").setMotion([kept = shared(std::move(function))](double time) {
-        const py::gil_scoped_acquire python;
-        const py::object answer = (*kept)(time);
-        const Doubles numbers = Doubles::ensure(answer);
-        if (!numbers || (numbers.size() != 3 && numbers.size() != 16)) {
-            PyErr_Clear();
-            throw InputError(
-                "The function of set_motion() must return a shift (three numbers, m), or a matrix 4 x 4.");
-        }
-        const double* const n = numbers.data();
-        if (numbers.size() == 3) return Eigen::Isometry3d(Eigen::Translation3d(n[0], n[1], n[2]));
-        Eigen::Isometry3d pose;
-        for (int row = 0; row < 4; ++row)
-            for (int column = 0; column < 4; ++column) pose.matrix()(row, column) = n[4 * row + column];
-        return pose;
-    });
+    handle.as<RigidWall>("motion").setMotion(
+        [kept = shared(std::move(function)), scene = handle.owner](double time) {
+            return scene->ask([&] { return poseOf((*kept)(time)); });
+        });
 }
 
 void bindMotion(py::class_<WallHandle>& wall) {
@@ -217,10 +220,16 @@ void bindWalls(py::module_& module, SceneClass& scene) {
             "torque", [](const WallHandle& w) { return w.wall().getTorque(); }, comment("Wall::getTorque"))
         .def(
             "keep_forces",
-            [](const WallHandle& w, bool keep, const Vec3D& about) { w.wall().keepForces(keep, about); },
+            [](const WallHandle& w, bool keep, const Vec3D& about) {
+                w.as<Wall>("forces").keepForces(keep, about);
+            },
             py::arg("keep") = true, py::arg("about") = Vec3D(0, 0, 0), comment("Wall::keepForces"))
         .def(
-            "set_species", [](const WallHandle& w, const SpeciesHandle& s) { w.wall().setSpecies(&s); },
+            "set_species",
+            [](const WallHandle& w, const SpeciesHandle& s) {
+                s.requireOf(*w.owner, "species");
+                w.as<Wall>("species").setSpecies(&s);
+            },
             py::arg("species"), "Gives the wall another material.")
         .def("__repr__", [](const WallHandle& w) { return fmt::format("<pendular.Wall {}>", w.number); });
     bindMotion(wall);
@@ -245,7 +254,7 @@ void bindWalls(py::module_& module, SceneClass& scene) {
         .def(
             "remove_wall",
             [](PythonScene& s, const WallHandle& w) {
-                if (w.owner != &s) throw InputError("This wall is of another scene.");
+                w.requireOf(s, "wall");
                 s.scene().wallHandler.removeObject(w.number);
             },
             py::arg("wall"), comment("WallHandler::removeObject"))

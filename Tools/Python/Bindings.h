@@ -23,5 +23,8 @@ void bindLiquid(SceneClass& scene);
 void bindContacts(SceneClass& scene);
 void bindFields(SceneClass& scene);
 void bindOutputs(SceneClass& scene);
+void bindBonds(SceneClass& scene);
+void bindHeat(SceneClass& scene);
+void bindSoftness(py::module_& module, SceneClass& scene);
 
 }  // namespace pendular::python

@@ -4,11 +4,13 @@
 
 namespace pendular::python {
 
-void addTo(BodyMixture& mixture, const Insertable& like, const SizeDistribution& sizes, double share) {
+void Mixture::add(const Insertable& like, const SizeDistribution& sizes, double share) {
+    if (owner) like.species.requireOf(*owner, "species");
+    owner = like.species.owner;
     const auto add = [&](auto body) {
         body.setSpecies(&like.species);
         body.setVelocity(like.velocity), body.setAngularVelocity(like.spin);
-        mixture.add(body, sizes, share);
+        of.add(body, sizes, share);
     };
     if (!like.shape) {
         SphericalParticle grain;
@@ -19,6 +21,12 @@ void addTo(BodyMixture& mixture, const Insertable& like, const SizeDistribution&
     if (const auto* const clump = std::get_if<ClumpTemplate>(&like.shape->of)) return add(Clump(*clump));
     if (const auto* const grain = std::get_if<SuperquadricGrain>(&like.shape->of)) return add(*grain);
     throw InputError("Blocks cannot be inserted; add each with add_shape().");
+}
+
+const BodyMixture& Mixture::in(const PythonScene& scene) const {
+    if (of.empty()) throw InputError("This mixture is empty; add kinds of grains to it by add().");
+    if (owner != &scene) throw InputError("This mixture is of the species of another scene.");
+    return of;
 }
 
 }  // namespace pendular::python

@@ -8,6 +8,7 @@
 #include "Kernel/Contacts/SpeciesRegistry.h"
 #include "Kernel/Simulation/Program.h"
 #include "Tools/Python/Bindings.h"
+#include "Tools/Python/MoreSpecies.h"
 
 /// The module pendular._kernel.
 
@@ -44,7 +45,10 @@ std::string inPython(std::string sentence) {
                                       {"runSteps()", "run()"},
                                       {"solve()", "run()"},
                                       {"finishRun()", "finish()"},
-                                      {"setTimeMax()", "end_time"}})
+                                      {"setTimeMax()", "end_time"},
+                                      {"setMaterial()", "set_heat_material()"},
+                                      {"addMaterial()", "add_bond_material()"},
+                                      {"Conduction::Constriction", "law='constriction'"}})
         for (std::size_t at = sentence.find(name); at != std::string::npos; at = sentence.find(name))
             sentence.replace(at, std::string_view(name).size(), known);
     static const std::regex words(R"((^|[\s(:,;.])([a-z]{2,}(?:[A-Z][a-z0-9]*)+)(?=[\s(),:;.]|$))");
@@ -89,6 +93,7 @@ std::shared_ptr<PythonScene> make(const std::string& name, int threads, bool qui
 
 PYBIND11_MODULE(_kernel, module) {
     setHosted();
+    registerMoreSpecies();
     module.doc() = "The kernel of Pendular.";
     registerError<InputError>(module, "InputError", PyExc_ValueError);
     registerError<RunError>(module, "RunError", PyExc_RuntimeError);
@@ -114,8 +119,12 @@ PYBIND11_MODULE(_kernel, module) {
     bindContacts(scene);
     bindFields(scene);
     bindOutputs(scene);
+    bindBonds(scene);
+    bindHeat(scene);
+    bindSoftness(module, scene);
 
     module.def("load_species", &loadSpecies, py::arg("library"), comment("loadSpeciesLibrary"));
+    module.def("_stop_all", &PythonScene::stopAll);
     module.def("_set_log", &setLog, py::arg("function"));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Simulation/Simulation.h"
@@ -51,18 +52,24 @@ std::shared_ptr<py::function> shared(py::function function) {
 
 // ---- Guards
 
-/// Marks the thread that steps a scene.
+/// Marks a scene that steps in this thread.
 class PythonScene::Running {
 public:
-    explicit Running(PythonScene& of) : scene(of) {
+    explicit Running(PythonScene& of) : busy(of), scene(of) {
         scene.running = &scene.scene();
-        scene.thread = std::this_thread::get_id();
+        all.insert(&scene);
     }
     Running(const Running&) = delete;
     Running& operator=(const Running&) = delete;
-    ~Running() { scene.thread = std::thread::id(); }
+    ~Running() {
+        scene.running = nullptr;
+        all.erase(&scene);
+    }
+
+    static inline std::set<PythonScene*> all;  // that run, in any thread
 
 private:
+    Busy busy;
     PythonScene& scene;
 };
 
@@ -70,7 +77,26 @@ void PythonScene::requireThisThread() const {
     const std::thread::id stepping = thread;
     if (stepping != std::thread::id() && stepping != std::this_thread::get_id())
         throw RunError(
-            "Another thread is stepping this scene; wait until its run() has returned, or call stop().");
+            "Another thread is at work in this scene; wait until its call, as run(), has returned, or call "
+            "stop().");
+}
+
+void PythonScene::requireMayChange() const {
+    if (asking > 0)
+        throw InputError(
+            "A function that the kernel asks in the middle of a step, as for the motion of a wall or for the "
+            "condition of an outlet, may read its scene, but not change it; do that in every_steps().");
+}
+
+void PythonScene::requireNotRunning() const {
+    if (running)
+        throw InputError(
+            "run(), initialise() and finish() cannot be called from this hook of the same scene, which runs; "
+            "pause() ends a part of the run.");
+}
+
+void Handle::requireOf(const PythonScene& scene, std::string_view what) const {
+    if (owner != &scene) throw InputError(fmt::format("This {} is of another scene.", what));
 }
 
 void PythonScene::requireNoViews() const {
@@ -94,6 +120,8 @@ void PythonScene::callEveryTime(double interval, py::function function) {
     schedule();
 }
 
+void PythonScene::callAtEnd(py::function function) { callsAtEnd.push_back(std::move(function)); }
+
 /// When the functions are due does not depend on where a run was stopped: it follows from step and time.
 void PythonScene::schedule() {
     const std::size_t done = scene().getNumberOfTimeSteps();
@@ -115,14 +143,28 @@ void PythonScene::look() {
         callDue();
         if (running->getNumberOfTimeSteps() >= nextClock) lookAtClock();
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    } catch (py::error_already_set& error) {
-        const bool isInterrupt = error.matches(PyExc_KeyboardInterrupt);
-        const std::string sentence = sentenceOf(error);
+        requireDroppedViews();
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_KeyboardInterrupt)) endBy(error);
         raised = std::current_exception();
-        if (!isInterrupt) throw FunctionRaised(sentence);
         running->requestPause();
     }
     schedule();
+}
+
+/// In a handler of the error.
+void PythonScene::endBy(const py::error_already_set& error) {
+    if (!running) throw;
+    if (!raised) raised = std::current_exception();
+    throw FunctionRaised(sentenceOf(error));
+}
+
+void PythonScene::requireDroppedViews() const {
+    if (views == 0) return;
+    PyErr_SetString(PyExc_BufferError,
+                    "A function that the scene called has kept an array of view(); copy it with "
+                    "numpy.array(), or drop it at its end.");
+    throw py::error_already_set();
 }
 
 void PythonScene::callDue() {
@@ -134,13 +176,14 @@ void PythonScene::callDue() {
         const py::function function = calls[k].function;
         const py::object answer = function(self);
         if (answer.is(py::bool_(false))) running->requestPause();
-        if (views > 0) {
-            PyErr_SetString(PyExc_BufferError,
-                            "A function that the scene called has kept an array of view(); copy it with "
-                            "numpy.array(), or drop it at its end.");
-            throw py::error_already_set();
-        }
+        requireDroppedViews();
     }
+}
+
+void PythonScene::tellEnd() {
+    if (endIsTold || !scene().hasEnded()) return;
+    endIsTold = true;
+    for (std::size_t k = 0; k < callsAtEnd.size(); ++k) callsAtEnd[k](self);
 }
 
 /// Some fifty times a second, by the steps that were done in the last interval.
@@ -158,12 +201,13 @@ void PythonScene::lookAtClock() {
 
 void PythonScene::showProgress() {
     nextProgress = Clock::now() + progressInterval;
-    progressFunction(running->getTime());
+    progressFunction(scene().getTime());
 }
 
 // ---- The run
 
 void PythonScene::go(const std::function<void()>& part) {
+    requireNotRunning();
     requireNoViews();
     const py::object kept = py::cast(this, py::return_value_policy::reference);
     self = kept;
@@ -177,24 +221,29 @@ void PythonScene::go(const std::function<void()>& part) {
         part();
     } catch (...) {
         progressFunction = {};
-        if (raised) std::rethrow_exception(std::exchange(raised, nullptr));
-        throw;
+        const std::exception_ptr reason = raised ? std::exchange(raised, nullptr) : std::current_exception();
+        try {
+            tellEnd();
+        } catch (py::error_already_set& other) {
+            other.discard_as_unraisable("at_end()");
+        }
+        std::rethrow_exception(reason);
     }
     if (progressFunction) showProgress();
     progressFunction = {};
-    if (!raised) return;
+    if (!raised) return tellEnd();
     if (keepsRestart && !scene().hasEnded() && views == 0) scene().writeRestart(scene().restartFile());
     std::rethrow_exception(std::exchange(raised, nullptr));
 }
 
 void PythonScene::runTo(double time, const py::object& progress) {
-    requireNoViews();
+    requireNotRunning();
     if (!progress.is_none()) progressFunction = progress;
     go([&] { scene().runTo(time); });
 }
 
 void PythonScene::runSteps(std::size_t count, const py::object& progress) {
-    requireNoViews();
+    requireNotRunning();
     if (!progress.is_none()) progressFunction = progress;
     go([&] { scene().runSteps(count); });
 }
@@ -206,6 +255,14 @@ void PythonScene::initialise() {
 
 void PythonScene::finish() {
     go([&] { scene().finishRun(); });
+}
+
+void PythonScene::stopAll() {
+    for (PythonScene* const scene : Running::all) scene->scene().requestStop();
+    for (const auto end = Clock::now() + 5s; !Running::all.empty() && Clock::now() < end;) {
+        const py::gil_scoped_release others;
+        std::this_thread::sleep_for(1ms);
+    }
 }
 
 void PythonScene::keepRestartFile(double interval, std::size_t steps) {
@@ -245,12 +302,13 @@ void PythonScene::visitRemembered(StateArchive& archive) {
 
 int PythonScene::visitObjects(visitproc visit, void* arg) const {
     for (const Call& call : calls) Py_VISIT(call.function.ptr());
+    for (const py::function& call : callsAtEnd) Py_VISIT(call.ptr());
     Py_VISIT(remembered.ptr());
     return 0;
 }
 
 void PythonScene::clearObjects() {
-    calls.clear();
+    calls.clear(), callsAtEnd.clear();
     remembered = py::dict();
 }
 

@@ -17,8 +17,10 @@
 #include "Tools/Python/Numbers.h"
 
 namespace pendular {
+class BondPart;
+class HeatPart;
 class SuperquadricHandler;
-}
+}  // namespace pendular
 
 namespace pendular::python {
 
@@ -40,6 +42,8 @@ public:
     virtual AnyLaws& lawsOfPair(const AnySpecies& a, const AnySpecies& b, std::string_view type) = 0;
     /// Null where the scene takes only spheres.
     [[nodiscard]] virtual SuperquadricHandler* superquadrics() { return nullptr; }
+    /// All grains are discs.
+    virtual void setGrainsAreDiscs() = 0;
 
     // Functions that the scene calls with itself. Where one returns False, run() returns after this step;
     // where one raises, the run ends, and run() raises the same.
@@ -47,12 +51,17 @@ public:
     /// At the steps nearest to the multiples of a time (s).
     void callEveryTime(double interval, py::function function);
     void clearCalls() { calls.clear(); }
+    /// Called with the scene once its run has ended, whatever has ended it.
+    void callAtEnd(py::function function);
 
     /// Goes on to a time (s). @param progress called with the time some five times a second; or None
     void runTo(double time, const py::object& progress);
     void runSteps(std::size_t count, const py::object& progress);
     void initialise();
     void finish();
+    /// Stops all runs, and waits some seconds until they have: before the interpreter ends, which other
+    /// threads do not outlive.
+    static void stopAll();
     void keepRestartFile(double interval, std::size_t steps);
 
     // Called by Hosted.
@@ -69,10 +78,29 @@ public:
     void noteEvent(const ContactEvent& event);
     void visitRemembered(StateArchive& archive);
 
-    /// Throws RunError where another thread is stepping this scene.
+    /// Calls functions of Python for the kernel, maybe in the middle of a step: they may read the scene, but
+    /// not change it. Where one raises in a run, the run ends, and run() raises the same.
+    /// @param questions returns nothing of Python's
+    template <class Questions>
+    auto ask(const Questions& questions) {
+        const py::gil_scoped_acquire python;
+        const Asking here(asking);
+        try {
+            return questions();
+        } catch (const py::error_already_set& error) {
+            endBy(error);
+        }
+    }
+
+    /// Throws RunError where another thread is at work in this scene.
     void requireThisThread() const;
+    /// Throws InputError in a function that the kernel asks in the middle of a step: set_motion(), ...
+    void requireMayChange() const;
     /// Throws BufferError while an array of view() lives.
     void requireNoViews() const;
+    class Busy;
+    class WithoutPython;
+
     void addView() { ++views; }
     void removeView() { --views; }
 
@@ -89,6 +117,8 @@ public:
     };
     std::vector<Event> events;
     std::map<std::string, ContactColumnReference> contactColumns;
+    BondPart* bonds = nullptr;  // of the scene, once it has them
+    HeatPart* heat = nullptr;
 
 private:
     struct Call {
@@ -98,17 +128,30 @@ private:
         py::function function;
     };
     class Running;
+    struct Asking {
+        explicit Asking(int& functions) : count(functions) { ++count; }
+        Asking(const Asking&) = delete;
+        Asking& operator=(const Asking&) = delete;
+        ~Asking() { --count; }
+        int& count;
+    };
 
+    [[noreturn]] void endBy(const py::error_already_set& error);
+    void requireNotRunning() const;
+    void requireDroppedViews() const;
     void go(const std::function<void()>& part);
     void schedule();
     void look();
     void callDue();
+    void tellEnd();
     void showProgress();
     void lookAtClock();
 
     std::vector<Call> calls;
-    Scene* running = nullptr;  // this scene, while it steps
-    std::atomic<std::thread::id> thread{};
+    std::vector<py::function> callsAtEnd;
+    Scene* running = nullptr;                       // this scene, while it steps
+    mutable std::atomic<std::thread::id> thread{};  // that is at work in the scene, without the interpreter
+    int asking = 0;                                 // functions that must not change the scene
     std::size_t nextLook = 0, nextClock = 0, lastClockStep = 0;
     double nextTime = 0;  // s
     std::chrono::steady_clock::time_point lastClock, nextProgress;
@@ -116,8 +159,36 @@ private:
     py::object progressFunction;
     std::exception_ptr raised;  // by a function of the driver, or Ctrl-C
     long views = 0;
-    bool keepsRestart = false;
+    bool keepsRestart = false, endIsTold = false;
     bool isFirstStep = true;  // of a part: by then the state of a restart file is known
+};
+
+/// While it lives, this thread is at work in a scene, and others are refused it. Throws RunError where
+/// another one is.
+class PythonScene::Busy {
+public:
+    explicit Busy(const PythonScene& of) : scene(of) {
+        of.requireThisThread();
+        before = scene.thread;
+        scene.thread = std::this_thread::get_id();
+    }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+    ~Busy() { scene.thread = before; }
+
+private:
+    const PythonScene& scene;
+    std::thread::id before;
+};
+
+/// While it lives, other threads of Python go on, and are refused the scene.
+class PythonScene::WithoutPython {
+public:
+    explicit WithoutPython(const PythonScene& scene) : busy(scene) {}
+
+private:
+    Busy busy;
+    py::gil_scoped_release others;  // gone before `busy` is
 };
 
 /// A simulation that Python drives.
@@ -126,6 +197,7 @@ class Hosted : public Simulation, public PythonScene {
 public:
     using PythonScene::scene;
     [[nodiscard]] Scene& scene() final { return *this; }
+    void setGrainsAreDiscs() final { this->speciesHandler.setGrainsAreDiscs(); }
 
     void actionsBeforeTimeStep() final { beforeStep(); }
     void actionsAfterTimeStep() final { afterStep(); }
@@ -145,6 +217,9 @@ struct Handle {
         : owner(&scene), kept(py::cast(owner, py::return_value_policy::reference)) {}
     PythonScene* owner;
     py::object kept;
+
+    /// Throws InputError where it is a part of another scene. @param what "species"
+    void requireOf(const PythonScene& scene, std::string_view what) const;
 };
 
 /// A species of a scene, for Python.
@@ -194,14 +269,37 @@ std::shared_ptr<py::function> shared(py::function function);
 
 namespace pybind11::detail {
 
-/// Each call of a scene first looks whether another thread is stepping it.
+/// Each call of a scene first looks whether another thread is at work in it; one that may change it, whether
+/// this one is in the middle of a step.
 template <>
 class type_caster<pendular::python::PythonScene> : public type_caster_base<pendular::python::PythonScene> {
+    using Scene = pendular::python::PythonScene;
+    template <class To>
+    static constexpr bool isConst = std::is_const_v<std::remove_pointer_t<std::remove_reference_t<To>>>;
+
 public:
     bool load(handle source, bool convert) {
         if (!type_caster_base::load(source, convert)) return false;
-        static_cast<pendular::python::PythonScene*>(value)->requireThisThread();
+        static_cast<Scene*>(value)->requireThisThread();
         return true;
+    }
+
+    template <class To>
+    using cast_op_type = std::conditional_t<std::is_pointer_v<std::remove_reference_t<To>>,
+                                            std::conditional_t<isConst<To>, const Scene*, Scene*>,
+                                            std::conditional_t<isConst<To>, const Scene&, Scene&>>;
+    operator const Scene*() { return static_cast<Scene*>(value); }
+    operator const Scene&() { return given(); }
+    operator Scene*() { return value ? &static_cast<Scene&>(*this) : nullptr; }
+    operator Scene&() {
+        given().requireMayChange();
+        return given();
+    }
+
+private:
+    Scene& given() const {
+        if (!value) throw reference_cast_error();
+        return *static_cast<Scene*>(value);
     }
 };
 

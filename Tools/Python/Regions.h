@@ -7,20 +7,29 @@
 #include "Kernel/Particles/ClumpTemplate.h"
 #include "Kernel/Superquadrics/BlockGrain.h"
 #include "Kernel/Superquadrics/SuperquadricGrain.h"
-#include "Tools/Python/Numbers.h"
+#include "Tools/Python/PythonScene.h"
 
 namespace pendular::python {
 
 /// A region of any kind, as Python keeps it: the kernel copies one by its type.
 struct AnyRegion {
     std::variant<BoxRegion, CylinderRegion, SphereRegion, MeshRegion, BetweenWalls> of;
+    /// Whose walls it looks at; null: none's. It must live.
+    const PythonScene* owner = nullptr;
 
     [[nodiscard]] const Region& region() const {
+        if (owner) owner->requireThisThread();
         return std::visit([](const auto& one) -> const Region& { return one; }, of);
     }
-    /// Gives it to an inlet or an outlet.
+    /// Throws InputError where it is between the walls of another scene, which may go before this one.
+    [[nodiscard]] const Region& regionIn(const PythonScene& scene) const {
+        if (owner && owner != &scene) throw InputError("This region is between the walls of another scene.");
+        return region();
+    }
+    /// Gives it to an inlet or an outlet of a scene.
     template <class Taker>
-    void giveTo(Taker& taker) const {
+    void giveTo(Taker& taker, const PythonScene& scene) const {
+        static_cast<void>(regionIn(scene));
         std::visit([&](const auto& one) { taker.setRegion(one); }, of);
     }
 };

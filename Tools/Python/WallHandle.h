@@ -11,10 +11,11 @@ struct WallHandle : Handle {
     WallHandle(PythonScene& scene, std::size_t wall) : Handle(scene), number(wall) {}
     std::size_t number;
 
-    /// Throws InputError where it was removed or is of another kind; RunError where another thread steps.
+    /// Throws InputError where it was removed or is of another kind, or cannot change now; RunError where
+    /// another thread is at work.
     template <class Kind>
     [[nodiscard]] Kind& as(std::string_view what) const {
-        owner->requireThisThread();
+        owner->requireThisThread(), owner->requireMayChange();
         Wall& wall = owner->scene().wallHandler.getObject(number);
         if (auto* const found = dynamic_cast<Kind*>(&wall)) return *found;
         refuse(what, wall.isRemoved());
@@ -31,6 +32,7 @@ private:
 /// Adds a wall whose shape is set. @param forces are kept
 template <class Shape>
 WallHandle addWall(PythonScene& scene, const SpeciesHandle& species, Shape& wall, bool forces) {
+    species.requireOf(scene, "species");
     wall.setSpecies(&species);
     Shape* const added = scene.scene().wallHandler.copyAndAddObject(wall);
     if (forces) added->keepForces();

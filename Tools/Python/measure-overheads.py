@@ -81,7 +81,7 @@ def main():
     options.add_argument("--repeat", type=int, default=3)
     given = options.parse_args()
     print("what,number,unit")
-    command = [sys.executable, "-c", "import time; t = time.perf_counter(); import pendular; print(time.perf_counter() - t)"]
+    command = [sys.executable, "-c", "import time; t = time.thread_time(); import pendular; print(time.thread_time() - t)"]
     imports = [float(subprocess.run(command, capture_output=True, text=True, check=True).stdout) for _ in range(5)]
     print(f"import with numpy,{min(imports):.3f},s")
     for rows in (calls(given.repeat), arrays(given.grains, given.repeat)):

@@ -10,6 +10,7 @@
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/Simulation/StateHash.h"
+#include "Tools/Python/MoreSpecies.h"
 
 using namespace pendular;
 
@@ -67,6 +68,7 @@ private:
 
 int main(int, char** argv) {
     return runProgram([&] {
+        python::registerMoreSpecies();
         const std::string file = argv[1], state = file + ".h5";
         for (const int threads : {1, 2}) {
             FileScene whole(file, threads);

@@ -46,12 +46,12 @@ def calibrate(angle, width, evaluations=12):
                          max_nfev=evaluations)
 
 
-def main():
+def main(arguments=None):
     options = argparse.ArgumentParser(description="Calibration against an angle of repose.")
     options.add_argument("--angle", type=float, default=12.0, help="degrees")
     options.add_argument("--width", type=float, default=11e-3, help="m")
     options.add_argument("--evaluations", type=int, default=6)
-    given = options.parse_args()
+    given = options.parse_args(arguments)
     found = calibrate(given.angle, given.width, given.evaluations)
     angle, width = heap(*found.x)
     print(f"friction {found.x[0]:.3f}, rolling friction {found.x[1]:.3f}: {angle:.1f} degrees, {1e3 * width:.2f} mm")

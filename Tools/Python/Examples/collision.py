@@ -33,10 +33,10 @@ def collide(speed=0.25, radius=1e-3):
     return np.array(rows).T
 
 
-def main():
+def main(arguments=None):
     options = argparse.ArgumentParser(description="Two wet grains collide.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the figure")
-    folder = options.parse_args().output
+    folder = options.parse_args(arguments).output
     time, gap, force, speed = collide()
     print(f"relative speed before {speed[0]:.4f} m/s, after {speed[-1]:.4f} m/s; "
           f"the bridge ruptures at {1e3 * gap[force < 0].max():.3f} mm")

@@ -45,13 +45,13 @@ def make_drum(mesh=None, scale=1.0, speed=3.0):
     return scene
 
 
-def main():
+def main(arguments=None):
     options = argparse.ArgumentParser(description="A drum turns.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the figure")
     options.add_argument("--mesh", help="a file (STL, OBJ, PLY) in the place of the drum that is made here")
     options.add_argument("--scale", type=float, default=1.0, help="m, of one unit of the file")
     options.add_argument("--time", type=float, default=0.6, help="s, that it turns")
-    given = options.parse_args()
+    given = options.parse_args(arguments)
     scene = make_drum(given.mesh, given.scale)
     figure, axes = plt.subplots()
     line, = axes.plot([], [])

@@ -52,11 +52,11 @@ def flow_of(time, mass):
     return np.polyfit(time[steady], mass[steady], 1)[0]
 
 
-def main():
+def main(arguments=None):
     options = argparse.ArgumentParser(description="A hopper empties.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the figure")
     options.add_argument("--outlet", type=float, default=0.0105, help="m, diameter")
-    given = options.parse_args()
+    given = options.parse_args(arguments)
     time, mass, bulk = empty(given.outlet)
     print(f"{1e3 * flow_of(time, mass):.2f} g/s; Beverloo {1e3 * beverloo(given.outlet, bulk):.2f} g/s")
     plt.plot(time, 1e3 * mass)

@@ -23,10 +23,10 @@ def make_scene(name):
     return scene
 
 
-def main():
+def main(arguments=None):
     options = argparse.ArgumentParser(description="A run is stopped and goes on.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the files")
-    folder = options.parse_args().output
+    folder = options.parse_args(arguments).output
     with make_scene(str(folder / "whole")) as whole:
         whole.write_hdf5(0.01), whole.write_energy(0.002)
         whole.run(0.05)

@@ -47,11 +47,11 @@ def shear(scene, strain):
     return np.array(rows).T
 
 
-def main():
+def main(arguments=None):
     options = argparse.ArgumentParser(description="Wet grains in shear.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the figure")
     options.add_argument("--strain", type=float, default=4.0)
-    given = options.parse_args()
+    given = options.parse_args(arguments)
     scene = make_shear()
     strain, pressure, friction, bridges = shear(scene, given.strain)
     late = strain > given.strain / 2

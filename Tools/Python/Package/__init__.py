@@ -19,6 +19,7 @@ _choose(_os.path.dirname(__file__), __path__)
 
 from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
     InputError,
+    Mixture,
     Region,
     RunError,
     RunStopped,
@@ -44,6 +45,7 @@ from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
     rosin_rammler_sizes,
     shaped_species,
     sizes,
+    softest_modulus,
     species,
     sphere,
     superquadric,
@@ -53,11 +55,11 @@ from .results import draw, frames, restart, table, to_pyvista
 from .scene import Scene
 
 __all__ = [
-    "InputError", "Region", "RunError", "RunStopped", "Scene", "Shape", "Sizes", "Species", "Wall",
+    "InputError", "Mixture", "Region", "RunError", "RunStopped", "Scene", "Shape", "Sizes", "Species", "Wall",
     "bidisperse_sizes", "block", "box", "clump", "cylinder", "draw", "even_sizes", "fields", "frames", "load_species",
     "lognormal_sizes", "membrane_sheet", "membrane_tube", "mesh_inside", "normal_sizes", "one_size", "read_sizes",
-    "restart", "rosin_rammler_sizes", "shaped_species", "sizes", "species", "sphere", "superquadric", "table",
-    "to_pyvista",
+    "restart", "rosin_rammler_sizes", "shaped_species", "sizes", "softest_modulus", "species", "sphere", "superquadric",
+    "table", "to_pyvista",
 ]  # fmt: skip
 
 _show_log()

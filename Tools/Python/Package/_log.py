@@ -1,4 +1,5 @@
-"""The log of the kernel goes to sys.stderr as Python has it, so that a notebook shows it."""
+"""The log of the kernel goes to sys.stderr as Python has it, so that a notebook shows it; runs of other threads stop before
+the interpreter ends."""
 import atexit
 import sys
 
@@ -21,3 +22,4 @@ def _write(level: int, text: str) -> None:
 def show_log() -> None:
     _kernel._set_log(_write)
     atexit.register(_kernel._set_log, None)
+    atexit.register(_kernel._stop_all)  # called first

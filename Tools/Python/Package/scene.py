@@ -36,6 +36,15 @@ class Scene(_kernel.Scene):
                 walls.append(self.add_plane(species, outward, highest, forces=forces))
         return walls
 
+    @property
+    def temperature(self) -> np.ndarray:
+        """K, N: of the grains, after conduct_heat(); also the column `temperature`."""
+        return self.column("temperature")
+
+    @temperature.setter
+    def temperature(self, values: Any) -> None:
+        self.set_column("temperature", values)
+
     def run(self, until: Optional[float] = None, *, steps: Optional[int] = None, progress: Progress = False) -> Scene:
         """Begins the run, or goes on with it, to a time (s), or for so many steps; it may be called again.
 
@@ -84,7 +93,7 @@ class _bar:
         return self._move
 
     def _move(self, time: float) -> None:
-        self.bar.update(time - self.bar.n)  # type: ignore[attr-defined]
+        self.bar.update(min(time, self.end) - self.bar.n)  # type: ignore[attr-defined]
 
     def _line(self, time: float) -> None:
         print(f"\r{self.name}: {time:.4g} of {self.end:.4g} s", end="", file=sys.stderr, flush=True)

@@ -1,0 +1,12 @@
+#include "Tools/Python/MoreSpecies.h"
+
+#include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Python/PythonSpecies.h"
+
+namespace pendular::python {
+
+void registerMoreSpecies() {
+    PythonSpecies::forEach([]<class S>() { registerSpecies<S>(); });
+}
+
+}  // namespace pendular::python
