@@ -4,18 +4,23 @@
 #   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
 #   With --readers also those with which self-tests read the files of a run; without them, these tests are skipped.
 #   With --python also those of the Python module and its tests.
+#   With --view also those of the server of runs in the browser (Tools/View), with --page those of its page, with
+#   --browser a browser without a screen for its tests.
 #   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz), clang-format and clang-tidy.
 set -euo pipefail
 
-check=no readers=no python=no clang=no
+check=no readers=no python=no clang=no view=no page=no browser=no
 for option in "$@"; do
     case $option in
         --check) check=yes ;;
         --readers) readers=yes ;;
         --python) python=yes ;;
         --clang) clang=yes ;;
+        --view) view=yes ;;
+        --page) page=yes ;;
+        --browser) browser=yes ;;
         *)
-            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--clang]" >&2
+            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--clang] [--view] [--page] [--browser]" >&2
             exit 2
             ;;
     esac
@@ -54,6 +59,22 @@ python3-nbformat||tests of the notebooks
 python3-ipykernel||notebooks
 python3-tqdm||bars of progress
 mypy|mypy|types of the module'
+fi
+if [[ $view == yes ]]; then
+    packages+='
+libmicrohttpd-dev||server of runs in the browser
+nlohmann-json3-dev||what it sends, and the options of drivers
+python3-pytest||tests of it'
+fi
+if [[ $page == yes ]]; then
+    packages+='
+npm|npm|the page of runs in the browser'
+fi
+if [[ $browser == yes ]]; then
+    packages+='
+chromium|chromium|the browser of tests
+chromium-driver|chromedriver|the browser of tests
+python3-selenium||drives the browser of tests'
 fi
 if [[ $clang == yes ]]; then
     packages+='

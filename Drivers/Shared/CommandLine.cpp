@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "Drivers/Shared/CommandLineLibrary.h"
+#include "Drivers/Shared/DescribeOptions.h"
 #include "Drivers/Shared/ParsedCommandLine.h"
 #include "Kernel/Files/FileLock.h"
 #include "Kernel/Output/Hdf5Output.h"
@@ -69,7 +70,10 @@ static void addOptionsOf(const DriverProgram& driver, CLI::App& app) {
 int runDriver(const DriverProgram& driver, int argc, char** argv, const std::function<void()>& body) {
     CLI::App app(driver.description, driver.name);
     addOptionsOf(driver, app);
+    bool describes = false;
+    app.add_flag("--describe-options", describes, "print all options as JSON, for other programs, and end");
     if (const auto code = parseCommandLine(app, argc, argv)) return *code;
+    if (describes) return runProgram([&] { return fmt::print("{}", describeOptions(driver, app)), 0; });
     return runProgram([&] {
         const RunOptions& o = driver.options;
         for (const NumberOption& number : driver.numbers) {

@@ -44,6 +44,8 @@ void RunOptions::forgetAtStart(Scene& scene, const std::vector<std::string>& run
 
 void RunOptions::applyToPreparation(Scene& scene) const {
     applyToAny(scene, "preparation");
+    scene.setSaveCount(100);  // the summary is written once a second at most
+    if (!output.empty()) scene.addOutput(RunSummary().withoutPrinting());
     forgetAtStart(scene, {"run"});
 }
 

@@ -29,7 +29,8 @@ struct RunOptions {
     /// restart files that earlier runs of these names have left, unless they are to be gone on with.
     void forgetAtStart(Scene& scene, const std::vector<std::string>& runs) const;
     /// Gives a run that makes the initial state what these options say of it. It keeps only a restart file of
-    /// its own, from which --resume goes on, and not from one that an earlier run has left.
+    /// its own, from which --resume goes on, and not from one that an earlier run has left, and a summary,
+    /// which tells how far it is.
     void applyToPreparation(Scene& scene) const;
     /// Gives a scene a name in the folder, and what these options say of its run.
     void apply(Scene& scene, const std::string& run = "run") const;

@@ -230,7 +230,7 @@ void RunSummary::write(const Scene& scene) {
 void RunSummary::complete(const Scene& scene) {
     const SummaryRows rows = rowsOf(scene);
     writeFile(scene, rows);
-    if (scene.isQuiet()) return;
+    if (!prints || scene.isQuiet()) return;
     std::string text = "Summary of the run\n" + rows.shown();
     for (const std::string& warning : warnings(scene, true)) text += "Warning: " + warning + ".\n";
     writeToLog(text);

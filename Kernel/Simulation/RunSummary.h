@@ -18,6 +18,12 @@ class Scene;
 /// Times are those of this program; all else is of the scene since it began, also before a restart.
 class RunSummary : public RemembersNothing {
 public:
+    /// Only the file: nothing is printed at the end.
+    [[nodiscard]] RunSummary withoutPrinting() const {
+        RunSummary other = *this;
+        other.prints = false;
+        return other;
+    }
     void prepare(Scene& scene);
     void write(const Scene& scene);
     void complete(const Scene& scene);
@@ -25,6 +31,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    bool prints = true;
     Clock::time_point next = Clock::now();
     std::optional<Clock::time_point> written;  // the last one
 };

@@ -34,10 +34,17 @@ Target summaryTable();
 Target hdf5Index();
 Target restartFile();
 Target restartContent();
+#ifdef PENDULAR_HAS_VIEW
+Target request();
+#endif
 
 inline std::vector<Target> allTargets() {
-    return {grainFile(), lammpsFile(),     triangleRows(), stlFile(),   objFile(),     plyFile(),
-            polyData(),  paraViewSeries(), summaryTable(), hdf5Index(), restartFile(), restartContent()};
+    return {
+#ifdef PENDULAR_HAS_VIEW
+        request(),
+#endif
+        grainFile(), lammpsFile(),     triangleRows(), stlFile(),   objFile(),     plyFile(),
+        polyData(),  paraViewSeries(), summaryTable(), hdf5Index(), restartFile(), restartContent()};
 }
 
 inline void writeBytes(const std::filesystem::path& path, std::string_view bytes) {

@@ -3,6 +3,7 @@
 #   SelfTests/CompileFail/*.cpp  must not compile, with the message they expect (CheckCompileFailure.cmake)
 #   SelfTests/Hosts/Library/     a library of species, loaded by the test program of SelfTests/Hosts/
 #   SelfTests/Python/            tests of the Python module (AddPythonTests.cmake)
+#   SelfTests/View/              tests of the program view (AddViewTests.cmake)
 #   SelfTests/OutOfTree/         a driver outside the tree, built against the installed kernel (CheckOutOfTree.cmake)
 # Labels, by the beginning of the suite's name:
 #   fast   all that are not named otherwise
@@ -125,8 +126,15 @@ if(TARGET SelfTestHosts)
     add_dependencies(SelfTestHosts QuadraticSpring)
 endif()
 
+if(TARGET PendularView AND TARGET SelfTestFuzz)
+    target_link_libraries(SelfTestFuzz PRIVATE PendularView)
+    target_compile_definitions(SelfTestFuzz PRIVATE PENDULAR_HAS_VIEW)
+endif()
 if(hasPython)
     include(AddPythonTests)
+endif()
+if(TARGET view)
+    include(AddViewTests)
 endif()
 
 # What must not compile: the flags of a driver, in a file for the compiler.

@@ -1,0 +1,126 @@
+#include "Drivers/Shared/DescribeOptions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string_view>
+
+#if __has_include(<nlohmann/json.hpp>)
+    #include <nlohmann/json.hpp>
+    #define PENDULAR_HAS_JSON
+#endif
+
+#include "Drivers/Shared/CommandLine.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
+#include "Kernel/Base/InputError.h"
+
+namespace pendular {
+
+#ifdef PENDULAR_HAS_JSON
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// An end of a range; JSON has no infinity.
+Json endOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json rangeOf(const Range& range) {
+    return {{"lowest", endOf(range.lowest)},
+            {"highest", endOf(range.highest)},
+            {"lowestIncluded", range.lowestIncluded},
+            {"highestIncluded", range.highestIncluded}};
+}
+
+/// Without the checks that CLI11 writes behind it: "FLOAT:INT in [1 - 3]".
+std::string typeOf(const CLI::Option& option) {
+    if (option.get_expected_max() == 0) return "flag";
+    const std::string name = option.get_type_name(), kind = name.substr(0, name.find_first_of(": "));
+    if (kind == "FLOAT") return "number";
+    if (kind == "INT") return "whole";
+    return kind == "UINT" ? "count" : "text";
+}
+
+/// "TEXT:{wet,dry}": wet and dry.
+Json choicesOf(const CLI::Option& option) {
+    const std::string name = option.get_type_name();
+    const std::size_t begin = name.find(":{"), end = name.find('}', begin == name.npos ? 0 : begin);
+    Json choices = Json::array();
+    if (begin == name.npos || end == name.npos) return choices;
+    for (const std::string& word : CLI::detail::split(name.substr(begin + 2, end - begin - 2), ','))
+        choices.push_back(word);
+    return choices;
+}
+
+Json namesOf(const std::set<CLI::Option*>& options) {
+    Json names = Json::array();
+    for (const CLI::Option* other : options) names.push_back("--" + other->get_lnames().front());
+    return names;
+}
+
+/// A name ends with its unit (CONTRIBUTING): "--viscosity-Pa-s".
+std::string unitOf(const std::string& name) {
+    if (name.ends_with("-Pa-s")) return "Pa s";
+    constexpr std::string_view units[] = {"s",   "m",     "m3", "m/s",     "m/s2", "rad/s", "rpm",
+                                          "deg", "kg/m3", "kg", "percent", "Pa",   "N/m"};
+    const std::string end = name.substr(name.rfind('-') + 1);
+    return std::find(std::begin(units), std::end(units), end) == std::end(units) ? "" : end;
+}
+
+std::string defaultOf(const CLI::Option& option) {
+    std::string text = option.get_default_str();
+    if (text.size() > 1 && text.front() == '[' && text.back() == ']') text = text.substr(1, text.size() - 2);
+    return text;
+}
+
+bool isPath(const std::string& name) {
+    constexpr std::string_view paths[] = {"--output", "--restart", "--grains", "--walls"};
+    return std::find(std::begin(paths), std::end(paths), name) != std::end(paths);
+}
+
+/// Of the options that all drivers have; runDriver() checks them.
+std::map<std::string, Range> rangesOf(const DriverProgram& driver) {
+    std::map<std::string, Range> ranges{{"--threads", {1, 4096}}};
+    for (const char* interval : {"restart", "paraview", "hdf5", "energy", "wall-force"})
+        ranges[fmt::format("--{}-interval-s", interval)] = notNegative;
+    for (const NumberOption& number : driver.numbers) ranges[number.option()] = number.allowed;
+    return ranges;
+}
+
+}  // namespace
+
+std::string describeOptions(const DriverProgram& driver, const CLI::App& app) {
+    const std::map<std::string, Range> ranges = rangesOf(driver);
+    Json options = Json::array();
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_lnames().empty() || option->get_group().empty()) continue;
+        const std::string name = "--" + option->get_lnames().front();
+        if (name == "--help" || name == "--describe-options") continue;
+        Json row{{"name", name},
+                 {"type", typeOf(*option)},
+                 {"unit", unitOf(name)},
+                 {"text", option->get_description()},
+                 {"default", defaultOf(*option)},
+                 {"several", option->get_expected_max() > 1},
+                 {"choices", choicesOf(*option)},
+                 {"excludes", namesOf(option->get_excludes())},
+                 {"needs", namesOf(option->get_needs())},
+                 {"path", isPath(name)}};
+        if (const auto known = ranges.find(name); known != ranges.end())
+            row["range"] = rangeOf(known->second);
+        options.push_back(std::move(row));
+    }
+    const Json all{{"driver", driver.name}, {"description", driver.description}, {"options", options}};
+    return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+#else
+std::string describeOptions(const DriverProgram& driver, const CLI::App& /*app*/) {
+    throw InputError(driver.name +
+                     ": --describe-options needs nlohmann-json (package nlohmann-json3-dev); this build has "
+                     "been made without it.");
+}
+#endif
+
+}  // namespace pendular

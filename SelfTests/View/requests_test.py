@@ -1,0 +1,165 @@
+"""Who may ask the server of `view`, and what it bears: wrong hosts, tokens and pages, paths that lead out of its folder,
+bodies, heads and connections without end."""
+import json
+import os
+import socket
+import time
+
+import pytest
+
+START = json.dumps({"driver": "RotatingDrum", "name": "", "options": {}}).encode()
+
+
+def refused(server, path, method="GET", body=None, **headers):
+    status, content, _ = server.ask(path, method, body, **headers)
+    assert 400 <= status < 500, (path, method, headers, status, content)
+    return status, content.decode()
+
+
+@pytest.fixture
+def served(serve, write_frames, tmp_path):
+    write_frames("picture", "wet")
+    (tmp_path / "secret.csv").write_text("time_s,secret\n1,2\n")
+    return serve()
+
+
+def test_the_token_becomes_a_cookie_that_scripts_do_not_see(served):
+    status, _, headers = served.ask(f"/?token={served.token}", Cookie=None)
+    assert status == 303 and headers["Location"] == "."
+    assert headers["Set-Cookie"].startswith(served.cookie + ";")
+    assert "HttpOnly" in headers["Set-Cookie"] and "SameSite=Strict" in headers["Set-Cookie"]
+    assert served.ask("/")[0] == 200
+    policy = served.ask("/")[2]["Content-Security-Policy"]
+    assert "default-src 'none'" in policy and "frame-ancestors 'none'" in policy and "unsafe" not in policy
+
+
+def test_strangers_are_refused(served):
+    other = "0" * 32
+    name = served.cookie.split("=")[0]
+    for headers in ({"Cookie": None}, {"Cookie": f"{name}={other}"}, {"Cookie": f"{name}="}, {"Cookie": f"{name}={served.token}0"},
+                    {"Cookie": f"other={served.token}"}, {"Host": "evil.example"}, {"Host": f"evil.example:{served.port}"},
+                    {"Host": None}, {"Host": ""}, {"Host": f"127.0.0.1.evil.example:{served.port}"}, {"Host": "localhost:80:80"},
+                    {"Host": "localhost@evil.example"}, {"Host": "a" * 1000}):
+        for path in ("/", "/api/runs", "/api/frame?id=wet/run&frame=0"):
+            refused(served, path, **headers)
+    refused(served, f"/?token={other}", Cookie=None)
+    refused(served, f"/?token={served.token}&x=1", Cookie=None, Host="evil.example")
+
+
+def test_only_the_own_page_changes_something(served, root):
+    before = sorted(root.iterdir())
+    for headers in ({"Origin": None}, {"Origin": "null"}, {"Origin": "http://evil.example"}, {"Origin": f"http://127.0.0.1:{served.port + 1}"},
+                    {"X_Pendular": None}, {"Content_Type": "text/plain"}, {"Content_Type": None}, {"Content_Type": "application/x-www-form-urlencoded"},
+                    {"Cookie": None}, {"Host": "evil.example"}):
+        for path in ("/api/start", "/api/stop", "/api/resume"):
+            refused(served, path, "POST", START, **headers)
+    for method in ("PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "HEAD", "CONNECT", "XYZ"):
+        status, _, _ = served.ask("/api/start", method, START)
+        assert status == 405, method
+    for path in ("/api/start", "/api/stop?id=wet/run", "/api/resume"):
+        refused(served, path)
+    assert sorted(root.iterdir()) == before
+
+
+def test_no_path_leads_out_of_the_folder(served, root, tmp_path):
+    os.symlink(tmp_path, root / "link")
+    os.symlink(tmp_path / "secret.csv", root / "wet" / "linked.csv")
+    os.symlink(tmp_path, root / "wet" / "run-link")
+    (tmp_path / "secret-summary.csv").write_text("quantity,value,unit\nstate,at its end,\n")
+    hidden = root / ".hidden"
+    hidden.mkdir()
+    (hidden / "run-summary.csv").write_text("quantity,value,unit\nstate,at its end,\n")
+    ids = ["../secret", "link/secret", ".hidden/run", "wet/../../secret", "/etc/passwd", "wet//run", "wet/./run", "", ".", "..",
+           "wet/run/", "%2e%2e/secret", "wet/run%00", "wet\\run", "a" * 5000, "x/" * 20 + "run"]
+    for run in ids:
+        refused(served, f"/api/run?id={run}")
+        refused(served, f"/api/frame?frame=0&id={run}")
+    for table in ("../secret.csv", "linked.csv", "/etc/passwd", "run-summary.csv", "", "..", "view-start.json", "wet/run.pvd"):
+        refused(served, f"/api/table?id=wet/run&name={table}")
+    for path in ("/../secret.csv", "/main.js/../../secret.csv", "/%2e%2e/secret.csv", "//etc/passwd", "/etc/passwd", "/src/main.js", "/index.html%00"):
+        refused(served, path)
+    assert [run["id"] for run in served.get("runs")["runs"]] == ["wet/run"]
+
+
+def test_a_series_that_names_files_elsewhere_shows_none_of_them(served, root, tmp_path):
+    evil = root / "evil"
+    evil.mkdir()
+    for name in ("run-particles-000000000.vtp", "linked.vtp"):
+        (tmp_path / name).write_bytes((root / "wet" / "run-particles-000000000.vtp").read_bytes())
+    os.symlink(tmp_path / "linked.vtp", evil / "run-particles-000000001.vtp")
+    files = [f"{tmp_path}/run-particles-000000000.vtp", "../../run-particles-000000000.vtp", "run-particles-000000001.vtp"]
+    rows = "".join(f'<DataSet timestep="{k}" name="particles" file="{file}"/>\n' for k, file in enumerate(files))
+    (evil / "run.pvd").write_text(f"<VTKFile>\n{rows}</VTKFile>\n")
+    assert served.get("run", id="evil/run")["frames"] == []
+
+
+def test_words_that_are_no_numbers_fields_or_json(served):
+    for words in ("frame=1", "frame=-1", "frame=", "frame=0x0", "frame=0&field=none", "frame=0&field=velocity_m_per_s.w", "frame=0&origin=1,2",
+                  "frame=99999999999999999999", "frame=0&field=" + "a" * 3000, "frame=0&origin=a,b,c"):
+        refused(served, f"/api/frame?id=wet/run&{words}")
+    for row in ("-1", "1000", "x"):
+        refused(served, f"/api/row?id=wet/run&frame=0&of=grains&row={row}")
+    for body in (b"", b"[]", b"{", b"null", b'"x"', b"{" * 60000, b'{"driver": 1}', b'{"driver": "../../bin/sh"}', b'{"driver": "Nobody"}',
+                 b'{"driver": "RotatingDrum", "options": []}', b'{"driver": "RotatingDrum", "options": {"--output": "/tmp/x"}}', b"\xff\xfe\x00"):
+        refused(served, "/api/start", "POST", body)
+
+
+def send(server, text, wait=5):
+    """What a bare connection hears."""
+    with socket.create_connection(("127.0.0.1", server.port), timeout=wait) as connection:
+        heard = b""
+        try:
+            connection.sendall(text)
+            while True:
+                more = connection.recv(65536)
+                if not more:
+                    return heard
+                heard += more
+        except OSError:
+            return heard
+
+
+def test_bodies_and_heads_are_bounded(served):
+    before = served.memory()
+    status, _ = refused(served, "/api/start", "POST", b" " * 100000)
+    assert status == 413
+    host = f"Host: localhost:{served.port}\r\nCookie: {served.cookie}\r\n".encode()
+    for text in (b"GET / HTTP/1.1\r\n" + host + b"X: " + b"a" * 100000 + b"\r\n\r\n", b"GET /" + b"a" * 100000 + b" HTTP/1.1\r\n" + host + b"\r\n",
+                 b"GET / HTTP/1.1\r\n" + host + b"".join(b"X%d: y\r\n" % k for k in range(20000)) + b"\r\n", b"\x00" * 1000, b"\r\n" * 10000,
+                 b"GET / HTTP/1.1\r\n" + host + b"Content-Length: -5\r\n\r\n", b"POST /api/start HTTP/1.1\r\n" + host + b"Transfer-Encoding: chunked\r\n\r\nFFFFFFFFFFFFFFFFF\r\n"):
+        heard = send(served, text, wait=12)
+        assert b" 200 " not in heard.split(b"\r\n")[0], text[:60]
+    assert served.memory() - before < 5000
+    assert served.ask("/")[0] == 200
+
+
+def test_slow_senders_are_cut_off_and_a_thousand_connections_borne(served):
+    served.get("runs")
+    before, begin = served.memory(), time.time()
+    connections = []
+    for _ in range(1000):
+        connection = socket.socket()
+        connection.setblocking(False)
+        connection.connect_ex(("127.0.0.1", served.port))
+        connections.append(connection)
+    slow = connections[:150]
+    while time.time() - begin < 13:  # a sign each second, never to the end of the head
+        for connection in slow:
+            try:
+                connection.send(b"G" if time.time() - begin < 1.5 else b"E")
+            except OSError:
+                pass
+        time.sleep(1)
+    closed = 0
+    for connection in slow:
+        try:
+            closed += connection.recv(100) == b""
+        except BlockingIOError:
+            pass
+        except OSError:
+            closed += 1
+    assert closed == len(slow)
+    assert served.memory() - before < 5000
+    for connection in connections:
+        connection.close()
+    assert served.ask("/api/runs")[0] == 200

@@ -1,0 +1,131 @@
+"""Runs that `view` starts, stops and goes on with: the same bits as from the command line, and the sentences of what
+cannot be."""
+import json
+import os
+import pathlib
+import subprocess
+import time
+
+import pytest
+
+DRIVERS = pathlib.Path(os.environ["PENDULAR_DRIVERS"])
+DRUM = {"--number": "120", "--softening": "1000", "--end-time-s": "0.01", "--interval-s": "0.001", "--energy-interval-s": "0.001"}
+TABLES = ("zones.csv", "grains.csv", "run-energy.csv", "run-restart.h5")
+
+
+def at_the_command_line(folder, options):
+    words = [f"{name}={value}" for name, value in options.items()]
+    subprocess.run([DRIVERS / "RotatingDrum/RotatingDrum", f"--output={folder}", *words], check=True, capture_output=True)
+
+
+def bytes_of(folder):
+    return {name: (folder / name).read_bytes() for name in TABLES}
+
+
+def refusal(server, path, **wish):
+    status, content, _ = server.ask(f"/api/{path}", "POST", json.dumps(wish).encode())
+    assert status == 400
+    return content.decode()
+
+
+def test_a_run_from_the_form_is_that_of_the_command_line(serve, root, tmp_path):
+    at_the_command_line(tmp_path / "plain", DRUM)
+    server = serve()
+    run = server.post("start", driver="RotatingDrum", name="", options=DRUM)["id"]
+    assert run == "RotatingDrum-1/run"
+    ended = server.wait_for(run, "ended", "failed")
+    assert ended["state"] == "ended" and ended["healthy"] and ended["time"] == pytest.approx(0.01, rel=0.01)
+    assert ended["start"] == {"driver": "RotatingDrum", "options": DRUM}
+    assert bytes_of(root / "RotatingDrum-1") == bytes_of(tmp_path / "plain")
+    table = server.get("table", id=run, name="zones.csv")
+    assert table["columns"][0] == "time_s" and table["begins"]
+    assert [row[0] for row in table["rows"]] == sorted(row[0] for row in table["rows"]) and len(table["rows"]) == 11
+    assert server.get("table", id=run, name="zones.csv", **{"from": table["next"]})["rows"] == []
+
+
+def test_stopped_and_resumed_it_leaves_the_bytes_of_an_unbroken_run(serve, root, tmp_path):
+    options = {**DRUM, "--end-time-s": "0.4", "--interval-s": "0.01", "--energy-interval-s": "0.01"}
+    at_the_command_line(tmp_path / "whole", options)
+    server = serve()
+    run = server.post("start", driver="RotatingDrum", name="broken", options=options)["id"]
+    server.wait_for(run, "running")
+    while server.get("table", id=run, name="zones.csv")["rows"] == []:
+        time.sleep(0.02)
+    server.post("stop", id=run)
+    stopped = server.wait_for(run, "stopped", "ended")
+    assert stopped["state"] == "stopped" and 0 < stopped["time"] < 0.4
+    server.post("resume", id=run, options={"--threads": "2"})
+    assert server.wait_for(run, "ended", "failed")["state"] == "ended"
+    assert bytes_of(root / "broken") == bytes_of(tmp_path / "whole")
+
+
+def test_preparing_is_said_and_a_queue_is_kept(serve, root):
+    server = serve()
+    slow = {**DRUM, "--number": "3000", "--softening": "10"}
+    first = server.post("start", driver="RotatingDrum", name="first", options=slow)["id"]
+    second = server.post("start", driver="RotatingDrum", name="second", options=DRUM)["id"]
+    preparing = server.wait_for(first, "preparing")
+    while preparing["time"] is None:
+        preparing = server.get("run", id=first)
+    assert preparing["state"] == "preparing" and preparing["endTime"] > 0 and preparing["grains"] == 3000
+    assert server.get("run", id=second)["state"] == "waiting"
+    server.post("stop", id=first)
+    server.wait_for(first, "stopped", "failed")
+    assert server.wait_for(second, "ended", "failed")["state"] == "ended"
+
+
+def test_another_server_stops_what_it_has_not_started(serve, root):
+    one, other = serve(), serve()
+    run = one.post("start", driver="RotatingDrum", name="far", options={**DRUM, "--end-time-s": "100"})["id"]
+    other.wait_for(run, "running", "preparing")
+    other.post("stop", id=run)
+    other.wait_for(run, "stopped")
+
+
+def test_a_run_that_cannot_begin_says_why(serve):
+    server = serve()
+    run = server.post("start", driver="RotatingDrum", name="few", options={"--number": "1"})["id"]
+    failed = server.wait_for(run, "failed")
+    assert "has room for" in failed["reason"] and failed["reason"] in failed["log"]
+
+
+def test_the_form_is_checked_by_the_drivers_own_description(serve, root):
+    server = serve()
+    drivers = {description["driver"]: description for description in server.get("drivers")}
+    options = {option["name"]: option for option in drivers["RotatingDrum"]["options"]}
+    assert options["--end-time-s"]["default"] == "5" and options["--end-time-s"]["unit"] == "s" and options["--end-time-s"]["type"] == "number"
+    assert options["--number"]["type"] == "count" and options["--number"]["excludes"] == ["--grains"]
+    assert options["--threads"]["range"] == {"lowest": 1, "highest": 4096, "lowestIncluded": True, "highestIncluded": True}
+    for wrong, words in (({"--none": "1"}, "has no option"), ({"--end-time-s": "long"}, "is no number"), ({"--number": "1.5"}, "is no whole number"),
+                         ({"--number": "-1"}, "is no whole number"), ({"--threads": "0"}, "threads"), ({"--output": "/tmp"}, "cannot be given"),
+                         ({"--grains": "/etc/passwd"}, "cannot be given"), ({"--restart": "x"}, "cannot be given"), ({"--resume": "true"}, "cannot be given"),
+                         ({"--end-time-s": "1\n2"}, "no text"), ({"--end-time-s": 1}, "must be a text"), ({"--end-time-s": "1" * 1000}, "longer than")):
+        assert words in refusal(server, "start", driver="RotatingDrum", name="", options=wrong), wrong
+    for name in ("../x", "a/b", ".x", "a b", "x" * 200, "-", "a;b"):
+        if name == "-":
+            continue
+        assert "cannot be that of a folder" in refusal(server, "start", driver="RotatingDrum", name=name, options={}), name
+    (root / "there").mkdir()
+    assert "is there already" in refusal(server, "start", driver="RotatingDrum", name="there", options={})
+    assert "not under way" in refusal(server, "stop", id="nobody/run")
+    assert "was started from this page" in refusal(server, "resume", id="nobody/run")
+    assert sorted(path.name for path in root.iterdir()) == ["there"]
+
+
+def test_every_driver_describes_what_its_help_says():
+    """All that are built, against the help that a person reads: each option with its default."""
+    seen = 0
+    for program in sorted(DRIVERS.glob("*/*")):
+        if program.parent.name != program.name or not os.access(program, os.X_OK):
+            continue
+        told = json.loads(subprocess.run([program, "--describe-options"], check=True, capture_output=True, text=True).stdout)
+        text = subprocess.run([program, "--help"], check=True, capture_output=True, text=True).stdout
+        names = {word.split(",")[0].split("=")[0].split()[0] for line in text.splitlines() for word in [line.strip()] if word.startswith("--")}
+        described = {option["name"] for option in told["options"]}
+        assert names - {"--describe-options"} == described, program.name
+        for option in told["options"]:
+            assert option["text"] and option["type"] in ("number", "whole", "count", "text", "flag")
+            if option["default"] and not option["several"]:
+                assert f"[{option['default']}]" in text, (program.name, option)
+        seen += 1
+    assert seen > 0

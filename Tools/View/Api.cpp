@@ -1,0 +1,164 @@
+#include "Tools/View/Api.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Files/FileContent.h"
+#include "Kernel/Files/TextFile.h"
+#include "Tools/View/FramePack.h"
+#include "Tools/View/RunState.h"
+
+namespace pendular::view {
+
+using Json = DriverOptions::Json;
+
+namespace {
+
+/// Files of the page and their types; no others are read.
+const std::map<std::string, std::pair<std::string, std::string>> pageFiles{
+    {"/", {"index.html", "text/html; charset=utf-8"}},
+    {"/main.js", {"main.js", "text/javascript; charset=utf-8"}},
+    {"/main.css", {"main.css", "text/css; charset=utf-8"}},
+    {"/icon.svg", {"icon.svg", "image/svg+xml"}}};
+
+Reply json(const Json& content) {
+    return {200, "application/json", content.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
+
+/// Throws InputError unless the word is a whole number.
+std::size_t wholeOf(const Request& request, const std::string& word) {
+    const std::string text = request.asked(word);
+    std::size_t value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem != std::errc() || end != text.data() + text.size())
+        throw InputError(fmt::format("view: '{}' must be a whole number.", word));
+    return value;
+}
+
+std::optional<Vector<double>> originOf(const std::string& text) {
+    if (text.empty()) return {};
+    std::istringstream words(text);
+    std::array<double, 3> parts{};
+    std::string word;
+    for (double& part : parts)
+        if (!std::getline(words, word, ',') || !parseNumber(word, part))
+            throw InputError("view: 'origin' must be three numbers with commas between.");
+    return Vector<double>{parts[0], parts[1], parts[2]};
+}
+
+void secure(Reply& reply, const std::string& frameAncestors) {
+    reply.headers.emplace_back("X-Content-Type-Options", "nosniff");
+    reply.headers.emplace_back("Referrer-Policy", "no-referrer");
+    reply.headers.emplace_back("Cache-Control", "no-store");
+    reply.headers.emplace_back("Cross-Origin-Resource-Policy", "same-origin");
+    reply.headers.emplace_back(
+        "Content-Security-Policy",
+        fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+                    "media-src blob:; "
+                    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {}",
+                    frameAncestors));
+}
+
+}  // namespace
+
+Reply Api::answer(const Request& request) {
+    Reply reply;
+    try {
+        const auto refused = gate.answer(request);
+        reply = refused ? *refused : route(request);
+    } catch (const InputError& problem) {
+        reply = sentence(400, problem.what());
+    } catch (const std::exception& problem) {
+        reply = sentence(500, fmt::format("The server has met a fault: {}.", problem.what()));
+    }
+    secure(reply, places.frameAncestors);
+    return reply;
+}
+
+Reply Api::route(const Request& request) {
+    if (request.method == "POST") return change(request);
+    if (request.path == "/api/runs") return list();
+    if (request.path == "/api/drivers") return json(drivers.all());
+    if (request.path.starts_with("/api/")) {
+        const auto run = runs.find(request.asked("id"));
+        return run ? ofRun(request, *run) : sentence(404, "There is no such run.");
+    }
+    return pageFile(request.path);
+}
+
+Reply Api::change(const Request& request) {
+    const Json wish = Json::parse(request.body, nullptr, false);
+    if (!wish.is_object()) return sentence(400, "The content is no JSON object.");
+    if (request.path == "/api/start") return json({{"id", queue.start(wish)}});
+    if (request.path == "/api/resume") return queue.resume(wish), json({{"told", "It goes on."}});
+    if (request.path == "/api/stop") {
+        if (!wish.contains("id") || !wish["id"].is_string())
+            return sentence(400, "The id of the run is missing.");
+        return queue.stop(wish["id"]), json({{"told", "It was asked to stop."}});
+    }
+    return sentence(404, "There is nothing here.");
+}
+
+Reply Api::ofRun(const Request& request, const RunFiles& run) {
+    if (request.path == "/api/run") {
+        Json all = details(run);
+        addQueue(all, run);
+        return json(all);
+    }
+    if (request.path == "/api/table") {
+        const std::string from = request.asked("from");
+        return {200, "application/json",
+                tableRows(run, request.asked("name"), from.empty() ? 0 : wholeOf(request, "from"))};
+    }
+    if (request.path == "/api/frame" || request.path == "/api/row") return frame(request, run);
+    return sentence(404, "There is nothing here.");
+}
+
+Reply Api::frame(const Request& request, const RunFiles& run) {
+    const std::vector<FrameEntry> frames = framesOf(run);
+    const std::size_t number = wholeOf(request, "frame");
+    if (number >= frames.size()) return sentence(404, "There is no such frame.");
+    const std::scoped_lock one(oneFrame);
+    if (request.path == "/api/row")
+        return {200, "application/json",
+                describeRow(frames[number].file, request.asked("of") == "contacts", wholeOf(request, "row"))};
+    const FrameWish wish{request.asked("field"), request.asked("contacts") == "1",
+                         request.asked("bridges") != "0", originOf(request.asked("origin"))};
+    return {200, "application/octet-stream", packFrame(frames[number].file, wish)};
+}
+
+void Api::addQueue(Json& overview, const RunFiles& run) {
+    const std::string state = queue.stateOf(run.id), told = overview["state"];
+    if (state == "waiting") overview["state"] = "waiting";
+    if (state == "running" && told != "preparing") overview["state"] = "running";
+    if (state != "failed" || told == "failed") return;
+    overview["state"] = "failed";
+    overview["reason"] = lastSentenceOf(run);
+}
+
+Reply Api::list() {
+    std::vector<Json> all;
+    for (const RunFiles& run : runs.list()) {
+        all.push_back(overview(run));
+        addQueue(all.back(), run);
+    }
+    std::stable_sort(all.begin(), all.end(), [](const Json& a, const Json& b) {
+        return a["changed"].get<double>() > b["changed"].get<double>();
+    });
+    return json({{"root", runs.root().string()}, {"runs", all}});
+}
+
+Reply Api::pageFile(const std::string& path) const {
+    const auto known = pageFiles.find(path);
+    if (known == pageFiles.end()) return sentence(404, "There is nothing here.");
+    return {200, known->second.second,
+            loadInputFile("file of the page", places.page / known->second.first).text};
+}
+
+}  // namespace pendular::view

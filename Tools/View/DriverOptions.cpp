@@ -1,0 +1,143 @@
+#include "Tools/View/DriverOptions.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Files/TextFile.h"
+#include "Kernel/Species/Field.h"
+#include "Tools/View/Process.h"
+
+namespace pendular::view {
+
+namespace fs = std::filesystem;
+using Json = DriverOptions::Json;
+
+namespace {
+
+constexpr std::size_t longestValue = 500;
+
+bool isName(const std::string& word) {
+    return !word.empty() && word.size() < 100 && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+        return std::isalnum(c) || c == '_' || c == '-';
+    }) && word[0] != '-';
+}
+
+double endOf(const Json& range, const char* end, double none) {
+    return range[end].is_number() ? range[end].get<double>() : none;
+}
+
+Range rangeOf(const Json& range) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    return {endOf(range, "lowest", -infinite), endOf(range, "highest", infinite), range["lowestIncluded"],
+            range["highestIncluded"]};
+}
+
+void checkNumber(const Json& option, const std::string& name, const std::string& word) {
+    double value = 0;
+    const std::string type = option["type"];
+    if (!parseNumber(word, value))
+        throw InputError(fmt::format("{} = '{}' is no number.", name, shown(word)));
+    const bool isWhole = word.find_first_not_of("+-0123456789") == word.npos;
+    if (type != "number" && (!isWhole || (type == "count" && value < 0)))
+        throw InputError(fmt::format("{} = '{}' is no whole number{}.", name, shown(word),
+                                     type == "count" ? ", 0 or more" : ""));
+    if (option.contains("range"))
+        checkValue("The form", name, value, option["unit"].get<std::string>(), rangeOf(option["range"]));
+}
+
+void checkWord(const Json& option, const std::string& name, const std::string& word) {
+    const Json& choices = option["choices"];
+    if (!choices.empty() && std::find(choices.begin(), choices.end(), Json(word)) == choices.end())
+        throw InputError(fmt::format("{} = '{}'; it may be one of {}.", name, shown(word), choices.dump()));
+    if (option["type"] != "text") checkNumber(option, name, word);
+}
+
+}  // namespace
+
+std::vector<std::string> wordsOf(const Json& option, const std::string& value) {
+    const std::string name = option["name"];
+    if (option["path"] == true || name == "--resume" || name == "--wall-time" || name == "--quiet")
+        throw InputError(fmt::format("{} cannot be given from the page.", name));
+    if (value.size() > longestValue ||
+        std::any_of(value.begin(), value.end(), [](unsigned char c) { return c < ' '; }))
+        throw InputError(
+            fmt::format("{} is longer than {} signs, or has signs that are no text.", name, longestValue));
+    if (option["type"] == "flag") {
+        if (value != "true" && value != "false")
+            throw InputError(fmt::format("{} may be true or false.", name));
+        return value == "true" ? std::vector<std::string>{name} : std::vector<std::string>{};
+    }
+    std::vector<std::string> values{value};
+    if (option["several"] == true) {
+        std::string parted = value;
+        std::replace(parted.begin(), parted.end(), ',', ' ');
+        std::istringstream words(parted);
+        values.assign(std::istream_iterator<std::string>(words), {});
+    }
+    std::vector<std::string> words;
+    for (const std::string& word : values) {
+        checkWord(option, name, word);
+        words.push_back(fmt::format("{}={}", name, word));  // no word of a value is taken for an option
+    }
+    return words;
+}
+
+std::vector<std::string> DriverOptions::names() const {
+    std::vector<std::string> found;
+    std::error_code problem;
+    for (const auto& entry : fs::directory_iterator(folder, problem)) {
+        const std::string name = entry.path().filename().string();
+        if (isName(name) && access((entry.path() / name).c_str(), X_OK) == 0) found.push_back(name);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+fs::path DriverOptions::program(const std::string& driver) const {
+    const fs::path path = folder / driver / driver;
+    if (!isName(driver) || !fs::is_regular_file(path) || access(path.c_str(), X_OK) != 0)
+        throw InputError(fmt::format("view: there is no driver '{}'.", shown(driver)));
+    return path;
+}
+
+const Json& DriverOptions::describe(const std::string& driver) {
+    const fs::path path = program(driver);
+    const auto written = fs::last_write_time(path);
+    const auto found = known.find(driver);
+    if (found != known.end() && found->second.written == written) return found->second.description;
+    const Json told = Json::parse(outputOf(path, {"--describe-options"}), nullptr, false);
+    const bool isWhole = told.is_object() && told.contains("options") && told["options"].is_array();
+    return (known[driver] = {written, isWhole ? told : Json(nullptr)}).description;
+}
+
+Json DriverOptions::all() {
+    const std::scoped_lock one(mutex);
+    Json list = Json::array();
+    for (const std::string& name : names())
+        if (const Json& description = describe(name); !description.is_null()) list.push_back(description);
+    return list;
+}
+
+std::vector<std::string> DriverOptions::commandLine(const std::string& driver, const Json& options) {
+    const std::scoped_lock one(mutex);
+    const Json& description = describe(driver);
+    if (description.is_null())
+        throw InputError(fmt::format("view: the driver {} does not say its options.", driver));
+    std::vector<std::string> words;
+    for (const auto& [name, value] : options.items()) {
+        const Json& all = description["options"];
+        const auto option =
+            std::find_if(all.begin(), all.end(), [&](const Json& o) { return o["name"] == name; });
+        if (option == all.end()) throw InputError(fmt::format("{} has no option {}.", driver, shown(name)));
+        if (!value.is_string()) throw InputError(fmt::format("{} must be a text.", name));
+        for (std::string& word : wordsOf(*option, value)) words.push_back(std::move(word));
+    }
+    return words;
+}
+
+}  // namespace pendular::view

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace pendular::view {
+
+/// The drivers that a build has, and what they say of their options (--describe-options).
+class DriverOptions {
+public:
+    using Json = nlohmann::ordered_json;
+
+    /// @param drivers folder with NAME/NAME, or with the programs themselves
+    explicit DriverOptions(std::filesystem::path drivers) : folder(std::move(drivers)) {}
+
+    /// The descriptions of all drivers, sorted by name.
+    [[nodiscard]] Json all();
+    /// The program of a driver. Throws InputError where there is none of this name.
+    [[nodiscard]] std::filesystem::path program(const std::string& driver) const;
+    /// Options as a form gives them, as words of a command line, once each has been checked by the driver's
+    /// own description. Throws InputError, which says the option and what is allowed.
+    /// @param options texts by the names of options; a flag is "true" or "false"
+    [[nodiscard]] std::vector<std::string> commandLine(const std::string& driver, const Json& options);
+
+private:
+    [[nodiscard]] const Json& describe(const std::string& driver);
+    [[nodiscard]] std::vector<std::string> names() const;
+
+    struct Known {
+        std::filesystem::file_time_type written;
+        Json description;
+    };
+    std::filesystem::path folder;
+    std::mutex mutex;
+    std::map<std::string, Known> known;
+};
+
+/// The words that one option adds. Throws InputError.
+std::vector<std::string> wordsOf(const DriverOptions::Json& option, const std::string& value);
+
+}  // namespace pendular::view

@@ -1,0 +1,324 @@
+#include "Tools/View/FramePack.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+#include <utility>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Output/FieldName.h"
+#include "Kernel/Output/ParaViewSeries.h"
+#include "Tools/Snapshot/Compose.h"
+
+namespace pendular::view {
+
+static_assert(std::endian::native == std::endian::little);
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Columns one after another, and where each of them begins.
+class Columns {
+public:
+    void add(const std::string& name, const std::vector<float>& numbers) {
+        list.push_back({{"name", name}, {"begin", bytes.size()}, {"count", numbers.size()}});
+        bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
+    }
+    std::string behind(Json head) && {
+        head["columns"] = std::move(list);
+        std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        const auto length = static_cast<std::uint32_t>(text.size());
+        std::string all(reinterpret_cast<const char*>(&length), sizeof length);
+        all.reserve(sizeof length + text.size() + bytes.size());
+        return all.append(text).append(bytes);
+    }
+
+private:
+    Json list = Json::array();
+    std::string bytes;
+};
+
+void put(std::vector<float>& column, const Vector<double>& p) {
+    for (const double x : {p.x, p.y, p.z}) column.push_back(static_cast<float>(x));
+}
+bool isFinite(const Vector<double>& p) { return std::isfinite(p.x + p.y + p.z); }
+Json list(const Vector<double>& p) { return {p.x, p.y, p.z}; }
+
+/// The smallest box around points that are somewhere.
+struct Limits {
+    Vector<double> low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+
+    explicit Limits(const std::vector<Vector<double>>& points) {
+        for (const Vector<double>& p : points) {
+            if (!isFinite(p)) continue;
+            for (const auto axis : {&Vector<double>::x, &Vector<double>::y, &Vector<double>::z}) {
+                low.*axis = std::min(low.*axis, p.*axis);
+                high.*axis = std::max(high.*axis, p.*axis);
+            }
+        }
+        if (!(low.x <= high.x)) low = high = {0, 0, 0};
+    }
+};
+
+/// The number of a field for each row: of a vector its length, or the part that is named behind a dot.
+struct Part {
+    const PolyDataField& field;
+    std::size_t component = std::string::npos;  // npos: the length
+
+    [[nodiscard]] double at(std::size_t row) const {
+        const std::size_t n = field.components;
+        if (n == 1 || component != std::string::npos) return field.at(n * row + (n == 1 ? 0 : component));
+        double square = 0;
+        for (std::size_t c = 0; c < n; ++c) square += field.at(n * row + c) * field.at(n * row + c);
+        return std::sqrt(square);
+    }
+    [[nodiscard]] std::size_t rows() const { return field.size() / field.components; }
+};
+
+Part partOf(const PolyData& data, const std::string& wanted) {
+    const std::size_t dot = wanted.rfind('.');
+    const PolyDataField* const field = data.pointField(wanted.substr(0, dot));
+    if (!field) throw InputError(fmt::format("view: the frame has no field {}.", shown(wanted)));
+    if (dot == wanted.npos) return {*field};
+    const std::size_t component = std::string_view("xyz").find(wanted.substr(dot + 1));
+    if (wanted.size() != dot + 2 || component >= field->components)
+        throw InputError(fmt::format("view: the field has no part {}.", shown(wanted)));
+    return {*field, component};
+}
+
+Json describeFields(const PolyData& grains) {
+    Json fields = Json::array();
+    for (const PolyDataField& field : grains.pointFields) {
+        if (field.components == 9) continue;
+        const Part part{field};
+        double lowest = INFINITY, highest = -INFINITY;
+        for (std::size_t k = 0; k < part.rows(); ++k) {
+            const double value = part.at(k);
+            lowest = std::min(lowest, value), highest = std::max(highest, value);
+        }
+        fields.push_back({{"name", field.name},
+                          {"unit", splitFieldName(field.name).unit},
+                          {"components", field.components},
+                          {"lowest", lowest},
+                          {"highest", highest},
+                          {"whole", std::holds_alternative<std::vector<std::int32_t>>(field.numbers)}});
+    }
+    return fields;
+}
+
+/// Row in the file of a grain's identity.
+std::unordered_map<std::int64_t, std::size_t> rowsByIdentity(const PolyData& grains) {
+    std::unordered_map<std::int64_t, std::size_t> rows;
+    const PolyDataField* const identity = grains.pointField("identity");
+    for (std::size_t k = 0; identity && k < identity->size(); ++k)
+        rows[static_cast<std::int64_t>(identity->at(k))] = k;
+    return rows;
+}
+
+/// Uses the corners of each polygon's triangles: a fan.
+template <class Use>
+void forEachTriangle(const PolyData& data, Use&& use) {
+    std::size_t begin = 0;
+    for (std::size_t polygon = 0; polygon < data.ends.size(); ++polygon) {
+        const auto end = static_cast<std::size_t>(data.ends[polygon]);
+        const auto corner = [&](std::size_t k) {
+            return data.points[static_cast<std::size_t>(data.corners[k])];
+        };
+        for (std::size_t k = begin + 1; k + 1 < end; ++k)
+            use(polygon, std::array{corner(begin), corner(k), corner(k + 1)});
+        begin = end;
+    }
+}
+
+std::vector<float> wallColumn(const PolyData& walls, const Vector<double>& origin) {
+    std::vector<float> column;
+    forEachTriangle(walls, [&](std::size_t, const auto& corners) {
+        for (const Vector<double>& p : corners) put(column, p - origin);
+    });
+    return column;
+}
+
+/// Surfaces of grains that are no spheres; tells the rows of these grains.
+std::vector<float> shapeColumn(const PolyData& shapes,
+                               const std::unordered_map<std::int64_t, std::size_t>& rows,
+                               const Vector<double>& origin, std::vector<bool>& isShape) {
+    std::vector<float> column;
+    const PolyDataField* const identity = shapes.cellField("identity");
+    if (!identity) return column;
+    forEachTriangle(shapes, [&](std::size_t polygon, const auto& corners) {
+        const auto found = rows.find(static_cast<std::int64_t>(identity->at(polygon)));
+        if (found == rows.end()) return;
+        isShape[found->second] = true;
+        for (const Vector<double>& p : corners) {
+            put(column, p - origin);
+            column.push_back(static_cast<float>(found->second));
+        }
+    });
+    return column;
+}
+
+std::array<Vector<double>, 2> endsOf(const PolyData& lines, std::size_t k) {
+    const auto end = [&](std::size_t which) {
+        return lines.points[static_cast<std::size_t>(lines.corners[2 * k + which])];
+    };
+    return {end(0), end(1)};
+}
+
+std::vector<float> bridgeColumn(const snapshot::Frame& frame,
+                                const std::unordered_map<std::int64_t, std::size_t>& rows,
+                                const Vector<double>& origin) {
+    std::vector<float> column;
+    const PolyData& lines = frame.contacts;
+    const PolyDataField *bridged = lines.cellField("bridged"), *volume = lines.cellField("bridge_volume_m3"),
+                        *overlap = lines.cellField("overlap_m"), *first = lines.cellField("particle1"),
+                        *second = lines.cellField("particle2"), *radii = frame.grains.pointField("radius_m");
+    if (!bridged || !volume || !overlap || !first || !second || !radii) return column;
+    const auto inverseRadius = [&](double identity) {
+        const auto found = rows.find(static_cast<std::int64_t>(identity));
+        return identity < 0 || found == rows.end() ? 0 : 1 / radii->at(found->second);  // 0: a wall
+    };
+    for (std::size_t k = 0; k < lines.ends.size(); ++k) {
+        const auto [begin, end] = endsOf(lines, k);
+        if (bridged->at(k) == 0 || !isFinite(begin) || !isFinite(end)) continue;
+        const double effective = 1 / (inverseRadius(first->at(k)) + inverseRadius(second->at(k)));
+        put(column, begin - origin);
+        column.push_back(
+            static_cast<float>(snapshot::bridgeRadius(volume->at(k), -overlap->at(k), effective)));
+        put(column, end - origin);
+        column.push_back(0);
+    }
+    return column;
+}
+
+std::vector<float> contactColumn(const PolyData& lines, const Vector<double>& origin) {
+    std::vector<float> column;
+    const PolyDataField* const force = lines.cellField("force_N");
+    if (!force) return column;
+    const Part size{*force};
+    for (std::size_t k = 0; k < lines.ends.size(); ++k) {
+        const auto [begin, end] = endsOf(lines, k);
+        put(column, begin - origin);
+        column.push_back(static_cast<float>(size.at(k)));
+        put(column, end - origin);
+        column.push_back(static_cast<float>(k));
+    }
+    return column;
+}
+
+std::vector<float> grainColumn(const PolyData& grains, const Vector<double>& origin,
+                               const std::vector<bool>& isShape) {
+    std::vector<float> column;
+    column.reserve(4 * grains.points.size());
+    const PolyDataField* const radii = grains.pointField("radius_m");
+    if (!radii) throw InputError("view: the frame has no field radius_m.");
+    for (std::size_t k = 0; k < grains.points.size(); ++k) {
+        const bool isThere = isFinite(grains.points[k]);
+        put(column, isThere ? grains.points[k] - origin : Vector<double>{0, 0, 0});
+        column.push_back(isThere ? static_cast<float>(isShape[k] ? -radii->at(k) : radii->at(k)) : 0);
+    }
+    return column;
+}
+
+std::vector<float> valueColumn(const PolyData& grains, const std::string& wanted) {
+    const Part part = partOf(grains, wanted);
+    std::vector<float> column(part.rows());
+    for (std::size_t k = 0; k < column.size(); ++k) column[k] = static_cast<float>(part.at(k));
+    return column;
+}
+
+std::vector<float> identityColumn(const PolyData& grains) {
+    std::vector<float> column(grains.points.size());
+    const PolyDataField* const identity = grains.pointField("identity");
+    for (std::size_t k = 0; k < column.size(); ++k)
+        column[k] = static_cast<float>(identity ? identity->at(k) : static_cast<double>(k));
+    return column;
+}
+
+std::filesystem::path beside(const std::filesystem::path& particles, std::string_view kind) {
+    constexpr std::string_view own = "-particles-";
+    std::string name = particles.filename().string();
+    const std::size_t at = name.rfind(own);
+    if (at == name.npos) return {};
+    return particles.parent_path() / name.replace(at, own.size(), fmt::format("-{}-", kind));
+}
+
+/// The part of a frame that is in a file of its own, unless that is a link.
+PolyData readBeside(const std::filesystem::path& particles, std::string_view kind) {
+    const std::filesystem::path file = beside(particles, kind);
+    return isOwnFile(file) ? readPolyData(file) : PolyData{};
+}
+
+}  // namespace
+
+std::vector<FrameEntry> framesOf(const RunFiles& run) {
+    std::vector<FrameEntry> frames;
+    const std::filesystem::path series = run.file(".pvd"), restart = run.file("-restart.h5");
+    if (isOwnFile(series)) {
+        for (const ParaViewEntry& entry : readParaViewSeries(series))
+            if (entry.kind == "particles" && entry.file.parent_path() == run.folder && isOwnFile(entry.file))
+                frames.push_back({entry.time, entry.file});
+    } else if (isOwnFile(restart)) {
+        frames.push_back({std::numeric_limits<double>::quiet_NaN(), restart});
+    }
+    return frames;
+}
+
+std::string packFrame(const std::filesystem::path& file, const FrameWish& wish) {
+    snapshot::Frame frame;
+    PolyData shapes;
+    if (file.extension() == ".h5") {
+        frame = snapshot::readRestartState(file);
+    } else {
+        frame.grains = readPolyData(file);
+        frame.walls = readBeside(file, "walls");
+        shapes = readBeside(file, "shapes");
+        if (wish.bridges || wish.contacts) frame.contacts = readBeside(file, "contacts");
+    }
+    const Limits limits(frame.grains.points);
+    const Vector<double> origin = wish.origin.value_or(0.5 * (limits.low + limits.high));
+    Json head{{"time", frame.grains.time},
+              {"grains", frame.grains.points.size()},
+              {"origin", list(origin)},
+              {"low", list(limits.low - origin)},
+              {"high", list(limits.high - origin)},
+              {"fields", describeFields(frame.grains)}};
+    const auto rows = rowsByIdentity(frame.grains);
+    std::vector<bool> isShape(frame.grains.points.size());
+    Columns columns;
+    columns.add("shapes", shapeColumn(shapes, rows, origin, isShape));
+    columns.add("grains", grainColumn(frame.grains, origin, isShape));
+    columns.add("identity", identityColumn(frame.grains));
+    columns.add("value", valueColumn(frame.grains, wish.field.empty() ? "radius_m" : wish.field));
+    columns.add("walls", wallColumn(frame.walls, origin));
+    if (wish.bridges) columns.add("bridges", bridgeColumn(frame, rows, origin));
+    if (wish.contacts) columns.add("contacts", contactColumn(frame.contacts, origin));
+    frame = {}, shapes = {};  // before the columns are copied
+    return std::move(columns).behind(std::move(head));
+}
+
+std::string describeRow(const std::filesystem::path& file, bool ofContacts, std::size_t row) {
+    PolyData data;
+    if (file.extension() == ".h5") data = snapshot::readRestartState(file).grains;
+    else data = ofContacts ? readBeside(file, "contacts") : readPolyData(file);
+    const std::vector<PolyDataField>& fields = ofContacts ? data.cellFields : data.pointFields;
+    Json all = Json::array();
+    if (!ofContacts && row < data.points.size())
+        all.push_back({{"name", "position_m"}, {"unit", "m"}, {"value", list(data.points[row])}});
+    for (const PolyDataField& field : fields) {
+        if (row >= field.size() / field.components) throw InputError("view: the frame has no such row.");
+        Json value = Json::array();
+        for (std::size_t c = 0; c < field.components; ++c)
+            value.push_back(field.at(row * field.components + c));
+        all.push_back({{"name", field.name}, {"unit", splitFieldName(field.name).unit}, {"value", value}});
+    }
+    return Json{{"fields", all}}.dump();
+}
+
+}  // namespace pendular::view

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Kernel/Math/Vector.h"
+#include "Tools/View/RunFolder.h"
+
+namespace pendular::view {
+
+/// A frame of a run that can be shown.
+struct FrameEntry {
+    double time;  // s
+    std::filesystem::path file;
+};
+
+/// Those of the run's series for ParaView, by time; where it has none, the state of its restart file.
+std::vector<FrameEntry> framesOf(const RunFiles& run);
+
+/// What of a frame is wanted.
+struct FrameWish {
+    std::string field;  // that colours the grains; "velocity_m_per_s.z" is a part
+    bool contacts = false, bridges = true;
+    std::optional<Vector<double>> origin;  // m; nothing: the middle of this frame's grains
+};
+
+/// A frame as the page takes it: the length of a text (4 bytes, little-endian), the text, JSON, filled up
+/// with blanks to a multiple of four, and behind it columns of 32 bits. The text tells time, origin, limits,
+/// fields, and for each column its name, where it begins (in bytes, behind the text) and how many numbers it
+/// has:
+///
+/// grains     x, y, z (m, from the origin), radius (m; negative: drawn by its shape) of each grain
+/// identity   of each grain
+/// value      of the field of the wish
+/// bridges    x, y, z, radius, x, y, z, 0: cylinders of the bridges' volumes
+/// contacts   x, y, z, force (N), x, y, z, row in the file
+/// walls      x, y, z: triangles
+/// shapes     x, y, z, row of the grain: triangles of grains that are no spheres
+///
+/// Throws InputError if the frame cannot be read or has no such field.
+std::string packFrame(const std::filesystem::path& file, const FrameWish& wish);
+
+/// All fields of a grain, or of a contact, as JSON: {"fields": [{"name", "value"}]}.
+/// @param row of the frame's grains or contacts
+std::string describeRow(const std::filesystem::path& file, bool ofContacts, std::size_t row);
+
+}  // namespace pendular::view

@@ -1,0 +1,26 @@
+import "./style.css";
+import { showCompare } from "./compare.js";
+import { showRun } from "./run.js";
+import { showRuns } from "./runs.js";
+import { showStart } from "./start.js";
+import { tell } from "./text.js";
+
+window.pendular = {};  // for tests and for those who look behind the page
+
+const page = document.getElementById("page");
+let end = () => {};
+
+/** Shows what the address says: #runs, #run=ID, #start, #compare=ID,ID. */
+function show() {
+    const [word, rest = ""] = location.hash.slice(1).split(/=(.*)/s);
+    end();
+    tell();
+    if (word === "run") end = showRun(page, decodeURIComponent(rest));
+    else if (word === "start") end = showStart(page);
+    else if (word === "compare") end = showCompare(page, rest.split(",").map(decodeURIComponent));
+    else end = showRuns(page);
+    document.querySelectorAll("nav a").forEach((link) => link.toggleAttribute("aria-current", link.hash.slice(1) === word));
+}
+
+addEventListener("hashchange", show);
+show();

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "Tools/View/RunFolder.h"
+
+namespace pendular::view {
+
+/// How a run is, in a few words for the list of runs, from its summary and its lock: id, state ("preparing",
+/// "running", "ended", "stopped", "failed", "silent"), reason, time and endTime (s), healthy, grains, bytes
+/// on the disk, changed (s since 1970, of the summary), driver.
+nlohmann::ordered_json overview(const RunFiles& run);
+
+/// All that the page of a run needs but frames and tables themselves: the overview, the rows of the summary,
+/// what is wrong, times of the frames, names of the tables, the end of the log, the options of its start.
+nlohmann::ordered_json details(const RunFiles& run);
+
+/// Rows of a table of the run from a place in the file (bytes) on: columns, rows (null: no number), next (the
+/// place behind the last whole row), begins (whether they are the first rows: the table may have begun
+/// again). Throws InputError where there is no such table.
+std::string tableRows(const RunFiles& run, const std::string& table, std::uintmax_t from);
+
+/// What a run was started with from the page; null where it was started otherwise.
+nlohmann::ordered_json startOf(const RunFiles& run);
+/// Where what a run prints goes that was started from the page.
+std::filesystem::path logFileOf(const std::filesystem::path& folder);
+/// The last line of that: of a run that could not begin, why.
+std::string lastSentenceOf(const RunFiles& run);
+
+}  // namespace pendular::view

@@ -1,0 +1,114 @@
+/// Shows the runs in a folder in a browser: pictures in 3D, charts, a form for each driver; starts, stops and
+/// goes on with runs.
+
+#include <fmt/format.h>
+
+#include <malloc.h>
+
+#include <csignal>
+#include <ctime>
+
+#include "BuildFolders.h"
+#include "Drivers/Shared/CommandLineLibrary.h"
+#include "Drivers/Shared/ParsedCommandLine.h"
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Simulation/Program.h"
+#include "Kernel/Species/Field.h"
+#include "Tools/View/Api.h"
+#include "Tools/View/Server.h"
+
+using namespace pendular;
+using namespace pendular::view;
+
+namespace {
+
+struct Options {
+    std::string folder = ".", listen = "127.0.0.1", page = (folders::tools / "ViewPage").string(),
+                drivers = folders::drivers.string();
+    int port = 0, atOnce = 1;
+    std::vector<std::string> hosts;
+    std::string frameOf;
+};
+
+void describe(CLI::App& app, Options& o) {
+    app.option_defaults()->always_capture_default();
+    app.add_option("folder", o.folder, "with the folders of runs; new ones are made there");
+    app.add_option("--port", o.port, "0: any that is free");
+    app.add_option(
+        "--listen", o.listen,
+        "address to listen at. With another one than 127.0.0.1, others in the network can read all that "
+        "is sent: take ssh -L instead");
+    app.add_option("--host-name", o.hosts,
+                   "name by which a browser may ask besides localhost, as that of a proxy (Open OnDemand, "
+                   "JupyterHub)")
+        ->allow_extra_args(false);
+    app.add_option("--frame-of", o.frameOf,
+                   "page that may show this one in a frame, as http://localhost:8888 of a notebook");
+    app.add_option("--at-once", o.atOnce, "runs that are started from the page and compute at once");
+    app.add_option("--drivers", o.drivers, "folder of the drivers");
+    app.add_option("--page", o.page, "folder of the built page");
+}
+
+void check(const Options& o) {
+    checkValue("view", "--port", o.port, "", {0, 65535});
+    checkValue("view", "--at-once", o.atOnce, "", {1, 64});
+    if (!std::filesystem::exists(std::filesystem::path(o.page) / "main.js"))
+        throw InputError(
+            fmt::format("view: the page has not been built into {}; Tools/view.sh does that.", o.page));
+    if (o.frameOf.find_first_of(" ;,'\"\n") != std::string::npos)
+        throw InputError("view: --frame-of must be one address, as http://localhost:8888.");
+}
+
+/// Until Ctrl-C or SIGTERM.
+void serve(Api& api, Server& server, const sigset_t& ends) {
+    const timespec wait{0, 200'000'000};
+    while (sigtimedwait(&ends, nullptr, &wait) < 0) {
+        server.tend();
+        api.tend();
+    }
+}
+
+/// Frames are large and gone soon: their memory goes back to the system at once, and is not kept for each
+/// thread.
+void giveBackMemory() {
+    mallopt(M_ARENA_MAX, 2);
+    mallopt(M_MMAP_THRESHOLD, 1 << 18);
+    mallopt(M_TRIM_THRESHOLD, 1 << 20);
+}
+
+int run(const Options& o) {
+    check(o);
+    giveBackMemory();
+    // Blocked before threads are made, which inherit that. Processes that are started get back what they had.
+    sigset_t ends;
+    sigemptyset(&ends), sigaddset(&ends, SIGINT), sigaddset(&ends, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &ends, nullptr);
+    const RunFolder runs(o.folder);
+    std::set<std::string> hosts{"localhost", "127.0.0.1", "[::1]"};
+    hosts.insert(o.hosts.begin(), o.hosts.end());
+    const std::string token = newToken(), cookie = "pendular-" + token.substr(0, 8);
+    Api api({token, hosts, cookie}, runs,
+            {o.page, o.drivers, o.frameOf.empty() ? "'none'" : "'self' " + o.frameOf},
+            static_cast<std::size_t>(o.atOnce));
+    Server server(api, o.listen, static_cast<std::uint16_t>(o.port), cookie);
+    fmt::print(
+        "Runs in {}. Open this address in a browser; Ctrl-C ends the server, not the runs.\n"
+        "http://{}:{}/?token={}\n",
+        runs.root().string(), o.listen == "0.0.0.0" ? "localhost" : o.listen, server.port(), token);
+    std::fflush(stdout);
+    serve(api, server, ends);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Shows the runs in a folder in a browser: pictures in 3D, charts, a form for each driver; starts, "
+        "stops and goes "
+        "on with runs.");
+    Options options;
+    describe(app, options);
+    if (const auto code = parseCommandLine(app, argc, argv)) return *code;
+    return runProgram([&] { return run(options); });
+}
