@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "Kernel/Mercury/MercuryArguments.h"
 #include "Kernel/Mercury/MercuryBonds.h"
@@ -95,11 +96,12 @@ public:
     [[nodiscard]] double getYMax() const { return getMax().y(); }
     [[nodiscard]] double getZMax() const { return getMax().z(); }
 
-    /// Without effect: how MercuryDPM's viewer shows grains, how it looks for neighbours, and whether a
-    /// restarted run goes on in its files (it does).
+    /// Without effect: how MercuryDPM's viewer shows grains, how it looks for neighbours, how many processes
+    /// share the box, and whether a restarted run goes on in its files (it does).
     void setXBallsAdditionalArguments(const std::string& /*arguments*/) {}
     void setHGridMaxLevels(unsigned /*levels*/) {}
     void setHGridMinCellSize(double /*size*/) {}
+    void setNumberOfDomains(const std::vector<unsigned>& /*alongEachAxis*/) {}
     void setAppend(bool /*append*/) {}
     void removeOldFiles() {}  // a run replaces those of its name
     MercuryNoFile& getInteractionFile() { return interactionFile; }

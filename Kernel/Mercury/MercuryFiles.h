@@ -23,6 +23,8 @@ public:
     void setFileType(FileType asked) { type = asked; }
     /// Steps from one frame to the next; 0, as it is at first: those of the scene's setSaveCount().
     void setSaveCount(std::size_t steps) { saveCount = steps; }
+    /// One frame at the start and one at the end.
+    void writeFirstAndLastTimeStep() { saveCount = std::size_t{1} << 52; }
     [[nodiscard]] std::size_t getSaveCount() const { return saveCount; }
     [[nodiscard]] FileType getFileType() const { return type; }
     [[nodiscard]] bool isWritten() const { return type != FileType::NO_FILE; }

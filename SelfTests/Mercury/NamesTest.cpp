@@ -185,6 +185,10 @@ TEST(MercuryNames, eachFileHasItsSaveCount) {
         scene.dataFile.setFileType(FileType::MULTIPLE_FILES);
         scene.dataFile.setSaveCount(2);
         scene.fStatFile.setFileType(FileType::ONE_FILE);
+        scene.eneFile.setFileType(FileType::ONE_FILE);
+        scene.eneFile.setSaveCount(1);
+        scene.eneFile.writeFirstAndLastTimeStep();
+        scene.setNumberOfDomains({2, 1, 1});
         scene.solve();  // ten steps
     }
     const auto frames = [&](const char* end, const char* head) {
@@ -196,6 +200,7 @@ TEST(MercuryNames, eachFileHasItsSaveCount) {
     // At the start, and each second step, a file for each.
     for (const char* const end : {".data.0", ".data.1", ".data.5"})
         EXPECT_EQ(frames(end, " -0.1 -0.1 0 0.1 0.1 0.2\n"), 1u) << end;
+    EXPECT_EQ(frames(".ene", "\n"), 3u);  // a head, the start and the end
     EXPECT_FALSE(std::filesystem::exists(folder.name() + ".data.6"));
     EXPECT_FALSE(std::filesystem::exists(folder.name() + ".data"));
     EXPECT_EQ(frames(".fstat", " 1\n# "), 2u);  // at the start and at the end
