@@ -99,5 +99,6 @@ set(site "\${pythonSite}/pendular")
 install(TARGETS PendularPython LIBRARY DESTINATION "${site}/${PENDULAR_PYTHON_KERNEL_FOLDER}" COMPONENT python OPTIONAL)
 install(FILES ${pythonFiles} DESTINATION "${site}" COMPONENT python)
 install(FILES "${pythonPackage}/_kernel.pyi" DESTINATION "${site}" COMPONENT python OPTIONAL)
-install(DIRECTORY "${pythonFolder}/Examples" DESTINATION share/pendular COMPONENT python USE_SOURCE_PERMISSIONS)
+install(DIRECTORY "${pythonFolder}/Examples" DESTINATION share/pendular COMPONENT python USE_SOURCE_PERMISSIONS
+        PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY "${notebooks}" DESTINATION share/pendular COMPONENT python OPTIONAL)

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# Installs a Debian package of Pendular on a bare Debian 12 without a compiler, made by mmdebstrap in a folder, and runs a
+# driver and an example of Python in it; and the Python module for each level of the processor, which give the same bits. As root.
+#   Tools/test-package.sh PACKAGE [FOLDER]      default: build/bare-debian, which is removed at the end
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/read-options.sh"
+read_argument "$@"
+package=${1:-}
+if [[ ! -f $package ]]; then refuse "there is no package '$package'; Tools/make-package.sh makes one"; fi
+root=${2:-$(dirname "${BASH_SOURCE[0]}")/../build/bare-debian}
+command -v mmdebstrap >/dev/null || refuse "mmdebstrap is missing (apt install mmdebstrap)"
+if [[ -e $root ]]; then refuse "$root is there already; remove it, or name another folder"; fi
+trap 'rm -rf --one-file-system "$root"' EXIT
+mmdebstrap --quiet --variant=apt bookworm "$root"
+cp "$package" "$root/tmp/pendular.deb"
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+inside() { chroot "$root" env -i PATH=/usr/bin:/bin:/usr/sbin:/sbin HOME=/tmp MPLBACKEND=Agg DEBIAN_FRONTEND=noninteractive "$@"; }
+inside apt-get update -qq
+# Without python3-matplotlib, which would bring a compiler.
+inside apt-get install -qq --no-install-recommends /tmp/pendular.deb python3-h5py python3-pandas >/dev/null
+if inside sh -c 'command -v c++ g++ gcc cc'; then
+    echo "test-package.sh: there is a compiler in $root, so this shows nothing." >&2
+    exit 1
+fi
+inside sh -c 'cd /tmp && pendular WetTower | tail -1 && python3 /usr/share/pendular/Examples/restart.py'
+cat >"$root/tmp/hash.py" <<'EOF'
+import pendular
+scene = pendular.Scene()
+glass = scene.add_species("HertzianViscoelasticMindlinLiquidBridgeBagheri", density=2500, young_modulus=5e6,
+                          poisson_ratio=0.25, restitution_coefficient=0.5, sliding_friction_coefficient=0.4,
+                          liquid_bridge_volume=2e-12, contact_angle=0.3, surface_tension=0.072)
+scene.add_box(glass, (0, 0, 0), (0.02, 0.02, 0.04))
+scene.insert(glass, pendular.even_sizes(1.8e-3, 2e-3), pendular.box((0, 0, 0), (0.02, 0.02, 0.03)), solid_fraction=0.4)
+scene.gravity = (0, 0, -9.81)
+scene.choose_time_step()
+scene.run(0.05)
+print(scene.hash(), len(scene))
+EOF
+hashes=$(inside python3 /tmp/hash.py)
+for level in x86-64-v2 x86-64-v3 x86-64-v4; do
+    [[ -d $root/usr/lib/python3/dist-packages/pendular/$level ]] || continue
+    if ! inside python3 -c 'import pendular._choose as c; print(c.levels())' | grep -q "$level"; then
+        echo "$level: this processor does not have it"
+        continue
+    fi
+    hash=$(inside PENDULAR_LEVEL="$level" python3 /tmp/hash.py)
+    echo "$level: $hash"
+    hashes+=$'\n'$hash
+done
+if [[ $(sort -u <<<"$hashes" | wc -l) != 1 ]]; then
+    echo "test-package.sh: the levels do not have the same bits." >&2
+    exit 1
+fi
+echo "The package works: $(head -1 <<<"$hashes")"
