@@ -39,12 +39,12 @@ def test_a_run_from_the_form_is_that_of_the_command_line(serve, root, tmp_path):
     assert bytes_of(root / "RotatingDrum-1") == bytes_of(tmp_path / "plain")
     table = server.get("table", id=run, name="zones.csv")
     assert table["columns"][0] == "time_s" and table["begins"]
-    assert [row[0] for row in table["rows"]] == sorted(row[0] for row in table["rows"]) and len(table["rows"]) == 11
+    assert [row[0] for row in table["rows"]] == sorted(row[0] for row in table["rows"]) and len(table["rows"]) >= 11
     assert server.get("table", id=run, name="zones.csv", **{"from": table["next"]})["rows"] == []
 
 
 def test_stopped_and_resumed_it_leaves_the_bytes_of_an_unbroken_run(serve, root, tmp_path):
-    options = {**DRUM, "--end-time-s": "0.4", "--interval-s": "0.01", "--energy-interval-s": "0.01"}
+    options = {**DRUM, "--end-time-s": "0.12", "--interval-s": "0.005", "--energy-interval-s": "0.005"}
     at_the_command_line(tmp_path / "whole", options)
     server = serve()
     run = server.post("start", driver="RotatingDrum", name="broken", options=options)["id"]
@@ -53,7 +53,7 @@ def test_stopped_and_resumed_it_leaves_the_bytes_of_an_unbroken_run(serve, root,
         time.sleep(0.02)
     server.post("stop", id=run)
     stopped = server.wait_for(run, "stopped", "ended")
-    assert stopped["state"] == "stopped" and 0 < stopped["time"] < 0.4
+    assert stopped["state"] == "stopped" and 0 < stopped["time"] < 0.12
     server.post("resume", id=run, options={"--threads": "2"})
     assert server.wait_for(run, "ended", "failed")["state"] == "ended"
     assert bytes_of(root / "broken") == bytes_of(tmp_path / "whole")
@@ -125,7 +125,7 @@ def test_every_driver_describes_what_its_help_says():
         assert names - {"--describe-options"} == described, program.name
         for option in told["options"]:
             assert option["text"] and option["type"] in ("number", "whole", "count", "text", "flag")
-            if option["default"] and not option["several"]:
-                assert f"[{option['default']}]" in text, (program.name, option)
+            if option["default"]:
+                assert f"={option['default'].split(',')[0]}" in text or f"=[{option['default'].split(',')[0]}" in text, (program.name, option)
         seen += 1
     assert seen > 0

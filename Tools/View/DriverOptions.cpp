@@ -129,13 +129,15 @@ std::vector<std::string> DriverOptions::commandLine(const std::string& driver, c
     if (description.is_null())
         throw InputError(fmt::format("view: the driver {} does not say its options.", driver));
     std::vector<std::string> words;
-    for (const auto& [name, value] : options.items()) {
-        const Json& all = description["options"];
+    const Json& listed = description["options"];
+    for (const auto& given : options.items()) {
+        const std::string& name = given.key();
         const auto option =
-            std::find_if(all.begin(), all.end(), [&](const Json& o) { return o["name"] == name; });
-        if (option == all.end()) throw InputError(fmt::format("{} has no option {}.", driver, shown(name)));
-        if (!value.is_string()) throw InputError(fmt::format("{} must be a text.", name));
-        for (std::string& word : wordsOf(*option, value)) words.push_back(std::move(word));
+            std::find_if(listed.begin(), listed.end(), [&](const Json& o) { return o["name"] == name; });
+        if (option == listed.end())
+            throw InputError(fmt::format("{} has no option {}.", driver, shown(name)));
+        if (!given.value().is_string()) throw InputError(fmt::format("{} must be a text.", name));
+        for (std::string& word : wordsOf(*option, given.value())) words.push_back(std::move(word));
     }
     return words;
 }

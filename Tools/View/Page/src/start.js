@@ -64,11 +64,12 @@ class Form {
         if (option.type === "flag") return make("input", { type: "checkbox", id });
         if (option.choices.length > 0) return make("select", { id }, new Option(`${option.default || "default"}`, ""), ...option.choices.map((word) => new Option(word)));
         const input = make("input", { type: "text", id, placeholder: option.default || "none", inputmode: option.type === "text" ? "text" : "decimal", "aria-describedby": `${id}-text` });
-        input.addEventListener("input", () => {
+        const check = () => {
             const wrong = objectionTo(option, input.value.trim());
             input.setCustomValidity(wrong);
             input.classList.toggle("wrong", wrong !== "");
-        });
+        };
+        for (const event of ["input", "change"]) input.addEventListener(event, check);
         return input;
     }
 
