@@ -60,7 +60,8 @@ public:
     /// @param ofGrains at each place; @param ofBodies at each place, ghosts included
     void tellGhosts(std::span<double> ofGrains, std::span<double> ofBodies);
 
-    [[nodiscard]] AllRanks allRanks() const { return AllRanks(exchange); }
+    /// They know something together from the first list on: before it, each has all grains.
+    [[nodiscard]] AllRanks allRanks() const { return {exchange, isDistributed}; }
     [[nodiscard]] std::size_t rank() const { return exchange.rank(); }
     /// Whether each rank has its own grains only: from the first list on.
     [[nodiscard]] bool areDistributed() const { return isDistributed; }
