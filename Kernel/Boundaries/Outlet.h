@@ -37,7 +37,9 @@ public:
     void setLeastAge(double age);
     /// Lets only those go for which the function is true. It is asked in the order of identities, on one
     /// thread, only for grains that would go without it, and of a rigid body for its first grain. A restart
-    /// file cannot keep a function: it keeps that there is one, and a scene without it does not go on.
+    /// file cannot keep a function: it keeps that there is one, and a scene without it does not go on. On
+    /// several ranks each asks for its own grains, before any of them go: the answer may depend on the grain
+    /// alone.
     void setCondition(std::function<bool(const GrainReference&)> function);
 
 private:

@@ -232,11 +232,13 @@ Clusters clustersOfGrains(const ParticleStore& grains, const PeriodicBox& box,
 }
 
 Clusters clustersWithin(const Scene& scene, double distance) {
+    scene.contacts().ranks().requireAllGrains("clusters");
     return clustersOfGrains(scene.particleHandler.store(), scene.getPeriodicBox(), scene.interactions(),
                             distance);
 }
 
 Clusters clustersOfContacts(const Scene& scene) {
+    scene.contacts().ranks().requireAllGrains("clusters");
     return clustersOfGrains(scene.particleHandler.store(), scene.getPeriodicBox(), scene.interactions());
 }
 

@@ -19,6 +19,7 @@ void AccountPart::takeOver(StepContext& scene, const SceneChanges& changes) {
 
 void AccountPart::beforeMotion(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
+    step.contacts.renewGhosts(step.grains());  // a hook may have changed velocities
     account.begin(step.grains(), step.contacts, step.walls, step.gravity, step.length, ledger);
 }
 

@@ -1,6 +1,19 @@
 #include "Kernel/Ranks/AllRanks.h"
 
+#include <fmt/format.h>
+
+#include "Kernel/Base/InputError.h"
+
 namespace pendular {
+
+void AllRanks::requireAllGrains(std::string_view what) const {
+    if (areSeveral())
+        throw InputError(
+            fmt::format("Simulation: {} need all grains, and each rank of a scene on several ranks "
+                        "(setRanks()) has its own "
+                        "ones only; ask on one rank.",
+                        what));
+}
 
 void AllRanks::addUp(std::span<ExactSum* const> sums) const {
     if (!areSeveral()) return;

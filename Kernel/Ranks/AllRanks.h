@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <string_view>
 #include <vector>
 
 #include "Kernel/Math/ExactSum.h"
@@ -23,6 +24,9 @@ public:
     /// There are others, whether they share the grains already or not.
     [[nodiscard]] bool areThere() const { return exchange != nullptr; }
     [[nodiscard]] bool areSeveral() const { return exchange && (!areDistributed || *areDistributed); }
+
+    /// Throws InputError where each rank has its own grains only. @param what needs all of them, "clusters"
+    void requireAllGrains(std::string_view what) const;
 
     /// Each of these sums becomes that of all ranks; several of them in one call are faster.
     void addUp(std::span<ExactSum* const> sums) const;

@@ -61,6 +61,7 @@ double overlappingShare(const Scene& scene) {
 }  // namespace
 
 PendularState pendularState(const Scene& scene, bool withOverlaps) {
+    scene.contacts().ranks().requireAllGrains("figures of the pendular state");
     PendularState found;
     const ParticleStore& grains = scene.particleHandler.store();
     const GrainFilms& films = scene.particleHandler.films();

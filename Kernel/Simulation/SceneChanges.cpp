@@ -80,8 +80,8 @@ void Scene::Inside::takeOverChanges() {
             return;
         const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
         if (sharing) {
-            if (newLaws || changedWalls || newStep || lastBodyWent) refuseForRanks(changes, true);
-            return takeOverOnRanks(changes);
+            if (newLaws || changedWalls || newStep) refuseForRanks(changes, true);
+            return takeOverOnRanks(changes, lastBodyWent);
         }
         const bool bodiesCame = scene.inletHandler.bringBodies() &&
                                 areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest()),
@@ -127,11 +127,12 @@ void Scene::Inside::refuseForRanks(const GrainChanges& changes, bool others) {
 }
 
 /// Grains have come by inlets, which has listed contacts again.
-void Scene::Inside::takeOverOnRanks(const GrainChanges& changes) {
+void Scene::Inside::takeOverOnRanks(const GrainChanges& changes, bool lastBodyWent) {
     refuseForRanks(changes, false);
     parts.takeOver(contextNow(stepLength()), {});
     choosePartsLength();
-    if (contacts.ranks().any(stepLength() != checkedStep || isNewToChecks(changes.added))) check();
+    if (contacts.ranks().any(lastBodyWent || stepLength() != checkedStep || isNewToChecks(changes.added)))
+        check();
 }
 
 /// A bridge pays for the drift of the step that comes, and Adams' formulas have the weights of equal steps.

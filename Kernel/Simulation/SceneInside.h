@@ -157,7 +157,7 @@ private:
 
     /// The same of changes in the run; @param others besides those of grains
     void refuseForRanks(const GrainChanges& changes, bool others);
-    void takeOverOnRanks(const GrainChanges& changes);
+    void takeOverOnRanks(const GrainChanges& changes, bool lastBodyWent);
     /// Throws InputError where the time step was changed in a run that needs steps of one length.
     void refuseOtherStep() const;
     /// Grains that were put outside, and all of them where the first wall with ends has come, are inside

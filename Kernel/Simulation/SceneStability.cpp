@@ -41,6 +41,7 @@ double Scene::stableStepOfContacts() {
 
 StabilityAdvice Scene::stabilityAdvice() {
     requireBegun("stabilityAdvice()");
+    contacts().ranks().requireAllGrains("advice on the stability and its figures");
     const ParticleStore& grains = particleHandler.store();
     const auto find = [&](const ContactOutlook& outlook) {
         return ContactBounds().find(contacts(), wallHandler, grains, scheme(), outlook);

@@ -99,6 +99,28 @@ TEST(SharedFeatures, theEnergyLedger) {
     expectSameOnRanks(300, cloud<Wet>(200.0, keepLedger), {3});
 }
 
+/// A box whose grains a hook slows down.
+class SlowedBox : public scenes::SettlingBox<Wet> {
+public:
+    SlowedBox() : scenes::SettlingBox<Wet>(6) { setQuiet(), keepEnergyLedger(); }
+
+private:
+    void actionsAfterTimeStep() override {
+        if (getNumberOfTimeSteps() % 7 != 0) return;
+        for (GrainReference grain : particleHandler) grain.setVelocity(0.999 * grain.getVelocity());
+    }
+};
+
+// What a hook has given to a grain, the ledger sees of its ghosts too.
+TEST(SharedFeatures, theEnergyLedgerWhereAHookSlowsGrains) {
+    expectSameOnRanks(600,
+                      [](auto&& use) {
+                          SlowedBox scene;
+                          use(scene);
+                      },
+                      {2, 3});
+}
+
 TEST(SharedFeatures, anIntegratorThatRemembers) {
     expectSameOnRanks(600, box<Smooth>(6, [](Scene& scene) {
                           scene.setIntegrator(integrators::adamsMoulton);

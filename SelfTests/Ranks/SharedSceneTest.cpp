@@ -5,7 +5,10 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/CoarseGraining/Clusters.h"
+#include "Kernel/CoarseGraining/SceneState.h"
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Simulation/PendularState.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/MovingBenchmark.h"
@@ -216,6 +219,23 @@ TEST(SharedScene, refusesWhatRanksCannotShareYet) {
     expectRefused([](auto& scene) { scene.addOutput(NoOutput()); }, "addOutput()");
     expectRefused([](auto& scene) { scene.setTimeMax(1), scene.solve(); }, "solve()");
     EXPECT_EQ(refusalOnRanks([](auto& scene) { scene.initialise(); }), "");
+}
+
+TEST(SharedScene, refusesToTellOfAllGrainsWhatARankCannotKnow) {
+    const auto expectRefused = [](auto&& ask) {
+        const std::string told = refusalOnRanks([&](auto& scene) {
+            scene.initialise();
+            scene.step(10);
+            static_cast<void>(ask(scene));
+        });
+        EXPECT_TRUE(support::isOneSentence(told)) << told;
+        EXPECT_TRUE(support::contains(told, "setRanks()")) << told;
+    };
+    expectRefused([](auto& scene) { return clustersOfContacts(scene); });
+    expectRefused([](auto& scene) { return clustersWithin(scene, 1e-5); });
+    expectRefused([](auto& scene) { return pendularState(scene, true); });
+    expectRefused([](auto& scene) { return scene.stabilityAdvice(); });
+    expectRefused([](auto& scene) { return stateOf(scene); });
 }
 
 TEST(SharedScene, refusesEachConflictInOneSentence) {
