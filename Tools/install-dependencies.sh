@@ -4,18 +4,20 @@
 #   Tools/install-dependencies.sh --check   only says what is missing; exit code 1 if something is
 #   With --readers also those with which self-tests read the files of a run; without them, these tests are skipped.
 #   With --python also those of the Python module and its tests.
+#   With --mpi also those for runs on several processes (PENDULAR_MPI), and their tests.
 #   With --clang also clang, with libFuzzer (presets asan-ubsan, tsan and fuzz), clang-format and clang-tidy.
 set -euo pipefail
 
-check=no readers=no python=no clang=no
+check=no readers=no python=no mpi=no clang=no
 for option in "$@"; do
     case $option in
         --check) check=yes ;;
         --readers) readers=yes ;;
         --python) python=yes ;;
+        --mpi) mpi=yes ;;
         --clang) clang=yes ;;
         *)
-            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--clang]" >&2
+            echo "usage: Tools/install-dependencies.sh [--check] [--readers] [--python] [--mpi] [--clang]" >&2
             exit 2
             ;;
     esac
@@ -50,6 +52,11 @@ python3-pandas||tables, for pendular.table()
 python3-matplotlib||pictures, for pendular.draw()
 python3-scipy||the calibration among the examples
 mypy|mypy|types of the module'
+fi
+if [[ $mpi == yes ]]; then
+    packages+='
+libopenmpi-dev||MPI, for several processes
+openmpi-bin|mpirun|starts them'
 fi
 if [[ $clang == yes ]]; then
     packages+='

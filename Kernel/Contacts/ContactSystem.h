@@ -43,6 +43,8 @@ public:
                  const SkinChoice& skinChoice, bool withLedger, GrainFilms* films = nullptr);
     /// The scene is one of several that share their grains: they are distributed where contacts are listed.
     void share(GrainSharing* with) { sharing = with; }
+    /// All grains and contacts come to all ranks, until refresh() distributes them again.
+    void gather(Grains& grains);
     /// Grains have been added at the end of the store. They are listed when bodies can have approached by the
     /// distance of the nearest of them to all others, so that most need no list of their own. False if one is
     /// so near that contacts must be listed at once, and the first time: lists keep their cells from then on.
@@ -240,7 +242,8 @@ private:
         if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
     }
     void listNow(Grains& grains, bool keepsBridges);
-    void listAgain(Grains& grains, bool keepsBridges = true, double reach = 0);
+    /// @param shares the grains are distributed over the ranks, which had all of them
+    void listAgain(Grains& grains, bool keepsBridges = true, double reach = 0, bool shares = false);
     /// Lists contacts again, with remembered ones whose memory is in the store; returns how many of these are
     /// listed again.
     std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true,
@@ -249,6 +252,7 @@ private:
     [[nodiscard]] bool newListPays();
     /// Grains go to the ranks that own them, with what their contacts remember.
     void distribute(Grains& grains, RememberedContacts& remembered, double reach);
+    void gatherWatches();
     double endContact(Grains& grains, std::uint32_t contact);
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
     /// act in the first half of the next one. Those of rigid bodies alike.

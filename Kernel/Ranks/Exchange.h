@@ -1,6 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Ranks/Message.h"
@@ -17,8 +21,21 @@ public:
     [[nodiscard]] virtual std::size_t count() const = 0;
     /// One message to each rank, and one from each, also from itself.
     [[nodiscard]] virtual std::vector<Message> swap(std::vector<Message> toEach) = 0;
+    /// The same where each knows how many bytes come from each, none for most: these cost nothing then.
+    [[nodiscard]] virtual std::vector<Message> swapWithNeighbours(
+        std::vector<Message> toEach, const std::vector<std::size_t>& /*bytesFromEach*/) {
+        return swap(std::move(toEach));
+    }
     /// The largest of what the ranks give.
     [[nodiscard]] virtual double largest(double own) = 0;
+    /// Each of these integers becomes the sum of those of all ranks.
+    virtual void addUp(std::span<std::int64_t> integers) {
+        Message message;
+        for (const std::int64_t integer : integers) message.add(integer);
+        std::ranges::fill(integers, 0);
+        for (Message& from : swap(std::vector<Message>(count(), message)))
+            for (std::int64_t& integer : integers) integer += from.take<std::int64_t>();
+    }
     /// What each rank gives, in the order of ranks.
     template <class Value>
     [[nodiscard]] std::vector<Value> ofAll(const Value& own) {

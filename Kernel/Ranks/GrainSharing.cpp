@@ -22,7 +22,7 @@ void takeRow(Message& message, ParticleStore& grains, std::size_t at) {
 
 void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, double reach,
                               const Luggage& luggage) {
-    if (!isDistributed || options.cutsWander) cutAnew(grains, box);
+    if (!isDistributed || options.cutsWander || areImbalanced(grains, luggage)) cutAnew(grains, box, luggage);
     migrate(grains, box, luggage);
     isDistributed = true;
     findGhosts(grains, box, reach);
@@ -30,13 +30,25 @@ void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, dou
     done.ghosts += grains.size() - grains.ownSize();
 }
 
+bool GrainSharing::areImbalanced(const ParticleStore& grains, const Luggage& luggage) {
+    constexpr double worthIt = 1000;  // grains and contacts of a rank
+    done.load = 0;
+    for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
+        if (!grains.isGap(k)) done.load += luggage.weightOf(k);
+    const std::vector<double> loads = exchange.ofAll(done.load);
+    const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / static_cast<double>(loads.size());
+    return mean > worthIt && std::ranges::max(loads) > 1.1 * mean;
+}
+
 /// Where all ranks have all grains, each gives its share of the points.
-void GrainSharing::cutAnew(const ParticleStore& grains, const PeriodicBox& box) {
+void GrainSharing::cutAnew(const ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage) {
     const std::size_t first = isDistributed ? 0 : exchange.rank(),
                       step = isDistributed ? 1 : exchange.count();
-    std::vector<SlabCuts::Point> points;
+    std::vector<Bisection::Point> points;
     for (std::size_t k = first; k < grains.ownSize(); k += step)
-        if (!grains.isGap(k)) points.push_back({box.wrap(grains.translation[k].position), 1});
+        if (!grains.isGap(k))
+            points.push_back(
+                {box.wrap(grains.translation[k].position), luggage.weightOf(static_cast<std::uint32_t>(k))});
     std::vector<double> shares(exchange.count(), 1);
     if (options.cutsWander)
         for (std::size_t q = 0; q < shares.size(); ++q)
@@ -62,11 +74,30 @@ void GrainSharing::migrate(ParticleStore& grains, const PeriodicBox& box, const 
     luggage.pack(owners, toEach);
     done.migrated += leaving.size();
     grains.keepOnly(staying);
-    for (Message& message : exchange.swap(std::move(toEach))) {
-        for (auto left = message.take<std::uint32_t>(); left > 0; --left)
-            takeRow(message, grains, grains.addPlace(message.take<std::uint32_t>()));
-        luggage.unpack(message);
-    }
+    for (Message& message : exchange.swap(std::move(toEach))) takeGrains(message, grains, luggage);
+}
+
+void GrainSharing::takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage) {
+    for (auto left = message.take<std::uint32_t>(); left > 0; --left)
+        takeRow(message, grains, grains.addPlace(message.take<std::uint32_t>()));
+    luggage.unpack(message);
+}
+
+void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
+        if (!grains.isGap(k)) own.push_back(k);
+    Message message;
+    message.add(static_cast<std::uint32_t>(own.size()));
+    for (const std::uint32_t k : own) addRow(message, grains, k);
+    luggage.packAll(message);
+    std::vector<Message> toEach(exchange.count(), message);
+    toEach[exchange.rank()] = {};  // it has them
+    grains.keepOnly(own);
+    isDistributed = false;
+    std::vector<Message> fromEach = exchange.swap(std::move(toEach));
+    for (std::size_t q = 0; q < exchange.count(); ++q)
+        if (q != exchange.rank()) takeGrains(fromEach[q], grains, luggage);
 }
 
 void GrainSharing::findGhosts(ParticleStore& grains, const PeriodicBox& box, double reach) {
@@ -114,6 +145,12 @@ void GrainSharing::findPlaces(const ParticleStore& grains) {
     gotPlaces = placesOf(got);
 }
 
+/// What exchangeMotion() sends of one.
+static std::size_t bytesOfGhost(const ParticleStore& grains, bool withAccelerations) {
+    const std::size_t vectors = grains.hasSpin ? 3 : 2, accelerations = grains.hasSpin ? 2 : 1;
+    return (vectors + (withAccelerations ? accelerations : 0)) * sizeof(Vector<double>);
+}
+
 void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations) {
     if (!isDistributed) return;
     const auto forEachPart = [&](std::uint32_t place, auto&& use) {
@@ -127,7 +164,10 @@ void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations)
     for (std::size_t q = 0; q < exchange.count(); ++q)
         for (const std::uint32_t place : sentPlaces[q])
             forEachPart(place, [&](const Vector<double>& part) { toEach[q].add(part); });
-    std::vector<Message> fromEach = exchange.swap(std::move(toEach));
+    std::vector<std::size_t> bytesFromEach;
+    for (const std::vector<std::uint32_t>& places : gotPlaces)
+        bytesFromEach.push_back(places.size() * bytesOfGhost(grains, withAccelerations));
+    std::vector<Message> fromEach = exchange.swapWithNeighbours(std::move(toEach), bytesFromEach);
     for (std::size_t q = 0; q < exchange.count(); ++q)
         for (const std::uint32_t place : gotPlaces[q])
             forEachPart(place, [&](Vector<double>& part) { fromEach[q].take(part); });

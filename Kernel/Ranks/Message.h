@@ -3,13 +3,19 @@
 #include <cstddef>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace pendular {
 
 /// Bytes from one rank to another: what is added is taken in the same order.
 class Message {
 public:
+    Message() = default;
+    /// Of bytes that have come from another rank.
+    explicit Message(std::string from) : bytes(std::move(from)) {}
+
     template <class Value>
     void add(const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value>);
@@ -29,6 +35,7 @@ public:
     }
     [[nodiscard]] bool isTaken() const { return taken == bytes.size(); }
     [[nodiscard]] std::size_t size() const { return bytes.size(); }
+    [[nodiscard]] std::string_view all() const { return bytes; }
 
 private:
     std::string bytes;

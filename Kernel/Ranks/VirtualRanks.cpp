@@ -4,6 +4,8 @@
 #include <thread>
 #include <utility>
 
+#include "Kernel/Base/SilentRank.h"
+
 namespace pendular {
 
 class VirtualRanks::Member : public Exchange {
@@ -40,6 +42,7 @@ void VirtualRanks::run(const std::function<void(Exchange&)>& program) {
     hasFailed = false;
     std::vector<std::exception_ptr> failures(ranks);
     const auto runOne = [&](std::size_t rank) {
+        setSilentThread(rank > 0);
         try {
             Member member(*this, rank);
             program(member);

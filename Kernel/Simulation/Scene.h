@@ -144,9 +144,11 @@ public:
     void setNumberOfThreads(int count);
     /// The scene shares its grains with other ranks (Kernel/Ranks): each sets up all of it, and from
     /// initialise() on has its own grains only; the results do not depend on the number of ranks. What a
-    /// scene tells of grains and contacts is that of its own. Only initialise() and step() run it so far.
-    /// Before the run; the exchange must outlive it.
+    /// scene tells of grains and contacts is that of its own, until gather(). Before the run; the exchange
+    /// must outlive it. Where mpirun or srun has started several processes, solve(), runTo() and runSteps()
+    /// share the scene without this call.
     void setRanks(Exchange& exchange, const RankOptions& options);
+    void gather() override;
     /// What this rank has done; nothing without others.
     [[nodiscard]] RankCounts rankCounts() const;
     /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
@@ -274,6 +276,8 @@ private:
     void advanceByStep(bool another) override;
     void tellEvents() override;
     [[nodiscard]] RunNumbers numbers() const override;
+    [[nodiscard]] bool isShared() const override;
+    [[nodiscard]] double largestOfRanks(double own) override;
     void visitAll(StateArchive& archive) override;
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;

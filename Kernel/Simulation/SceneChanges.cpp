@@ -76,10 +76,11 @@ void Scene::Inside::takeOverChanges() {
         if (!newLaws && !changedWalls && !newStep && !lastBodyWent &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
-        if (sharing)
+        if (isDistributed())
             throw InputError(
                 "Simulation: grains, walls, species and the time step of a scene on several ranks "
-                "(setRanks()) cannot be changed in a run yet; run it on one rank.");
+                "(setRanks()) cannot be changed in a step yet; call gather() before, between two parts of "
+                "the run (runTo()) or in a hook, or run it on one rank.");
         const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
         const bool bodiesCame = scene.inletHandler.bringBodies() &&
                                 areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest()),

@@ -59,6 +59,15 @@ public:
     /// The context of a step that begins now.
     StepContext& contextNow(double length);
 
+    // SceneRanks.cpp
+
+    /// Whether each rank has its own grains only.
+    [[nodiscard]] bool isDistributed() const { return sharing && sharing->areDistributed(); }
+    /// All grains and contacts come to all ranks, until the next step.
+    void gather();
+    /// Of all ranks together; all must call it.
+    [[nodiscard]] RunNumbers numbersOfAll();
+
     // SceneChanges.cpp
 
     /// Checks as at set-up what hooks have changed since the last step; it holds from now on. Throws RunError

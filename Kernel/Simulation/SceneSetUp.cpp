@@ -106,14 +106,6 @@ Features Scene::Inside::featuresOfScene() const {
 }
 
 void Scene::Inside::refuseForRanks() const {
-    if (scene.hasCourse())
-        throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) writes no files yet; call initialise() and "
-            "step() instead of solve().");
-    if (scene.isRestarted())
-        throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) cannot go on from a restart file yet; run it "
-            "on one rank.");
     if (gapOfFirstBridges > 0)
         throw InputError(
             "Simulation: a scene on several ranks (setRanks()) cannot be joined at its start yet; leave "

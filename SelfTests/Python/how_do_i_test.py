@@ -8,7 +8,8 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "Tools/Python/HOW-DO-I.md").read_text()
 # A Python script needs no project; the last one is about MercuryDPM's C++.
 ONLY_CPP = {"Write a driver outside this repository", "Port a driver from MercuryDPM", "Add an output of my own",
-            "Bond grains, until the bonds break", "Let grains conduct heat", "Choose how soft the grains are"}
+            "Bond grains, until the bonds break", "Let grains conduct heat", "Choose how soft the grains are",
+            "Run on several machines"}
 
 
 def sections():
