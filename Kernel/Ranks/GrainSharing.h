@@ -52,7 +52,8 @@ public:
     /// are found again. The first time all ranks have all grains.
     /// @param reach m, of surfaces between which contacts must be listed
     void distribute(ParticleStore& grains, const PeriodicBox& box, double reach, const Luggage& luggage);
-    /// All ranks get all grains, as before the first list.
+    /// All ranks get all grains, as before the first list. What each has then is that of the scene: nothing
+    /// is to be summed over ranks until the next list.
     void gather(ParticleStore& grains, const Luggage& luggage);
     /// After grains have been sorted.
     void findPlaces(const ParticleStore& grains);

@@ -110,6 +110,7 @@ void Run::beginRun() {
         setUp();
     } catch (const std::exception& problem) {
         if (begun) stopped = problem.what();
+        if (isShared()) failOnRanks(problem.what());
         leaveCourse();
         throw;
     } catch (...) {
