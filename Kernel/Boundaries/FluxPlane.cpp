@@ -65,7 +65,7 @@ void FluxPlaneHandler::findCrossings(const Plane& plane, const ParticleStore& gr
         findCrossingsAtRest(plane, grains);
     } else if (step > 0) {
         const FluxInFlow flow(boxFrom, periodic, step, {plane.normal, plane.offset, plane.axis});
-        for (std::uint32_t k = 0; k < grains.size(); ++k) {
+        for (std::uint32_t k = 0; k < grains.ownSize(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
             if (!(grain.radius > 0) || grains.bodies.contains(grains.identity[k])) continue;
             flow.forEachPassage(from[k], grain.position, [&](double times, const Vector<double>& way) {
@@ -92,7 +92,7 @@ void FluxPlaneHandler::findCrossingsAtRest(const Plane& plane, const ParticleSto
         const auto timesOf = [&](const Vector<double>& before, const Vector<double>& now) {
             return imagesBehind(dot(normal, now) - offset) - imagesBehind(dot(normal, before) - offset);
         };
-        for (std::uint32_t k = 0; k < grains.size(); ++k) {
+        for (std::uint32_t k = 0; k < grains.ownSize(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
             const double times = timesOf(from[k], grain.position);
             if (times != 0 && grain.radius > 0 && !grains.bodies.contains(grains.identity[k]))
@@ -120,8 +120,14 @@ void FluxPlaneHandler::OneWay::add(const Crossing& crossing, double ofMass, doub
     liquid.add(times * ofLiquid);
 }
 
+void FluxPlaneHandler::OneWay::addOfOthers(const AllRanks& ranks) {
+    number = ranks.sum(number);
+    ranks.addUp({&mass, &liquid, &momentum.x, &momentum.y, &momentum.z});
+}
+
 void FluxPlaneHandler::count(Plane& plane, ParticleHandler& particles, double step,
-                             const std::function<double(std::uint32_t)>& liquidOf) const {
+                             const std::function<double(std::uint32_t)>& liquidOf,
+                             const AllRanks& ranks) const {
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     OneWay forwards, backwards;
     for (const Crossing& crossing : crossings) {
@@ -135,6 +141,7 @@ void FluxPlaneHandler::count(Plane& plane, ParticleHandler& particles, double st
             liquid += liquidOf(grains.place[member.grain]);
         way.add(crossing, grains.bodies[crossing.body].mass, liquid, step);
     }
+    for (OneWay* const way : {&forwards, &backwards}) way->addOfOthers(ranks);
     FluxCount& all = plane.count;
     all.forwards += forwards.number;
     all.backwards += backwards.number;
@@ -147,11 +154,12 @@ void FluxPlaneHandler::count(Plane& plane, ParticleHandler& particles, double st
 }
 
 void FluxPlaneHandler::afterMotion(ParticleHandler& particles, const PeriodicBox& periodic, double step,
-                                   const std::function<double(std::uint32_t)>& liquidOf) {
+                                   const std::function<double(std::uint32_t)>& liquidOf,
+                                   const AllRanks& ranks) {
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     for (Plane& plane : planes) {
         findCrossings(plane, grains, periodic, step);
-        if (!crossings.empty()) count(plane, particles, step, liquidOf);
+        if (ranks.any(!crossings.empty())) count(plane, particles, step, liquidOf, ranks);
     }
 }
 

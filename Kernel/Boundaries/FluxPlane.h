@@ -7,6 +7,7 @@
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Ranks/AllRanks.h"
 
 namespace pendular {
 
@@ -59,9 +60,9 @@ public:
     /// beforeMotion() is called before the grains of a step and their images move, afterMotion() when they
     /// have.
     void beforeMotion(const ParticleStore& grains, const PeriodicBox& periodic);
-    /// @param step s; @param liquidOf the grain at a place, m^3
+    /// @param step s; @param liquidOf the grain at a place, m^3; @param ranks that share the grains
     void afterMotion(ParticleHandler& particles, const PeriodicBox& periodic, double step,
-                     const std::function<double(std::uint32_t)>& liquidOf);
+                     const std::function<double(std::uint32_t)>& liquidOf, const AllRanks& ranks = {});
     /// The step has failed: what it counted is taken back.
     void takeBack();
     void visitState(StateArchive& archive);
@@ -92,11 +93,12 @@ private:
         ExactVectorSum momentum;  // kg m/s
 
         void add(const Crossing& crossing, double mass, double liquid, double step);
+        void addOfOthers(const AllRanks& ranks);
     };
     /// Adds the crossings that have been found to the count of a plane: sums of a step are exact, so that it
     /// does not matter which comes first.
     void count(Plane& plane, ParticleHandler& particles, double step,
-               const std::function<double(std::uint32_t)>& liquidOf) const;
+               const std::function<double(std::uint32_t)>& liquidOf, const AllRanks& ranks) const;
 
     std::vector<Plane> planes;
     std::vector<Vector<double>> from,

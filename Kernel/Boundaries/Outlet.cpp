@@ -9,6 +9,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Parallel.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
 #include "Kernel/State/StateArchive.h"
 #include "Kernel/Walls/RigidWall.h"
@@ -117,8 +118,9 @@ void OutletHandler::follow(const PeriodicBox& periodic, double time) {
     }
 }
 
-void OutletHandler::letOut(ParticleHandler& particles, BodyHandler& bodies, const PeriodicBox& periodic,
-                           double time, int threads) {
+std::vector<double> OutletHandler::letOut(ParticleHandler& particles, BodyHandler& bodies,
+                                          ContactSystem& contacts, const PeriodicBox& periodic, double time,
+                                          int threads) {
     follow(periodic, time);
     const ParticleStore& grains = ParticleHandler::Inside::grainsInStep(particles);
     if (longestAge > 0) noteArrivals(grains.nextIdentity(), time);
@@ -128,8 +130,39 @@ void OutletHandler::letOut(ParticleHandler& particles, BodyHandler& bodies, cons
     findGrains(grains, tooYoung, threads);
     findBodies(grains, tooYoung);
     std::ranges::sort(leaving);
-    for (const Leaving& one : leaving) remove(one, particles, bodies);
+    std::vector<double> stored;
+    if (contacts.ranks().areSeveral()) {
+        stored = letOutOfRanks(particles, bodies, contacts);
+    } else {
+        for (const Leaving& one : leaving)
+            if (const auto gone = measure(one, particles, bodies)) remove(*gone, particles, bodies);
+    }
     for (Outlet& outlet : outlets) outlet.tally.endStep();
+    return stored;
+}
+
+std::vector<double> OutletHandler::letOutOfRanks(ParticleHandler& particles, BodyHandler& bodies,
+                                                 ContactSystem& contacts) {
+    std::vector<Gone> own;
+    for (const Leaving& one : leaving) {
+        if (!own.empty() && own.back().identity == one.identity) continue;  // it goes through an earlier one
+        if (const auto gone = measure(one, particles, bodies)) own.push_back(*gone);
+    }
+    std::vector<Gone> all = contacts.ranks().gather(own);
+    if (all.empty()) return {};
+    std::ranges::sort(all, {}, &Gone::identity);
+    particles.finishStep();
+    std::uint32_t number = 0;
+    for (const Gone& gone : all) {
+        contacts.beginRemoval(number++);
+        if (particles.contains(gone.identity)) {
+            remove(gone, particles, bodies);
+        } else {
+            contacts.removeGhost(particles.store(), gone.identity, gone.body);
+            count(gone);
+        }
+    }
+    return contacts.finishRemovals(particles.store());
 }
 
 void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung,
@@ -137,7 +170,7 @@ void OutletHandler::findGrains(const ParticleStore& grains, std::span<const std:
     found.resize(static_cast<std::size_t>(threads));
     for (auto& own : found) own.clear();
     inParts(
-        grains.size(), threads,
+        grains.ownSize(), threads,
         [&](int part, std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k)
                 for (std::uint32_t o = 0; o < outlets.size(); ++o) {
@@ -167,23 +200,30 @@ void OutletHandler::findBodies(const ParticleStore& grains, std::span<const std:
     }
 }
 
-void OutletHandler::remove(const Leaving& one, ParticleHandler& particles, BodyHandler& bodies) {
-    if (!particles.contains(one.identity)) return;  // it has gone through an earlier one
-    Outlet& outlet = outlets[one.outlet];
+std::optional<OutletHandler::Gone> OutletHandler::measure(const Leaving& one, ParticleHandler& particles,
+                                                          BodyHandler& bodies) const {
+    if (!particles.contains(one.identity)) return {};  // it has gone through an earlier one
+    const Outlet& outlet = outlets[one.outlet];
     const GrainReference grain = particles.getObject(one.identity);
-    if (outlet.condition && !outlet.condition(grain)) return;
-    const int species = grain.getSpeciesIndex();
-    double radius = grain.getRadius(), mass;
+    if (outlet.condition && !outlet.condition(grain)) return {};
+    Gone gone{one.identity, one.outlet, one.body, grain.getSpeciesIndex(), grain.getRadius(), 0};
     if (one.body == RigidBodies::none) {
-        mass = particles.massOf(radius, species);
-        particles.removeObject(one.identity);
+        gone.mass = particles.massOf(gone.radius, gone.species);
     } else {
-        const BodyReference body = bodies.getObject(one.body);
-        radius = std::cbrt(body.getVolume() / (4 * std::numbers::pi / 3));
-        mass = particles.store().bodies.dryMassOf(particles.store().bodies.find(one.body));
-        bodies.removeObject(one.body);
+        gone.radius = std::cbrt(bodies.getObject(one.body).getVolume() / (4 * std::numbers::pi / 3));
+        gone.mass = particles.store().bodies.dryMassOf(particles.store().bodies.find(one.body));
     }
-    outlet.tally.add(static_cast<std::size_t>(species), radius, mass);
+    return gone;
+}
+
+void OutletHandler::remove(const Gone& one, ParticleHandler& particles, BodyHandler& bodies) {
+    if (one.body == RigidBodies::none) particles.removeObject(one.identity);
+    else bodies.removeObject(one.body);
+    count(one);
+}
+
+void OutletHandler::count(const Gone& one) {
+    outlets[one.outlet].tally.add(static_cast<std::size_t>(one.species), one.radius, one.mass);
 }
 
 void OutletHandler::visitArrivals(StateArchive& archive) {

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "Kernel/Boundaries/GrainTally.h"
@@ -11,6 +12,8 @@
 #include "Kernel/Particles/ParticleHandler.h"
 
 namespace pendular {
+
+class ContactSystem;
 
 /// A place at which grains leave a scene: each one whose centre is in a region, or beyond a plane, at the end
 /// of a step is counted and removed; in a scene that repeats itself, each one of which an image is there. A
@@ -74,10 +77,11 @@ public:
     /// which the scene repeats itself: all grains have images beyond it.
     /// @param atSetUp the periodic box then, which strain changes
     void begin(const PeriodicBox& atSetUp, const ParticleStore& grains, double time);
-    /// Lets grains out at the end of a step, at a time (s), in the order of identities. Throws RunError where
-    /// the scene has become shorter than a region.
-    void letOut(ParticleHandler& particles, BodyHandler& bodies, const PeriodicBox& periodic, double time,
-                int threads);
+    /// Lets grains out at the end of a step, at a time (s), in the order of identities, from all ranks.
+    /// Returns the energies (J) that were stored in their contacts, where ranks share the grains. Throws
+    /// RunError where the scene has become shorter than a region.
+    std::vector<double> letOut(ParticleHandler& particles, BodyHandler& bodies, ContactSystem& contacts,
+                               const PeriodicBox& periodic, double time, int threads);
     void visitState(StateArchive& archive);
 
 private:
@@ -104,7 +108,20 @@ private:
     /// @param tooYoung of each outlet, as of firstTooYoung()
     void findGrains(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung, int threads);
     void findBodies(const ParticleStore& grains, std::span<const std::uint32_t> tooYoung);
-    void remove(const Leaving& one, ParticleHandler& particles, BodyHandler& bodies);
+    /// One that leaves, as it is counted.
+    struct Gone {
+        std::uint32_t identity, outlet, body;
+        int species;
+        double radius, mass;  // m, kg
+    };
+    /// None if it has gone already, or the condition of the outlet is not met.
+    [[nodiscard]] std::optional<Gone> measure(const Leaving& one, ParticleHandler& particles,
+                                              BodyHandler& bodies) const;
+    /// Removes it, and counts it.
+    void remove(const Gone& one, ParticleHandler& particles, BodyHandler& bodies);
+    std::vector<double> letOutOfRanks(ParticleHandler& particles, BodyHandler& bodies,
+                                      ContactSystem& contacts);
+    void count(const Gone& one);
     void visitArrivals(StateArchive& archive);
 
     std::vector<Outlet> outlets;

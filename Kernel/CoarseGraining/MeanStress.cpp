@@ -2,6 +2,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Contacts/BodyArms.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Math/ExactSum.h"
@@ -24,7 +25,9 @@ public:
         rows[1].add(a.y * b);
         rows[2].add(a.z * b);
     }
-    [[nodiscard]] Eigen::Matrix3d value() const {
+    /// Of all ranks.
+    [[nodiscard]] Eigen::Matrix3d valueOf(const AllRanks& ranks) {
+        for (ExactVectorSum& row : rows) ranks.addUp(row);
         Eigen::Matrix3d sum;
         for (int k = 0; k < 3; ++k) sum.row(k) = toEigen(rows[static_cast<std::size_t>(k)].value());
         return sum;
@@ -56,6 +59,9 @@ MeanStress meanStress(const Scene& scene, double volume) {
         mass.add(own);
         momentum.add(own * velocity);
     });
+    const AllRanks& ranks = scene.contacts().ranks();
+    ranks.addUp({&mass});
+    ranks.addUp(momentum);
     const Vector<double> mean = (1 / mass.value()) * momentum.value();
     DyadSum kinetic, contact, capillary, viscous;  // J
     forEachFree([&](double own, const Vector<double>& velocity) {
@@ -68,10 +74,10 @@ MeanStress meanStress(const Scene& scene, double volume) {
         capillary.add(pull, branch);
         (seen.touching ? contact : viscous).add(seen.force - pull, branch);
     }
-    return {.kinetic = kinetic.value() / volume,
-            .contact = contact.value() / volume,
-            .capillary = capillary.value() / volume,
-            .viscous = viscous.value() / volume};
+    return {.kinetic = kinetic.valueOf(ranks) / volume,
+            .contact = contact.valueOf(ranks) / volume,
+            .capillary = capillary.valueOf(ranks) / volume,
+            .viscous = viscous.valueOf(ranks) / volume};
 }
 
 MeanStress meanStress(const Scene& scene) {

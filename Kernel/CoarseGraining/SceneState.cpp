@@ -171,6 +171,10 @@ void joinBodies(GrainState& state, const ParticleStore& grains, const std::vecto
 }  // namespace
 
 void takeState(const Scene& scene, GrainState& state, FieldContent content) {
+    if (scene.contacts().ranks().areSeveral())
+        throw InputError(
+            "Fields: a scene on several ranks (setRanks()) has the grains of one of them only; take "
+            "meanStress(), or run it on one rank.");
     const ParticleStore& grains = scene.particleHandler.store();
     state.grains.clear(), state.contacts.clear(), state.branches.clear();
     state.time = scene.getTime();

@@ -24,9 +24,9 @@ public:
     /// wall
     [[nodiscard]] Vector<double> shiftOf(const ObservedContact& seen) const {
         if (arms.empty()) return seen.shift;
-        const std::uint32_t first = grains.place[seen.particle1];
+        const std::uint32_t first = grains.placeOf(seen.particle1);
         if (seen.wall >= 0) return seen.point - grains.translation[first].position + arms[first];
-        return seen.shift + arms[first] - arms[grains.place[seen.particle2]];
+        return seen.shift + arms[first] - arms[grains.placeOf(seen.particle2)];
     }
 
 private:

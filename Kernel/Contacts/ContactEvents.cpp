@@ -69,19 +69,20 @@ void ContactEvents::after(ContactStore& store, const Bucket& bucket,
         forEachChange(states[b - bucket.begin], store.states[b], [&](unsigned lane, Kind kind) {
             const std::uint32_t contact = b * Pack::lanes + lane;
             if (watching) changesOfStep.push_back({contact, kind});
-            if (listening) events.push_back(eventOf(store, bucket, contact, identity, kind));
+            if (isHeardHere(store, contact))
+                events.push_back(eventOf(store, bucket, contact, identity, kind));
         });
 }
 
 void ContactEvents::add(const ContactStore& store, std::uint32_t contact,
                         const std::vector<std::uint32_t>& identity, Kind kind) {
-    if (listening)
+    if (isHeardHere(store, contact))
         events.push_back(eventOf(store, store.bucketOf(contact / Pack::lanes), contact, identity, kind));
 }
 
 void ContactEvents::end(const ContactStore& store, std::uint32_t contact,
                         const std::vector<std::uint32_t>& identity) {
-    if (!listening) return;
+    if (!isHeardHere(store, contact)) return;
     const std::size_t block = contact / Pack::lanes;
     BlockState ended = store.states[block];
     for (std::uint8_t* bits : {&ended.touching, &ended.bridged})

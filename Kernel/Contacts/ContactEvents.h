@@ -17,6 +17,10 @@ public:
     void listen(bool on) { listening = on; }
     [[nodiscard]] bool isListening() const { return listening; }
 
+    /// Places of grains from there on are those of ghosts: events of contacts of which one is body 1 are
+    /// those of another rank.
+    void setOwnPlaces(std::size_t count) { ownPlaces = count; }
+
     /// Keeps the changes of each step, for physics that follows from them.
     void watch(bool on) { watching = on; }
     [[nodiscard]] bool areListenedTo() const { return listening; }
@@ -62,12 +66,16 @@ public:
 
 private:
     void startColumns(ContactStore& store, const Bucket& bucket) const;
+    [[nodiscard]] bool isHeardHere(const ContactStore& store, std::uint32_t contact) const {
+        return listening && store.blocks[contact / Pack::lanes].first[contact % Pack::lanes] < ownPlaces;
+    }
     [[nodiscard]] ContactEvent eventOf(const ContactStore& store, const Bucket& bucket, std::uint32_t contact,
                                        const std::vector<std::uint32_t>& identity,
                                        ContactEvent::Kind kind) const;
 
     const WallHandler* walls = nullptr;
     bool listening = false, watching = false;
+    std::size_t ownPlaces = ~std::size_t{0};
     std::vector<double> startsOfColumns;
     std::vector<BlockState> states;  // of a bucket before the step
     std::vector<ContactEvent> events, early;

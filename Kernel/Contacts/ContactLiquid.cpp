@@ -58,11 +58,13 @@ void ContactLiquid::bookChange(ContactStore& store, const ContactLaws& laws, con
     };
     const double change = energyOf(after.data()) - energyOf(before);
     store.memory.energies[slot].adhesionWork += change;
+    if (!countsHere(store, grains, contact)) return;
     (isMigration ? byMigration : byDrying).add(change);
 }
 
 LiquidEnergy ContactLiquid::takeEnergy() {
     if (!moves()) return {};
+    ranks.addUp({&byMigration, &byDrying});
     const LiquidEnergy taken{byMigration.value(), byDrying.value()};
     byMigration = byDrying = {};
     return taken;
@@ -107,8 +109,12 @@ bool ContactLiquid::formsAtFilms(const ContactLaws& laws) const {
 }
 
 double ContactLiquid::largestFilmContact(const ParticleStore& grains) const {
+    return ranks.largest(largestFilmContactHere(grains));
+}
+
+double ContactLiquid::largestFilmContactHere(const ParticleStore& grains) const {
     double largest = 0;
-    for (const std::uint32_t place : grains.place)
+    for (std::uint32_t place = 0; place < grains.size(); ++place)
         largest = std::max(largest, filmsOfGrains->thicknessOf(grains, place));
     return 2 * largest;
 }
@@ -131,7 +137,7 @@ const std::vector<FilmContact>& ContactLiquid::findFilmContacts(const ContactSto
                                                                 double approached) {
     filmContacts.clear();
     if (!anyAtFilms) return filmContacts;
-    const double largest = largestFilmContact(grains), reach = (1 + 1e-12) * largest;
+    const double largest = largestFilmContactHere(grains), reach = (1 + 1e-12) * largest;
     for (std::size_t k = 0; k < store.buckets.size(); ++k) {
         const Bucket& bucket = store.buckets[k];
         if (!rules[k].atFilms || rules[k].largest == 0) continue;
@@ -180,14 +186,24 @@ void ContactLiquid::lookForFilms(const ContactStore& store, const LiquidLaws& la
     filmContacts.push_back({contact, gap, std::min(meets, before)});
 }
 
+void ContactLiquid::look(const ParticleStore& grains, std::vector<std::uint32_t> identities) {
+    if (ranks.areSeveral()) {
+        std::vector<std::uint32_t> left;
+        for (const std::uint32_t identity : identities)
+            if (!grains.place.contains(identity)) left.push_back(identity);
+        const std::vector<std::uint32_t> ofAll = ranks.gather(left);
+        identities.insert(identities.end(), ofAll.begin(), ofAll.end());
+    }
+    for (const std::uint32_t identity : identities)
+        if (grains.place.contains(identity)) places.push_back(grains.place[identity]);
+}
+
 void ContactLiquid::move(ContactStore& store, const LiquidLaws& laws, ParticleStore& grains,
                          ContactEvents& events) {
     places.clear(), ruptured.clear(), formed.clear();
-    const auto look = [&](const std::vector<std::uint32_t>& identities) {
-        for (const std::uint32_t identity : identities)
-            if (grains.place.contains(identity)) places.push_back(grains.place[identity]);
-    };
-    look(looked), look(filmsOfGrains->takeWetted());
+    const std::vector<std::uint32_t> wetted = filmsOfGrains->takeWetted();
+    looked.insert(looked.end(), wetted.begin(), wetted.end());
+    look(grains, looked);
     ListedLiquid liquid = of(store, grains);
     for (const ContactChange& change : events.changes()) {
         if (!liquid.moves(change.contact)) continue;
@@ -199,7 +215,8 @@ void ContactLiquid::move(ContactStore& store, const LiquidLaws& laws, ParticleSt
         if (change.kind != Kind::TouchBegins && change.kind != Kind::TouchEnds) continue;
         // Where neither has a film and no wall is wet, there is nothing to draw.
         const auto lookAt = [&](std::uint32_t grain) {
-            if (anyWetWall || filmsOfGrains->of(grains, grain) > 0) places.push_back(grain);
+            if (liquid.isOwn(grain) && (anyWetWall || filmsOfGrains->of(grains, grain) > 0))
+                places.push_back(grain);
         };
         lookAt(liquid.grainOf(change.contact, 0));
         if (!liquid.isAtWall(change.contact)) lookAt(liquid.grainOf(change.contact, 1));
@@ -209,7 +226,7 @@ void ContactLiquid::move(ContactStore& store, const LiquidLaws& laws, ParticleSt
         if (!liquid.isAtWall(met.contact)) places.push_back(liquid.grainOf(met.contact, 1));
     }
     looked.clear();
-    if (places.empty() && ruptured.empty()) return;
+    if (!ranks.any(!places.empty() || !ruptured.empty())) return;
     step.run(liquid, ruptured, places);
     remember(grains);
     for (const std::uint32_t contact : formed) {
@@ -276,10 +293,11 @@ void ContactLiquid::dryBridges(ContactStore& store, const ContactLaws& laws, Par
         const double loss =
             lost(volume - left, std::uint64_t{grains.identity[first]} << 32 | partner, 1 + wall);
         volume -= loss;
-        evaporated += loss;
         changed.push_back(contact);
+        const bool counts = countsHere(store, grains, contact);
+        if (counts) evaporated += loss;
         if (volume > 0) continue;
-        ++driedOut;  // where it touches it may form again
+        if (counts) ++driedOut;  // where it touches it may form again
         places.push_back(first);
         if (!isAtWall) places.push_back(second);
     }
@@ -310,7 +328,8 @@ bool ContactLiquid::giveToWall(const ContactLaws& laws, std::size_t wall, double
 
 /// Grains are remembered by identity: places change when contacts are listed again.
 void ContactLiquid::remember(const ParticleStore& grains) {
-    for (const std::uint32_t place : places) looked.push_back(grains.identity[place]);
+    for (const std::uint32_t place : places)
+        if (place < grains.ownSize()) looked.push_back(grains.identity[place]);
 }
 
 void ContactLiquid::release(ContactStore& store, ParticleStore& grains, std::uint32_t contact) {
@@ -341,12 +360,18 @@ LiquidLedger ContactLiquid::ledger(const ContactStore& store, const ParticleStor
     LiquidLedger found{.films = filmsOfGrains->sum(grains),
                        .removed = filmsOfGrains->removed(),
                        .evaporated = evaporated,
-                       .initial = filmsOfGrains->initial(),
+                       .initial = filmsOfGrains->initial(),  // on each rank that of all
                        .absorbed = filmsOfGrains->absorbed(),
                        .emitted = filmsOfGrains->emitted()};
-    for (std::size_t slot = 0; slot < store.memory.slotCount(); ++slot)
-        found.bridges += store.memory.volumeOf(slot);
+    for (std::size_t slot = Pack::lanes; slot < store.memory.slotCount(); ++slot)
+        if (const double volume = store.memory.volumeOf(slot);
+            volume > 0 && countsHere(store, grains, store.contactAt(static_cast<std::uint32_t>(slot))))
+            found.bridges += volume;
     for (const double account : walls) found.walls += account;
+    if (ranks.areSeveral())
+        for (double* const part :
+             {&found.films, &found.bridges, &found.walls, &found.removed, &found.evaporated, &found.absorbed})
+            *part = sumOfRanks(*part);
     return found;
 }
 

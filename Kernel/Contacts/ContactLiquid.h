@@ -6,6 +6,7 @@
 #include "Kernel/Contacts/ContactEvents.h"
 #include "Kernel/Contacts/Evaporation.h"
 #include "Kernel/Contacts/LiquidLedger.h"
+#include "Kernel/Contacts/LiquidOfRanks.h"
 #include "Kernel/Contacts/LiquidStep.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Math/ExactSum.h"
@@ -32,6 +33,42 @@ struct ListedLiquid {
     std::vector<Number>& formed;   // contacts whose bridges have formed
     std::vector<Number>& changed;  // contacts whose volumes have changed
     const std::vector<FilmContact>& filmContacts;
+    LiquidOfRanks others;
+
+    [[nodiscard]] bool isOwn(Number grain) const { return others.isOwn(grain); }
+    /// What other ranks offer to contacts of own grains. (Offers as LiquidStep has them.)
+    template <class Offers>
+    void addOffersOfOthers(Offers& offers) const {
+        if (!others.ranks.areSeveral()) return;
+        std::vector<LiquidOfRanks::Told> own;
+        for (const auto& offer : offers)
+            if (const auto told = others.of(*this, offer.contact, offer.volume); told.from != told.to)
+                own.push_back(told);
+        others.exchange(*this, own, [&](Number contact, const LiquidOfRanks::Told& told) {
+            const Number side = grains.identity[grainOf(contact, 0)] == told.from ? 0 : 1;
+            offers.push_back({contact, side, told.volume});
+        });
+    }
+    /// Contacts of own grains that draw from films because of the other grain.
+    void addDrawingOfOthers(std::vector<Number>& drawing) const {
+        if (!others.ranks.areSeveral()) return;
+        others.exchange(*this, toldOf(drawing, [](Number, Number) { return Quanta{0}; }),
+                        [&](Number contact, const LiquidOfRanks::Told&) { drawing.push_back(contact); });
+    }
+    /// The part that the ghost of each of these contacts offers; 0 of a contact without one.
+    /// @param drawing sorted; @param partOf (grain, contact) what a grain offers to one of them
+    template <class Function>
+    [[nodiscard]] std::vector<Quanta> partsOfOthers(const std::vector<Number>& drawing,
+                                                    Function&& partOf) const {
+        std::vector<Quanta> parts(drawing.size());
+        if (!others.ranks.areSeveral()) return parts;
+        others.exchange(*this, toldOf(drawing, partOf), [&](Number contact, const LiquidOfRanks::Told& told) {
+            const auto found = std::ranges::lower_bound(drawing, contact);
+            if (found != drawing.end() && *found == contact)
+                parts[static_cast<std::size_t>(found - drawing.begin())] = told.volume;
+        });
+        return parts;
+    }
 
     [[nodiscard]] Quanta quantaOf(double volume) const {
         return static_cast<Quanta>(volume / films.quantum());  // exact
@@ -84,6 +121,19 @@ private:
     [[nodiscard]] const Bucket& bucketOf(Number contact) const {
         return store.bucketOf(contact / Pack::lanes);
     }
+    template <class Function>
+    [[nodiscard]] std::vector<LiquidOfRanks::Told> toldOf(const std::vector<Number>& contacts,
+                                                          Function&& volumeOf) const {
+        std::vector<LiquidOfRanks::Told> all;
+        for (const Number contact : contacts) {
+            LiquidOfRanks::Told told = others.of(*this, contact, 0);
+            if (told.from == told.to) continue;
+            const Number first = grainOf(contact, 0);
+            told.volume = volumeOf(isOwn(first) ? first : grainOf(contact, 1), contact);
+            all.push_back(told);
+        }
+        return all;
+    }
 };
 
 /// The energy (J) that the liquid of a scene has given to its bridges in a step, by coming to them or going
@@ -98,6 +148,8 @@ class ContactLiquid {
 public:
     /// @param films null: no liquid moves in this scene
     void prepare(GrainFilms* films, const WallHandler& wallHandler, const PeriodicBox& box);
+    /// Ranks share the grains.
+    void share(const AllRanks& with) { ranks = with; }
     /// How the liquid dries, from now on.
     void setEvaporation(const Evaporation& law) { drying = law; }
     [[nodiscard]] const Evaporation& evaporation() const { return drying; }
@@ -112,7 +164,8 @@ public:
     /// Whether bridges of the scene form where films meet, and the largest gap (m) at which those of these
     /// grains can.
     [[nodiscard]] bool formsAtFilms(const ContactLaws& laws) const;
-    [[nodiscard]] double largestFilmContact(const ParticleStore& grains) const;
+    [[nodiscard]] double largestFilmContact(const ParticleStore& grains) const;  // of all ranks
+    [[nodiscard]] double largestFilmContactHere(const ParticleStore& grains) const;
     /// Called at the end of a step (s), before move(): the contacts without a bridge whose films meet, in the
     /// order of the list. They need memory for move().
     /// @param approached m, that bodies can have approached since they were listed
@@ -125,7 +178,7 @@ public:
     /// Called at the end of a step (s) that ends at a time (s), after move(): films and bridges dry. A bridge
     /// that gets too small for its gap ruptures in the next step.
     void dry(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, double time, double length);
-    /// The energy that changes of volumes have given to bridges since this was called last.
+    /// The energy that changes of volumes have given to bridges, on all ranks, since this was called last.
     [[nodiscard]] LiquidEnergy takeEnergy();
     /// Bridges that have dried to nothing.
     [[nodiscard]] std::uint64_t driedBridges() const { return driedOut; }
@@ -138,9 +191,12 @@ public:
     /// Values of species have changed: what bridges hold above V_max goes to films.
     void clip(ContactStore& store, ParticleStore& grains);
 
+    /// Of all ranks.
     [[nodiscard]] LiquidLedger ledger(const ContactStore& store, const ParticleStore& grains) const;
-    /// m^3, what a wall has got back minus what it gave.
-    [[nodiscard]] double ofWall(std::size_t wall) const { return wall < walls.size() ? walls[wall] : 0; }
+    /// m^3, what a wall has got back minus what it gave, on all ranks.
+    [[nodiscard]] double ofWall(std::size_t wall) const {
+        return sumOfRanks(wall < walls.size() ? walls[wall] : 0);
+    }
     void visitState(StateArchive& archive);
     /// Called when contacts have been listed that were read: throws InputError unless their volumes are
     /// whole.
@@ -148,9 +204,21 @@ public:
 
 private:
     ListedLiquid of(ContactStore& store, ParticleStore& grains) {
-        return {store, grains, *filmsOfGrains, rules, walls, formed, changed, filmContacts};
+        return {store, grains, *filmsOfGrains, rules, walls, formed, changed, filmContacts, {ranks, grains}};
     }
     void remember(const ParticleStore& grains);
+    /// Own grains among these, and those that others have looked at but own no more, are to be looked at.
+    void look(const ParticleStore& grains, std::vector<std::uint32_t> identities);
+    /// Whether it counts on this rank.
+    [[nodiscard]] static bool countsHere(const ContactStore& store, const ParticleStore& grains,
+                                         std::uint32_t contact) {
+        return store.firstOf(contact) < grains.ownSize();
+    }
+    [[nodiscard]] double sumOfRanks(double own) const {
+        ExactSum sum;
+        sum.add(own);
+        return ranks.sum(sum);
+    }
     void dryFilms(ParticleStore& grains, double time);
     void dryBridges(ContactStore& store, const ContactLaws& laws, ParticleStore& grains, double time);
     [[nodiscard]] double leftOfBridge(const ContactStore& store, const ContactLaws& laws,
@@ -163,6 +231,7 @@ private:
     void bookChange(ContactStore& store, const ContactLaws& laws, const ParticleStore& grains,
                     std::uint32_t contact, const double* before, bool byMigration);
 
+    AllRanks ranks;
     GrainFilms* filmsOfGrains = nullptr;
     const WallHandler* shapes = nullptr;
     const PeriodicBox* periodic = nullptr;

@@ -16,6 +16,7 @@ Luggage ContactMigration::luggage(std::size_t self) {
 void ContactMigration::pack(std::size_t self, std::span<const std::size_t> owners,
                             std::span<Message> toEach) const {
     std::vector<double> numbers(memory.numberCount());
+    remembered.noteCounted(grains);
     for (std::uint32_t k = 0; k < remembered.size(); ++k) {
         const RememberedContacts::Entry& entry = remembered.entry(k);
         std::size_t last = self;  // the rank that has got it
@@ -43,6 +44,7 @@ void ContactMigration::add(Message& message, const RememberedContacts::Entry& en
     memory.getNumbers(slot, numbers.data());
     message.add(entry);
     for (const double number : numbers) message.add(number);
+    if (!memory.energies.empty()) message.add(memory.energies[slot]);
 }
 
 void ContactMigration::unpack(Message& message) {
@@ -51,6 +53,8 @@ void ContactMigration::unpack(Message& message) {
         const auto entry = message.take<RememberedContacts::Entry>();
         for (double& number : numbers) message.take(number);
         remembered.add(entry, numbers, memory);
+        if (memory.energies.empty()) continue;
+        message.take(memory.energies[remembered.slotOf(static_cast<std::uint32_t>(remembered.size() - 1))]);
     }
 }
 

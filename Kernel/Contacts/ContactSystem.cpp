@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <numeric>
 #include <utility>
 
 #include "Kernel/Base/Parallel.h"
@@ -34,6 +35,20 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     capillaryWatch = {};
 }
 
+void ContactSystem::share(GrainSharing* with) {
+    sharing = with;
+    allRanks = with ? with->allRanks() : AllRanks();
+    liquid.share(allRanks);
+}
+
+void ContactSystem::renewGhosts(Grains& grains) const {
+    if (sharing) sharing->exchangeMotion(grains, true);
+}
+
+void ContactSystem::tellGhosts(std::span<double> ofGrains, std::span<double> ofBodies) const {
+    if (sharing) sharing->tellGhosts(ofGrains, ofBodies);
+}
+
 bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift) {
     // Grains that have come and gone again since the last call need their places, too.
     contacts.sides.addGrains(grains.size());
@@ -51,10 +66,7 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     return true;
 }
 
-bool ContactSystem::newListPays() {
-    const bool here = idleLanes.newListPays(contacts, skin.listCost());
-    return sharing ? sharing->largest(here ? 1 : 0) > 0 : here;
-}
+bool ContactSystem::newListPays() { return allRanks.any(idleLanes.newListPays(contacts, skin.listCost())); }
 
 void ContactSystem::distribute(Grains& grains, RememberedContacts& remembered, double reach) {
     if (!sharing->areDistributed()) rangeOfAll = largestRange(*species, grains);
@@ -75,6 +87,7 @@ void ContactSystem::gather(Grains& grains) {
     sharing->countHeldTwice(all, unequal);
     gatherWatches();
     listAgain(grains, remembered);
+    listedOnRanks(grains);
     findWallPoints(grains, 0);
     sumWallForces(grains);
 }
@@ -162,8 +175,37 @@ void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach, b
     const bool areShared = sharing && (shares || sharing->areDistributed());
     if (areShared) distribute(grains, remembered, reach);
     listAgain(grains, remembered, keepsBridges, reach);
-    if (areShared) sharing->findPlaces(grains);
+    if (areShared) listedOnRanks(grains);
 }
+
+void ContactSystem::listedOnRanks(const Grains& grains) {
+    sharing->findPlaces(grains);
+    ownPlaces = grains.ownSize();
+    contactEvents.setOwnPlaces(ownPlaces);
+}
+
+void ContactSystem::beginArrival(Grains& grains) {
+    arriving = std::make_shared<RememberedContacts>();
+    arriving->take(contacts, grains.identity, threads);
+    std::vector<std::uint32_t> own, bodies(grains.bodies.size());
+    for (std::uint32_t place = 0; place < grains.ownSize(); ++place)
+        if (!grains.isGap(place)) own.push_back(place);
+    std::iota(bodies.begin(), bodies.end(), 0u);
+    grains.keepOnly(own);
+    grains.bodies.keepOnly(bodies);
+    firstToCome = grains.nextIdentity();
+}
+
+void ContactSystem::finishArrival(Grains& grains) {
+    arrived += grains.nextIdentity() - firstToCome;
+    sharing->expectOnAll(firstToCome);
+    rangeOfAll = std::max(rangeOfAll, allRanks.largest(largestRange(*species, grains)));
+    const std::shared_ptr<RememberedContacts> remembered = std::exchange(arriving, nullptr);
+    distribute(grains, *remembered, 0);
+    listAgain(grains, *remembered);
+    listedOnRanks(grains);
+}
+
 std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges,
                                      double reach) {
     // Films get thicker: not for each drop a new list.
@@ -336,7 +378,45 @@ void ContactSystem::takeForceAway(Grains& grains, const Bucket& bucket, std::uin
     };
     take(block.first[lane], 1);
     if (bucket.wall < 0) take(block.second[lane], -1);
-    else walls->getObject(static_cast<std::size_t>(bucket.wall)).loseForce(-contacts.forceOf(contact));
+    else loseForce(bucket.wall, -contacts.forceOf(contact));
+}
+
+void ContactSystem::loseForce(int wall, const Vector<double>& force) const {
+    if (isRemoving()) lost.push_back({.removal = *removal, .wall = wall, .force = force});
+    else walls->getObject(static_cast<std::size_t>(wall)).loseForce(force);
+}
+
+void ContactSystem::removeGhost(Grains& grains, std::uint32_t identity, std::uint32_t body) {
+    std::vector<std::uint32_t> members{identity};
+    if (body != RigidBodies::none) {
+        const std::uint32_t at = grains.bodies.find(body);
+        if (at == RigidBodies::none) return;
+        members.clear();
+        for (const BodyMember& member : grains.bodies.membersOf(at)) members.push_back(member.grain);
+        grains.bodies.remove(at);
+    }
+    for (const std::uint32_t member : members) {
+        const std::uint32_t place = grains.ghostPlace[member];
+        if (place == PlaceIndex::none) continue;
+        endContactsOf(grains, place);
+        grains.translation[place].radius = grains.translation[place].inverseMass = 0;  // a gap
+        grains.translation[place].velocity = grains.acceleration[place] = {0, 0, 0};
+        if (grains.hasSpin) grains.rotation[place] = {};
+    }
+}
+
+std::vector<double> ContactSystem::finishRemovals(const Grains& grains) {
+    removal.reset();
+    std::vector<Lost> all = allRanks.gather(std::exchange(lost, {}));
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Lost& a, const Lost& b) { return a.removal < b.removal; });
+    std::vector<double> energies;
+    for (const Lost& one : all) {
+        if (one.wall < 0) energies.push_back(one.energy);
+        else walls->getObject(static_cast<std::size_t>(one.wall)).loseForce(one.force);
+    }
+    if (sharing) sharing->findPlaces(grains);
+    return energies;
 }
 
 double ContactSystem::endContactsOf(Grains& grains, std::uint32_t place) {
@@ -407,7 +487,15 @@ void ContactSystem::computeWallForces(const Grains& grains, double step, Contact
     if (!liquid.moves()) contactEvents.finish();
     sumWallForces(grains);
 }
+/// Films that meet at a gap are those of ghosts, too.
+void ContactSystem::tellFilms(Grains& grains) const {
+    std::vector<double> none(grains.bodies.sizeWithGhosts());
+    for (GrainColumn& column : grains.columns)
+        if (column.name == "liquid_film") tellGhosts(column.values, none);
+}
+
 void ContactSystem::moveLiquid(Grains& grains, double time, double length) {
+    if (sharing && liquid.formsAtFilms(*species)) tellFilms(grains);
     for (const FilmContact& met : liquid.findFilmContacts(contacts, *species, grains, length, unlisted)) {
         const std::size_t block = met.contact / Pack::lanes;
         if (contacts.slots[block] == ContactStore::asleep) wake(block, contacts.bucketOf(block), grains);
@@ -590,7 +678,17 @@ void ContactSystem::findWallPoints(const Grains& grains, double step) {
 
 ContactCounts ContactSystem::counts() const {
     ContactCounts all;
-    for (const BlockState& state : contacts.states) {
+    const auto countHere = [&](std::size_t block) {
+        BlockState state = contacts.states[block];
+        std::uint8_t here = 0xff;
+        for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
+            if (contacts.blocks[block].first[lane] >= ownPlaces)
+                here = static_cast<std::uint8_t>(here & ~(1u << lane));
+        state.touching &= here, state.bridged &= here;
+        return state;
+    };
+    for (std::size_t block = 0; block < contacts.states.size(); ++block) {
+        const BlockState state = allRanks.areSeveral() ? countHere(block) : contacts.states[block];
         all.touching += static_cast<std::size_t>(std::popcount(state.touching));
         all.bridged += static_cast<std::size_t>(std::popcount(state.bridged));
         all.acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
@@ -653,6 +751,8 @@ void ContactSystem::sumForcesOn(const Grains& grains, std::size_t number) {
         if (bucket.wall == static_cast<int>(number))
             (species->shapes() ? addWallForcesOnShapes : addWallForces)(contacts, bucket, wall, grains, about,
                                                                         sum);
+    allRanks.addUp({&sum.force.x, &sum.force.y, &sum.force.z, &sum.torque.x, &sum.torque.y, &sum.torque.z});
+    sum.touches = allRanks.sum(sum.touches);
     wall.setForce(sum.force.value(), sum.torque.value(), sum.touches);
 }
 

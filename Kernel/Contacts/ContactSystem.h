@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "Kernel/Contacts/CapillaryWatch.h"
@@ -18,6 +20,7 @@
 #include "Kernel/Contacts/WallPatches.h"
 #include "Kernel/Contacts/WallPointSearch.h"
 #include "Kernel/Particles/NamedColumn.h"
+#include "Kernel/Ranks/AllRanks.h"
 #include "Kernel/Walls/WallHandler.h"
 
 namespace pendular {
@@ -42,9 +45,16 @@ public:
     void prepare(ContactLaws& contactLaws, const WallHandler& wallHandler, const PeriodicBox& box,
                  const SkinChoice& skinChoice, bool withLedger, GrainFilms* films = nullptr);
     /// The scene is one of several that share their grains: they are distributed where contacts are listed.
-    void share(GrainSharing* with) { sharing = with; }
+    void share(GrainSharing* with);
     /// All grains and contacts come to all ranks, until refresh() distributes them again.
     void gather(Grains& grains);
+    /// What all ranks that share the scene know together; each contact counts on the rank that owns its body
+    /// 1.
+    [[nodiscard]] const AllRanks& ranks() const { return allRanks; }
+    /// Ghosts get the motion, with accelerations, of the grains and bodies that they stand for.
+    void renewGhosts(Grains& grains) const;
+    /// Ghosts get the numbers of the grains and bodies that they stand for, by their places.
+    void tellGhosts(std::span<double> ofGrains, std::span<double> ofBodies) const;
     /// Grains have been added at the end of the store. They are listed when bodies can have approached by the
     /// distance of the nearest of them to all others, so that most need no list of their own. False if one is
     /// so near that contacts must be listed at once, and the first time: lists keep their cells from then on.
@@ -66,6 +76,25 @@ public:
     /// energy (J) that was stored in them, where a ledger is kept.
     double endContactsOf(Grains& grains, std::uint32_t place);
     double endContactsAtWall(Grains& grains, int wall);
+    /// On several ranks new grains come to all of them, between these two calls, and stay where they belong:
+    /// ghosts go before, and contacts are listed again.
+    void beginArrival(Grains& grains);
+    [[nodiscard]] bool isArriving() const { return arriving != nullptr; }
+    void finishArrival(Grains& grains);
+    /// How many grains have come so since this was called last.
+    [[nodiscard]] std::size_t takeArrived() { return std::exchange(arrived, 0); }
+    /// On several ranks grains go from all of them, in the same order: of each, beginRemoval() with its place
+    /// in this order, then the removal of the grain itself or of its ghost. What walls lose by it they lose
+    /// on all ranks.
+    void beginRemoval(std::uint32_t number) { removal = number; }
+    [[nodiscard]] bool isRemoving() const { return removal.has_value(); }
+    /// @param stored J, as endContactsOf() gives it
+    void noteEnded(double stored) { lost.push_back({.removal = *removal, .energy = stored}); }
+    /// Removes the ghost of a grain, or of a rigid body with all of its grains, if it is here.
+    /// @param body its number, or RigidBodies::none
+    void removeGhost(Grains& grains, std::uint32_t identity, std::uint32_t body);
+    /// Returns the energies (J) that were stored in contacts of the grains that have gone, in their order.
+    std::vector<double> finishRemovals(const Grains& grains);
     /// Finds the starts and ends of touches and bridges in each step from now on.
     void listen(bool on) { contactEvents.listen(on); }
     [[nodiscard]] const ContactEvents& events() const { return contactEvents; }
@@ -141,6 +170,7 @@ public:
     [[nodiscard]] const CapillaryWatch& capillaryNumbers() const { return capillaryWatch; }
 
     // Of the last step.
+    /// On several ranks, those that count here; sumOverRanks() of a scene has all of them.
     [[nodiscard]] ContactCounts counts() const;
     [[nodiscard]] bool touches(std::size_t contact) const { return contacts.touches(contact); }
     [[nodiscard]] bool isBridged(std::size_t contact) const { return contacts.isBridged(contact); }
@@ -164,7 +194,8 @@ public:
         contacts.forEachListed(function);
     }
     /// Calls function(bucket, contact) for each contact that has a force, in the order of identities: of body
-    /// 1, then of body 2, then walls by number and part.
+    /// 1, then of body 2, then walls by number and part. On several ranks, each calls it for those whose body
+    /// 1 it owns.
     template <class Function>
     void forEachActing(const Grains& grains, Function&& function) const {
         forEachWithMemory(grains, [&](std::uint32_t slot) { callIfActing(slot, function); });
@@ -178,8 +209,9 @@ public:
     }
 
     /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
-    /// step. Only where a ledger is kept.
-    /// @param inOrder of identities; else as they lie in memory, which is faster
+    /// step, also where it counts on another rank. Only where a ledger is kept.
+    /// @param inOrder of identities, and then those of other ranks; else as they lie in memory, which is
+    /// faster
     template <class Function>
     void forEachEnergyRecord(const Grains& grains, bool inOrder, Function&& function) {
         const auto visit = [&](std::uint32_t slot) {
@@ -191,8 +223,9 @@ public:
             if (bucket.wall >= 0) showWallMotion(grains, bucket, contact, record);
             function(bucket, contacts.blocks[b], lane, record);
         };
-        if (inOrder) return forEachWithMemory(grains, visit);
-        for (std::uint32_t slot = Pack::lanes; slot < contacts.memory.slotCount(); ++slot) visit(slot);
+        if (inOrder) forEachWithMemory(grains, visit);
+        for (std::uint32_t slot = Pack::lanes; slot < contacts.memory.slotCount(); ++slot)
+            if (!inOrder || contacts.firstOf(contacts.contactAt(slot)) >= grains.ownSize()) visit(slot);
     }
 
     /// The liquid (m^3) of the bridges of the grain at a place: half of each to another grain, all of one to
@@ -250,6 +283,7 @@ private:
                           double reach = 0);
     /// Whether idle lanes cost more than a new list, on any rank.
     [[nodiscard]] bool newListPays();
+    void listedOnRanks(const Grains& grains);
     /// Grains go to the ranks that own them, with what their contacts remember.
     void distribute(Grains& grains, RememberedContacts& remembered, double reach);
     void gatherWatches();
@@ -257,6 +291,8 @@ private:
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
     /// act in the first half of the next one. Those of rigid bodies alike.
     void takeForceAway(Grains& grains, const Bucket& bucket, std::uint32_t contact) const;
+    void tellFilms(Grains& grains) const;
+    void loseForce(int wall, const Vector<double>& force) const;
     [[nodiscard]] bool lastsThroughChange(const Grains& grains, const Bucket& bucket,
                                           std::uint32_t contact) const;
     void checkGap(const Grains& grains, const Bucket& bucket, std::uint32_t contact);
@@ -294,7 +330,21 @@ private:
     std::vector<std::uint32_t> passed;  // places of grains whose contacts are no longer in their order
     bool ledger = false;
     GrainSharing* sharing = nullptr;  // null: this scene has all grains
-    double rangeOfAll = 0;            // m, the largest of two grains on whatever ranks
+    AllRanks allRanks;
+    /// What a wall, or the account of the energy, has lost by a grain that has gone.
+    struct Lost {
+        std::uint32_t removal;
+        int wall = -1;                  // -1: energy
+        Vector<double> force{0, 0, 0};  // N, on the wall
+        double energy = 0;              // J
+    };
+    std::shared_ptr<RememberedContacts> arriving;  // while grains come
+    std::uint32_t firstToCome = 0;                 // identity
+    std::size_t arrived = 0;
+    std::optional<std::uint32_t> removal;  // that is under way
+    mutable std::vector<Lost> lost;
+    std::size_t ownPlaces = ~std::size_t{0};  // a grain beyond these is a ghost
+    double rangeOfAll = 0;                    // m, the largest of two grains on whatever ranks
     int threads = 1;
     std::size_t rebuilds = 0;
     WallPointSearch wallPoints;

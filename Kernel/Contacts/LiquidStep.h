@@ -43,6 +43,8 @@ inline Quanta portion(Quanta total, Quanta part, Quanta whole) {
 ///     bool isAtWall(contact);  grainOf(contact, 0 or 1): body 1 is the one with the lower identity;
 ///     forEachContactOf(grain, function(contact)): those that touch or have a bridge and have rules, in the
 ///     order of the partners.
+/// Where ranks share the grains, a grain's owner alone has all of its contacts, and so it alone forms shares.
+/// Others have its contacts with their own grains: what they need to know is exchanged (LiquidOfRanks).
 template <class Liquid>
 class LiquidStep {
 public:
@@ -57,6 +59,7 @@ public:
         pools.clear(), offers.clear();
         for (const Number contact : ruptured) pool(liquid, contact, looked);
         offer(liquid, looked);
+        if constexpr (isOfRanks) liquid.addOffersOfOthers(offers);
         take(liquid, looked);
         form(liquid, looked);
     }
@@ -92,8 +95,15 @@ private:
         Quanta first, second;  // from body 1, and from body 2 or the wall
     };
 
+    static constexpr bool isOfRanks = requires(Liquid liquid) { liquid.isOwn(Number{}); };
+    /// Whether this rank counts the film of a grain.
+    static bool isOwn([[maybe_unused]] Liquid& liquid, [[maybe_unused]] Number grain) {
+        if constexpr (isOfRanks) return liquid.isOwn(grain);
+        else return true;
+    }
+
     static void wet(Liquid& liquid, Number grain, Quanta volume, std::vector<Number>& looked) {
-        if (volume == 0) return;
+        if (volume == 0 || !isOwn(liquid, grain)) return;
         liquid.addToFilm(grain, volume);
         looked.push_back(grain);
     }
@@ -109,6 +119,7 @@ private:
         const double share = liquid.rulesOf(contact).share;
         liquid.setVolume(contact, 0);
         const auto add = [&](Number grain, Quanta volume) {
+            if (!isOwn(liquid, grain)) return;
             const auto offered = static_cast<Quanta>(std::floor(share * static_cast<double>(volume)));
             wet(liquid, grain, volume - offered, looked);
             if (offered > 0) pools.push_back({grain, offered});
@@ -197,6 +208,7 @@ private:
         unique(looked);
         drawing.clear(), drawn.clear();
         for (const Number grain : looked) {
+            if (!isOwn(liquid, grain)) continue;
             // Without a film only a wet wall offers something that the other body has not offered before.
             const bool isDry = liquid.filmOf(grain) == 0;
             liquid.forEachContactOf(grain, [&](Number contact) {
@@ -206,12 +218,21 @@ private:
             });
         }
         unique(drawing);
-        for (const Number contact : drawing) {
+        const auto partOf = [&](Number grain, Number contact) { return partOfFilm(liquid, grain, contact); };
+        std::vector<Quanta> partsOfOthers(drawing.size());
+        if constexpr (isOfRanks) {
+            liquid.addDrawingOfOthers(drawing);
+            unique(drawing);
+            partsOfOthers = liquid.partsOfOthers(drawing, partOf);
+        }
+        for (std::size_t k = 0; k < drawing.size(); ++k) {
+            const Number contact = drawing[k];
             const QuantisedRules& rules = liquid.rulesOf(contact);
-            const Quanta a = partOfFilm(liquid, liquid.grainOf(contact, 0), contact);
-            const Quanta b = liquid.isAtWall(contact)
-                                 ? rules.wallDose
-                                 : partOfFilm(liquid, liquid.grainOf(contact, 1), contact);
+            const auto part = [&](Number grain) {
+                return isOwn(liquid, grain) ? partOf(grain, contact) : partsOfOthers[k];
+            };
+            const Quanta a = part(liquid.grainOf(contact, 0));
+            const Quanta b = liquid.isAtWall(contact) ? rules.wallDose : part(liquid.grainOf(contact, 1));
             const Quanta sum = a + b, volume = std::min(sum, rules.largest);
             if (sum <= rules.least) continue;
             const Quanta first = portion(a, volume, sum);
@@ -220,6 +241,7 @@ private:
         looked.clear();
         // What is left of a film serves fewer contacts in the next step.
         const auto draw = [&](Number grain, Quanta volume) {
+            if (!isOwn(liquid, grain)) return;
             liquid.addToFilm(grain, -volume);
             looked.push_back(grain);
         };

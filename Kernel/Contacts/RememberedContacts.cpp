@@ -97,6 +97,11 @@ void RememberedContacts::add(const Entry& entry, const std::vector<double>& numb
     memory.setNumbers(slots.back(), numbers.data());
 }
 
+void RememberedContacts::noteCounted(const ParticleStore& grains) {
+    for (Entry& entry : entries)
+        if (grains.place.contains(entry.owner)) entry.state |= counted;
+}
+
 RememberedContacts::HeldTwice RememberedContacts::fileAgain(const ParticleStore& grains,
                                                             const ContactMemory& memory) {
     // What has got so far away in the last step that it is no ghost any more does not act.
@@ -111,7 +116,8 @@ RememberedContacts::HeldTwice RememberedContacts::fileAgain(const ParticleStore&
     const auto keyOf = [&](std::uint32_t k) {
         return std::tuple(grains.placeOf(entries[k].owner), orderOf(entries[k]));
     };
-    std::ranges::sort(order, {}, keyOf);
+    std::ranges::sort(
+        order, {}, [&](std::uint32_t k) { return std::pair(keyOf(k), (entries[k].state & counted) == 0); });
     HeldTwice twice;
     const auto isSecond = [&](std::uint32_t a, std::uint32_t b) {
         if (keyOf(a) != keyOf(b)) return false;
@@ -126,6 +132,7 @@ RememberedContacts::HeldTwice RememberedContacts::fileAgain(const ParticleStore&
     for (const std::uint32_t k : order) {
         ++begins[grains.placeOf(entries[k].owner) + 1];
         sorted.push_back(entries[k]);
+        sorted.back().state &= ~counted;
         sortedSlots.push_back(slots[k]);
     }
     std::partial_sum(begins.begin(), begins.end(), begins.begin());
@@ -138,7 +145,16 @@ bool RememberedContacts::areSame(std::uint32_t a, std::uint32_t b, const Contact
     std::vector<double> ofA(memory.numberCount()), ofB(ofA);
     memory.getNumbers(slots[a], ofA.data());
     memory.getNumbers(slots[b], ofB.data());
-    return entries[a].state == entries[b].state &&
+    const ContactLayout& layout = memory.getLayout();
+    const std::size_t beforeNamed =
+        layout.history + layout.normalHistory + layout.interaction + layout.liquid;
+    for (std::vector<double>* const of : {&ofA, &ofB})
+        std::fill_n(of->begin() + static_cast<std::ptrdiff_t>(beforeNamed), layout.named, 0.0);
+    const auto haveSameEnergies = [&] {
+        return memory.energies.empty() ||
+               std::memcmp(&memory.energies[slots[a]], &memory.energies[slots[b]], sizeof(EnergyRecord)) == 0;
+    };
+    return (entries[a].state | counted) == (entries[b].state | counted) && haveSameEnergies() &&
            std::memcmp(ofA.data(), ofB.data(), ofA.size() * sizeof(double)) == 0;
 }
 

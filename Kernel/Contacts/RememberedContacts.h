@@ -23,6 +23,9 @@ public:
         std::uint32_t state;  // bits: touching, bridged, closing
     };
     static constexpr std::uint32_t touching = 1, bridged = 2, closing = 4;
+    /// Only while grains go to other ranks: as that rank remembers it which owns body 1. Columns of a driver
+    /// are those there.
+    static constexpr std::uint32_t counted = 8;
 
     /// Takes them from a list. What they remember stays in the memory of the store.
     /// @param identity of the grain at each place, as the store's contacts have it
@@ -55,11 +58,14 @@ public:
     /// One that another rank has remembered, too or instead.
     /// @param numbers what it remembers, which goes into the memory of the store
     void add(const Entry& entry, const std::vector<double>& numbers, ContactMemory& memory);
+    /// Before grains go: marks those whose body 1 is owned.
+    void noteCounted(const ParticleStore& grains);
     struct HeldTwice {
         std::size_t all = 0, unequal = 0;
     };
     /// After grains have come and gone: files those that have an own grain, each once, by the places that
-    /// grains have now. Returns how many were there twice, and how many of these not with the same bits.
+    /// grains have now. Returns how many were there twice, and how many of these not with the same bits
+    /// (without columns of a driver).
     HeldTwice fileAgain(const ParticleStore& grains, const ContactMemory& memory);
     /// Sets the bits of an entry in the state of a block.
     static void setState(const Entry& entry, std::size_t lane, BlockState& state);

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
+#include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "Kernel/Contacts/ParticleSum.h"
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Ranks/AllRanks.h"
 
 namespace pendular {
 
@@ -19,10 +23,32 @@ public:
         before.clear(), loads.clear();
         for (std::size_t k = 0; k < grains.bodies.size(); ++k) {
             const RigidBody& body = grains.bodies[k];
-            before.push_back({body.velocity, body.rotationalEnergy(), body.angularMomentum, body.torque});
+            const std::uint32_t number = grains.bodies.numberOf(k);
+            before.push_back(
+                {number, body.velocity, body.rotationalEnergy(), body.angularMomentum, body.torque});
             for (const BodyMember& member : grains.bodies.membersOf(k))
-                loads.push_back(sumOf(grains, contacts, member));
+                loads.push_back({number, sumOf(grains, contacts, member)});
         }
+    }
+
+    /// What was taken of bodies that have gone to other ranks goes with them.
+    void follow(const ParticleStore& grains, const AllRanks& ranks) {
+        if (!ranks.areSeveral()) return;
+        const auto followOne = [&](auto& records) {
+            const auto isElsewhere = [&](const auto& record) {
+                return !(grains.bodies.find(record.number) < grains.bodies.size());
+            };
+            const auto stays =
+                std::stable_partition(records.begin(), records.end(), std::not_fn(isElsewhere));
+            const std::remove_reference_t<decltype(records)> left(stays, records.end());
+            records.erase(stays, records.end());
+            for (const auto& record : ranks.gather(left))
+                if (!isElsewhere(record)) records.push_back(record);
+            std::stable_sort(records.begin(), records.end(),
+                             [](const auto& a, const auto& b) { return a.number < b.number; });
+        };
+        followOne(before);
+        followOne(loads);
     }
 
     /// The energy (J) that the change of a body's velocity gives it.
@@ -55,7 +81,7 @@ public:
             sum.add(0.5 * body.mass * dot(body.velocity - then, body.velocity + then));
             sum.add(body.rotationalEnergy() - before[k].turning);
             for (const BodyMember& member : grains.bodies.membersOf(k)) {
-                const ContactSum &last = loads[number++], now = sumOf(grains, contacts, member);
+                const ContactSum &last = loads[number++].sum, now = sumOf(grains, contacts, member);
                 const auto [velocity, spin] = meanOf(grains.place[member.grain]);
                 sum.add(-0.5 * step * dot(last.force + now.force, velocity));
                 sum.add(-0.5 * step * dot(last.torque + now.torque, spin));
@@ -65,6 +91,7 @@ public:
 
 private:
     struct Before {
+        std::uint32_t number;
         Vector<double> velocity;                 // m/s
         double turning;                          // J
         Vector<double> angularMomentum, torque;  // kg m^2/s, N m
@@ -84,14 +111,14 @@ private:
         // Of a sphere the body knows the torques that it follows only.
         const Vector<double> torques =
             grains.bodies.isSphere(grains, k)
-                ? loads[number].torque + sumOf(grains, contacts, grains.bodies.membersOf(k)[0]).torque
+                ? loads[number].sum.torque + sumOf(grains, contacts, grains.bodies.membersOf(k)[0]).torque
                 : before[k].torque + body.torque;
         double given =
             dot(turning, body.angularMomentum - before[k].angularMomentum - (0.5 * step) * torques);
         if (squaredNorm(velocity) == 0) return given;
         Vector<double> force = 2 * body.mass * gravity;
         for (const BodyMember& member : grains.bodies.membersOf(k))
-            force += loads[number++].force + sumOf(grains, contacts, member).force;
+            force += loads[number++].sum.force + sumOf(grains, contacts, member).force;
         return given - 0.5 * step * dot(force, velocity);
     }
 
@@ -102,8 +129,12 @@ private:
         return contactSum(contacts, place, grains.translation[place].radius);
     }
 
-    std::vector<Before> before;     // in the order of bodies
-    std::vector<ContactSum> loads;  // of each grain of them
+    std::vector<Before> before;  // in the order of bodies
+    struct Load {
+        std::uint32_t number;  // of the body
+        ContactSum sum;
+    };
+    std::vector<Load> loads;  // of each grain of them
 };
 
 }  // namespace pendular

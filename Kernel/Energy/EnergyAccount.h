@@ -35,21 +35,24 @@ public:
     using Grains = ParticleStore;
 
     /// Called before the grains move by a step (s); without length at the start of a run.
-    void begin(const Grains& grains, const ContactStore& contacts, const WallHandler& walls,
+    void begin(Grains& grains, const ContactSystem& contacts, const WallHandler& walls,
                const Vector<double>& gravity, double step, EnergyLedger& ledger) {
         atBegin = ledger;
         endedAtBegin = ended;
         ledger.driver -= std::exchange(ended, 0);
-        potential = potentialEnergy(grains, gravity);
+        const AllRanks& ranks = contacts.ranks();
+        potential = ranks.sum(sumOfPotentialEnergy(grains, gravity));
         if (step > 0)
-            ledger.driver += kineticEnergy(grains) - ledger.kinetic +
+            ledger.driver += ranks.sum(sumOfKineticEnergy(grains)) - ledger.kinetic +
                              (energyOfPistons(walls) - ledger.pistons) +
                              (energyOfMembranes(walls) - ledger.membranes) +
                              (potential + ledger.carried - ledger.potential);
-        before.clear();
-        for (const std::uint32_t place : grains.place) before.push_back(motionOf(grains, place));
-        takeHeldLoads(grains, contacts);
-        bodies.begin(grains, contacts);
+        grains.remembersStart = true;
+        grains.atStart.resize(grains.size());
+        for (std::size_t place = 0; place < grains.size(); ++place)
+            grains.atStart[place] = motionOf(grains, place);
+        takeHeldLoads(grains, contacts.store());
+        bodies.begin(grains, contacts.store());
     }
 
     /// Membranes may have been added and removed in the run: what was stored in them came with them.
@@ -78,23 +81,24 @@ public:
     }
 
     /// Called when the grains have moved.
-    void moved(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
-        const double now = potentialEnergy(grains, gravity);
+    void moved(const Grains& grains, const AllRanks& ranks, const Vector<double>& gravity,
+               EnergyLedger& ledger) {
+        const double now = ranks.sum(sumOfPotentialEnergy(grains, gravity));
         ledger.stepError -= now - potential;
         potential = now;
     }
 
     /// Called when grains may have gone round a periodic scene, to places where their potential energy is
     /// lower: what the field gave them on their way stays in the account.
-    void wentRound(const Grains& grains, const Vector<double>& gravity, EnergyLedger& ledger) {
-        ledger.carried += potential - potentialEnergy(grains, gravity);
+    void wentRound(const Grains& grains, const AllRanks& ranks, const Vector<double>& gravity,
+                   EnergyLedger& ledger) {
+        ledger.carried += potential - ranks.sum(sumOfPotentialEnergy(grains, gravity));
     }
 
-    /// In shear and strain: the grain at a place, the so-manieth in the order of identities, goes over to an
-    /// image that moves otherwise (m/s). Returns the energy (J) that it gets, for givenByImages().
-    double changedImage(const Grains& grains, std::uint32_t place, std::size_t number,
-                        const Vector<double>& velocity) {
-        Vector<double>& then = before[number].velocity;
+    /// In shear and strain: the grain at a place goes over to an image that moves otherwise (m/s). Returns
+    /// the energy (J) that it gets, for givenByImages().
+    static double changedImage(Grains& grains, std::uint32_t place, const Vector<double>& velocity) {
+        Vector<double>& then = grains.atStart[place].velocity;
         const TranslationRecord& grain = grains.translation[place];
         const double given =
             grain.inverseMass > 0 ? dot(velocity, then + 0.5 * velocity) / grain.inverseMass : 0;
@@ -105,11 +109,11 @@ public:
     double changedImageOfBody(const Grains& grains, std::size_t body, const Vector<double>& velocity) {
         return bodies.changeVelocity(grains.bodies[body], body, velocity);
     }
-    static void givenByImages(const ExactSum& energy, EnergyLedger& ledger) {
-        ledger.images += energy.value();
+    static void givenByImages(const ExactSum& energy, const AllRanks& ranks, EnergyLedger& ledger) {
+        ledger.images += ranks.sum(energy);
     }
-    void changedImageOfMember(std::size_t number, const Vector<double>& velocity) {
-        before[number].velocity += velocity;
+    static void changedImageOfMember(Grains& grains, std::uint32_t place, const Vector<double>& velocity) {
+        grains.atStart[place].velocity += velocity;
     }
 
     /// The account notes what each contact loses in a step, from now on.
@@ -120,13 +124,15 @@ public:
     /// Ends the account of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
                 const Vector<double>& gravity, double step, const Integrator& scheme, EnergyLedger& ledger) {
-        // Grains may have been sorted since the start of the step; the order of identities is the same.
-        rank.resize(grains.size());
-        std::uint32_t next = 0;
-        for (const std::uint32_t place : grains.place) rank[place] = next++;
+        // Grains may have gone to other ranks since the start of the step.
+        const AllRanks& ranks = contacts.ranks();
+        bodies.follow(grains, ranks);
+        followHeldLoads(grains, ranks);
         ExactSum byHolders;
         addGivenByHolders(grains, contacts.store(), gravity, step, byHolders);
-        ledger.stepError -= workBesidesContacts(grains, contacts.store(), gravity, step, scheme, byHolders);
+        ExactSum besides = workBesidesContacts(grains, contacts.store(), gravity, step, scheme, byHolders);
+        ranks.addUp({&besides, &byHolders});
+        ledger.stepError -= besides.value();
         ledger.walls += byHolders.value();
         const PeriodicBox& box = contacts.periodicBox();
         const std::vector<WornWall*> wornOf = wornWalls(walls);
@@ -134,6 +140,7 @@ public:
             if (worn) worn->forgetStep();
         sums.clear();
         lossesOfStep.clear();
+        std::vector<WearOfContact> wear;
         // Exact sums need no order, but the wear of a wall and what heats grains are added up in that of
         // identities.
         const bool inOrder =
@@ -167,19 +174,25 @@ public:
                     addContact(record, grain, other, kind, step, account);
                     const Vector<double> arm = depthOf(then, grain.radius);
                     if (!grain.isHeld)
-                        worn->takeWear(second, grains.translation[first].position + arm,
-                                       contactWear(then, account.sliding, before[rank[first]].velocity,
-                                                   massAtContact(grains, box, first, arm)));
+                        wear.push_back({grains.identity[first], bucket.wall, second,
+                                        grains.translation[first].position + arm,
+                                        contactWear(then, account.sliding, grains.atStart[first].velocity,
+                                                    massAtContact(grains, box, first, arm))});
                 }
                 // The membrane's own account has this work, as it was done on the vertices.
                 if (kind.isWall && walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
                     account.stepError -= std::exchange(account.walls, 0);
+                if (first >= grains.ownSize()) return;  // it counts on another rank
                 sums.add(std::bit_cast<Row>(account));
                 if (notesLosses && step > 0)
                     lossesOfStep.push_back({grains.identity[first],
                                             kind.isWall ? ObservedContact::none : grains.identity[second],
                                             bucket.wall, account.lost()});
             });
+        if (inOrder) takeWear(wornOf, ranks, wear);
+        std::vector<ExactSum*> columns;
+        for (ExactSum& column : sums.exact()) columns.push_back(&column);
+        ranks.addUp(columns);
         auto account = std::bit_cast<EnergyLedger>(sums.value());
         const LiquidEnergy byLiquid = contacts.takeLiquidEnergy();
         account.migration = byLiquid.migration;
@@ -188,20 +201,15 @@ public:
         takeInPistons(walls, gravity, step, scheme, ledger);
         takeInBodies(walls, step, ledger);
         takeInMembranes(walls, step, ledger);
-        ledger.kinetic = kineticEnergy(grains);
-        ledger.potential = ledger.carried + potentialEnergy(grains, gravity);
+        ledger.kinetic = ranks.sum(sumOfKineticEnergy(grains));
+        ledger.potential = ledger.carried + ranks.sum(sumOfPotentialEnergy(grains, gravity));
     }
 
 private:
     static constexpr std::size_t ledgerEntries = sizeof(EnergyLedger) / sizeof(double);
     using Row = ExactRows<ledgerEntries>::Row;
 
-    /// The motion of a grain at the start of the step.
-    struct Motion {
-        Vector<double> velocity, acceleration;     // m/s, m/s^2
-        Vector<double> spin, angularAcceleration;  // rad/s, rad/s^2
-    };
-
+    using Motion = MotionAtStart;
     static Motion motionOf(const Grains& grains, std::size_t k) {
         Motion motion{grains.translation[k].velocity, grains.acceleration[k], {0, 0, 0}, {0, 0, 0}};
         if (grains.hasSpin) {
@@ -217,6 +225,23 @@ private:
         const ContactSample& sample = record.now.acts() ? record.now : record.last;
         if (sample.isShaped()) return sample.arm1 - sample.halfOverlap * sample.normal;
         return (radius - 2 * sample.halfOverlap) * sample.normal;
+    }
+
+    struct WearOfContact {
+        std::uint32_t identity;  // of the grain
+        int wall;
+        std::uint32_t part;
+        Vector<double> point;  // m
+        ContactWear done;
+    };
+    /// Wear is added up in the order of identities, on all ranks.
+    static void takeWear(const std::vector<WornWall*>& walls, const AllRanks& ranks,
+                         const std::vector<WearOfContact>& own) {
+        std::vector<WearOfContact> all = ranks.gather(own);
+        std::stable_sort(all.begin(), all.end(),
+                         [](const auto& a, const auto& b) { return a.identity < b.identity; });
+        for (const WearOfContact& one : all)
+            walls[static_cast<std::size_t>(one.wall)]->takeWear(one.part, one.point, one.done);
     }
 
     /// The mass (kg) that a wall feels at a contact with the grain at a place: of a rigid body, what its
@@ -315,8 +340,8 @@ private:
         ledger.pistons = energyOfPistons(walls);
     }
 
-    BodyMotion meanMotion(const Grains& grains, std::size_t k) const {
-        const Motion &then = before[rank[k]], now = motionOf(grains, k);
+    static BodyMotion meanMotion(const Grains& grains, std::size_t k) {
+        const Motion &then = grains.atStart[k], now = motionOf(grains, k);
         return {0.5 * (then.velocity + now.velocity), 0.5 * (then.spin + now.spin),
                 grains.translation[k].radius, grains.translation[k].inverseMass == 0};
     }
@@ -345,6 +370,16 @@ private:
                     {grains.identity[place], velocity, spin, loadOf(grains, contacts, place)});
         }
     }
+    /// The loads of grains that have gone to other ranks go with them.
+    void followHeldLoads(const Grains& grains, const AllRanks& ranks) {
+        if (!ranks.areSeveral()) return;
+        std::vector<HeldLoad> left;
+        for (const HeldLoad& load : heldLoads)
+            if (!grains.place.contains(load.identity)) left.push_back(load);
+        const auto isElsewhere = [&](const HeldLoad& load) { return !grains.place.contains(load.identity); };
+        for (const HeldLoad& load : ranks.gather(left)) heldLoads.push_back(load);
+        std::erase_if(heldLoads, isElsewhere);
+    }
     /// J: what keeps their motion there does against contacts and weight.
     void addGivenByHolders(const Grains& grains, const ContactStore& contacts, const Vector<double>& gravity,
                            double step, ExactSum& given) const {
@@ -359,9 +394,9 @@ private:
 
     /// The work (J) of the field of gravity, and of what an integrator other than velocity Verlet adds to the
     /// mean of the two accelerations.
-    double workBesidesContacts(const Grains& grains, const ContactStore& contacts,
-                               const Vector<double>& gravity, double step, const Integrator& scheme,
-                               ExactSum& byHolders) const {
+    ExactSum workBesidesContacts(const Grains& grains, const ContactStore& contacts,
+                                 const Vector<double>& gravity, double step, const Integrator& scheme,
+                                 ExactSum& byHolders) const {
         ExactSum sum;
         for (std::size_t k = 0; k < grains.ownSize(); ++k) {
             const TranslationRecord& grain = grains.translation[k];
@@ -369,7 +404,7 @@ private:
             const BodyMotion mean = meanMotion(grains, k);
             sum.add(step / grain.inverseMass * dot(gravity, mean.velocity));
             if (scheme.takesMeanAcceleration()) continue;
-            const Motion &then = before[rank[k]], now = motionOf(grains, k);
+            const Motion &then = grains.atStart[k], now = motionOf(grains, k);
             const Vector<double> gained =
                 now.velocity - then.velocity - (0.5 * step) * (then.acceleration + now.acceleration);
             sum.add(dot(gained, mean.velocity) / grain.inverseMass);
@@ -385,7 +420,7 @@ private:
                                           const BodyMotion mean = meanMotion(grains, place);
                                           return std::pair(mean.velocity, mean.spin);
                                       });
-        return sum.value();
+        return sum;
     }
 
     /// Replaces what is stored, and adds what a step has lost and given.
@@ -402,8 +437,6 @@ private:
             ledger.*summed += account.*summed;
     }
 
-    std::vector<Motion> before;       // in the order of identities
-    std::vector<std::uint32_t> rank;  // of the grain at each place in that order
     std::vector<HeldLoad> heldLoads;
     BodyAccount bodies;
     ExactRows<ledgerEntries> sums;  // over the contacts of a step

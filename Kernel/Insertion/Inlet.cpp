@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Insertion/SphereGrid.h"
 #include "Kernel/Insertion/WallGap.h"
 #include "Kernel/Math/ApartTexts.h"
@@ -169,6 +170,14 @@ std::vector<InletHandler::Sizes> InletHandler::sizes(const GrainSpecies& species
     return all;
 }
 
+bool InletHandler::bringLiquid() const {
+    return std::ranges::any_of(inlets, [](const Kept& kept) {
+        for (const BodyKind& kind : kept.bodies)
+            if (kind.film() > 0) return true;
+        return false;
+    });
+}
+
 bool InletHandler::bringBodies() const {
     return std::ranges::any_of(inlets, [](const Kept& kept) { return kept.bodies.hasBodies(); });
 }
@@ -307,13 +316,14 @@ void InletHandler::checkStream(const InsertionScene& scene, std::size_t number) 
         number, wanted, slowest, allowed, Inlet::densestStream));
 }
 
-void InletHandler::letIn(const InsertionScene& scene, double time,
+void InletHandler::letIn(const InsertionScene& scene, ContactSystem& contacts, double time,
                          const std::function<void(std::string)>& tell) {
-    for (std::size_t k = 0; k < inlets.size(); ++k) letInOf(scene, k, time, tell);
+    for (std::size_t k = 0; k < inlets.size(); ++k) letInOf(scene, contacts, k, time, tell);
+    if (contacts.isArriving()) contacts.finishArrival(scene.particles.store());
 }
 
-void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, double time,
-                           const std::function<void(std::string)>& tell) {
+void InletHandler::letInOf(const InsertionScene& scene, ContactSystem& contacts, std::size_t number,
+                           double time, const std::function<void(std::string)>& tell) {
     Kept& kept = inlets[number];
     const Inlet& inlet = kept.inlet;
     InletCount& count = kept.count;
@@ -343,7 +353,7 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
             grid.emplace(ParticleHandler::Inside::grainsInStep(scene.particles), scene.periodic,
                          Box{bounds.lowest + shift, bounds.highest + shift}, largestReach(kept.bodies));
         }
-        const auto room = findRoom(scene, kept, *grid, static_cast<std::uint32_t>(number));
+        const auto room = findRoom(scene, contacts.ranks(), kept, *grid, static_cast<std::uint32_t>(number));
         if (!room && kept.rises < inlet.mostRises) {
             count.risen = ++kept.rises * norm(inlet.rise);
             grid.reset();
@@ -363,6 +373,10 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
         }
         const Vector<double> flow =
             scene.periodic.imagesMove ? scene.periodic.flowAt(room->place) : Vector<double>{0, 0, 0};
+        if (contacts.ranks().areSeveral() && !contacts.isArriving()) {
+            scene.particles.finishStep();
+            contacts.beginArrival(scene.particles.store());
+        }
         kind.addTo(scene, radius, room->place, room->turn, flow);
         for (const auto& [place, size] : kind.spheres(radius, room->place, room->turn))
             grid->add(toVector(place), size);
@@ -373,19 +387,31 @@ void InletHandler::letInOf(const InsertionScene& scene, std::size_t number, doub
     }
 }
 
+/// Which of the rooms are there on all ranks.
+template <class Rooms>
+static std::vector<bool> areFree(const Rooms& rooms, const AllRanks& ranks) {
+    std::vector<char> here;
+    for (const auto& room : rooms) here.push_back(room ? 1 : 0);
+    const std::vector<char> ofAll = ranks.gather(here);
+    std::vector<bool> free(here.size(), true);
+    for (std::size_t k = 0; k < ofAll.size(); ++k)
+        if (ofAll[k] == 0) free[k % here.size()] = false;
+    return free;
+}
+
 /// A grain is placed among the centres that keep it in the region, a clump tried with each of its spheres.
-std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& scene, Kept& kept,
-                                                         const SphereGrid& grid, std::uint32_t number) {
+std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& scene, const AllRanks& ranks,
+                                                         Kept& kept, const SphereGrid& grid,
+                                                         std::uint32_t number) {
     const Inlet& inlet = kept.inlet;
     const BodyKind& kind = kept.bodies[kept.nextKind];
     const CountedRandom random(inlet.seed);
     const double margin = inlet.wholeGrains && kind.grain() ? kept.nextRadius : 0;
     const Vector<double> shift = shiftOf(scene, kept, number);
-    for (std::uint32_t k = 0; k < inlet.tries; ++k) {
-        const std::uint32_t attempt = kept.attempts++;
+    const auto roomOf = [&](std::uint32_t attempt) -> std::optional<Room> {
         const Vector<double> place = candidateOf(*kept.region, random, kept.count.number,
                                                  purposeOfPlaces + 3 * number, attempt, margin);
-        if (!kept.region->contains(place, margin)) continue;
+        if (!kept.region->contains(place, margin)) return std::nullopt;
         const Vector<double> way = kept.inFlow.placeNow(place, scene.periodic) - place + shift;
         const auto even = [&](std::uint32_t which) {
             return random.uniform(kept.count.number, purposeOfTurns + 3 * number + which, attempt);
@@ -398,8 +424,20 @@ std::optional<InletHandler::Room> InletHandler::findRoom(const InsertionScene& s
                    !touchesWall(scene.walls, scene.periodic, centre, ball.radius) &&
                    grid.isFree(centre, ball.radius);
         };
-        if (std::ranges::all_of(kind.spheres(kept.nextRadius, place, turn), isFree))
-            return Room{scene.periodic.wrap(place + way), turn};
+        if (!std::ranges::all_of(kind.spheres(kept.nextRadius, place, turn), isFree)) return std::nullopt;
+        return Room{scene.periodic.wrap(place + way), turn};
+    };
+    // Ranks ask each other for several tries at once.
+    const std::uint32_t atOnce = ranks.areSeveral() ? 32 : 1;
+    for (std::uint32_t done = 0; done < inlet.tries; done += atOnce) {
+        const std::uint32_t count = std::min(atOnce, inlet.tries - done);
+        std::vector<std::optional<Room>> rooms;
+        for (std::uint32_t k = 0; k < count; ++k) rooms.push_back(roomOf(kept.attempts + k));
+        const std::vector<bool> free = areFree(rooms, ranks);
+        const auto first =
+            static_cast<std::uint32_t>(std::find(free.begin(), free.end(), true) - free.begin());
+        kept.attempts += std::min(first + 1, count);
+        if (first < count) return rooms[first];
     }
     return std::nullopt;
 }

@@ -13,6 +13,9 @@
 
 namespace pendular {
 
+class AllRanks;
+class ContactSystem;
+
 class StateArchive;
 
 /// What happens to the flow of an inlet while there is no room for its next grain.
@@ -122,6 +125,7 @@ public:
     [[nodiscard]] std::vector<Sizes> sizes(const GrainSpecies& species) const;
     /// Whether others than grains are to come.
     [[nodiscard]] bool bringBodies() const;
+    [[nodiscard]] bool bringLiquid() const;
     /// m, the largest width of the bodies to come as they turn; 0 without any.
     [[nodiscard]] double widestBody() const;
     /// Tells a scene of the shapes to come. Throws InputError if it takes none.
@@ -141,7 +145,9 @@ public:
     /// @param atSetUp the periodic box then, which strain changes
     void begin(const InsertionScene& scene, const PeriodicBox& atSetUp, bool isRestarted);
     /// Grains that are due at a time (s) come. @param tell of what is to be said once
-    void letIn(const InsertionScene& scene, double time, const std::function<void(std::string)>& tell);
+    /// On several ranks all try the same candidates, and a place is free if it is on each of them.
+    void letIn(const InsertionScene& scene, ContactSystem& contacts, double time,
+               const std::function<void(std::string)>& tell);
     void visitState(StateArchive& archive);
 
 private:
@@ -167,14 +173,14 @@ private:
     void checkRoom(const InsertionScene& scene, std::size_t number) const;
     void check(const InsertionScene& scene, std::size_t number) const;
     void checkStream(const InsertionScene& scene, std::size_t number) const;
-    void letInOf(const InsertionScene& scene, std::size_t number, double time,
+    void letInOf(const InsertionScene& scene, ContactSystem& contacts, std::size_t number, double time,
                  const std::function<void(std::string)>& tell);
     struct Room {
         Vector<double> place;  // m
         Eigen::Quaterniond turn;
     };
-    static std::optional<Room> findRoom(const InsertionScene& scene, Kept& kept, const class SphereGrid& grid,
-                                        std::uint32_t number);
+    static std::optional<Room> findRoom(const InsertionScene& scene, const AllRanks& ranks, Kept& kept,
+                                        const class SphereGrid& grid, std::uint32_t number);
     static void visitKinds(StateArchive& archive, const BodyMixture& bodies);
 
     std::vector<Kept> inlets;

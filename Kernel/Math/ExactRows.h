@@ -27,6 +27,11 @@ public:
         std::memcpy(&batch[rows * packs], row.data(), sizeof(Row));
         if (++rows == rowsOfABatch) takeInBatch();
     }
+    /// The sum of each column.
+    [[nodiscard]] std::vector<ExactSum>& exact() {
+        takeInBatch();
+        return sums;
+    }
     /// The sums of all columns, each rounded once.
     [[nodiscard]] Row value() {
         takeInBatch();

@@ -18,6 +18,19 @@ void ExactSum::carry() {
     additions = 1;
 }
 
+void ExactSum::writeTo(std::span<std::int64_t, integerCount> integers) const {
+    ExactSum carried = *this;
+    carried.carry();
+    std::ranges::copy(carried.digits, integers.begin());
+    integers.back() = finite ? 0 : 1;
+}
+
+void ExactSum::readFrom(std::span<const std::int64_t, integerCount> integers) {
+    std::copy(integers.begin(), integers.end() - 1, digits.begin());
+    finite = integers.back() == 0;
+    carry();
+}
+
 double ExactSum::value() const {
     if (!finite) return std::numeric_limits<double>::quiet_NaN();
     ExactSum magnitude = *this;

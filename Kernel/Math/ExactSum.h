@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "Kernel/Math/Vector.h"
 
@@ -47,6 +48,10 @@ public:
         additions = 2;
         finite &= other.finite;
     }
+    /// Integers of which those of up to 2^30 sums, added up one by one, are those of the sum of all.
+    static constexpr std::size_t integerCount = 69;
+    void writeTo(std::span<std::int64_t, integerCount> integers) const;
+    void readFrom(std::span<const std::int64_t, integerCount> integers);
     /// The nearest double, ties to even.
     [[nodiscard]] double value() const;
 

@@ -116,7 +116,8 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
         take(contacts, walls, grains, bucket, outlook);
         ends.push_back(terms.size());
     }
-    summarise(found);
+    const AllRanks& ranks = contacts.ranks();
+    summarise(found, grains, ranks);
     const auto forEachBucket = [&](auto&& function) {
         std::size_t begin = 0;
         for (std::size_t k = 0; k < ends.size(); begin = ends[k++])
@@ -132,17 +133,29 @@ ContactBound ContactBounds::find(const ContactSystem& contacts, const WallHandle
         }
         press(contacts.laws(), bucket, ofBucket, outlook, found.meanOverlap);
     });
-    chooseWeights(grains);
+    found.supposedOverlap = ranks.largest(found.supposedOverlap);
+    chooseWeights(contacts, grains);
     for (const Term& term : terms) {
         addTo(grains, term, term.first, term.second);
         if (term.second != none) addTo(grains, term, term.second, term.first);
     }
     for (std::size_t k = 0; k < grains.held.size(); ++k) holdBlock(grains.held[k], blocks[k]);
-    for (std::size_t k = 0; k < blocks.size(); ++k)
+    for (std::size_t k = 0; k < grains.ownSize(); ++k)
         takeLeast(blocks[k], grains.identity[k], integrator, found);
-    for (std::size_t k = 0; k < bodies.size(); ++k)
+    for (std::size_t k = 0; k < grains.bodies.size(); ++k)
         takeLeast(bodies[k], grains.bodies.membersOf(k).front().grain, integrator, found);
+    if (ranks.areSeveral()) takeLeastOfRanks(found, ranks);
     return found;
+}
+
+void ContactBounds::takeLeastOfRanks(ContactBound& found, const AllRanks& ranks) {
+    for (const ContactBound& one : ranks.gather(std::vector{found})) {
+        if (one.step > found.step || (one.step == found.step && one.grain > found.grain)) continue;
+        found.step = one.step;
+        found.grain = one.grain;
+        found.contactsOfGrain = one.contactsOfGrain;
+        found.overlapOfGrain = one.overlapOfGrain;
+    }
 }
 
 /// A grain does not move along and about axes in which it is held. (Those of bodies are left as if free,
@@ -175,13 +188,13 @@ void ContactBounds::takeLeast(const One& one, std::uint32_t identity, const Inte
 
 void ContactBounds::findBodies(const ParticleStore& grains) {
     blocks.assign(grains.size(), {});
-    bodies.assign(grains.bodies.size(), {});
+    bodies.assign(grains.bodies.sizeWithGhosts(), {});
     movers.clear();
     if (bodies.empty()) return;
     for (std::uint32_t place = 0; place < grains.size(); ++place) movers.push_back(place);
     for (std::size_t k = 0; k < bodies.size(); ++k)
         for (const BodyMember& member : grains.bodies.membersOf(k))
-            movers[grains.place[member.grain]] = static_cast<std::uint32_t>(blocks.size() + k);
+            movers[grains.placeOf(member.grain)] = static_cast<std::uint32_t>(blocks.size() + k);
 }
 
 Vector<double> ContactBounds::fromGrain(const ParticleStore& grains, const Term& term,
@@ -211,7 +224,7 @@ double ContactBounds::mobility(const ParticleStore& grains, const Term& term, st
 }
 
 /// Finds the load of each grain, and the units of the sums.
-void ContactBounds::chooseWeights(const ParticleStore& grains) {
+void ContactBounds::chooseWeights(const ContactSystem& contacts, const ParticleStore& grains) {
     const auto forBoth = [](const Term& term, auto&& function) {
         function(term.first);
         if (term.second != none) function(term.second);
@@ -226,13 +239,15 @@ void ContactBounds::chooseWeights(const ParticleStore& grains) {
     double largest = 0, dashpot = 0;
     for (const Term& term : terms)
         forBoth(term, [&](std::uint32_t place) { largest = std::max(largest, springOf(term, place)); });
-    springUnit = unitOf(largest);
+    springUnit = unitOf(contacts.ranks().largest(largest));
     for (const Term& term : terms)
         forBoth(term, [&](std::uint32_t place) {
             loads[moverAt(place)] += inUnits(springOf(term, place), springUnit);
         });
+    contacts.tellGhosts(std::span(loads).first(blocks.size()), std::span(loads).subspan(blocks.size()));
     largest = 0;
     for (const double load : loads) largest = std::max(largest, load);
+    largest = contacts.ranks().largest(largest);
     // An entry is at most 5/2 (1 + t) k/m, with t k/m at most the load of the other grain.
     springUnit = unitOf(8 * largest);
     for (const Term& term : terms) {
@@ -244,7 +259,7 @@ void ContactBounds::chooseWeights(const ParticleStore& grains) {
                                             mobility(grains, term, place));
         });
     }
-    dashpotUnit = unitOf(4 * dashpot);
+    dashpotUnit = unitOf(4 * contacts.ranks().largest(dashpot));
 }
 
 /// The contacts of a bucket that act, or are within reach. Those of one grain with the parts of a wall follow
@@ -350,15 +365,18 @@ void ContactBounds::keep(const ContactSystem& contacts, const Bucket& bucket, st
     if (ofShapes) shaped.push_back(*ofShapes);
 }
 
-void ContactBounds::summarise(ContactBound& found) const {
+void ContactBounds::summarise(ContactBound& found, const ParticleStore& grains, const AllRanks& ranks) const {
     ExactSum sum;  // whatever the order of the list
     for (const Term& term : terms) {
-        if (!(term.gap < 0)) continue;
+        if (!(term.gap < 0) || term.first >= grains.ownSize()) continue;
         const double overlap = -term.gap / term.smallerRadius;
         ++found.touching;
         found.largestOverlap = std::max(found.largestOverlap, overlap);
         sum.add(overlap);
     }
+    found.touching = ranks.sum(found.touching);
+    found.largestOverlap = ranks.largest(found.largestOverlap);
+    ranks.addUp({&sum});
     if (found.touching > 0) found.meanOverlap = sum.value() / static_cast<double>(found.touching);
 }
 

@@ -142,10 +142,12 @@ private:
                                                const Term& term, const ContactOutlook& outlook);
     static void press(const ContactLaws& laws, const Bucket& bucket, std::span<Term> ofBucket,
                       const ContactOutlook& outlook, double mean);
-    void summarise(ContactBound& found) const;
+    void summarise(ContactBound& found, const ParticleStore& grains, const AllRanks& ranks) const;
+    /// The grain of all ranks that bounds the step.
+    static void takeLeastOfRanks(ContactBound& found, const AllRanks& ranks);
     void findBodies(const ParticleStore& grains);
     static void holdBlock(HeldBits held, OfGrain& of);
-    void chooseWeights(const ParticleStore& grains);
+    void chooseWeights(const ContactSystem& contacts, const ParticleStore& grains);
     /// Where the load of the grain at a place is, or of the body that it is part of.
     [[nodiscard]] std::uint32_t moverAt(std::uint32_t place) const {
         return movers.empty() ? place : movers[place];

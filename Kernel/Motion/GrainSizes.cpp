@@ -23,13 +23,13 @@ double radiusInLimit(const ParticleStore& grains, std::size_t place) {
 
 }  // namespace
 
-GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount)
+GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount, const AllRanks& ranks)
     : count(grains.count()),
       all(speciesCount),
       free(speciesCount),
       response(grains.bodies.response(grains)),
       hasBodies(!grains.bodies.empty()) {
-    for (std::size_t k = 0; k < grains.size(); ++k) {
+    for (std::size_t k = 0; k < grains.ownSize(); ++k) {
         if (grains.isGap(k)) continue;
         const TranslationRecord& grain = grains.translation[k];
         const double counted = radiusInLimit(grains, k);
@@ -43,15 +43,33 @@ GrainSizes::GrainSizes(const ParticleStore& grains, std::size_t speciesCount)
                    std::max(highest.z, at.z + r)};
         if (grain.inverseMass > 0) free[grains.species[k]].add(counted);
     }
-    countHeldAlong(grains);
+    if (ranks.areSeveral()) addOfOthers(ranks);
+    countHeldAlong(grains, ranks);
+}
+
+void GrainSizes::addOfOthers(const AllRanks& ranks) {
+    count = ranks.sum(count);
+    for (std::vector<SizeRange>* const ranges : {&all, &free}) {
+        const std::vector<SizeRange> ofAll = ranks.gather(*ranges);
+        const std::size_t species = ranges->size();
+        ranges->assign(species, {});
+        for (std::size_t k = 0; k < ofAll.size(); ++k) (*ranges)[k % species].add(ofAll[k]);
+    }
+    response.inertia = ranks.smallest(response.inertia);
+    response.damping = ranks.largest(response.damping);
+    hasBodies = ranks.any(hasBodies);
+    smallestOfBodies = ranks.smallest(smallestOfBodies);
+    for (double* const low : {&lowest.x, &lowest.y, &lowest.z}) *low = ranks.smallest(*low);
+    for (double* const high : {&highest.x, &highest.y, &highest.z}) *high = ranks.largest(*high);
 }
 
 /// A contact with one that is held along its normal has dashpots for the mass of the other one alone, or for
 /// twice the mass (HeldMasses.h), which act across the normal, too.
-void GrainSizes::countHeldAlong(const ParticleStore& grains) {
+void GrainSizes::countHeldAlong(const ParticleStore& grains, const AllRanks& ranks) {
     double least = infinity, largest = 0;  // m
     for (std::size_t k = 0; k < grains.held.size(); ++k)
         if (grains.held[k].areAlong()) least = std::min(least, grains.translation[k].radius);
+    least = ranks.smallest(least);
     if (!(least < infinity)) return;
     for (const SizeRange& range : free) largest = std::max(largest, range.largest);
     const double ratio = largest / least;

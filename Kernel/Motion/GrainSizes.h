@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Ranks/AllRanks.h"
 
 namespace pendular {
 
@@ -20,6 +21,16 @@ struct SizeRange {
         smallest = std::min(smallest, radius);
         secondLargest = std::max(secondLargest, std::min(largest, radius));
         largest = std::max(largest, radius);
+    }
+    /// Those of others as well.
+    void add(const SizeRange& others) {
+        count += others.count;
+        secondSmallest =
+            std::min(std::max(smallest, others.smallest), std::min(secondSmallest, others.secondSmallest));
+        smallest = std::min(smallest, others.smallest);
+        secondLargest =
+            std::max(std::min(largest, others.largest), std::max(secondLargest, others.secondLargest));
+        largest = std::max(largest, others.largest);
     }
     [[nodiscard]] bool empty() const { return count == 0; }
     /// Whether a grain of this radius is between others.
@@ -43,7 +54,8 @@ struct GrainSizes {
     Vector<double> highest{-infinity, -infinity, -infinity};
 
     GrainSizes() = default;
-    GrainSizes(const ParticleStore& grains, std::size_t speciesCount);
+    /// @param ranks that share the grains; none: all are here
+    GrainSizes(const ParticleStore& grains, std::size_t speciesCount, const AllRanks& ranks = {});
     /// m; infinite without grains
     [[nodiscard]] double smallest() const;
     /// The grains that a plane can touch, at most: a hexagonal layer of the smallest ones over the shadow of
@@ -56,7 +68,8 @@ struct GrainSizes {
 
 private:
     double smallestOfBodies = infinity;  // m, of grains that count as larger ones
-    void countHeldAlong(const ParticleStore& grains);
+    void addOfOthers(const AllRanks& ranks);
+    void countHeldAlong(const ParticleStore& grains, const AllRanks& ranks);
 };
 
 }  // namespace pendular

@@ -154,6 +154,7 @@ Column forcesOfGrains(const Membrane& membrane, int wall, const ContactSystem& c
             found.push_back(at);
         }
     }
+    found = contacts.ranks().gather(found);  // each moves the whole net
     std::sort(found.begin(), found.end(), [](const TriangleForce& a, const TriangleForce& b) {
         return std::tie(a.grain, a.part) < std::tie(b.grain, b.part);
     });

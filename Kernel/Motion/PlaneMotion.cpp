@@ -49,7 +49,7 @@ double beginServo(const ContactSystem& contacts, const ParticleStore& grains, st
         static_cast<std::uint64_t>(std::clamp(std::round(asked.time / step.length / looksInTime), 1.0, 1e15));
     if (drive.steps % interval == 0) {
         // A bed is as soft as its layers one after the other: at least a contact's share of all grains.
-        const double layers = static_cast<double>(grains.count()) /
+        const double layers = static_cast<double>(contacts.ranks().sum(grains.count())) /
                               static_cast<double>(std::max<std::uint64_t>(drive.touches, 1));
         drive.servo.look(dot(toVector(wall.getForce()), wall.drivenNormal()), asked.load,
                          wallStiffness(contacts, grains, static_cast<int>(number)),
@@ -65,7 +65,7 @@ std::string nameOf(std::size_t wall, const PlaneDrive& drive) {
 }
 
 /// m, from a plane to the farthest surface of a grain before it; negative where none is before it.
-double farthestGrain(const InfiniteWall& wall, const ParticleStore& grains) {
+double farthestGrain(const InfiniteWall& wall, const ParticleStore& grains, const AllRanks& ranks) {
     double farthest = -infinity;
     const Vector<double> normal = wall.drivenNormal();
     const double offset = dot(normal, wall.pointOnPlane());
@@ -74,19 +74,19 @@ double farthestGrain(const InfiniteWall& wall, const ParticleStore& grains) {
         const double gap = offset - dot(normal, grain.position);
         if (grain.inverseMass > 0 && gap > 0) farthest = std::max(farthest, gap + grain.radius);
     }
-    return farthest;
+    return ranks.largest(farthest);
 }
 
 /// A plane that goes towards grains which it never meets: they may fall with it for a while, to a floor.
 void refuseEndlessWay(std::size_t number, const InfiniteWall& wall, PlaneDrive& drive,
-                      const ParticleStore& grains, const Step& step) {
+                      const ParticleStore& grains, const AllRanks& ranks, const Step& step) {
     if (drive.touches > 0) {
         drive.travelled = drive.farthest = 0;
         return;
     }
     if (drive.travelled <= step.smallestRadius) return;
     if (drive.farthest == 0)
-        drive.farthest = drive.travelled + 20 * std::max(farthestGrain(wall, grains), 0.0);
+        drive.farthest = drive.travelled + 20 * std::max(farthestGrain(wall, grains, ranks), 0.0);
     if (drive.travelled <= drive.farthest) return;
     throw RunError(fmt::format(
         "At time {:.6g} s {} has gone {:.4g} m towards the grains and met none: they go away from "
@@ -112,7 +112,7 @@ double wallStiffness(const ContactSystem& contacts, const ParticleStore& grains,
                                                         overlap));
         }
     }
-    return sum.value();
+    return contacts.ranks().sum(sum);
 }
 
 void PlaneMotion::begin(const WallHandler& walls, const ContactSystem& contacts, const ParticleStore& grains,
@@ -122,10 +122,10 @@ void PlaneMotion::begin(const WallHandler& walls, const ContactSystem& contacts,
         before.push_back({number, drive, wall.getPose(), drive.velocity * wall.drivenNormal()});
     });
     forEachDriven(walls, [&](std::size_t number, InfiniteWall& wall, PlaneDrive& drive) {
-        refuseEndlessWay(number, wall, drive, grains, step);
+        refuseEndlessWay(number, wall, drive, grains, contacts.ranks(), step);
         const double start = drive.velocity;
         double shift = 0;  // m
-        drive.waits = grains.count() == 0;
+        drive.waits = !contacts.ranks().any(grains.count() > 0);
         if (!drive.waits)
             shift = drive.isPiston() ? beginPiston(wall, drive, step)
                                      : beginServo(contacts, grains, number, wall, drive, step);

@@ -278,7 +278,7 @@ double stepAll(ParticleStore& grains, bool hasContactTorque, int threads, const 
                const PeriodicBox& box, const ContactStore* contacts, const Vector<double>& gravity,
                double step, const double* beginStep) {
     grains.bodies.refresh(grains);
-    if (scheme.remembersEarlier() && grains.bodies.earlier.size() != grains.bodies.size())
+    if (scheme.remembersEarlier() && grains.bodies.earlier.size() != grains.bodies.sizeWithGhosts())
         grains.bodies.startEarlier(true);  // of the first bodies in a run
     const auto with = [&]<class L>() {
         if (contacts == nullptr) return L(grains, scheme, box).step(threads, nullptr, beginStep);

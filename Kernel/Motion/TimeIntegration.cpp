@@ -268,6 +268,7 @@ void TimeIntegration::renewAccelerations(ParticleStore& grains, const ContactSto
     }
 }
 void TimeIntegration::start(ParticleStore& grains, const Integrator& scheme) {
+    grains.remembersEarlier = scheme.remembersEarlier();
     grains.bodies.startEarlier(scheme.remembersEarlier());
     withLoops(grains.hasSpin, false, false, [&]<class L>() { L::start(grains, scheme); });
 }

@@ -44,8 +44,9 @@ struct Indices {
 std::string energyLine(const Scene& scene) {
     const GrainSums sums = sumGrains(scene.particleHandler.store());
     return fmt::format("{} {} {} {} {} {}\n", scene.getTime(),
-                       -dot(toVector(scene.getGravity()), sums.firstMoment), sums.translationalEnergy,
-                       sums.rotationalEnergy, scene.energyLedger().springs(), words(sums.centreOfMass()));
+                       -dot(toVector(scene.getGravity()), sums.firstMoment.value()),
+                       sums.translationalEnergy.value(), sums.rotationalEnergy.value(),
+                       scene.energyLedger().springs(), words(sums.centreOfMass()));
 }
 
 }  // namespace

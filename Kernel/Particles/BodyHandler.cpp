@@ -330,7 +330,11 @@ void BodyHandler::removeObject(std::size_t number) {
 }
 
 BodyReference BodyHandler::getObject(std::size_t number) {
-    if (particles.store().bodies.find(number) == RigidBodies::none)
+    const ParticleStore& grains = particles.store();
+    const std::uint32_t at = grains.bodies.find(number);
+    if (grains.isShared && !(at < grains.bodies.size()))
+        throw InputError(fmt::format("Rigid body {} is on another rank, or was removed.", number));
+    if (at == RigidBodies::none)
         throw InputError(
             fmt::format("There is no rigid body {}; the scene has {} (counted from 0).", number, getSize()));
     return {particles, static_cast<std::uint32_t>(number)};

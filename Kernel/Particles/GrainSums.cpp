@@ -1,6 +1,5 @@
 #include "Kernel/Particles/GrainSums.h"
 
-#include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/MovingBodies.h"
 
 namespace pendular {
@@ -24,37 +23,37 @@ void addTranslation(const ParticleStore& grains, ExactSum& sum) {
 }  // namespace
 
 GrainSums sumGrains(const ParticleStore& grains) {
-    ExactSum mass, rotation;
-    ExactVectorSum moment, momentum;
+    GrainSums sums;
     forEachMovingBody(grains,
                       [&](double own, const Vector<double>& position, const Vector<double>& velocity) {
-                          mass.add(own);
-                          moment.add(own * position);
-                          momentum.add(own * velocity);
+                          sums.mass.add(own);
+                          sums.firstMoment.add(own * position);
+                          sums.momentum.add(own * velocity);
                       });
-    addRotation(grains, rotation);
-    return {mass.value(), moment.value(), momentum.value(), translationalEnergy(grains), rotation.value()};
+    addTranslation(grains, sums.translationalEnergy);
+    addRotation(grains, sums.rotationalEnergy);
+    return sums;
 }
 
-double translationalEnergy(const ParticleStore& grains) {
+ExactSum sumOfTranslationalEnergy(const ParticleStore& grains) {
     ExactSum sum;
     addTranslation(grains, sum);
-    return sum.value();
+    return sum;
 }
 
-double kineticEnergy(const ParticleStore& grains) {
+ExactSum sumOfKineticEnergy(const ParticleStore& grains) {
     ExactSum sum;
     addTranslation(grains, sum);
     addRotation(grains, sum);
-    return sum.value();
+    return sum;
 }
 
-double potentialEnergy(const ParticleStore& grains, const Vector<double>& gravity) {
+ExactSum sumOfPotentialEnergy(const ParticleStore& grains, const Vector<double>& gravity) {
     ExactSum sum;
     forEachMovingBody(grains, [&](double mass, const Vector<double>& position, const Vector<double>&) {
         sum.add(-mass * dot(gravity, position));
     });
-    return sum.value();
+    return sum;
 }
 
 }  // namespace pendular

@@ -332,6 +332,10 @@ bool ParticleHandler::contains(std::size_t identity) const {
 
 std::uint32_t ParticleHandler::placeOf(std::size_t identity) const {
     if (contains(identity)) return grains.place[static_cast<std::uint32_t>(identity)];
+    if (grains.isShared && identity < grains.nextIdentity())
+        throw InputError(fmt::format(
+            "Particle {} is on another rank, or was removed; ask particleHandler.contains({}) first.",
+            identity, identity));
     throw InputError(identity < grains.nextIdentity()
                          ? fmt::format("Particle {} was removed.", identity)
                          : fmt::format("There is no particle {}; the scene has {} (counted from 0).",

@@ -43,6 +43,7 @@ std::uint32_t ParticleStore::add(const TranslationRecord& grain, const Vector<do
     species[at] = speciesIndex;
     identity[at] = number;
     if (!earlier.empty()) earlier[at] = {};
+    if (remembersStart) atStart[at] = {};
     if (!held.empty()) held[at] = {};
     if (hasSpin) rotation[at] = {spin, 2.5 * grain.inverseMass / (grain.radius * grain.radius), {0, 0, 0}};
     for (GrainColumn& column : columns) column.values[at] = column.initial;
@@ -57,7 +58,8 @@ std::uint32_t ParticleStore::freePlace() {
     }
     const std::size_t count = size() + 1;
     translation.resize(count), acceleration.resize(count), species.resize(count), identity.resize(count);
-    if (!earlier.empty()) earlier.resize(count);
+    if (remembersEarlier || !earlier.empty()) earlier.resize(count);
+    if (remembersStart) atStart.resize(count);
     if (!held.empty()) held.resize(count);
     if (hasSpin) rotation.resize(count);
     for (GrainColumn& column : columns) column.values.resize(count);
@@ -83,6 +85,7 @@ void ParticleStore::reorder(const std::vector<std::uint32_t>& order, int threads
     permute(identity, order, threads);
     if (hasSpin) permute(rotation, order, threads);
     if (!earlier.empty()) permute(earlier, order, threads);
+    if (remembersStart) permute(atStart, order, threads);
     if (!held.empty()) permute(held, order, threads);
     for (GrainColumn& column : columns) permute(column.values, order, threads);
     const std::size_t own = ownSize();
@@ -117,11 +120,13 @@ void ParticleStore::visitState(StateArchive& archive) {
 
 void ParticleStore::visitColumns(StateArchive& archive) {
     // A member that is added has to be added here.
-    auto& [spins, t, r, a, e, h, s, i, p, ghosts, named, joined, n, free] = *this;
+    auto& [spins, shared, t, r, a, e, earlierIsKept, start, startIsKept, h, s, i, p, ghosts, named, joined, n,
+           free] = *this;
     archive.column<double>("translation", t);
     archive.column<double>("rotation", r);
     archive.column<double>("acceleration", a);
     archive.column<double>("earlier", e);
+    if (archive.isReading()) earlierIsKept = !e.empty();
     if (archive.isReading()) h.clear();
     if (archive.isWriting() ? !h.empty() : archive.holds("held")) archive.column<std::uint8_t>("held", h);
     archive.column<std::uint16_t>("species", s);

@@ -41,6 +41,12 @@ struct EarlierAcceleration {
     Vector<double> angularAcceleration{0, 0, 0};  // rad/s^2
 };
 
+/// The motion of a grain at the start of a step, for the energy ledger.
+struct MotionAtStart {
+    Vector<double> velocity{0, 0, 0}, acceleration{0, 0, 0};     // m/s, m/s^2
+    Vector<double> spin{0, 0, 0}, angularAcceleration{0, 0, 0};  // rad/s, rad/s^2
+};
+
 /// Bytes of memory that vectors have taken.
 template <class... Values>
 std::size_t bytesOf(const std::vector<Values>&... columns) {
@@ -60,10 +66,14 @@ std::size_t bytesOf(const std::vector<Values>&... columns) {
 class ParticleStore {
 public:
     bool hasSpin = false;
+    bool isShared = false;  // other ranks have grains that are not here
     std::vector<TranslationRecord> translation;
     std::vector<RotationRecord> rotation;      // empty without spin
     std::vector<Vector<double>> acceleration;  // m/s^2, of the last step
     std::vector<EarlierAcceleration> earlier;  // empty unless the integrator needs it
+    bool remembersEarlier = false;             // it does, also where there are no grains
+    std::vector<MotionAtStart> atStart;        // empty unless an energy ledger is kept
+    bool remembersStart = false;               // it is, also where there are no grains
     std::vector<HeldBits> held;                // empty unless something is held along some axes only
     std::vector<std::uint16_t> species;
     std::vector<std::uint32_t> identity;  // of the grain at a place
@@ -102,8 +112,9 @@ public:
 
     /// The memory (bytes) that the grains take.
     [[nodiscard]] std::size_t bytes() const {
-        std::size_t sum = bytesOf(translation, rotation, acceleration, earlier, held, species, identity) +
-                          place.bytes() + ghostPlace.bytes();
+        std::size_t sum =
+            bytesOf(translation, rotation, acceleration, earlier, atStart, held, species, identity) +
+            place.bytes() + ghostPlace.bytes();
         for (const GrainColumn& column : columns) sum += bytesOf(column.values);
         return sum;
     }
@@ -140,7 +151,8 @@ public:
         HeldBits axes = heldAt(at);
         function(translation[at]), function(acceleration[at]), function(species[at]), function(axes);
         if (hasSpin) function(rotation[at]);
-        if (!earlier.empty()) function(earlier[at]);
+        if (remembersEarlier) function(earlier[at]);
+        if (remembersStart) function(atStart[at]);
         for (GrainColumn& column : columns) function(column.values[at]);
         setHeldAt(at, axes);
     }

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/Particles/ParticleStore.h"
@@ -12,18 +14,60 @@
 namespace pendular {
 
 std::uint32_t RigidBodies::find(std::size_t number) const {
-    const auto found = std::ranges::lower_bound(numbers, number);
-    return found != numbers.end() && *found == number ? static_cast<std::uint32_t>(found - numbers.begin())
-                                                      : none;
+    const auto own = numbers.begin() + static_cast<std::ptrdiff_t>(size());
+    for (const auto& [first, end] : {std::pair(numbers.begin(), own), std::pair(own, numbers.end())})
+        if (const auto found = std::lower_bound(first, end, number); found != end && *found == number)
+            return static_cast<std::uint32_t>(found - numbers.begin());
+    return none;
+}
+
+template <class Value>
+static void permute(std::vector<Value>& column, std::span<const std::uint32_t> order) {
+    if (column.empty()) return;
+    std::vector<Value> sorted;
+    for (const std::uint32_t k : order) sorted.push_back(column[k]);
+    column.swap(sorted);
+}
+
+void RigidBodies::reorder(std::span<const std::uint32_t> order) {
+    std::vector<std::uint32_t> orderOfMembers, newBegins{0};
+    bodyOfGrain.clear();
+    for (const std::uint32_t k : order) {
+        for (std::uint32_t m = begins[k]; m < begins[k + 1]; ++m) {
+            orderOfMembers.push_back(m);
+            bodyOfGrain[members[m].grain] = numbers[k];
+        }
+        newBegins.push_back(static_cast<std::uint32_t>(orderOfMembers.size()));
+    }
+    permute(bodies, order), permute(volumes, order), permute(numbers, order);
+    permute(held, order), permute(earlier, order), permute(dry, order);
+    permute(members, orderOfMembers), permute(dryArms, orderOfMembers), permute(films, orderOfMembers);
+    begins.swap(newBegins);
+    forgetPlaces();
+}
+
+void RigidBodies::keepOnly(std::span<const std::uint32_t> places) {
+    reorder(places);
+    ghosts = 0;
+}
+
+void RigidBodies::sort() {
+    std::vector<std::uint32_t> order(bodies.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto own = order.begin() + static_cast<std::ptrdiff_t>(size());
+    const auto isBefore = [&](std::uint32_t a, std::uint32_t b) { return numbers[a] < numbers[b]; };
+    std::sort(order.begin(), own, isBefore);
+    std::sort(own, order.end(), isBefore);
+    reorder(order);
 }
 
 std::vector<Vector<double>> RigidBodies::armsInSpace(const ParticleStore& grains) const {
     if (empty()) return {};
     std::vector<Vector<double>> arms(grains.size(), Vector<double>{0, 0, 0});
-    for (std::size_t k = 0; k < size(); ++k) {
+    for (std::size_t k = 0; k < sizeWithGhosts(); ++k) {
         const Axes axes(bodies[k].orientation);
         for (const BodyMember& member : membersOf(k))
-            arms[grains.place[member.grain]] = axes.turn(member.arm);
+            arms[grains.placeOf(member.grain)] = axes.turn(member.arm);
     }
     return arms;
 }
@@ -66,6 +110,7 @@ void RigidBodies::remove(std::size_t at) {
     if (!held.empty()) held.erase(held.begin() + static_cast<std::ptrdiff_t>(at));
     if (!earlier.empty()) earlier.erase(earlier.begin() + static_cast<std::ptrdiff_t>(at));
     forgetPlaces();
+    if (at >= size()) --ghosts;
     begins.erase(begins.begin() + static_cast<std::ptrdiff_t>(at));
     for (std::size_t k = at; k < begins.size(); ++k) begins[k] -= count;
     bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(at));
@@ -119,29 +164,29 @@ bool RigidBodies::isSphere(const ParticleStore& grains, std::size_t at) const {
     if (begins[at + 1] != begins[at] + 1 || !(members[begins[at]].arm == Vector<double>{0, 0, 0}))
         return false;
     const RigidBody& body = bodies[at];
-    const double radius = grains.translation[grains.place[members[begins[at]].grain]].radius;
+    const double radius = grains.translation[grains.placeOf(members[begins[at]].grain)].radius;
     const double moment = 0.4 * body.mass * radius * radius;  // as join() has it
     return body.inertia == Vector<double>{moment, moment, moment};
 }
 
 std::vector<std::uint32_t> RigidBodies::bodiesAt(const ParticleStore& grains) const {
     std::vector<std::uint32_t> all(grains.size(), none);
-    for (std::uint32_t k = 0; k < size(); ++k)
-        for (const BodyMember& member : membersOf(k)) all[grains.place[member.grain]] = k;
+    for (std::uint32_t k = 0; k < sizeWithGhosts(); ++k)
+        for (const BodyMember& member : membersOf(k)) all[grains.placeOf(member.grain)] = k;
     return all;
 }
 
 void RigidBodies::keepTogether(const ParticleStore& grains, std::vector<std::uint32_t>& places) const {
     if (empty()) return;
     const std::vector<std::uint32_t> bodyOfPlace = bodiesAt(grains);
-    std::vector<bool> isListed(size(), false);
+    std::vector<bool> isListed(sizeWithGhosts(), false);
     std::vector<std::uint32_t> together;
     together.reserve(places.size());
     for (const std::uint32_t place : places) {
         const std::uint32_t body = bodyOfPlace[place];
         if (body == none) together.push_back(place);
         if (body == none || isListed[body]) continue;
-        for (const BodyMember& member : membersOf(body)) together.push_back(grains.place[member.grain]);
+        for (const BodyMember& member : membersOf(body)) together.push_back(grains.placeOf(member.grain));
         isListed[body] = true;
     }
     places.swap(together);
@@ -160,7 +205,7 @@ void RigidBodies::refresh(const ParticleStore& grains) {
             inOrder.push_back({member.arm, grains.place[member.grain]});
     }
     firsts.push_back(static_cast<std::uint32_t>(inOrder.size()));
-    for (std::uint32_t at = 0; at < grains.size(); ++at)
+    for (std::uint32_t at = 0; at < grains.ownSize(); ++at)
         if (bodyAt[at] == none || isSphere(grains, bodyAt[at])) own.push_back(at);
     placesAreKnown = true;
 }

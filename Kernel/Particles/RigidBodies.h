@@ -92,12 +92,17 @@ struct BodyResponse {
 /// The rigid bodies of a scene. Their grains are in the store like all others, with the mass of their body,
 /// so that contacts, walls and outputs see nothing new; but they move with the body, and their forces are
 /// summed for it. A grain that is in none is its own body, and a scene without rigid bodies pays nothing.
+///
+/// Where a scene is shared by ranks, there are the bodies of this rank, and behind them copies (ghosts) of
+/// those of other ranks of which a grain may touch one of its own; all of their grains are ghosts here.
 class RigidBodies {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
+    /// No ghosts either.
     [[nodiscard]] bool empty() const { return bodies.empty(); }
-    [[nodiscard]] std::size_t size() const { return bodies.size(); }
+    [[nodiscard]] std::size_t size() const { return bodies.size() - ghosts; }
+    [[nodiscard]] std::size_t sizeWithGhosts() const { return bodies.size(); }
     [[nodiscard]] RigidBody& operator[](std::size_t at) { return bodies[at]; }
     [[nodiscard]] const RigidBody& operator[](std::size_t at) const { return bodies[at]; }
     /// The grains of a body, in the order in which they were joined.
@@ -176,6 +181,36 @@ public:
     /// Removes the body at a place, not its grains.
     void remove(std::size_t at);
 
+    /// Keeps the bodies at these places only, and no ghosts.
+    void keepOnly(std::span<const std::uint32_t> places);
+    /// Calls write(value) for all that is kept of the body at a place.
+    template <class Function>
+    void writeRow(std::size_t at, Function&& write) const {
+        write(numbers[at]), write(begins[at + 1] - begins[at]), write(bodies[at]), write(volumes[at]);
+        writeOne(held, at, write), writeOne(earlier, at, write), writeOne(dry, at, write);
+        for (std::uint32_t m = begins[at]; m < begins[at + 1]; ++m) {
+            write(members[m]);
+            if (!dry.empty()) write(dryArms[m]), write(films[m]);
+        }
+    }
+    /// Adds a body, or the ghost of one, of which take(value) takes what writeRow() wrote; sort() then.
+    template <class Function>
+    void takeRow(Function&& take, bool isGhost) {
+        std::uint32_t count = 0;
+        take(numbers.emplace_back()), take(count), take(bodies.emplace_back()), take(volumes.emplace_back());
+        takeOne(held, take), takeOne(earlier, take), takeOne(dry, take);
+        for (; count > 0; --count) {
+            take(members.emplace_back());
+            bodyOfGrain[members.back().grain] = numbers.back();
+            if (!dry.empty()) take(dryArms.emplace_back()), take(films.emplace_back());
+        }
+        begins.push_back(static_cast<std::uint32_t>(members.size()));
+        ghosts += isGhost ? 1 : 0;
+    }
+    /// After rows have come, first those of bodies and then those of ghosts: both are in the order of their
+    /// numbers.
+    void sort();
+
     /// Gives the grains of a body the mass, the places and the velocities that they have in it.
     void place(ParticleStore& grains, std::size_t at);
     /// Places the grains of all bodies but spheres, whose grains move by themselves and keep their bits.
@@ -228,6 +263,22 @@ public:
     void visitState(StateArchive& archive, const ParticleStore& grains);
 
 private:
+    template <class Value, class Function>
+    static void writeOne(const std::vector<Value>& column, std::size_t at, Function& write) {
+        write(!column.empty());
+        if (!column.empty()) write(column[at]);
+    }
+    /// A column that is empty here may have rows on other ranks.
+    template <class Value, class Function>
+    void takeOne(std::vector<Value>& column, Function& take) const {
+        bool isThere = false;
+        take(isThere);
+        if (!isThere && column.empty()) return;
+        column.resize(bodies.size());
+        if (isThere) take(column.back());
+    }
+    /// Puts the body at order[k] to place k; those that are not in the order go.
+    void reorder(std::span<const std::uint32_t> order);
     void visitHeld(StateArchive& archive);
     void visitDry(StateArchive& archive);
     void requireWhole(const StateArchive& archive, const ParticleStore& grains) const;
@@ -237,6 +288,7 @@ private:
     /// kg, a grain; see response()
     [[nodiscard]] double massAtContacts(const ParticleStore& grains, std::size_t at) const;
 
+    std::size_t ghosts = 0;  // the last bodies
     std::vector<RigidBody> bodies;
     std::vector<double> volumes;          // m^3, of each
     std::vector<HeldBody> held;           // of each; empty while none is held

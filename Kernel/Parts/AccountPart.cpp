@@ -19,12 +19,12 @@ void AccountPart::takeOver(StepContext& scene, const SceneChanges& changes) {
 
 void AccountPart::beforeMotion(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
-    account.begin(step.grains(), step.contacts.store(), step.walls, step.gravity, step.length, ledger);
+    account.begin(step.grains(), step.contacts, step.walls, step.gravity, step.length, ledger);
 }
 
 void AccountPart::afterMotion(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
-    account.moved(step.grains(), step.gravity, ledger);
+    account.moved(step.grains(), step.contacts.ranks(), step.gravity, ledger);
 }
 
 void AccountPart::finish(StepContext& step) {

@@ -28,18 +28,19 @@ double AdaptivePart::largestStepOf(const StepContext& scene, const GrainSizes& s
 /// m, of a grain across itself where it is thinnest
 static double smallestRadius(const StepContext& scene, const GrainSizes& sizes) {
     const GrainShapes* const shapes = scene.laws->shapes();
-    if (!shapes) return sizes.smallest();
+    if (!shapes) return sizes.smallest();  // of all ranks
     const ParticleStore& grains = scene.grains();
     double smallest = infinity;
     for (const std::uint32_t place : grains.place)
         smallest = std::min(smallest, shapes->thickness(grains, place));
-    return smallest;
+    return scene.contacts.ranks().smallest(smallest);
 }
 
 /// Grains that have come shorten the step until the next choice; other changes ask for one.
 void AdaptivePart::takeOver(StepContext& scene, const SceneChanges& changes) {
     if (!changes.areOnlyNewGrains()) return adaptive.chooseAnew();
-    const GrainSizes sizes = sizesOfScene(*scene.laws, scene.particles.store(), inlets);
+    const GrainSizes sizes =
+        sizesOfScene(*scene.laws, scene.particles.store(), inlets, scene.contacts.ranks());
     const double limit = sceneStabilityLimit(*scene.laws, sizes, scene.walls, contactScheme(scene));
     scene.length = std::min(scene.length, adaptive.shorten(scene.length, largestStepOf(scene, sizes), limit));
 }
@@ -48,12 +49,13 @@ void AdaptivePart::prepare(StepContext& step) {
     if (!adaptive.isDue()) return;
     step.particles.finishStep();
     ParticleStore& grains = step.grains();
+    step.contacts.renewGhosts(grains);
     const StepTimes::Within search(step.times, StepTimes::Part::Search);
-    const GrainSizes sizes = sizesOfScene(*step.laws, grains, inlets);
+    const GrainSizes sizes = sizesOfScene(*step.laws, grains, inlets, step.contacts.ranks());
     const double most = largestStepOf(step, sizes);
     const AdaptiveStep::Outlook outlook =
         adaptive.lookAhead(grains, step.box, step.length, most, norm(step.gravity), step.largestReach,
-                           smallestRadius(step, sizes), step.laws->shapes());
+                           smallestRadius(step, sizes), step.laws->shapes(), step.contacts.ranks());
     ContactBound bound;
     if (outlook.isKnown()) {
         step.contacts.listWithin(grains, outlook.contacts.reach);
@@ -71,7 +73,8 @@ void AdaptivePart::afterMotion(StepContext& step) {
 }
 
 void AdaptivePart::afterForces(StepContext& step) {
-    if (step.contacts.overlaps().hasExceededExpected()) adaptive.noteDeeperOverlap();
+    if (step.contacts.ranks().any(step.contacts.overlaps().hasExceededExpected()))
+        adaptive.noteDeeperOverlap();
 }
 
 void AdaptivePart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {

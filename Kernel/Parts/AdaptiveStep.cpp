@@ -9,16 +9,17 @@ namespace pendular {
 namespace {
 
 /// The mean velocity of the grains that move.
-Vector<double> meanVelocity(const ParticleStore& grains) {
+Vector<double> meanVelocity(const ParticleStore& grains, const AllRanks& ranks) {
     ExactVectorSum sum;
-    double count = 0;
+    std::uint64_t count = 0;
     for (std::size_t k = 0; k < grains.ownSize(); ++k) {
         const TranslationRecord& grain = grains.translation[k];
         if (grain.inverseMass == 0) continue;  // held, or a gap
         sum.add(grain.velocity);
         ++count;
     }
-    return (1 / std::max(count, 1.0)) * sum.value();
+    ranks.addUp(sum);
+    return (1 / std::max(static_cast<double>(ranks.sum(count)), 1.0)) * sum.value();
 }
 
 /// Speeds (m/s) of grains: the two largest against those around them, and the largest of all.
@@ -36,7 +37,8 @@ struct Speeds {
 /// that the body's turning gives it in any direction, and the surface of one that is no sphere comes nearer
 /// by the turning as well.
 template <class Around>
-Speeds speedsOf(const ParticleStore& grains, const GrainShapes* shapes, const Around& around) {
+Speeds speedsOf(const ParticleStore& grains, const GrainShapes* shapes, const AllRanks& ranks,
+                const Around& around) {
     Speeds found;
     for (const std::uint32_t at : grains.place) {
         const TranslationRecord& grain = grains.translation[at];
@@ -52,7 +54,10 @@ Speeds speedsOf(const ParticleStore& grains, const GrainShapes* shapes, const Ar
             found.add(own + turning, inSpace + turning);
         }
     }
-    return found;
+    Speeds ofAll;
+    for (const Speeds& one : ranks.gather(std::vector{found}))
+        ofAll.add(one.first, one.largest), ofAll.add(one.second, 0);
+    return ofAll;
 }
 
 /// 1/s, the rate at which a flow parts two places, at most (the norm of its gradient).
@@ -67,12 +72,14 @@ double rateOf(const PeriodicBox& box) {
 
 AdaptiveStep::Outlook AdaptiveStep::lookAhead(const ParticleStore& grains, const PeriodicBox& box,
                                               double step, double most, double gravity, double reach,
-                                              double smallestRadius, const GrainShapes* shapes) {
+                                              double smallestRadius, const GrainShapes* shapes,
+                                              const AllRanks& ranks) {
     const double time = static_cast<double>(interval) * longest(step, most);
     const bool flows = box.imagesMove;
-    const Vector<double> frame = flows ? Vector<double>{0, 0, 0} : meanVelocity(grains);
-    const Speeds speeds = speedsOf(
-        grains, shapes, [&](const Vector<double>& place) { return flows ? box.flowAt(place) : frame; });
+    const Vector<double> frame = flows ? Vector<double>{0, 0, 0} : meanVelocity(grains, ranks);
+    const Speeds speeds = speedsOf(grains, shapes, ranks, [&](const Vector<double>& place) {
+        return flows ? box.flowAt(place) : frame;
+    });
     // A wall may gain as much again as it has; what it gains beyond that is seen.
     const double walls = 2 * wallSpeed + norm(frame);
     const double falling = 0.5 * gravity * time;  // m/s, in the mean of the time

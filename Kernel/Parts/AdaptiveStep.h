@@ -60,10 +60,11 @@ public:
         [[nodiscard]] bool isKnown() const { return longest > 0; }  // not of an endless wall that tilts
     };
     /// @param step s, that was; @param most s, the largest; @param gravity m/s^2; @param reach m, at which
-    /// two grains act on each other at most; @param smallestRadius m; @param shapes null of spheres
+    /// two grains act on each other at most; @param smallestRadius m; @param shapes null of spheres; @param
+    /// ranks that share the grains
     [[nodiscard]] Outlook lookAhead(const ParticleStore& grains, const PeriodicBox& box, double step,
                                     double most, double gravity, double reach, double smallestRadius,
-                                    const GrainShapes* shapes);
+                                    const GrainShapes* shapes, const AllRanks& ranks = {});
     /// The step (s) until the next choice, where grains have come: at most what any contact of theirs stands.
     /// @param step s, that is; @param most, limit as below
     [[nodiscard]] double shorten(double step, double most, double limit) const {

@@ -20,8 +20,8 @@
 namespace pendular {
 
 Features BodyPart::features(const StepContext& scene) const {
-    return scene.grains().bodies.empty() && !inlets.bringBodies() ? Features{}
-                                                                  : Features{Feature::RigidBodies};
+    const bool areThere = scene.contacts.ranks().any(!scene.grains().bodies.empty());
+    return areThere || inlets.bringBodies() ? Features{Feature::RigidBodies} : Features{};
 }
 
 void BodyPart::check(const StepContext& scene) {

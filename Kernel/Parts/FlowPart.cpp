@@ -43,9 +43,9 @@ std::optional<std::size_t> wallInFlow(const WallHandler& walls, const PeriodicBo
 template <class Function>
 void changeVelocities(StepContext& step, Function&& changeAt) {
     ParticleStore& grains = step.grains();
-    ExactSum given;  // J
-    std::size_t number = 0;
-    for (const std::uint32_t place : grains.place) {
+    ExactSum given;                                                  // J
+    for (std::uint32_t place = 0; place < grains.size(); ++place) {  // ghosts, too
+        if (grains.isGap(place)) continue;
         TranslationRecord& grain = grains.translation[place];
         // A rigid body goes over as a whole, when its centre does.
         const std::uint32_t body = grains.bodies.bodyOf(grains.identity[place]);
@@ -53,18 +53,19 @@ void changeVelocities(StepContext& step, Function&& changeAt) {
             body == RigidBodies::none ? grain.position : grains.bodies[grains.bodies.find(body)].position;
         if (const Vector<double> change = changeAt(at); squaredNorm(change) > 0) {
             grain.velocity += change;
-            if (step.account && body == RigidBodies::none)
-                given.add(step.account->changedImage(grains, place, number, change));
-            else if (step.account) step.account->changedImageOfMember(number, change);
+            if (!step.account) continue;
+            if (body == RigidBodies::none && place < grains.ownSize())
+                given.add(EnergyAccount::changedImage(grains, place, change));
+            else EnergyAccount::changedImageOfMember(grains, place, change);
         }
-        ++number;
     }
-    for (std::size_t k = 0; k < grains.bodies.size(); ++k)
+    for (std::size_t k = 0; k < grains.bodies.sizeWithGhosts(); ++k)
         if (const Vector<double> change = changeAt(grains.bodies[k].position); squaredNorm(change) > 0) {
             grains.bodies[k].velocity += change;
-            if (step.account) given.add(step.account->changedImageOfBody(grains, k, change));
+            if (step.account && k < grains.bodies.size())
+                given.add(step.account->changedImageOfBody(grains, k, change));
         }
-    if (step.account) EnergyAccount::givenByImages(given, *step.ledger);
+    if (step.account) EnergyAccount::givenByImages(given, step.contacts.ranks(), *step.ledger);
 }
 
 }  // namespace
@@ -170,7 +171,7 @@ void FlowPart::moveSurroundings(StepContext& step) {
     step.contacts.setPeriodicBox(step.box);
     if (const auto objection = objectionToLengths(step.box, step.largestReach))
         throw RunError(fmt::format("At time {:.6g} s the {}", step.time, *objection));
-    if (step.grains().count() == 0) {
+    if (!step.contacts.ranks().any(step.grains().count() > 0)) {
         step.shifts.grains = step.shifts.approach = 0;
         return;
     }

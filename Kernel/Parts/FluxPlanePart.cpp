@@ -16,9 +16,10 @@ void FluxPlanePart::begin(StepContext& scene, bool /*isRestarted*/) { planes.beg
 void FluxPlanePart::beforeMotion(StepContext& step) { planes.beforeMotion(step.grains(), step.box); }
 
 void FluxPlanePart::afterMotion(StepContext& step) {
-    planes.afterMotion(step.particles, step.box, step.length, [&](std::uint32_t place) {
+    const auto liquidOf = [&](std::uint32_t place) {
         return step.particles.films().of(step.grains(), place) + step.contacts.liquidAt(step.grains(), place);
-    });
+    };
+    planes.afterMotion(step.particles, step.box, step.length, liquidOf, step.contacts.ranks());
 }
 
 void FluxPlanePart::takeBack(StepContext& /*step*/) { planes.takeBack(); }

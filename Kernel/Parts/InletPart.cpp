@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Contacts/ContactLaws.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Motion/StabilityLimit.h"
 #include "Kernel/Shapes/SphereGroups.h"
 #include "Kernel/Step/SummaryRows.h"
@@ -21,6 +23,14 @@ InsertionScene InletPart::placesOf(const StepContext& scene) {
             scene.box,       scene.threads, scene.laws ? scene.laws->shapes() : nullptr};
 }
 
+void InletPart::check(const StepContext& scene) {
+    if (scene.contacts.ranks().areSeveral() && (inlets.bringBodies() || inlets.bringLiquid()))
+        throw InputError(
+            "Simulation: inlets of rigid bodies, or of grains with films, cannot be in a scene on several "
+            "ranks "
+            "(setRanks()) yet; run it on one rank.");
+}
+
 void InletPart::begin(StepContext& scene, bool isRestarted) {
     inlets.begin(placesOf(scene), scene.boxAtSetUp, isRestarted);
     for (std::size_t k = 0; k < inlets.getSize(); ++k)
@@ -33,15 +43,16 @@ void InletPart::begin(StepContext& scene, bool isRestarted) {
 void InletPart::prepare(StepContext& step) { inlets.requireLiquid(step.particles, step.time + step.length); }
 
 void InletPart::atEnd(StepContext& step) {
-    inlets.letIn(placesOf(step), step.time + step.length,
+    inlets.letIn(placesOf(step), step.contacts, step.time + step.length,
                  [&](const std::string& sentence) { step.logger(LogLevel::Warn, "{}", sentence); });
 }
 
 void InletPart::visitState(StateArchive& archive, StepContext& /*scene*/) { inlets.visitState(archive); }
 
-GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, const InletHandler& inlets) {
+GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains, const InletHandler& inlets,
+                        const AllRanks& ranks) {
     inlets.expectShapes(laws.shapes());
-    GrainSizes sizes(grains, laws.speciesCount());
+    GrainSizes sizes(grains, laws.speciesCount(), ranks);
     for (const InletHandler::Sizes& toCome : inlets.sizes(laws)) {
         // Twice, so that of all sizes between them any number may come; the count is that of a dense bed.
         const auto species = static_cast<std::size_t>(toCome.species);

@@ -14,6 +14,7 @@ public:
     [[nodiscard]] std::string_view name() const override { return "inlets"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
+    void check(const StepContext& scene) override;
     void begin(StepContext& scene, bool isRestarted) override;
     void prepare(StepContext& step) override;
     void atEnd(StepContext& step) override;
@@ -28,7 +29,8 @@ private:
 };
 
 /// The sizes of all these grains, and of those that inlets will bring.
+/// @param ranks that share the grains; none: all are here
 [[nodiscard]] GrainSizes sizesOfScene(const ContactLaws& laws, const ParticleStore& grains,
-                                      const InletHandler& inlets);
+                                      const InletHandler& inlets, const AllRanks& ranks = {});
 
 }  // namespace pendular

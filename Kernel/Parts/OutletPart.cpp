@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "Kernel/Contacts/ContactSystem.h"
+#include "Kernel/Energy/EnergyAccount.h"
 #include "Kernel/Step/SummaryRows.h"
 
 namespace pendular {
@@ -16,7 +17,10 @@ void OutletPart::begin(StepContext& scene, bool /*isRestarted*/) {
 }
 
 void OutletPart::atEnd(StepContext& step) {
-    outlets.letOut(step.particles, step.bodies, step.box, step.time + step.length, step.threads);
+    const std::vector<double> stored = outlets.letOut(step.particles, step.bodies, step.contacts, step.box,
+                                                      step.time + step.length, step.threads);
+    if (step.account)
+        for (const double energy : stored) step.account->endedBetweenSteps(energy);
     step.contacts.sumLostForces(step.grains());
 }
 

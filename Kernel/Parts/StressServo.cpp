@@ -21,8 +21,8 @@ struct KineticStress {
     std::array<double, 3> along{};
     double across = 0;
 };
-KineticStress kineticStress(const ParticleStore& grains, const PeriodicBox& box, const LeesEdwards& shear,
-                            double volume) {
+KineticStress kineticStress(const ParticleStore& grains, const AllRanks& ranks, const PeriodicBox& box,
+                            const LeesEdwards& shear, double volume) {
     const auto f = static_cast<std::size_t>(shear.flow), g = static_cast<std::size_t>(shear.gradient);
     ExactSum masses, mixed;
     std::array<ExactSum, 3> momentum, twiceEnergy;
@@ -43,6 +43,8 @@ KineticStress kineticStress(const ParticleStore& grains, const PeriodicBox& box,
     forEachRigidBody(grains, [&](double own, const Vector<double>& position, const Vector<double>& of) {
         add(1 / own, position, of);
     });
+    ranks.addUp({&masses, &mixed, &momentum[0], &momentum[1], &momentum[2], &twiceEnergy[0], &twiceEnergy[1],
+                 &twiceEnergy[2]});
     const double mass = masses.value();
     if (mass == 0) return stress;
     const std::array<double, 3> all{momentum[0].value(), momentum[1].value(), momentum[2].value()};
@@ -76,7 +78,7 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
     const PeriodicBox& box = contacts.periodicBox();
     const double volume = box.length.x * box.length.y * box.length.z;
     const auto f = static_cast<std::size_t>(shear.flow), g = static_cast<std::size_t>(shear.gradient);
-    const KineticStress kinetic = kineticStress(grains, box, shear, volume);
+    const KineticStress kinetic = kineticStress(grains, contacts.ranks(), box, shear, volume);
     DiagonalStress found;
     found.stress = kinetic.along;
     found.shear = -kinetic.across;
@@ -112,6 +114,9 @@ DiagonalStress diagonalStress(const ContactSystem& contacts, const ParticleStore
         shearSpring.add(spring * shift[f] * shift[f] * branch[g] * branch[g] / (distance * distance));
         ++found.touches;
     });
+    contacts.ranks().addUp({&moments[0], &moments[1], &moments[2], &springs[0], &springs[1], &springs[2],
+                            &shearMoment, &shearSpring});
+    found.touches = contacts.ranks().sum(found.touches);
     for (std::size_t a = 0; a < 3; ++a) {
         found.stress[a] -= moments[a].value() / volume;
         found.stiffness[a] += springs[a].value() / volume;

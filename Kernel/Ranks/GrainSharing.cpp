@@ -18,13 +18,23 @@ void takeRow(Message& message, ParticleStore& grains, std::size_t at) {
     grains.visitRow(at, [&](auto& value) { message.take(value); });
 }
 
+void addBodies(Message& message, const RigidBodies& bodies, std::span<const std::uint32_t> places) {
+    message.add(static_cast<std::uint32_t>(places.size()));
+    for (const std::uint32_t at : places) bodies.writeRow(at, [&](const auto& value) { message.add(value); });
+}
+
+void takeBodies(Message& message, RigidBodies& bodies, bool areGhosts) {
+    for (auto left = message.take<std::uint32_t>(); left > 0; --left)
+        bodies.takeRow([&](auto& value) { message.take(value); }, areGhosts);
+}
+
 }  // namespace
 
 void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, double reach,
                               const Luggage& luggage) {
     if (!isDistributed || options.cutsWander || areImbalanced(grains, luggage)) cutAnew(grains, box, luggage);
     migrate(grains, box, luggage);
-    isDistributed = true;
+    isDistributed = grains.isShared = true;
     findGhosts(grains, box, reach);
     ++done.lists;
     done.ghosts += grains.size() - grains.ownSize();
@@ -57,92 +67,200 @@ void GrainSharing::cutAnew(const ParticleStore& grains, const PeriodicBox& box, 
 }
 
 void GrainSharing::migrate(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage) {
-    const std::size_t self = exchange.rank(), before = grains.ownSize();
-    std::vector<std::size_t> owners(before);
+    const std::size_t self = exchange.rank();
+    const std::vector<std::size_t> owners = findOwners(grains, box);
     std::vector<std::uint32_t> staying, leaving;
-    for (std::uint32_t k = 0; k < before; ++k) {
+    for (std::uint32_t k = 0; k < owners.size(); ++k) {
         if (grains.isGap(k)) continue;
-        owners[k] = cuts.ownerOf(box.wrap(grains.translation[k].position));
-        (owners[k] == self ? staying : leaving).push_back(k);
+        if (owners[k] == self) staying.push_back(k);
+        else if (grains.identity[k] < onAllFrom) leaving.push_back(k);
     }
-    if (!isDistributed) return grains.keepOnly(staying);
+    onAllFrom = ~std::uint32_t{0};
     std::vector<Message> toEach(exchange.count());
     std::vector<std::uint32_t> numbers(exchange.count());
     for (const std::uint32_t k : leaving) ++numbers[owners[k]];
     for (std::size_t q = 0; q < exchange.count(); ++q) toEach[q].add(numbers[q]);
     for (const std::uint32_t k : leaving) addRow(toEach[owners[k]], grains, k);
+    packBodies(grains.bodies, grains, owners, toEach);
+    if (!isDistributed) return grains.keepOnly(staying);  // the others have them
     luggage.pack(owners, toEach);
     done.migrated += leaving.size();
     grains.keepOnly(staying);
     for (Message& message : exchange.swap(std::move(toEach))) takeGrains(message, grains, luggage);
+    grains.bodies.sort();
 }
 
 void GrainSharing::takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage) {
     for (auto left = message.take<std::uint32_t>(); left > 0; --left)
         takeRow(message, grains, grains.addPlace(message.take<std::uint32_t>()));
+    takeBodies(message, grains.bodies, false);
     luggage.unpack(message);
 }
 
 void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
-    std::vector<std::uint32_t> own;
+    std::vector<std::uint32_t> own, bodies(grains.bodies.size());
     for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
         if (!grains.isGap(k)) own.push_back(k);
+    std::iota(bodies.begin(), bodies.end(), 0u);
     Message message;
     message.add(static_cast<std::uint32_t>(own.size()));
     for (const std::uint32_t k : own) addRow(message, grains, k);
+    addBodies(message, grains.bodies, bodies);
     luggage.packAll(message);
     std::vector<Message> toEach(exchange.count(), message);
     toEach[exchange.rank()] = {};  // it has them
     grains.keepOnly(own);
-    isDistributed = false;
+    grains.bodies.keepOnly(bodies);
+    isDistributed = grains.isShared = false;
     std::vector<Message> fromEach = exchange.swap(std::move(toEach));
     for (std::size_t q = 0; q < exchange.count(); ++q)
         if (q != exchange.rank()) takeGrains(fromEach[q], grains, luggage);
+    grains.bodies.sort();
 }
+
+std::vector<std::size_t> GrainSharing::findOwners(const ParticleStore& grains, const PeriodicBox& box) const {
+    std::vector<std::size_t> owners(grains.ownSize());
+    for (std::uint32_t k = 0; k < owners.size(); ++k)
+        if (!grains.isGap(k)) owners[k] = cuts.ownerOf(box.wrap(grains.translation[k].position));
+    const RigidBodies& bodies = grains.bodies;
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+        for (const BodyMember& member : bodies.membersOf(k))
+            owners[grains.place[member.grain]] = cuts.ownerOf(box.wrap(bodies[k].position));
+    return owners;
+}
+
+void GrainSharing::packBodies(RigidBodies& bodies, const ParticleStore& grains,
+                              std::span<const std::size_t> owners, std::span<Message> toEach) const {
+    std::vector<std::uint32_t> staying;
+    OfEachRank leaving(exchange.count());
+    for (std::uint32_t k = 0; k < bodies.size(); ++k) {
+        const std::size_t owner = owners[grains.place[bodies.membersOf(k).front().grain]];
+        (owner == exchange.rank() ? staying : leaving[owner]).push_back(k);
+    }
+    for (std::size_t q = 0; q < exchange.count(); ++q) addBodies(toEach[q], bodies, leaving[q]);
+    bodies.keepOnly(staying);
+}
+
+namespace {
+
+/// What one rank needs of another's grains and rigid bodies.
+struct Wanted {
+    std::vector<std::uint32_t> grains, bodies;  // places
+};
+
+/// @param isNear (position inside the scene, radius) to what the other rank owns. Of a rigid body either none
+/// or all of its grains are wanted.
+template <class Function>
+Wanted findWanted(const ParticleStore& grains, const PeriodicBox& box, Function&& isNear) {
+    Wanted found;
+    const auto isNearAt = [&](std::uint32_t place) {
+        const TranslationRecord& grain = grains.translation[place];
+        return isNear(box.wrap(grain.position), grain.radius);
+    };
+    const RigidBodies& bodies = grains.bodies;
+    for (std::uint32_t place = 0; place < grains.size(); ++place)
+        if (!bodies.contains(grains.identity[place]) && isNearAt(place)) found.grains.push_back(place);
+    for (std::uint32_t k = 0; k < bodies.size(); ++k) {
+        const std::span<const BodyMember> members = bodies.membersOf(k);
+        if (std::ranges::none_of(members,
+                                 [&](const BodyMember& one) { return isNearAt(grains.place[one.grain]); }))
+            continue;
+        found.bodies.push_back(k);
+        for (const BodyMember& member : members) found.grains.push_back(grains.place[member.grain]);
+    }
+    return found;
+}
+
+}  // namespace
 
 void GrainSharing::findGhosts(ParticleStore& grains, const PeriodicBox& box, double reach) {
     double largestHere = 0;
     for (const TranslationRecord& grain : grains.translation)
         largestHere = std::max(largestHere, grain.radius);
-    const double largestOfAll = largest(largestHere);
+    const double largestOfAll = exchange.largest(largestHere);
     GrainExtents own;
     for (const TranslationRecord& grain : grains.translation)
         own.add(box.wrap(grain.position), grain.radius, largestOfAll);
     const std::vector<GrainExtents> extents = exchange.ofAll(own);
     const std::vector<Vector<double>> images = imageOffsets(box);
     std::vector<Message> toEach(exchange.count());
-    sent.assign(exchange.count(), {});
-    got.assign(exchange.count(), {});
+    for (OfEachRank* const of : {&sent, &got, &sentBodies, &gotBodies}) of->assign(exchange.count(), {});
     for (std::size_t q = 0; q < exchange.count(); ++q) {
         if (q == exchange.rank() || extents[q].areEmpty()) continue;
-        for (std::size_t k = 0; k < grains.size(); ++k) {
-            const TranslationRecord& grain = grains.translation[k];
-            const Vector<double> inside = box.wrap(grain.position);
-            if (std::ranges::none_of(images, [&](const Vector<double>& offset) {
-                    return extents[q].areNear(inside + offset, grain.radius, reach);
-                }))
-                continue;
-            addRow(toEach[q], grains, k);
-            sent[q].push_back(grains.identity[k]);
+        const Wanted wanted = findWanted(grains, box, [&](const Vector<double>& inside, double radius) {
+            return std::ranges::any_of(images, [&](const Vector<double>& offset) {
+                return extents[q].areNear(inside + offset, radius, reach);
+            });
+        });
+        addBodies(toEach[q], grains.bodies, wanted.bodies);
+        for (const std::uint32_t at : wanted.bodies) sentBodies[q].push_back(grains.bodies.numberOf(at));
+        for (const std::uint32_t place : wanted.grains) {
+            addRow(toEach[q], grains, place);
+            sent[q].push_back(grains.identity[place]);
         }
     }
     std::vector<Message> fromEach = exchange.swap(std::move(toEach));
-    for (std::size_t q = 0; q < exchange.count(); ++q)
+    for (std::size_t q = 0; q < exchange.count(); ++q) {
+        if (fromEach[q].isTaken()) continue;
+        const std::size_t before = grains.bodies.sizeWithGhosts();
+        takeBodies(fromEach[q], grains.bodies, true);
+        for (std::size_t k = before; k < grains.bodies.sizeWithGhosts(); ++k)
+            gotBodies[q].push_back(grains.bodies.numberOf(k));
         while (!fromEach[q].isTaken()) {
             got[q].push_back(fromEach[q].take<std::uint32_t>());
             takeRow(fromEach[q], grains, grains.addGhostPlace(got[q].back()));
         }
+    }
+    grains.bodies.sort();
 }
 
 void GrainSharing::findPlaces(const ParticleStore& grains) {
-    const auto placesOf = [&](const std::vector<std::vector<std::uint32_t>>& identities) {
-        std::vector<std::vector<std::uint32_t>> places(identities.size());
-        for (std::size_t q = 0; q < identities.size(); ++q)
-            for (const std::uint32_t identity : identities[q]) places[q].push_back(grains.placeOf(identity));
+    const auto ofEach = [](const OfEachRank& numbers, auto&& placeOf) {
+        OfEachRank places(numbers.size());
+        for (std::size_t q = 0; q < numbers.size(); ++q)
+            for (const std::uint32_t number : numbers[q])
+                if (const std::uint32_t place = placeOf(number); place != PlaceIndex::none)
+                    places[q].push_back(place);
         return places;
     };
-    sentPlaces = placesOf(sent);
-    gotPlaces = placesOf(got);
+    const auto ofGrain = [&](std::uint32_t identity) {
+        const std::uint32_t place = grains.placeOf(identity);
+        return place == PlaceIndex::none || grains.isGap(place) ? PlaceIndex::none : place;
+    };
+    const auto ofBody = [&](std::uint32_t number) { return grains.bodies.find(number); };
+    sentPlaces = ofEach(sent, ofGrain);
+    gotPlaces = ofEach(got, ofGrain);
+    sentBodiesPlaces = ofEach(sentBodies, ofBody);
+    gotBodiesPlaces = ofEach(gotBodies, ofBody);
+}
+
+template <class AddGrain, class AddBody, class TakeGrain, class TakeBody>
+void GrainSharing::exchangeWithGhosts(std::size_t bytesOfGrain, std::size_t bytesOfBody, AddGrain&& addGrain,
+                                      AddBody&& addBody, TakeGrain&& takeGrain, TakeBody&& takeBody) {
+    if (!isDistributed) return;
+    std::vector<Message> toEach(exchange.count());
+    std::vector<std::size_t> bytesFromEach;
+    for (std::size_t q = 0; q < exchange.count(); ++q) {
+        for (const std::uint32_t place : sentPlaces[q]) addGrain(place, toEach[q]);
+        for (const std::uint32_t at : sentBodiesPlaces[q]) addBody(at, toEach[q]);
+        bytesFromEach.push_back(bytesOfGrain * gotPlaces[q].size() + bytesOfBody * gotBodiesPlaces[q].size());
+    }
+    std::vector<Message> fromEach = exchange.swapWithNeighbours(std::move(toEach), bytesFromEach);
+    for (std::size_t q = 0; q < exchange.count(); ++q) {
+        for (const std::uint32_t place : gotPlaces[q]) takeGrain(place, fromEach[q]);
+        for (const std::uint32_t at : gotBodiesPlaces[q]) takeBody(at, fromEach[q]);
+    }
+}
+
+void GrainSharing::tellGhosts(std::span<double> ofGrains, std::span<double> ofBodies) {
+    const auto addOf = [](std::span<double> numbers) {
+        return [numbers](std::uint32_t at, Message& to) { to.add(numbers[at]); };
+    };
+    const auto takeOf = [](std::span<double> numbers) {
+        return [numbers](std::uint32_t at, Message& from) { from.take(numbers[at]); };
+    };
+    exchangeWithGhosts(sizeof(double), sizeof(double), addOf(ofGrains), addOf(ofBodies), takeOf(ofGrains),
+                       takeOf(ofBodies));
 }
 
 /// What exchangeMotion() sends of one.
@@ -152,7 +270,6 @@ static std::size_t bytesOfGhost(const ParticleStore& grains, bool withAccelerati
 }
 
 void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations) {
-    if (!isDistributed) return;
     const auto forEachPart = [&](std::uint32_t place, auto&& use) {
         use(grains.translation[place].position), use(grains.translation[place].velocity);
         if (grains.hasSpin) use(grains.rotation[place].spin);
@@ -160,17 +277,17 @@ void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations)
         use(grains.acceleration[place]);
         if (grains.hasSpin) use(grains.rotation[place].angularAcceleration);
     };
-    std::vector<Message> toEach(exchange.count());
-    for (std::size_t q = 0; q < exchange.count(); ++q)
-        for (const std::uint32_t place : sentPlaces[q])
-            forEachPart(place, [&](const Vector<double>& part) { toEach[q].add(part); });
-    std::vector<std::size_t> bytesFromEach;
-    for (const std::vector<std::uint32_t>& places : gotPlaces)
-        bytesFromEach.push_back(places.size() * bytesOfGhost(grains, withAccelerations));
-    std::vector<Message> fromEach = exchange.swapWithNeighbours(std::move(toEach), bytesFromEach);
-    for (std::size_t q = 0; q < exchange.count(); ++q)
-        for (const std::uint32_t place : gotPlaces[q])
-            forEachPart(place, [&](Vector<double>& part) { fromEach[q].take(part); });
+    const std::size_t vectors = (grains.hasSpin ? 3 : 2) + (withAccelerations ? (grains.hasSpin ? 2 : 1) : 0);
+    exchangeWithGhosts(
+        vectors * sizeof(Vector<double>), sizeof(RigidBody),
+        [&](std::uint32_t place, Message& to) {
+            forEachPart(place, [&](const Vector<double>& part) { to.add(part); });
+        },
+        [&](std::uint32_t at, Message& to) { to.add(grains.bodies[at]); },
+        [&](std::uint32_t place, Message& from) {
+            forEachPart(place, [&](Vector<double>& part) { from.take(part); });
+        },
+        [&](std::uint32_t at, Message& from) { from.take(grains.bodies[at]); });
 }
 
 }  // namespace pendular

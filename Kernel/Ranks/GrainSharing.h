@@ -6,6 +6,7 @@
 
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"
+#include "Kernel/Ranks/AllRanks.h"
 #include "Kernel/Ranks/Bisection.h"
 #include "Kernel/Ranks/Exchange.h"
 
@@ -43,7 +44,7 @@ struct Luggage {
 /// moves it: the rank in whose part of space it is when contacts are listed. A rank has copies (ghosts) of
 /// all grains that may touch one of its own until the next list, and computes all contacts that have an own
 /// grain: those across ranks twice, with the same bits. So no force goes from rank to rank, and grains go
-/// once in a step.
+/// once in a step. A rigid body is owned as a whole, by where its centre is, and is a ghost as a whole.
 class GrainSharing {
 public:
     GrainSharing(Exchange& with, const RankOptions& how) : exchange(with), options(how) {}
@@ -55,13 +56,21 @@ public:
     /// All ranks get all grains, as before the first list. What each has then is that of the scene: nothing
     /// is to be summed over ranks until the next list.
     void gather(ParticleStore& grains, const Luggage& luggage);
-    /// After grains have been sorted.
+    /// The next time, all ranks have all grains whose identities begin at this one, as at first.
+    void expectOnAll(std::uint32_t first) { onAllFrom = first; }
+    /// After grains have been sorted, or have gone from all ranks.
     void findPlaces(const ParticleStore& grains);
     /// Ghosts get the motion of the grains that they stand for.
     /// @param withAccelerations contacts feel them
     void exchangeMotion(ParticleStore& grains, bool withAccelerations);
 
-    /// The largest of what the ranks give.
+    /// Ghosts get a number of the grains, or of the rigid bodies, that they stand for.
+    /// @param ofGrains at each place; @param ofBodies at each place, ghosts included
+    void tellGhosts(std::span<double> ofGrains, std::span<double> ofBodies);
+
+    /// What ranks know together as long as grains are distributed; each has all of it otherwise.
+    [[nodiscard]] AllRanks allRanks() const { return AllRanks(exchange, isDistributed); }
+    /// The largest of what the ranks give, also where each has all grains.
     [[nodiscard]] double largest(double own) { return exchange.largest(own); }
     [[nodiscard]] std::size_t rank() const { return exchange.rank(); }
     /// What each rank gives, in the order of ranks.
@@ -82,15 +91,31 @@ private:
     [[nodiscard]] bool areImbalanced(const ParticleStore& grains, const Luggage& luggage);
     void migrate(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage);
     static void takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage);
+    /// Of the own grain at each place.
+    [[nodiscard]] std::vector<std::size_t> findOwners(const ParticleStore& grains,
+                                                      const PeriodicBox& box) const;
+    /// Bodies go with their first grains. @param owners of these
+    void packBodies(RigidBodies& bodies, const ParticleStore& grains, std::span<const std::size_t> owners,
+                    std::span<Message> toEach) const;
     void findGhosts(ParticleStore& grains, const PeriodicBox& box, double reach);
+
+    /// What is known of own grains and bodies goes to their ghosts: add(place, message), take(place,
+    /// message).
+    template <class AddGrain, class AddBody, class TakeGrain, class TakeBody>
+    void exchangeWithGhosts(std::size_t bytesOfGrain, std::size_t bytesOfBody, AddGrain&& addGrain,
+                            AddBody&& addBody, TakeGrain&& takeGrain, TakeBody&& takeBody);
 
     Exchange& exchange;
     RankOptions options;
     Bisection cuts;
     bool isDistributed = false;
+    std::uint32_t onAllFrom = ~std::uint32_t{0};
     RankCounts done;
-    std::vector<std::vector<std::uint32_t>> sent, got;              // identities, to and from each rank
-    std::vector<std::vector<std::uint32_t>> sentPlaces, gotPlaces;  // of these
+    using OfEachRank = std::vector<std::vector<std::uint32_t>>;
+    OfEachRank sent, got;                          // identities of ghosts, to and from each rank
+    OfEachRank sentPlaces, gotPlaces;              // of these
+    OfEachRank sentBodies, gotBodies;              // numbers of rigid bodies
+    OfEachRank sentBodiesPlaces, gotBodiesPlaces;  // of these
 };
 
 }  // namespace pendular

@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Base/SilentRank.h"
 
 namespace pendular {
@@ -38,25 +39,27 @@ void VirtualRanks::run(const std::function<void(Exchange&)>& program) {
     for (Board& board : boards)
         board = {std::vector<std::vector<Message>>(ranks, std::vector<Message>(ranks)),
                  std::vector<double>(ranks, 0)};
-    waiting = 0;
-    hasFailed = false;
+    waiting = ended = 0;
+    isAlone = false;
     std::vector<std::exception_ptr> failures(ranks);
     const auto runOne = [&](std::size_t rank) {
         setSilentThread(rank > 0);
         try {
             Member member(*this, rank);
             program(member);
-        } catch (const AnotherHasFailed&) {
+        } catch (const AnotherHasEnded&) {
         } catch (...) {
             failures[rank] = std::current_exception();
-            fail();
         }
+        leave();
     };
-    std::vector<std::thread> threads;
-    for (std::size_t rank = 0; rank < ranks; ++rank) threads.emplace_back(runOne, rank);
-    for (std::thread& thread : threads) thread.join();
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t rank = 0; rank < ranks; ++rank) threads.emplace_back(runOne, rank);
+    }
     for (const std::exception_ptr& failure : failures)
         if (failure) std::rethrow_exception(failure);
+    if (isAlone) throw RunError("A rank has ended while others waited for it.");
 }
 
 void VirtualRanks::meet() {
@@ -67,13 +70,15 @@ void VirtualRanks::meet() {
         ++meetings;
         changed.notify_all();
     }
-    changed.wait(lock, [&] { return meetings != meeting || hasFailed; });
-    if (meetings == meeting) throw AnotherHasFailed();
+    changed.wait(lock, [&] { return meetings != meeting || ended > 0; });
+    if (meetings != meeting) return;
+    isAlone = true;
+    throw AnotherHasEnded();
 }
 
-void VirtualRanks::fail() {
+void VirtualRanks::leave() {
     const std::lock_guard lock(mutex);
-    hasFailed = true;
+    ++ended;
     changed.notify_all();
 }
 

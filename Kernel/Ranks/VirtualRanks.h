@@ -18,17 +18,19 @@ class VirtualRanks {
 public:
     explicit VirtualRanks(std::size_t number) : ranks(number) {}
 
-    /// Calls program(exchange) for each rank at the same time, and returns when all have ended. If one
-    /// throws, the others end where they next wait for it; what the lowest rank threw by itself is thrown on.
+    /// Calls program(exchange) for each rank at the same time, and returns when all have ended. If one throws
+    /// or returns, and others wait for it, they end there; what the lowest rank threw by itself is thrown on,
+    /// and RunError where one just returned while others waited.
     void run(const std::function<void(Exchange&)>& program);
 
 private:
     class Member;
-    struct AnotherHasFailed {};
+    struct AnotherHasEnded {};
 
-    /// Returns when all ranks have called it. Throws AnotherHasFailed when one of them never will.
+    /// Returns when all ranks have called it. Throws AnotherHasEnded when one of them never will.
     void meet();
-    void fail();
+    /// A rank calls it no more.
+    void leave();
 
     /// What is given in a call. There are two: a rank that is ahead gives the next while others still take
     /// this one.
@@ -41,8 +43,8 @@ private:
     std::array<Board, 2> boards;
     std::mutex mutex;
     std::condition_variable changed;
-    std::size_t waiting = 0, meetings = 0;
-    bool hasFailed = false;
+    std::size_t waiting = 0, meetings = 0, ended = 0;
+    bool isAlone = false;  // a rank has waited for one that had ended
 };
 
 }  // namespace pendular

@@ -152,6 +152,7 @@ protected:
     };
     /// Throws InputError in a run.
     void keepOutput(KeptOutput output);
+    [[nodiscard]] bool hasOutputs() const { return !outputs.empty(); }
     void prepareOutputs();
 
     /// Throws InputError.
@@ -205,7 +206,7 @@ private:
     /// Whether several ranks do this run together.
     [[nodiscard]] virtual bool isShared() const { return false; }
     /// The largest of what the ranks give.
-    [[nodiscard]] virtual double largestOfRanks(double own) { return own; }
+    [[nodiscard]] virtual double agreeOnLargest(double own) { return own; }
 
     /// s, after so many steps, of which the last have this length (s)
     static double timeAfter(std::size_t done, std::size_t before, double beforeTime, double length) {

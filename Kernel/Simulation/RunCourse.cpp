@@ -218,7 +218,7 @@ int Run::whatIsHeard() {
     if (!isShared()) return heard;
     constexpr int going = 1 << 20;  // above all that can be heard
     const bool goesOn = heard >= RunControl::OutOfTime || continueSolve();
-    const int all = static_cast<int>(largestOfRanks(goesOn ? going + heard : 0));
+    const int all = static_cast<int>(agreeOnLargest(goesOn ? going + heard : 0));
     course->goesOn = all >= going;
     return all % going;
 }
@@ -249,7 +249,7 @@ void Run::endRun(bool stops) {
     if (steps > 0) writeOutputs(true);
     if (stops) throw stop();
     complete();
-    static_cast<void>(largestOfRanks(0));  // the files of the first rank are there
+    static_cast<void>(agreeOnLargest(0));  // the files of the first rank are there
     leaveCourse();
 }
 

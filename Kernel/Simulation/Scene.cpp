@@ -14,12 +14,15 @@ namespace pendular {
 Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
     // A grain that is removed takes the energy of its contacts with it; that of its motion the ledger sees.
     ParticleHandler::Inside::callBeforeRemoval(particleHandler, [this](std::uint32_t place) {
+        ContactSystem& contacts = inside->contacts;
+        if (contacts.isRemoving())
+            return contacts.noteEnded(contacts.endContactsOf(particleHandler.store(), place));
         if (inside->isDistributed())
             throw InputError(
                 "Grains cannot be removed in a run on several ranks (setRanks()): the others would keep "
                 "them; "
                 "run on one rank.");
-        inside->bookEnergyOfEnded(inside->contacts.endContactsOf(particleHandler.store(), place));
+        inside->bookEnergyOfEnded(contacts.endContactsOf(particleHandler.store(), place));
     });
     ParticleHandler::Inside::callToFinishStep(particleHandler, [this] {
         const StepTimes::Within sum(stepTimer(), StepTimes::Part::Sum);
@@ -43,13 +46,13 @@ void Scene::setLaws(ContactLaws& of) {
 void Scene::setUp() {
     if (hasCourse() && !inside->sharing)
         if (Exchange* const others = ranksOfProgram()) setRanks(*others, {});
-    static_cast<void>(largestOfRanks(0));  // none writes files that others are still looking for
+    static_cast<void>(agreeOnLargest(0));  // none writes files that others are still looking for
     inside->setUp();
 }
 void Scene::advanceByStep(bool another) { inside->advanceByStep(another); }
 void Scene::visitAll(StateArchive& archive) { inside->visitAll(archive); }
 bool Scene::isShared() const { return inside->sharing.has_value(); }
-double Scene::largestOfRanks(double own) { return isShared() ? inside->sharing->largest(own) : own; }
+double Scene::agreeOnLargest(double own) { return isShared() ? inside->sharing->largest(own) : own; }
 
 void Scene::tellEvents() {
     for (const ContactEvent& event : contactEvents()) actionsOnContactEvent(event);
@@ -164,10 +167,7 @@ void Scene::joinAtStart(double gap) {
     inside->gapOfFirstBridges = gap;
 }
 
-void Scene::listenToContacts(bool listen) {
-    if (inside->sharing) requireSetUp("events of contacts of a scene on several ranks (setRanks())");
-    inside->contacts.listen(listen);
-}
+void Scene::listenToContacts(bool listen) { inside->contacts.listen(listen); }
 
 ContactColumnReference Scene::addContactColumn(const std::string& columnName, const std::string& unit,
                                                double initial) {
@@ -238,10 +238,25 @@ Vec3D Scene::contactForceOn(std::size_t identity) const {
     return toEigen(sum);
 }
 
-double Scene::getTotalMass() const { return sumGrains(particleHandler.store()).mass; }
-Vec3D Scene::getCentreOfMass() const { return toEigen(sumGrains(particleHandler.store()).centreOfMass()); }
-Vec3D Scene::getTotalMomentum() const { return toEigen(sumGrains(particleHandler.store()).momentum); }
-double Scene::getKineticEnergy() const { return translationalEnergy(particleHandler.store()); }
-double Scene::getRotationalEnergy() const { return sumGrains(particleHandler.store()).rotationalEnergy; }
+GrainSums Scene::sumAllGrains() const {
+    GrainSums sums = sumGrains(particleHandler.store());
+    contacts().ranks().addUp({&sums.mass, &sums.firstMoment.x, &sums.firstMoment.y, &sums.firstMoment.z,
+                              &sums.momentum.x, &sums.momentum.y, &sums.momentum.z, &sums.translationalEnergy,
+                              &sums.rotationalEnergy});
+    return sums;
+}
+double Scene::getTotalMass() const { return sumAllGrains().mass.value(); }
+Vec3D Scene::getCentreOfMass() const { return toEigen(sumAllGrains().centreOfMass()); }
+Vec3D Scene::getTotalMomentum() const { return toEigen(sumAllGrains().momentum.value()); }
+double Scene::getKineticEnergy() const {
+    return contacts().ranks().sum(sumOfTranslationalEnergy(particleHandler.store()));
+}
+double Scene::getRotationalEnergy() const { return sumAllGrains().rotationalEnergy.value(); }
+double Scene::sumOverRanks(double own) const {
+    ExactSum sum;
+    sum.add(own);
+    return contacts().ranks().sum(sum);
+}
+double Scene::largestOfRanks(double own) const { return contacts().ranks().largest(own); }
 
 }  // namespace pendular

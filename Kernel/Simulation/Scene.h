@@ -149,6 +149,10 @@ public:
     /// share the scene without this call.
     void setRanks(Exchange& exchange, const RankOptions& options);
     void gather() override;
+    /// The exact sum, or the largest, of a number of which each rank gives its own part: for hooks, which all
+    /// ranks call in the same order. On one rank it is the number itself.
+    [[nodiscard]] double sumOverRanks(double own) const;
+    [[nodiscard]] double largestOfRanks(double own) const;
     /// What this rank has done; nothing without others.
     [[nodiscard]] RankCounts rankCounts() const;
     /// How velocities follow from forces; before the run. The README of Kernel/Motion compares them.
@@ -200,7 +204,8 @@ public:
 
     /// From now on the starts and ends of touches and bridges are found in each step; off by default.
     void listenToContacts(bool listen = true);
-    /// The events of the last step, and how many there have been.
+    /// The events of the last step, and how many there have been. On several ranks, of contacts whose body 1
+    /// is here.
     [[nodiscard]] const std::vector<ContactEvent>& contactEvents() const;
     [[nodiscard]] const ContactEventCounts& contactEventCounts() const;
 
@@ -218,7 +223,7 @@ public:
     /// The force (N) of all contacts on a grain, also on one that is held in place; without its weight.
     [[nodiscard]] Vec3D contactForceOn(std::size_t identity) const;
 
-    // The grains that can move:
+    // The grains that can move; on several ranks those of all, which all ranks ask for together:
     [[nodiscard]] double getTotalMass() const;         // kg
     [[nodiscard]] Vec3D getCentreOfMass() const;       // m
     [[nodiscard]] Vec3D getTotalMomentum() const;      // kg m/s
@@ -277,11 +282,13 @@ private:
     void tellEvents() override;
     [[nodiscard]] RunNumbers numbers() const override;
     [[nodiscard]] bool isShared() const override;
-    [[nodiscard]] double largestOfRanks(double own) override;
+    [[nodiscard]] double agreeOnLargest(double own) override;
     void visitAll(StateArchive& archive) override;
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;
     void addOwnPart(std::unique_ptr<StepPart> part);
+    /// Of all ranks.
+    [[nodiscard]] GrainSums sumAllGrains() const;
     /// A function that refuses a change which does not go together with moving images; empty at set-up.
     std::function<void()> refusalInRun();
 

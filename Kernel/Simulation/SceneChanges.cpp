@@ -72,16 +72,17 @@ void Scene::Inside::takeOverChanges() {
         const auto firstNewWall = static_cast<int>(walls.firstNewWall());
         // Springs may work in the step again, as they do after a restart without bodies.
         const bool lastBodyWent =
-            checkedSizes.hasBodies && context.grains().bodies.empty() && !scene.inletHandler.bringBodies();
+            checkedSizes.hasBodies && !scene.inletHandler.bringBodies() &&
+            (scene.outletHandler.isEmpty() ? !contacts.ranks().areSeveral() && context.grains().bodies.empty()
+                                           : !contacts.ranks().any(!context.grains().bodies.empty()));
         if (!newLaws && !changedWalls && !newStep && !lastBodyWent &&
             !ParticleHandler::Inside::hasChanges(particles))
             return;
-        if (isDistributed())
-            throw InputError(
-                "Simulation: grains, walls, species and the time step of a scene on several ranks "
-                "(setRanks()) cannot be changed in a step yet; call gather() before, between two parts of "
-                "the run (runTo()) or in a hook, or run it on one rank.");
         const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
+        if (isDistributed()) {
+            if (newLaws || changedWalls || newStep || lastBodyWent) refuseForRanks(changes, true);
+            return takeOverOnRanks(changes);
+        }
         const bool bodiesCame = scene.inletHandler.bringBodies() &&
                                 areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest()),
                    changedGrains = !changes.placed.empty() || (!changes.altered.empty() && !bodiesCame),
@@ -115,6 +116,22 @@ void Scene::Inside::takeOverChanges() {
     } catch (const InputError& refusal) {
         throw RunError(refusal.what());
     }
+}
+
+void Scene::Inside::refuseForRanks(const GrainChanges& changes, bool others) {
+    if (others || !changes.placed.empty() || !changes.altered.empty() ||
+        changes.added.size() != contacts.takeArrived())
+        throw InputError(
+            "Simulation: grains, walls, species and the time step of a scene on several ranks (setRanks()) "
+            "cannot be changed in a run yet; run it on one rank.");
+}
+
+/// Grains have come by inlets, which has listed contacts again.
+void Scene::Inside::takeOverOnRanks(const GrainChanges& changes) {
+    refuseForRanks(changes, false);
+    parts.takeOver(contextNow(stepLength()), {});
+    choosePartsLength();
+    if (contacts.ranks().any(stepLength() != checkedStep || isNewToChecks(changes.added))) check();
 }
 
 /// A bridge pays for the drift of the step that comes, and Adams' formulas have the weights of equal steps.
@@ -162,9 +179,11 @@ void Scene::Inside::renewAccelerations(const GrainChanges& changes) {
 
 bool Scene::Inside::isNewToChecks(std::span<const std::uint32_t> added) const {
     const ParticleStore& grains = scene.particleHandler.store();
-    if (!added.empty() && grains.count() <= contactsInDensestBed + added.size()) return true;
+    const std::uint64_t count = contacts.ranks().sum(grains.count());
+    if (!added.empty() && count <= contactsInDensestBed + added.size()) return true;
     return std::ranges::any_of(added, [&](std::uint32_t identity) {
         const std::uint32_t place = grains.place[identity];
+        if (place == PlaceIndex::none) return false;  // it is on another rank
         const TranslationRecord& grain = grains.translation[place];
         if (box.imagesMove && grain.inverseMass == 0) return true;
         if (grains.heldAt(place).any()) return true;

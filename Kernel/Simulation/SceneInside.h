@@ -91,7 +91,8 @@ public:
     // Scene.cpp
 
     [[nodiscard]] GrainSizes sizesOf(const ParticleStore& grains) const {
-        return sizesOfScene(*context.laws, grains, scene.inletHandler);
+        return sizesOfScene(*context.laws, grains, scene.inletHandler,
+                            grains.isShared ? contacts.ranks() : AllRanks());
     }
     [[nodiscard]] LiquidLedger liquidLedger() const;
 
@@ -145,9 +146,8 @@ private:
     void moveAndFindForces(double length);
     void finishStep(bool another);
     void moveAll(StepContext& step);
+    /// Ghosts get the motion of the grains that they stand for.
     void exchangeMotion(StepContext& step);
-    /// Throws InputError for what several ranks cannot do, and no feature stands for.
-    void refuseForRanks() const;
     void findForces(StepContext& step);
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
     void refuseRunaway(double shift) const;
@@ -162,6 +162,9 @@ private:
     void wrapAll(ParticleStore& grains) const;
     void bookWentRound(const StepContext& step);
 
+    /// The same of changes in the run; @param others besides those of grains
+    void refuseForRanks(const GrainChanges& changes, bool others);
+    void takeOverOnRanks(const GrainChanges& changes);
     /// Throws InputError where the time step was changed in a run that needs steps of one length.
     void refuseOtherStep() const;
     /// Grains that were put outside, and all of them where the first wall with ends has come, are inside

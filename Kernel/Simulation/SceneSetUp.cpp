@@ -49,7 +49,6 @@ void Scene::Inside::refuseUnlessBridgesJoin() const {
 void Scene::Inside::setUp() {
     ParticleHandler& particles = scene.particleHandler;
     scene.setupInitialConditions();
-    if (sharing) refuseForRanks();
     // A wall that wears needs the ledger: it tells what slides.
     if (std::ranges::any_of(wornWalls(scene.wallHandler),
                             [](const WornWall* wall) { return wall != nullptr; }))
@@ -103,13 +102,6 @@ Features Scene::Inside::featuresOfScene() const {
     if (contacts.events().areListenedTo()) found.add(Feature::ContactEvents);
     if (sharing) found.add(Feature::Ranks);
     return found;
-}
-
-void Scene::Inside::refuseForRanks() const {
-    if (gapOfFirstBridges > 0)
-        throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) cannot be joined at its start yet; leave "
-            "joinAtStart() out, or run it on one rank.");
 }
 
 Features Scene::Inside::wakeParts() {

@@ -72,6 +72,7 @@ void Scene::Inside::finishStep(bool another) {
     context.unfinished = context.length;
     ParticleHandler::Inside::leaveStepUnfinished(scene.particleHandler);
     if (!another || parts.needFinishedStep()) scene.particleHandler.finishStep();
+    if (context.account) contacts.renewGhosts(context.grains());  // it looks at their motion
     context.times.enter(StepTimes::Part::Other);
     parts.call(&StepPart::finish, context);
     context.times.enter(StepTimes::Part::Other);
@@ -82,7 +83,11 @@ void Scene::Inside::moveAll(StepContext& step) {
     step.finishesLast = ParticleHandler::Inside::takeUnfinishedStep(scene.particleHandler);
     step.grainsHaveMoved = true;
     parts.call(&StepPart::moveGrains, step);
-    if (sharing) exchangeMotion(step);
+    if (sharing) {
+        exchangeMotion(step);
+        step.shifts.grains = contacts.ranks().largest(step.shifts.grains);  // all list in the same step
+        step.shifts.approach = 2 * step.shifts.grains;
+    }
     refuseRunaway(step.shifts.grains);
     parts.call(&StepPart::moveSurroundings, step);
     refuseRunaway(step.shifts.grains);  // with what a flow carries them
@@ -92,11 +97,8 @@ void Scene::Inside::moveAll(StepContext& step) {
     parts.call(&StepPart::afterMotion, step);
 }
 
-/// All ranks list contacts in the same step.
 void Scene::Inside::exchangeMotion(StepContext& step) {
     sharing->exchangeMotion(step.grains(), contactScheme(step).contacts.springsInStep);
-    step.shifts.grains = sharing->largest(step.shifts.grains);
-    step.shifts.approach = 2 * step.shifts.grains;
 }
 
 void Scene::Inside::findForces(StepContext& step) {
@@ -117,7 +119,7 @@ void Scene::Inside::findForces(StepContext& step) {
 void Scene::Inside::bookWentRound(const StepContext& step) {
     if (!step.account) return;
     const StepTimes::Within ledger(step.times, StepTimes::Part::Ledger);
-    step.account->wentRound(step.grains(), step.gravity, *step.ledger);
+    step.account->wentRound(step.grains(), contacts.ranks(), step.gravity, *step.ledger);
 }
 
 void Scene::Inside::bringBack(StepContext& step) {
@@ -125,6 +127,7 @@ void Scene::Inside::bringBack(StepContext& step) {
     if (!box.any() || periodicWalls.haveEnds() || step.number % stepsBetween != 0) return;
     if (box.imagesMove) FlowPart::takeVelocitiesOfImages(step);
     wrapAll(step.grains());
+    if (sharing) exchangeMotion(step);  // a body is brought back as a whole
     bookWentRound(step);
 }
 

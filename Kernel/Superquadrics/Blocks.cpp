@@ -85,7 +85,7 @@ BodyReference Blocks::add(ParticleHandler& particles, const BlockGrain& grain) {
 
 BlockPart Blocks::partOf(const ParticleStore& grains, std::uint32_t place, std::uint32_t body) const {
     BlockPart part;
-    if (body >= grains.bodies.size()) return part;
+    if (body >= grains.bodies.sizeWithGhosts()) return part;
     const std::uint32_t number = grains.bodies.numberOf(body);
     if (!ofBody(number)) return part;
     const std::span<const BodyMember> members = grains.bodies.membersOf(body);

@@ -298,7 +298,8 @@ SuperquadricGeometry SuperquadricHandler::geometryOf(const ContactTask& task, st
         for (std::size_t k = 0; k < Pack::lanes; ++k) {
             // Lanes of grains that have gone are of no meaning.
             const std::uint32_t body = bodies.at(places[k]);
-            const Superquadric* const own = body < bodies.size() ? ofBody(bodies.numberOf(body)) : nullptr;
+            const Superquadric* const own =
+                body < bodies.sizeWithGhosts() ? ofBody(bodies.numberOf(body)) : nullptr;
             const double radius = task.translation[places[k]].radius;
             const Superquadric s = own ? *own : Superquadric{radius, radius, radius};
             at[k] = own ? body : 0;

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "Kernel/Base/RunError.h"
+#include "Kernel/Ranks/AllRanks.h"
 #include "Kernel/Ranks/Bisection.h"
 #include "Kernel/State/Random.h"
 
@@ -56,6 +59,46 @@ TEST(VirtualRanks, allEndWhenOneFails) {
         EXPECT_STREQ(failure.what(), "rank 2");
     }
     ranks.run([](Exchange& exchange) { EXPECT_EQ(exchange.largest(3), 3); });
+}
+
+TEST(VirtualRanks, allEndWhenOneReturns) {
+    for (const std::size_t early : {0u, 2u}) {
+        VirtualRanks ranks(3);
+        EXPECT_THROW(ranks.run([&](Exchange& exchange) {
+            for (int round = 0; round < 10; ++round) {
+                if (exchange.rank() == early && round == 5) return;
+                static_cast<void>(exchange.largest(1));
+            }
+            ADD_FAILURE() << "rank " << exchange.rank() << " has not noticed";
+        }),
+                     RunError);
+    }
+}
+
+// 0.1 of each of seven ranks, and of one: 0.7 is not what a sum of doubles gives.
+TEST(AllRanks, addUpExactly) {
+    VirtualRanks(7).run([](Exchange& exchange) {
+        const AllRanks ranks(exchange);
+        ExactSum one, two;
+        one.add(0.1);
+        two.add(exchange.rank() == 3 ? 1e300 : exchange.rank() == 5 ? -1e300 : 1);
+        ranks.addUp({&one, &two});
+        EXPECT_EQ(one.value(), 0x1.6666666666667p-1);
+        EXPECT_EQ(two.value(), 5);
+        EXPECT_EQ(ranks.sum(std::uint64_t{exchange.rank()}), 21u);
+        EXPECT_EQ(ranks.smallest(10.0 - static_cast<double>(exchange.rank())), 4);
+        EXPECT_TRUE(ranks.any(exchange.rank() == 6));
+        EXPECT_FALSE(ranks.any(false));
+        EXPECT_EQ(ranks.largest(exchange.rank() == 2 ? std::nan("") : 0), infinity);
+        const std::vector<std::size_t> own(exchange.rank() % 2, exchange.rank());
+        EXPECT_EQ(ranks.gather(own), (std::vector<std::size_t>{1, 3, 5}));
+        ExactSum notANumber;
+        notANumber.add(exchange.rank() == 1 ? infinity : 0);
+        EXPECT_TRUE(std::isnan(ranks.sum(notANumber)));
+    });
+    const AllRanks alone;
+    EXPECT_EQ(alone.largest(-2), -2);
+    EXPECT_EQ(alone.sum(std::uint64_t{3}), 3u);
 }
 
 /// Points at random in a box, those of its upper half thrice as heavy.

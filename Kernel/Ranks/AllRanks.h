@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <vector>
+
+#include "Kernel/Math/ExactSum.h"
+#include "Kernel/Math/Scalar.h"
+#include "Kernel/Ranks/Exchange.h"
+
+namespace pendular {
+
+/// What all ranks of a scene know together: each gives what it has of its own grains, and all get the same
+/// bits, whatever their number. All ranks make the same calls in the same order. A scene that has all grains
+/// gets back what it gives.
+class AllRanks {
+public:
+    AllRanks() = default;
+    explicit AllRanks(Exchange& with) : exchange(&with) {}
+    /// @param distributed whether each has its own grains only: else each has all, and gets back what it
+    /// gives
+    AllRanks(Exchange& with, const bool& distributed) : exchange(&with), areDistributed(&distributed) {}
+
+    [[nodiscard]] bool areSeveral() const {
+        return exchange != nullptr && (areDistributed == nullptr || *areDistributed);
+    }
+
+    /// Each of these sums becomes that of all ranks; several of them in one call are faster.
+    void addUp(std::span<ExactSum* const> sums) const;
+    void addUp(std::initializer_list<ExactSum*> sums) const { addUp(std::span(sums.begin(), sums.size())); }
+    void addUp(ExactVectorSum& sum) const { addUp({&sum.x, &sum.y, &sum.z}); }
+    [[nodiscard]] double sum(ExactSum own) const {
+        addUp({&own});
+        return own.value();
+    }
+    [[nodiscard]] std::uint64_t sum(std::uint64_t own) const;
+
+    /// What is not a number counts as infinite.
+    [[nodiscard]] double largest(double own) const {
+        if (!areSeveral()) return own;
+        return exchange->largest(std::isnan(own) ? std::numeric_limits<double>::infinity() : own);
+    }
+    [[nodiscard]] double smallest(double own) const { return areSeveral() ? -largest(-own) : own; }
+    [[nodiscard]] bool any(bool own) const { return areSeveral() ? largest(own ? 1 : 0) > 0 : own; }
+
+    /// The values of all ranks, in the order of ranks.
+    template <class Value>
+    [[nodiscard]] std::vector<Value> gather(const std::vector<Value>& own) const {
+        if (!areSeveral()) return own;
+        Message message;
+        for (const Value& value : own) message.add(value);
+        std::vector<Value> all;
+        for (Message& from : exchange->swap(std::vector<Message>(exchange->count(), message)))
+            while (!from.isTaken()) all.push_back(from.take<Value>());
+        return all;
+    }
+
+private:
+    Exchange* exchange = nullptr;  // null: there is one
+    const bool* areDistributed = nullptr;
+};
+
+}  // namespace pendular
