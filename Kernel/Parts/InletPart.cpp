@@ -24,7 +24,7 @@ InsertionScene InletPart::placesOf(const StepContext& scene) {
 }
 
 void InletPart::check(const StepContext& scene) {
-    if (scene.contacts.ranks().areSeveral() && (inlets.bringBodies() || inlets.bringLiquid()))
+    if (scene.contacts.ranks().areThere() && (inlets.bringBodies() || inlets.bringLiquid()))
         throw InputError(
             "Simulation: inlets of rigid bodies, or of grains with films, cannot be in a scene on several "
             "ranks "

@@ -11,19 +11,18 @@
 namespace pendular {
 
 /// What all ranks of a scene know together: each gives what it has of its own grains, and all get the same
-/// bits, whatever their number. All ranks make the same calls in the same order. A scene that has all grains
-/// gets back what it gives.
+/// bits, whatever their number. All ranks make the same calls in the same order. A scene that has all grains,
+/// also because ranks do not share them yet, gets back what it gives.
 class AllRanks {
 public:
     AllRanks() = default;
     explicit AllRanks(Exchange& with) : exchange(&with) {}
-    /// @param distributed whether each has its own grains only: else each has all, and gets back what it
-    /// gives
-    AllRanks(Exchange& with, const bool& distributed) : exchange(&with), areDistributed(&distributed) {}
+    /// @param doShare whether each has its own grains only, as it is when something is asked
+    AllRanks(Exchange& with, const bool& doShare) : exchange(&with), areDistributed(&doShare) {}
 
-    [[nodiscard]] bool areSeveral() const {
-        return exchange != nullptr && (areDistributed == nullptr || *areDistributed);
-    }
+    /// There are others, whether they share the grains already or not.
+    [[nodiscard]] bool areThere() const { return exchange != nullptr; }
+    [[nodiscard]] bool areSeveral() const { return exchange && (!areDistributed || *areDistributed); }
 
     /// Each of these sums becomes that of all ranks; several of them in one call are faster.
     void addUp(std::span<ExactSum* const> sums) const;
@@ -56,8 +55,8 @@ public:
     }
 
 private:
-    Exchange* exchange = nullptr;  // null: there is one
-    const bool* areDistributed = nullptr;
+    Exchange* exchange = nullptr;          // null: there is one
+    const bool* areDistributed = nullptr;  // null: they are
 };
 
 }  // namespace pendular

@@ -68,8 +68,8 @@ public:
     /// @param ofGrains at each place; @param ofBodies at each place, ghosts included
     void tellGhosts(std::span<double> ofGrains, std::span<double> ofBodies);
 
-    /// What ranks know together as long as grains are distributed; each has all of it otherwise.
-    [[nodiscard]] AllRanks allRanks() const { return AllRanks(exchange, isDistributed); }
+    /// They know something together from the first list on: before it, each has all grains.
+    [[nodiscard]] AllRanks allRanks() const { return {exchange, isDistributed}; }
     /// The largest of what the ranks give, also where each has all grains.
     [[nodiscard]] double largest(double own) { return exchange.largest(own); }
     [[nodiscard]] std::size_t rank() const { return exchange.rank(); }

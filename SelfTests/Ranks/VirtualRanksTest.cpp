@@ -96,6 +96,13 @@ TEST(AllRanks, addUpExactly) {
         notANumber.add(exchange.rank() == 1 ? infinity : 0);
         EXPECT_TRUE(std::isnan(ranks.sum(notANumber)));
     });
+    VirtualRanks(3).run([](Exchange& exchange) {
+        bool doShare = false;
+        const AllRanks ranks(exchange, doShare);
+        EXPECT_EQ(ranks.sum(std::uint64_t{5}), 5u);
+        doShare = true;
+        EXPECT_EQ(ranks.sum(std::uint64_t{5}), 15u);
+    });
     const AllRanks alone;
     EXPECT_EQ(alone.largest(-2), -2);
     EXPECT_EQ(alone.sum(std::uint64_t{3}), 3u);
