@@ -69,7 +69,11 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
 bool ContactSystem::newListPays() { return allRanks.any(idleLanes.newListPays(contacts, skin.listCost())); }
 
 void ContactSystem::distribute(Grains& grains, RememberedContacts& remembered, double reach) {
-    if (!sharing->areDistributed()) rangeOfAll = largestRange(*species, grains);
+    if (!sharing->areDistributed()) {
+        rangeOfAll = largestRange(*species, grains);
+        // What has been counted so far, or was in a restart file, counts on the first rank.
+        if (sharing->rank() > 0) overlapWatch = overlapWatch.part(), capillaryWatch = {};
+    }
     ContactMigration migration(remembered, contacts.memory, grains);
     sharing->distribute(grains, periodic, skin.width() + std::max(reach, rangeOfAll),
                         migration.luggage(sharing->rank()));
@@ -92,7 +96,7 @@ void ContactSystem::gather(Grains& grains) {
     sumWallForces(grains);
 }
 
-/// The first rank has what all have seen; others go on counting from nothing.
+/// All know what all have seen, until they go on counting (distribute()).
 void ContactSystem::gatherWatches() {
     const auto gathered = [&](const auto& watch) {
         auto all = sharing->ofAll(watch);
@@ -101,9 +105,6 @@ void ContactSystem::gatherWatches() {
     };
     overlapWatch = gathered(overlapWatch);
     capillaryWatch = gathered(capillaryWatch);
-    if (sharing->rank() == 0) return;
-    overlapWatch = overlapWatch.part();
-    capillaryWatch = {};
 }
 
 void ContactSystem::listWithin(Grains& grains, double reach) {
