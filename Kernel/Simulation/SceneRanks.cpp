@@ -1,3 +1,4 @@
+#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -5,8 +6,18 @@
 
 namespace pendular {
 
+/// Counts of events and the account of liquid are those of each rank, and nothing gathers them yet.
+static void refuseToGather(const ContactSystem& contacts) {
+    if (!contacts.movesLiquid() && !contacts.events().areListenedTo()) return;
+    throw InputError(
+        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, or whose events of "
+        "contacts "
+        "are listened to, has no outputs and restart files yet, and cannot be gathered; run it on one rank.");
+}
+
 void Scene::Inside::gather() {
     if (!isDistributed()) return;
+    refuseToGather(contacts);
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
     contacts.gather(scene.particleHandler.store());
