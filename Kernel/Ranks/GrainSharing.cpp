@@ -263,12 +263,6 @@ void GrainSharing::tellGhosts(std::span<double> ofGrains, std::span<double> ofBo
                        takeOf(ofBodies));
 }
 
-/// What exchangeMotion() sends of one.
-static std::size_t bytesOfGhost(const ParticleStore& grains, bool withAccelerations) {
-    const std::size_t vectors = grains.hasSpin ? 3 : 2, accelerations = grains.hasSpin ? 2 : 1;
-    return (vectors + (withAccelerations ? accelerations : 0)) * sizeof(Vector<double>);
-}
-
 void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations) {
     const auto forEachPart = [&](std::uint32_t place, auto&& use) {
         use(grains.translation[place].position), use(grains.translation[place].velocity);

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 
+#include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/MercuryOutput.h"
 #include "Kernel/Output/ParaViewOutput.h"
@@ -92,6 +93,28 @@ TEST(RunOnRanks, writesTheFilesOfOneProcess) {
         runOn(ranks, own, whole, {.cutsWander = ranks == 3});
         expectSameFiles(serial, own);
     }
+}
+
+/// With rigid bodies and an account of the energy.
+class RichRun : public SharedRun {
+public:
+    explicit RichRun(const fs::path& folder) : SharedRun(folder, whole) {
+        for (std::uint32_t k = 0; k + 1 < 96; k += 8) bodyHandler.join({k, k + 1});
+        keepEnergyLedger();
+        addOutput(EnergyFile(50 * getTimeStep()));
+    }
+};
+
+TEST(RunOnRanks, writesTheFilesOfBodiesAndEnergy) {
+    const TestFolder folder;
+    RichRun(folder.path() / "1").solve();
+    VirtualRanks(3).run([&](Exchange& exchange) {
+        RichRun run(folder.path() / "3");
+        run.setRanks(exchange, {.cutsWander = true});
+        run.solve();
+    });
+    expectSameFiles(folder.path() / "1", folder.path() / "3");
+    expectSameState(folder.path() / "1/run-restart.h5", folder.path() / "3/run-restart.h5");
 }
 
 TEST(RunOnRanks, goesOnFromTheFilesOfAnyNumber) {
