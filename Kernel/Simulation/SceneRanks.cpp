@@ -6,18 +6,18 @@
 
 namespace pendular {
 
-/// Counts of events and the account of liquid are those of each rank, and nothing gathers them yet.
-static void refuseToGather(const ContactSystem& contacts) {
-    if (!contacts.movesLiquid() && !contacts.events().areListenedTo()) return;
+/// The accounts of energy and liquid, and the counts of events, are not yet right after grains were gathered.
+static void refuseToGather(const ContactSystem& contacts, bool keepsEnergy) {
+    if (!contacts.movesLiquid() && !contacts.events().areListenedTo() && !keepsEnergy) return;
     throw InputError(
-        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, or whose events of "
-        "contacts "
-        "are listened to, has no outputs and restart files yet, and cannot be gathered; run it on one rank.");
+        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, the energy ledger is kept "
+        "or "
+        "events of contacts are listened to, has no outputs and restart files yet; run it on one rank.");
 }
 
 void Scene::Inside::gather() {
     if (!isDistributed()) return;
-    refuseToGather(contacts);
+    refuseToGather(contacts, account.isKept());
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
     contacts.gather(scene.particleHandler.store());

@@ -5,7 +5,6 @@
 #include <array>
 #include <map>
 
-#include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/Hdf5Output.h"
 #include "Kernel/Output/MercuryOutput.h"
 #include "Kernel/Output/ParaViewOutput.h"
@@ -95,17 +94,16 @@ TEST(RunOnRanks, writesTheFilesOfOneProcess) {
     }
 }
 
-/// With rigid bodies and an account of the energy.
+/// With rigid bodies.
 class RichRun : public SharedRun {
 public:
     explicit RichRun(const fs::path& folder) : SharedRun(folder, whole) {
         for (std::uint32_t k = 0; k + 1 < 96; k += 8) bodyHandler.join({k, k + 1});
-        keepEnergyLedger();
-        addOutput(EnergyFile(50 * getTimeStep()));
+        setTimeStep(0x1p-19);
     }
 };
 
-TEST(RunOnRanks, writesTheFilesOfBodiesAndEnergy) {
+TEST(RunOnRanks, writesTheFilesOfBodies) {
     const TestFolder folder;
     RichRun(folder.path() / "1").solve();
     VirtualRanks(3).run([&](Exchange& exchange) {
@@ -115,6 +113,20 @@ TEST(RunOnRanks, writesTheFilesOfBodiesAndEnergy) {
     });
     expectSameFiles(folder.path() / "1", folder.path() / "3");
     expectSameState(folder.path() / "1/run-restart.h5", folder.path() / "3/run-restart.h5");
+}
+
+TEST(RunOnRanks, refusesAccountsThatAreNotGathered) {
+    const TestFolder folder;
+    const std::string told = refusal([&] {
+        VirtualRanks(2).run([&](Exchange& exchange) {
+            SharedRun run(folder.path(), half);
+            run.keepEnergyLedger();
+            run.setRanks(exchange, {});
+            run.solve();
+        });
+    });
+    EXPECT_TRUE(isOneSentence(told));
+    EXPECT_TRUE(contains(told, "energy ledger"));
 }
 
 TEST(RunOnRanks, goesOnFromTheFilesOfAnyNumber) {
