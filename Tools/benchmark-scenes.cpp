@@ -14,6 +14,8 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Particles/GrainSums.h"
+#include "Kernel/Ranks/GrainSharing.h"
+#include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/StateHash.h"
 #include "Kernel/Species/LawNames.h"
@@ -59,9 +61,9 @@ void measureFrames(Scene& scene, double stepTime) {
 
 /// A steady flow of grains: in each step some are put above the scene, at rest, and as many that were put
 /// there fifty steps ago are removed.
-class Exchange {
+class GrainFlow {
 public:
-    Exchange(Scene& changed, std::size_t count) : scene(changed), perStep(count) {
+    GrainFlow(Scene& changed, std::size_t count) : scene(changed), perStep(count) {
         if (count == 0) return;
         Vec3D lowest = Vec3D::Constant(infinity), highest = -lowest;
         for (GrainReference grain : scene.particleHandler) {
@@ -119,21 +121,23 @@ private:
 void measure(Scene& scene, const Options& options, double memoryBefore) {
     scene.setNumberOfThreads(options.threads);
     if (!options.paraView.empty()) scene.setName(options.paraView);
+    if (ProcessRanks* const ranks = ranksOfProgram()) scene.setRanks(*ranks, {});
     scene.initialise();
     scene.step(options.warm);
     const std::size_t rebuildsBefore = scene.contacts().rebuildCount();
-    Exchange exchange(scene, options.exchange);
+    GrainFlow flow(scene, options.exchange);
     const double processorBefore = processorTime();
     const auto start = std::chrono::steady_clock::now();
     if (options.exchange == 0) scene.step(options.steps);
     else
         for (std::size_t k = 0; k < options.steps; ++k) {
-            exchange();
+            flow();
             scene.step();
         }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double processorSeconds = processorTime() - processorBefore;
-    exchange.report(seconds);
+    flow.report(seconds);
+    scene.gather();
 
     const auto& grains = scene.particleHandler.store();
     const auto count = static_cast<double>(grains.size());

@@ -50,7 +50,7 @@ if [[ ${CI:-} == true ]]; then
         export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
         export CCACHE_SLOPPINESS=pch_defines,time_macros
     fi
-    stage "Installing" Tools/install-dependencies.sh --clang --readers --python --view
+    stage "Installing" Tools/install-dependencies.sh --clang --readers --python --mpi --view
     export PENDULAR_REQUIRE_DEPENDENCIES=1  # no test may leave out what needs them
     stage "Format" Tools/check-format.sh
     # All files of the kernel take ten minutes: of a change that is so large it is left to Tools/check-tidy.sh by hand.

@@ -179,7 +179,7 @@ void run(const Options& options) {
             throw RunStopped(
                 fmt::format("The run was asked to stop after {} of {} impacts; --resume goes on.", k,
                             options.impacts()),
-                RunControl::stopped(0, k, "").exitCode);
+                RunControl::stopped(0, k, "", control.heard(k)).exitCode);
         }
         impact(options, k, tables);
     }

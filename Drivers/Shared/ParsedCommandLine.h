@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "Drivers/Shared/CommandLineLibrary.h"
+#include "Kernel/Base/SilentRank.h"
 #include "Kernel/Species/LawNames.h"
 
 namespace pendular {
@@ -69,6 +70,7 @@ inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
+        if (isSilentRank()) return end.get_exit_code() == 0 ? 0 : 1;
         return app.exit(end) == 0 ? 0 : 1;
     }
     return {};

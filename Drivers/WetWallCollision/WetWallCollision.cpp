@@ -78,7 +78,7 @@ void run(const Options& options) {
             throw RunStopped(
                 fmt::format("The run was asked to stop after {} of {} collisions; --resume goes on.", k,
                             cases.size()),
-                RunControl::stopped(0, k, "").exitCode);
+                RunControl::stopped(0, k, "", control.heard(k)).exitCode);
         }
         const scenes::WetWallCase& given = cases[k];
         scenes::WetWallImpact scene(given);

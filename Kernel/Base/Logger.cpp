@@ -5,6 +5,8 @@
 #include <mutex>
 #include <utility>
 
+#include "Kernel/Base/SilentRank.h"
+
 namespace pendular {
 
 namespace {
@@ -29,6 +31,7 @@ bool hasLogSink() { return chosenSink() != nullptr; }
 
 // fmt::print would throw where it cannot write.
 void writeToLog(std::string_view text, LogLevel level) noexcept {
+    if (isSilentRank()) return;
     try {
         if (const auto sink = chosenSink()) {
             if (text.ends_with('\n')) text.remove_suffix(1);

@@ -24,7 +24,7 @@ void setLogSink(LogSink sink);
 [[nodiscard]] bool hasLogSink();
 
 /// Writes a text to the log: standard error, or what setLogSink() was given. What cannot be written there (a
-/// full disk, a closed pipe) is lost: a log never ends a run.
+/// full disk, a closed pipe) is lost: a log never ends a run. Silent ranks (SilentRank.h) write nothing.
 void writeToLog(std::string_view text, LogLevel level = LogLevel::Info) noexcept;
 
 /// The text of a line, in the form of fmt, which the compiler checks against the values: a {} for each of

@@ -5,8 +5,11 @@
 namespace pendular {
 
 Luggage ContactMigration::luggage(std::size_t self) {
-    return {.pack = [this, self](std::span<const std::size_t> owners,
+    return {.weightOf =
+                [this](std::uint32_t place) { return 1 + static_cast<double>(remembered.countAt(place)); },
+            .pack = [this, self](std::span<const std::size_t> owners,
                                  std::span<Message> toEach) { pack(self, owners, toEach); },
+            .packAll = [this](Message& message) { packAll(message); },
             .unpack = [this](Message& message) { unpack(message); }};
 }
 
@@ -21,14 +24,27 @@ void ContactMigration::pack(std::size_t self, std::span<const std::size_t> owner
             const std::uint32_t place = grains.place[identity];
             if (place == PlaceIndex::none || owners[place] == self || owners[place] == last) return;
             last = owners[place];
-            memory.getNumbers(remembered.slotOf(k), numbers.data());
-            toEach[last].add(entry);
-            for (const double number : numbers) toEach[last].add(number);
-            if (!memory.energies.empty()) toEach[last].add(memory.energies[remembered.slotOf(k)]);
+            add(toEach[last], entry, remembered.slotOf(k), numbers);
         };
         sendWith(entry.owner);
         if (entry.wall == 0) sendWith(entry.other);
     }
+}
+
+void ContactMigration::packAll(Message& message) const {
+    std::vector<double> numbers(memory.numberCount());
+    for (std::uint32_t k = 0; k < remembered.size(); ++k) {
+        const RememberedContacts::Entry& entry = remembered.entry(k);
+        if (grains.place.contains(entry.owner)) add(message, entry, remembered.slotOf(k), numbers);
+    }
+}
+
+void ContactMigration::add(Message& message, const RememberedContacts::Entry& entry, std::uint32_t slot,
+                           std::vector<double>& numbers) const {
+    memory.getNumbers(slot, numbers.data());
+    message.add(entry);
+    for (const double number : numbers) message.add(number);
+    if (!memory.energies.empty()) message.add(memory.energies[slot]);
 }
 
 void ContactMigration::unpack(Message& message) {

@@ -20,6 +20,10 @@ public:
 
 private:
     void pack(std::size_t self, std::span<const std::size_t> owners, std::span<Message> toEach) const;
+    void packAll(Message& message) const;
+    /// @param numbers room for what it remembers
+    void add(Message& message, const RememberedContacts::Entry& entry, std::uint32_t slot,
+             std::vector<double>& numbers) const;
     void unpack(Message& message);
 
     RememberedContacts& remembered;

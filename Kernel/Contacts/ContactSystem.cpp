@@ -57,23 +57,54 @@ bool ContactSystem::refresh(Grains& grains, double grainShift, double wallShift)
     const bool isNear = unlisted >= std::min(skin.width(), listBefore) ||
                         (liquid.formsAtFilms(*species) && liquid.largestFilmContact(grains) > filmsReach);
     const bool isTime = stepsListed % IdleLanes::interval == 0 && newListPays();
-    if (!isNear && !isTime) return false;
+    const bool areToBeShared = sharing && !sharing->areDistributed();
+    if (!isNear && !isTime && !areToBeShared) return false;
     // A list that ends early, because of grains that came later, says nothing of how long a list lasts.
     if (rebuilds > 0 && unlisted >= skin.width()) skin.choose(unlisted, stepsListed);
-    if (sharing) skin.takeWidth(allRanks.smallest(skin.width()));
-    listAgain(grains);
+    if (sharing) skin.takeWidth(-sharing->largest(-skin.width()));
+    listAgain(grains, true, 0, areToBeShared);
     return true;
 }
 
 bool ContactSystem::newListPays() { return allRanks.any(idleLanes.newListPays(contacts, skin.listCost())); }
 
 void ContactSystem::distribute(Grains& grains, RememberedContacts& remembered, double reach) {
-    if (!sharing->areDistributed()) rangeOfAll = largestRange(*species, grains);
+    if (!sharing->areDistributed()) {
+        rangeOfAll = largestRange(*species, grains);
+        // What has been counted so far, or was in a restart file, counts on the first rank.
+        if (sharing->rank() > 0) overlapWatch = overlapWatch.part(), capillaryWatch = {};
+    }
     ContactMigration migration(remembered, contacts.memory, grains);
     sharing->distribute(grains, periodic, skin.width() + std::max(reach, rangeOfAll),
                         migration.luggage(sharing->rank()));
     const auto [all, unequal] = migration.file();
     sharing->countHeldTwice(all, unequal);
+}
+
+void ContactSystem::gather(Grains& grains) {
+    RememberedContacts remembered;
+    remembered.take(contacts, grains.identity, threads);
+    for (const std::uint32_t place : std::exchange(passed, {})) remembered.goOn(place, {});
+    ContactMigration migration(remembered, contacts.memory, grains);
+    sharing->gather(grains, migration.luggage(sharing->rank()));
+    const auto [all, unequal] = migration.file();
+    sharing->countHeldTwice(all, unequal);
+    gatherWatches();
+    listAgain(grains, remembered);
+    listedOnRanks(grains);
+    findWallPoints(grains, 0);
+    sumWallForces(grains);
+}
+
+/// All know what all have seen, until they go on counting (distribute()).
+void ContactSystem::gatherWatches() {
+    const auto gathered = [&](const auto& watch) {
+        auto all = sharing->ofAll(watch);
+        for (std::size_t q = 1; q < all.size(); ++q) all[0].add(all[q]);
+        return all[0];
+    };
+    overlapWatch = gathered(overlapWatch);
+    capillaryWatch = gathered(capillaryWatch);
 }
 
 void ContactSystem::listWithin(Grains& grains, double reach) {
@@ -138,13 +169,14 @@ bool ContactSystem::lastsThroughChange(const Grains& grains, const Bucket& bucke
     return seen.separation < reach;
 }
 
-void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach) {
+void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach, bool shares) {
     RememberedContacts remembered;
     remembered.take(contacts, grains.identity, threads);
     for (const std::uint32_t place : std::exchange(passed, {})) remembered.goOn(place, {});
-    if (sharing) distribute(grains, remembered, reach);
+    const bool areShared = sharing && (shares || sharing->areDistributed());
+    if (areShared) distribute(grains, remembered, reach);
     listAgain(grains, remembered, keepsBridges, reach);
-    if (sharing) listedOnRanks(grains);
+    if (areShared) listedOnRanks(grains);
 }
 
 void ContactSystem::listedOnRanks(const Grains& grains) {

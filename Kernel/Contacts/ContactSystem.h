@@ -46,6 +46,8 @@ public:
                  const SkinChoice& skinChoice, bool withLedger, GrainFilms* films = nullptr);
     /// The scene is one of several that share their grains: they are distributed where contacts are listed.
     void share(GrainSharing* with);
+    /// All grains and contacts come to all ranks, until refresh() distributes them again.
+    void gather(Grains& grains);
     /// What all ranks that share the scene know together; each contact counts on the rank that owns its body
     /// 1.
     [[nodiscard]] const AllRanks& ranks() const { return allRanks; }
@@ -276,7 +278,8 @@ private:
         if (contacts.acts(contact)) function(contacts.bucketOf(contact / Pack::lanes), contact);
     }
     void listNow(Grains& grains, bool keepsBridges);
-    void listAgain(Grains& grains, bool keepsBridges = true, double reach = 0);
+    /// @param shares the grains are distributed over the ranks, which had all of them
+    void listAgain(Grains& grains, bool keepsBridges = true, double reach = 0, bool shares = false);
     /// Lists contacts again, with remembered ones whose memory is in the store; returns how many of these are
     /// listed again.
     std::size_t listAgain(Grains& grains, const RememberedContacts& remembered, bool keepsBridges = true,
@@ -286,6 +289,7 @@ private:
     void listedOnRanks(const Grains& grains);
     /// Grains go to the ranks that own them, with what their contacts remember.
     void distribute(Grains& grains, RememberedContacts& remembered, double reach);
+    void gatherWatches();
     double endContact(Grains& grains, std::uint32_t contact);
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
     /// act in the first half of the next one. Those of rigid bodies alike.

@@ -44,6 +44,10 @@ public:
     [[nodiscard]] std::span<const Entry> of(std::uint32_t place) const {
         return {entries.data() + begins[place], entries.data() + begins[place + 1]};
     }
+    /// How many these are; none of a grain that came later.
+    [[nodiscard]] std::size_t countAt(std::uint32_t place) const {
+        return place + 1 < begins.size() ? begins[place + 1] - begins[place] : 0;
+    }
     /// A contact goes on with another part of a wall.
     struct NewPart {
         std::uint32_t wall, before, now;  // the number of the wall

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/SilentRank.h"
 #include "Kernel/Files/OwnFile.h"
 
 namespace pendular {
@@ -36,6 +37,7 @@ std::string ownerIn(int descriptor) {
 FileLock::FileLock(const std::filesystem::path& file, std::string_view subject, std::string_view advice,
                    bool needed)
     : path(file), owner(getpid()) {
+    if (isSilentRank()) return;  // the first rank has it
     std::error_code ignored;
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
     int tries = 0;

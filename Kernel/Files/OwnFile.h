@@ -6,7 +6,8 @@
 namespace pendular {
 
 // The one way to files that a program writes under names of its own (NAME.part, a lock, a probe, a text that
-// grows): they are never what a symbolic link leads to, which may be any file.
+// grows): they are never what a symbolic link leads to, which may be any file. What a silent rank
+// (Kernel/Base/SilentRank.h) writes is lost.
 
 /// Throws InputError where there is something else than a regular file under this very name: a symbolic link,
 /// a folder, or a pipe, in which who opens it waits for the other end.
@@ -19,6 +20,9 @@ void makeRoomFor(const std::filesystem::path& file);
 /// A new file, in the place of one that an earlier run left; null, with errno, where there can be none.
 /// Throws InputError as requireOwnIfThere().
 [[nodiscard]] std::FILE* createFile(const std::filesystem::path& file);
+
+/// Removes a file of an earlier run, if that can be done.
+void removeFile(const std::filesystem::path& file) noexcept;
 
 /// Opens a file to go on with it, as createFile() makes a new one: what is written comes behind what it has.
 [[nodiscard]] std::FILE* goOnWithFile(const std::filesystem::path& file);

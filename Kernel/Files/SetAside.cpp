@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/SilentRank.h"
 #include "Kernel/Files/WrittenBeside.h"
 
 namespace pendular {
@@ -19,6 +20,7 @@ fs::path asideOf(const fs::path& file) { return file.string() + ".before"; }
 }  // namespace
 
 SetAside::SetAside(std::vector<fs::path> paths) {
+    if (isSilentRank()) return;
     for (const fs::path& file : paths) requireRegularIfThere(file);
     for (fs::path& file : paths) {
         std::error_code problem;

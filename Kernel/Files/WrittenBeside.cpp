@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/SilentRank.h"
 #include "Kernel/Files/OwnFile.h"
 
 namespace pendular {
@@ -59,6 +60,10 @@ WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
     : target(std::move(path)), beside(target.string() + ".part") {
     namespace fs = std::filesystem;
     std::error_code problem;
+    if (isSilentRank()) {
+        file = createFile(beside);
+        return;
+    }
     requireOwnIfThere(beside);
     if (!fs::exists(beside, problem) && fs::exists(target, problem)) {
         // Who has put the table elsewhere, with a link to it, keeps it: the run goes on with a copy.
@@ -71,6 +76,7 @@ WrittenBeside::WrittenBeside(std::filesystem::path path, std::uintmax_t bytes)
 }
 
 std::uintmax_t WrittenBeside::flush() {
+    if (isSilentRank()) return 0;
     if (!file) return std::filesystem::file_size(target);
     if (std::fflush(file) != 0 || (fsync(fileno(file)) != 0 && errno != EINVAL)) fail("cannot be written");
     return std::filesystem::file_size(beside);
@@ -91,6 +97,7 @@ void WrittenBeside::close() {
     std::FILE* open = std::exchange(file, nullptr);
     if (!open) return;
     if (std::fclose(open) != 0) fail("cannot be completed");
+    if (isSilentRank()) return;
     std::error_code problem;
     std::filesystem::rename(beside, target, problem);
     if (problem) fail("cannot be renamed to its final name");

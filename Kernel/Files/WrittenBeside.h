@@ -23,7 +23,8 @@ void requireBytes(const std::filesystem::path& file, std::uintmax_t bytes);
 void cutBack(const std::filesystem::path& file, std::uintmax_t bytes);
 
 /// A file that is written beside its name, as NAME.part, and renamed when it is complete, so that no reader
-/// meets half a file. Folders that are missing are made; symbolic links are refused (OwnFile.h).
+/// meets half a file. Folders that are missing are made; symbolic links are refused (OwnFile.h). A silent
+/// rank has no file.
 class WrittenBeside {
 public:
     /// Throws InputError if the file cannot be written.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Output/FieldFile.h"
 #include "Kernel/Output/FrameIndex.h"
 #include "Kernel/State/Hdf5File.h"
@@ -72,10 +73,9 @@ Hdf5Series::Hdf5Series(std::string name, double keptUntil) : beginning(std::move
         else dropped.push_back(fileOf(step));
     }
     // In this order, so that a series never names a file that is not there.
-    std::error_code ignored;
-    if (times.empty()) std::filesystem::remove(indexOf(beginning), ignored);
+    if (times.empty()) removeFile(indexOf(beginning));
     else if (!dropped.empty()) writeIndex();
-    for (const std::filesystem::path& path : dropped) std::filesystem::remove(path, ignored);
+    for (const std::filesystem::path& path : dropped) removeFile(path);
 }
 
 std::filesystem::path Hdf5Series::fileOf(std::uint64_t step) const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Files/OwnFile.h"
 #include "Kernel/Files/TextFile.h"
 #include "Kernel/Files/WrittenBeside.h"
 #include "Kernel/Output/FrameIndex.h"
@@ -74,10 +75,9 @@ ParaViewSeries::ParaViewSeries(std::string name, double keptUntil, std::string f
         if (entry.time <= keptUntil) entries.push_back(entry);
         else if (isOwn(entry)) dropped.push_back(entry.file);
     // In this order, so that a series never names a file that is not there.
-    std::error_code ignored;
-    if (entries.empty()) std::filesystem::remove(file, ignored);
+    if (entries.empty()) removeFile(file);
     else if (entries.size() < former.size()) write();
-    for (const std::filesystem::path& path : dropped) std::filesystem::remove(path, ignored);
+    for (const std::filesystem::path& path : dropped) removeFile(path);
 }
 
 std::vector<ParaViewEntry> ParaViewSeries::formerEntries(bool needed) const {

@@ -11,7 +11,7 @@ void AllRanks::requireAllGrains(std::string_view what) const {
         throw InputError(
             fmt::format("Simulation: {} need all grains, and each rank of a scene on several ranks "
                         "(setRanks()) has its own "
-                        "ones only; ask on one rank.",
+                        "ones only; call gather() before, or ask on one rank.",
                         what));
 }
 

@@ -32,7 +32,7 @@ void takeBodies(Message& message, RigidBodies& bodies, bool areGhosts) {
 
 void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, double reach,
                               const Luggage& luggage) {
-    if (!isDistributed || options.cutsWander) cutAnew(grains, box);
+    if (!isDistributed || options.cutsWander || areImbalanced(grains, luggage)) cutAnew(grains, box, luggage);
     migrate(grains, box, luggage);
     isDistributed = grains.isShared = true;
     findGhosts(grains, box, reach);
@@ -40,13 +40,25 @@ void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, dou
     done.ghosts += grains.size() - grains.ownSize();
 }
 
+bool GrainSharing::areImbalanced(const ParticleStore& grains, const Luggage& luggage) {
+    constexpr double worthIt = 1000;  // grains and contacts of a rank
+    done.load = 0;
+    for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
+        if (!grains.isGap(k)) done.load += luggage.weightOf(k);
+    const std::vector<double> loads = exchange.ofAll(done.load);
+    const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / static_cast<double>(loads.size());
+    return mean > worthIt && std::ranges::max(loads) > 1.1 * mean;
+}
+
 /// Where all ranks have all grains, each gives its share of the points.
-void GrainSharing::cutAnew(const ParticleStore& grains, const PeriodicBox& box) {
+void GrainSharing::cutAnew(const ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage) {
     const std::size_t first = isDistributed ? 0 : exchange.rank(),
                       step = isDistributed ? 1 : exchange.count();
-    std::vector<SlabCuts::Point> points;
+    std::vector<Bisection::Point> points;
     for (std::size_t k = first; k < grains.ownSize(); k += step)
-        if (!grains.isGap(k)) points.push_back({box.wrap(grains.translation[k].position), 1});
+        if (!grains.isGap(k))
+            points.push_back(
+                {box.wrap(grains.translation[k].position), luggage.weightOf(static_cast<std::uint32_t>(k))});
     std::vector<double> shares(exchange.count(), 1);
     if (options.cutsWander)
         for (std::size_t q = 0; q < shares.size(); ++q)
@@ -74,12 +86,35 @@ void GrainSharing::migrate(ParticleStore& grains, const PeriodicBox& box, const 
     luggage.pack(owners, toEach);
     done.migrated += leaving.size();
     grains.keepOnly(staying);
-    for (Message& message : exchange.swap(std::move(toEach))) {
-        for (auto left = message.take<std::uint32_t>(); left > 0; --left)
-            takeRow(message, grains, grains.addPlace(message.take<std::uint32_t>()));
-        takeBodies(message, grains.bodies, false);
-        luggage.unpack(message);
-    }
+    for (Message& message : exchange.swap(std::move(toEach))) takeGrains(message, grains, luggage);
+    grains.bodies.sort();
+}
+
+void GrainSharing::takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage) {
+    for (auto left = message.take<std::uint32_t>(); left > 0; --left)
+        takeRow(message, grains, grains.addPlace(message.take<std::uint32_t>()));
+    takeBodies(message, grains.bodies, false);
+    luggage.unpack(message);
+}
+
+void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
+    std::vector<std::uint32_t> own, bodies(grains.bodies.size());
+    for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
+        if (!grains.isGap(k)) own.push_back(k);
+    std::iota(bodies.begin(), bodies.end(), 0u);
+    Message message;
+    message.add(static_cast<std::uint32_t>(own.size()));
+    for (const std::uint32_t k : own) addRow(message, grains, k);
+    addBodies(message, grains.bodies, bodies);
+    luggage.packAll(message);
+    std::vector<Message> toEach(exchange.count(), message);
+    toEach[exchange.rank()] = {};  // it has them
+    grains.keepOnly(own);
+    grains.bodies.keepOnly(bodies);
+    isDistributed = grains.isShared = false;
+    std::vector<Message> fromEach = exchange.swap(std::move(toEach));
+    for (std::size_t q = 0; q < exchange.count(); ++q)
+        if (q != exchange.rank()) takeGrains(fromEach[q], grains, luggage);
     grains.bodies.sort();
 }
 

@@ -7,8 +7,8 @@
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Particles/PeriodicBox.h"
 #include "Kernel/Ranks/AllRanks.h"
+#include "Kernel/Ranks/Bisection.h"
 #include "Kernel/Ranks/Exchange.h"
-#include "Kernel/Ranks/SlabCuts.h"
 
 namespace pendular {
 
@@ -26,12 +26,17 @@ struct RankCounts {
     std::size_t ghosts = 0;     // sum over the lists
     std::size_t heldTwice = 0;  // contacts that came from two ranks, over the lists
     std::size_t unequal = 0;    // and of these, those that were not the same bit for bit
+    double load = 0;            // of the own grains at the last list, as they are balanced: see Luggage
 };
 
 /// What goes along with grains to other ranks.
 struct Luggage {
+    /// What the grain at a place, with its contacts, takes of the time of a step.
+    std::function<double(std::uint32_t place)> weightOf;
     /// @param owners from now on, of each place of an own grain
     std::function<void(std::span<const std::size_t> owners, std::span<Message> toEach)> pack;
+    /// With all own grains.
+    std::function<void(Message& message)> packAll;
     std::function<void(Message&)> unpack;
 };
 
@@ -48,6 +53,9 @@ public:
     /// are found again. The first time all ranks have all grains.
     /// @param reach m, of surfaces between which contacts must be listed
     void distribute(ParticleStore& grains, const PeriodicBox& box, double reach, const Luggage& luggage);
+    /// All ranks get all grains, as before the first list. What each has then is that of the scene: nothing
+    /// is to be summed over ranks until the next list.
+    void gather(ParticleStore& grains, const Luggage& luggage);
     /// The next time, all ranks have all grains whose identities begin at this one, as at first.
     void expectOnAll(std::uint32_t first) { onAllFrom = first; }
     /// After grains have been sorted, or have gone from all ranks.
@@ -62,8 +70,15 @@ public:
 
     /// They know something together from the first list on: before it, each has all grains.
     [[nodiscard]] AllRanks allRanks() const { return {exchange, isDistributed}; }
+    /// The largest of what the ranks give, also where each has all grains.
+    [[nodiscard]] double largest(double own) { return exchange.largest(own); }
     [[nodiscard]] std::size_t rank() const { return exchange.rank(); }
-    /// Whether each rank has its own grains only: from the first list on.
+    /// What each rank gives, in the order of ranks.
+    template <class Value>
+    [[nodiscard]] std::vector<Value> ofAll(const Value& own) {
+        return exchange.ofAll(own);
+    }
+    /// Whether each rank has its own grains only: from the first list on, until they are gathered.
     [[nodiscard]] bool areDistributed() const { return isDistributed; }
     [[nodiscard]] const RankCounts& counts() const { return done; }
     void countHeldTwice(std::size_t all, std::size_t unequal) {
@@ -71,8 +86,11 @@ public:
     }
 
 private:
-    void cutAnew(const ParticleStore& grains, const PeriodicBox& box);
+    void cutAnew(const ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage);
+    /// Whether one rank has a tenth more to do than the mean, of a scene that is worth it.
+    [[nodiscard]] bool areImbalanced(const ParticleStore& grains, const Luggage& luggage);
     void migrate(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage);
+    static void takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage);
     /// Of the own grain at each place.
     [[nodiscard]] std::vector<std::size_t> findOwners(const ParticleStore& grains,
                                                       const PeriodicBox& box) const;
@@ -89,7 +107,7 @@ private:
 
     Exchange& exchange;
     RankOptions options;
-    SlabCuts cuts;
+    Bisection cuts;
     bool isDistributed = false;
     std::uint32_t onAllFrom = ~std::uint32_t{0};
     RankCounts done;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Base/SilentRank.h"
 
 namespace pendular {
 
@@ -42,6 +43,7 @@ void VirtualRanks::run(const std::function<void(Exchange&)>& program) {
     isAlone = false;
     std::vector<std::exception_ptr> failures(ranks);
     const auto runOne = [&](std::size_t rank) {
+        setSilentThread(rank > 0);
         try {
             Member member(*this, rank);
             program(member);

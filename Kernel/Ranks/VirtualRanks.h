@@ -12,7 +12,8 @@
 namespace pendular {
 
 /// Ranks that are threads of one process, each with a scene of its own, and messages that are copied in
-/// memory: what several processes would do can be tested without them.
+/// memory: what several processes would do can be tested without them. The first one alone writes files and
+/// the log.
 class VirtualRanks {
 public:
     explicit VirtualRanks(std::size_t number) : ranks(number) {}

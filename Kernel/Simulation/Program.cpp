@@ -20,6 +20,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/RunControl.h"
 
 namespace pendular {
@@ -50,10 +51,17 @@ const bool isPrepared = [] {
     if (isHosted() || !isInProgram()) return false;
     openClosedStreams();
     hearRestartSignal();
+    silenceOtherRanks();
     return true;
 }();
 
 constexpr int brokenPipe = 128 + SIGPIPE;  // as a shell gives it of a program that SIGPIPE has ended
+
+/// Says it in the log, and to other ranks.
+void tellAll(const std::string& sentence) {
+    writeToLog("Error: " + sentence + "\n");
+    failOnRanks(sentence);
+}
 
 /// Returns the exit code that goes with it.
 int printCurrentException() {
@@ -65,13 +73,13 @@ int printCurrentException() {
     } catch (const std::system_error& problem) {
         // Who reads the results has gone (PROGRAM | head): nobody is there to be told.
         if (problem.code() == std::error_code(EPIPE, std::generic_category())) return brokenPipe;
-        writeToLog(std::string("Error: ") + problem.what() + "\n");
+        tellAll(problem.what());
     } catch (const std::bad_alloc&) {
-        writeToLog("Error: There is not enough memory for this; take fewer grains, or a larger machine.\n");
+        tellAll("There is not enough memory for this; take fewer grains, or a larger machine.");
     } catch (const std::exception& problem) {
-        writeToLog(std::string("Error: ") + problem.what() + "\n");
+        tellAll(problem.what());
     } catch (...) {
-        writeToLog("Error: of an unknown kind.\n");
+        tellAll("of an unknown kind.");
     }
     return EXIT_FAILURE;
 }
@@ -120,7 +128,7 @@ void prepareProgram() {
 void reportUncaughtExceptions() {
     std::set_terminate([] {
         if (!std::current_exception()) std::abort();
-        const int code = printCurrentException();
+        const int code = endRanks(printCurrentException());
         std::fflush(nullptr);
         std::_Exit(code);
     });

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/SilentRank.h"
 #include "Kernel/Files/FileName.h"
 #include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"
@@ -71,8 +72,9 @@ void Run::writeRestart(const std::filesystem::path& file) {
     requireBegun("writeRestart()");
     const Within saving(*this, Within::Saving, Within::Saving, "writeRestart()");
     const StepTimes::Within spent(times, StepTimes::Part::Output);
-    writeRestartFile(file, [&](StateArchive& archive) { visitAll(archive); });
-    if (isOwnRestartFile(file)) restartFileSteps = steps;
+    gather();
+    if (!isSilentRank()) writeRestartFile(file, [&](StateArchive& archive) { visitAll(archive); });
+    if (file == restartFile() || isOwnRestartFile(file)) restartFileSteps = steps;
 }
 
 void Run::requireBegun(std::string_view call) const {
@@ -177,7 +179,9 @@ void Run::writeAll() {
     requireBegun("writeAll()");
     const Within writing(*this, Within::Writing, Within::Writing | Within::Saving, "writeAll()");
     const StepTimes::Within spent(times, StepTimes::Part::Output);
-    for (const KeptOutput& output : outputs) output.write();
+    gather();
+    for (const KeptOutput& output : outputs)
+        if (!isSilentRank()) output.write();
     writeOutput();
 }
 
@@ -186,17 +190,26 @@ void Run::writeAll() {
 void Run::writeOutputs(bool atEnd) {
     const Within writing(*this, Within::Writing, 0, {});
     const bool own = (saveCount > 0 && steps % saveCount == 0) != atEnd;
-    const auto isDue = [&](KeptOutput& output) {
-        if (!output.interval.isGiven()) return own;
-        return atEnd || output.interval.isDueAfter(steps - stepsBefore, timeStep, timeBefore);
-    };
-    const auto timed = [&](const auto& write) {
-        const StepTimes::Within spent(times, StepTimes::Part::Output);
-        write();
-    };
-    for (KeptOutput& output : outputs)
-        if (isDue(output)) timed(output.write);
-    if (own) timed([&] { writeOutput(); });
+    std::vector<std::function<void()>> due = dueOutputs(atEnd, own);
+    if (own) due.emplace_back([this] { writeOutput(); });
+    if (due.empty()) return;
+    const StepTimes::Within spent(times, StepTimes::Part::Output);
+    gather();
+    for (const auto& write : due) write();
+}
+
+/// Those that do nothing, of silent ranks, are among them: all ranks gather grains in the same step.
+std::vector<std::function<void()>> Run::dueOutputs(bool atEnd, bool own) {
+    std::vector<std::function<void()>> due;
+    for (KeptOutput& output : outputs) {
+        const bool isDue =
+            !output.interval.isGiven()
+                ? own
+                : atEnd || output.interval.isDueAfter(steps - stepsBefore, timeStep, timeBefore);
+        if (isDue && isSilentRank()) due.emplace_back([] {});
+        else if (isDue) due.push_back(output.write);
+    }
+    return due;
 }
 
 void Run::prepareOutputs() {
@@ -220,12 +233,14 @@ void Run::complete() {
 }
 
 void Run::completeOutputs() {
+    if (isSilentRank()) return;
     for (const KeptOutput& output : outputs)
         if (output.complete) output.complete();
 }
 
 /// Completes the outputs as far as that is possible: the error that ends the run is the one to tell.
 void Run::completeWhatCanBe() {
+    if (isSilentRank()) return;
     for (const KeptOutput& output : outputs) {
         try {
             if (output.complete) output.complete();

@@ -138,6 +138,10 @@ public:
     void writeAll();
     /// Completes the outputs; a driver that steps by itself calls it at its end.
     void completeAll();
+    /// Of a scene on several ranks: all grains and contacts come to each of them until the next step, so that
+    /// all can be read and changed there, as on one rank. All ranks must call it. Outputs, writeOutput() and
+    /// completeOutput() find all of it without this, and so does who looks between two parts of a run.
+    virtual void gather() {}
 
 protected:
     /// The functions of an output that addOutput() was given; all but write may be empty.
@@ -199,6 +203,10 @@ private:
     virtual void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                                 const std::string& remark) = 0;
     [[nodiscard]] virtual RunNumbers numbers() const = 0;
+    /// Whether several ranks do this run together.
+    [[nodiscard]] virtual bool isShared() const { return false; }
+    /// The largest of what the ranks give.
+    [[nodiscard]] virtual double agreeOnLargest(double own) { return own; }
 
     /// s, after so many steps, of which the last have this length (s)
     static double timeAfter(std::size_t done, std::size_t before, double beforeTime, double length) {
@@ -215,12 +223,14 @@ private:
     void endingWithErrors(Body&& body);
     void leaveCourse();
     [[nodiscard]] bool isAskedToStop();
+    [[nodiscard]] int whatIsHeard();
     void lockName();
     void stepOnce(bool another);
     void complete();
     void stepUntil(const PartEnd& end);
     void endRun(bool stops);
     void writeOutputs(bool atEnd);
+    [[nodiscard]] std::vector<std::function<void()>> dueOutputs(bool atEnd, bool own);
     [[nodiscard]] RunStopped stop();
     void completeOutputs();
     void completeWhatCanBe();

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <ctime>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 #include "Kernel/Base/Host.h"
@@ -32,6 +33,7 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>
 struct Listening {
     std::size_t runs = 0;  // that listen, one within the other
     std::array<struct sigaction, 3> before{};
+    std::mutex access;  // of runs on several threads
 } listening;
 
 constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGUSR1};
@@ -113,7 +115,9 @@ void RunControl::follow(const RestartSchedule& given) {
 
 RunControl::RunControl(const RestartSchedule& given) : listens(!isHosted()) {
     follow(given);
-    if (!listens || listening.runs++ > 0) return;
+    if (!listens) return;
+    const std::scoped_lock lock(listening.access);
+    if (listening.runs++ > 0) return;
     ignoreClosedPipes();
     const struct sigaction action = noteTaking();
     for (std::size_t k = 0; k < signals.size(); ++k) {
@@ -125,6 +129,7 @@ RunControl::RunControl(const RestartSchedule& given) : listens(!isHosted()) {
 
 RunControl::~RunControl() {
     if (!listens) return;
+    const std::scoped_lock lock(listening.access);
     // After a run that was asked to stop, the second of two signals that are one request may still come.
     if (--listening.runs > 0 || stopSignal.load() != 0) return;
     for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &listening.before[k], nullptr);
@@ -145,23 +150,30 @@ void RunControl::lookAtClock(std::size_t steps) {
     }
 }
 
-RunControl::Request RunControl::request(std::size_t steps) {
+int RunControl::heard(std::size_t steps) {
     if (steps >= nextLook) lookAtClock(steps);
-    if (outOfTime || stopSignal.load(std::memory_order_relaxed) != 0) return Request::Stop;
-    bool write = std::exchange(restartDue, false);
-    if (restartAsked.load(std::memory_order_relaxed)) {
-        restartAsked = false;
-        write = true;
-        if (!restarts.kept) writeToLog("SIGUSR1: this run keeps no restart file.\n", LogLevel::Warn);
+    if (const int signal = stopSignal.load(std::memory_order_relaxed); signal != 0) return Signal + signal;
+    if (outOfTime) return OutOfTime;
+    return restartDue || restartAsked.load(std::memory_order_relaxed) ? Restart : Nothing;
+}
+
+RunControl::Request RunControl::request(std::size_t steps, int heard) {
+    if (heard >= OutOfTime) return Request::Stop;
+    bool write = heard == Restart;
+    if (write) {
+        restartDue = false;
+        const bool bySignal = restartAsked.exchange(false, std::memory_order_relaxed);
+        if (bySignal && !restarts.kept)
+            writeToLog("SIGUSR1: this run keeps no restart file.\n", LogLevel::Warn);
     }
     if (restarts.count > 0 && steps % restarts.count == 0 && counted != steps) write = true;
     counted = steps;
     return write && restarts.kept ? Request::WriteRestart : Request::None;
 }
 
-RunStopped RunControl::stopped(double time, std::size_t steps, const std::string& restartFile, bool byCall) {
-    const int signal = byCall ? 0 : stopSignal.load();
-    const std::string reason = byCall             ? "requestStop()"
+RunStopped RunControl::stopped(double time, std::size_t steps, const std::string& restartFile, int heard) {
+    const int signal = heard > Signal ? heard - Signal : 0;
+    const std::string reason = heard == StopCall  ? "requestStop()"
                                : signal == SIGINT ? "SIGINT"
                                : signal == SIGTERM
                                    ? "SIGTERM"

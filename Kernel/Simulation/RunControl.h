@@ -47,6 +47,10 @@ void forgetRestartSignal();
 class RunControl {
 public:
     enum class Request { None, WriteRestart, Stop };
+    /// What was heard: nothing, that the user may be shown how far the run is, that a restart file is asked
+    /// for, that the time is over or requestStop() was called, or a signal that ends the run, whose number is
+    /// added. The larger one goes before the others.
+    enum Heard : int { Nothing, Show, Restart, OutOfTime, StopCall, Signal };
 
     explicit RunControl(const RestartSchedule& given = {});
     ~RunControl();
@@ -57,15 +61,18 @@ public:
     void follow(const RestartSchedule& given);
     [[nodiscard]] const RestartSchedule& schedule() const { return restarts; }
 
-    /// The request that holds when so many steps have been done; asked again at the same step, it writes no
-    /// file for the count of steps. Costs two loads; looks at the clock, where there is a limit, some twenty
-    /// times a second.
-    [[nodiscard]] Request request(std::size_t steps);
+    /// What has been heard when so many steps have been done. Costs two loads; looks at the clock, where
+    /// there is a limit, some twenty times a second.
+    [[nodiscard]] int heard(std::size_t steps);
+    /// The request that holds when so many steps have been done and this was heard, here or on another rank;
+    /// asked again at the same step, it writes no file for the count of steps.
+    [[nodiscard]] Request request(std::size_t steps, int heard);
+    [[nodiscard]] Request request(std::size_t steps) { return request(steps, heard(steps)); }
 
     /// The exception that ends a run which was asked to stop.
-    /// @param time s; @param restartFile empty: none is kept; @param byCall requestStop() has asked
+    /// @param time s; @param restartFile empty: none is kept; @param heard what has stopped it
     [[nodiscard]] static RunStopped stopped(double time, std::size_t steps, const std::string& restartFile,
-                                            bool byCall = false);
+                                            int heard);
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -8,6 +8,7 @@
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Files/FileLock.h"
 #include "Kernel/Files/SetAside.h"
+#include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/RunWithin.h"
 #include "Kernel/Species/Field.h"
@@ -28,6 +29,8 @@ struct Run::Course {
     RunControl control;  // hears signals from here on
     std::optional<FileLock> lock;
     std::optional<Progress> progress;
+    int heard = RunControl::Nothing;  // after the last step
+    bool goesOn = true;               // by continueSolve() on any rank, where there are several
 };
 
 Run::Run() : timeStep(unset) { prepareProgram(); }
@@ -107,6 +110,7 @@ void Run::beginRun() {
         setUp();
     } catch (const std::exception& problem) {
         if (begun) stopped = problem.what();
+        if (isShared()) failOnRanks(problem.what());
         leaveCourse();
         throw;
     } catch (...) {
@@ -131,7 +135,9 @@ void Run::endingWithErrors(Body&& body) {
             body();
         } catch (const RunError& error) {
             stopped = error.what();
-            throw RunError(withLastState(error.what()));
+            const std::string sentence = withLastState(stopped);
+            if (isShared()) failOnRanks(sentence);
+            throw RunError(sentence);
         } catch (const RunStopped&) {
             throw;
         } catch (const std::exception& problem) {  // a full disk
@@ -145,6 +151,7 @@ void Run::endingWithErrors(Body&& body) {
             stopped = "by an error of an unknown kind";
             completeWhatCanBe();
         }
+        if (isShared() && !askedToStop) failOnRanks(stopped);
         leaveCourse();
         throw;
     }
@@ -196,9 +203,25 @@ std::size_t Run::lastStep(const PartEnd& end) const {
 bool Run::isAskedToStop() {
     RunControl& control = course->control;
     if (control.schedule() != restarts) control.follow(restarts);  // a hook has changed it
-    const RunControl::Request request = control.request(steps);
+    course->heard = whatIsHeard();
+    const RunControl::Request request = control.request(steps, course->heard);
     if (request == RunControl::Request::WriteRestart) writeRestart(restartFile());
-    return request == RunControl::Request::Stop || stopAsked.load(std::memory_order_relaxed);
+    return request == RunControl::Request::Stop;
+}
+
+/// What one rank hears all do, and the run goes on as long as one says so: one reduction after each step.
+int Run::whatIsHeard() {
+    const bool isCalled = stopAsked.load(std::memory_order_relaxed);
+    int heard = isCalled ? RunControl::StopCall : course->control.heard(steps);
+    if (heard == RunControl::Nothing && course->progress && course->progress->isDue(steps))
+        heard = RunControl::Show;
+    if (!isShared()) return heard;
+    constexpr int going = 1 << 20;  // above all that can be heard
+    const bool isWanted = continueSolve();  // asked for on all ranks: it may ask for what they know together
+    const bool goesOn = heard >= RunControl::OutOfTime || isWanted;
+    const int all = static_cast<int>(agreeOnLargest(goesOn ? going + heard : 0));
+    course->goesOn = all >= going;
+    return all % going;
 }
 
 void Run::stepUntil(const PartEnd& end) {
@@ -206,32 +229,35 @@ void Run::stepUntil(const PartEnd& end) {
     if (progress) progress->setEnd(timeMax);
     bool stops = isAskedToStop(), goesOn = true;
     pauseAsked = false;
+    const auto goesFurther = [this] { return isShared() ? course->goesOn : continueSolve(); };
     const auto isPaused = [this] { return pauseAsked && (underWay & Within::Whole) == 0; };
-    while (!stops && !isPaused() && steps < lastStep(end) && (goesOn = continueSolve())) {
+    while (!stops && !isPaused() && steps < lastStep(end) && (goesOn = goesFurther())) {
         stepOnce(steps + 1 < lastStep(end));
         writeOutputs(false);
-        if (progress && progress->isDue(steps))
-            progress->show(getTime(), steps, [this] { return numbers(); });
         stops = isAskedToStop();
+        if (progress && course->heard >= RunControl::Show)
+            progress->show(getTime(), steps, [this] { return numbers(); });
     }
+    gather();
     if (progress) progress->finish(getTime(), steps, [this] { return numbers(); });
     if (stops || !goesOn || (timeMaxIsSet && steps >= stepAt(timeMax))) endRun(stops);
 }
 
 void Run::endRun(bool stops) {
+    gather();
     // Before the last output: a run that goes on from here knows nothing of one that is not due.
     if (restarts.kept) writeRestart(restartFile());
     if (steps > 0) writeOutputs(true);
     if (stops) throw stop();
     complete();
+    static_cast<void>(agreeOnLargest(0));  // the files of the first rank are there
     leaveCourse();
 }
 
 /// Completes the files of a run that was asked to stop; returns what ends it.
 RunStopped Run::stop() {
-    const RunStopped reason =
-        RunControl::stopped(getTime(), steps, restarts.kept ? restartFile().string() : std::string(),
-                            stopAsked.load(std::memory_order_relaxed));
+    const RunStopped reason = RunControl::stopped(
+        getTime(), steps, restarts.kept ? restartFile().string() : std::string(), course->heard);
     stopped = reason.what();
     askedToStop = true;
     complete();
@@ -240,6 +266,13 @@ RunStopped Run::stop() {
 
 /// Writes the state as it is, and adds to a sentence where it is.
 std::string Run::withLastState(const std::string& sentence) {
+    const std::string restart = restartFileSteps ? fmt::format("; the state after {} steps is in {}",
+                                                               *restartFileSteps, restartFile().string())
+                                                 : "";
+    if (isShared()) {  // the others may be in another step
+        completeWhatCanBe();
+        return fmt::format("{}{}.", withoutFullStop(sentence), restart);
+    }
     const std::string grains = name + "-last-state.csv", contacts = name + "-last-contacts.csv";
     try {
         writeLastState(grains, contacts, sentence);
@@ -249,9 +282,6 @@ std::string Run::withLastState(const std::string& sentence) {
         return fmt::format("{}; writing the last state failed: {}", withoutFullStop(sentence),
                            problem.what());
     }
-    const std::string restart = restartFileSteps ? fmt::format("; the state after {} steps is in {}",
-                                                               *restartFileSteps, restartFile().string())
-                                                 : "";
     return fmt::format("{}; the last whole step is in {} and {}{}.", withoutFullStop(sentence), grains,
                        contacts, restart);
 }

@@ -3,6 +3,7 @@
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/ParticleHandlerInside.h"
+#include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/LastState.h"
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -16,7 +17,7 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
         ContactSystem& contacts = inside->contacts;
         if (contacts.isRemoving())
             return contacts.noteEnded(contacts.endContactsOf(particleHandler.store(), place));
-        if (inside->sharing && inside->sharing->areDistributed())
+        if (inside->isDistributed())
             throw InputError(
                 "Grains cannot be removed in a run on several ranks (setRanks()): the others would keep "
                 "them; "
@@ -41,21 +42,24 @@ void Scene::setLaws(ContactLaws& of) {
 
 // Functions that Run asks for:
 
-void Scene::setUp() { inside->setUp(); }
-void Scene::advanceByStep(bool another) { inside->advanceByStep(another); }
-void Scene::visitAll(StateArchive& archive) {
-    if (inside->sharing)
-        throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) writes no restart file yet; run it on one "
-            "rank.");
-    inside->visitAll(archive);
+/// A driver that steps by itself looks at the grains as it likes: it shares them only where it says so.
+void Scene::setUp() {
+    if (hasCourse() && !inside->sharing)
+        if (Exchange* const others = ranksOfProgram()) setRanks(*others, {});
+    static_cast<void>(agreeOnLargest(0));  // none writes files that others are still looking for
+    inside->setUp();
 }
+void Scene::advanceByStep(bool another) { inside->advanceByStep(another); }
+void Scene::visitAll(StateArchive& archive) { inside->visitAll(archive); }
+bool Scene::isShared() const { return inside->sharing.has_value(); }
+double Scene::agreeOnLargest(double own) { return isShared() ? inside->sharing->largest(own) : own; }
 
 void Scene::tellEvents() {
     for (const ContactEvent& event : contactEvents()) actionsOnContactEvent(event);
 }
 
 RunNumbers Scene::numbers() const {
+    if (inside->isDistributed()) return inside->numbersOfAll();
     return {particleHandler.getSize(), contacts().counts().acting, kineticEnergy(particleHandler.store())};
 }
 
@@ -192,6 +196,7 @@ bool Scene::acceptsUnstableTimeStep() const { return inside->context.acceptsUnst
 int Scene::getNumberOfThreads() const { return inside->context.threads; }
 Vec3D Scene::getGravity() const { return toEigen(inside->context.gravity); }
 const ContactSystem& Scene::contacts() const { return inside->contacts; }
+void Scene::gather() { inside->gather(); }
 RankCounts Scene::rankCounts() const { return inside->sharing ? inside->sharing->counts() : RankCounts{}; }
 bool Scene::keepsEnergyLedger() const { return inside->account.isKept(); }
 const EnergyLedger& Scene::energyLedger() const { return inside->account.energies(); }

@@ -144,9 +144,11 @@ public:
     void setNumberOfThreads(int count);
     /// The scene shares its grains with other ranks (Kernel/Ranks): each sets up all of it, and from
     /// initialise() on has its own grains only; the results do not depend on the number of ranks. What a
-    /// scene tells of grains and contacts is that of its own. Only initialise() and step() run it so far.
-    /// Before the run; the exchange must outlive it.
+    /// scene tells of grains and contacts is that of its own, until gather(). Before the run; the exchange
+    /// must outlive it. Where mpirun or srun has started several processes, solve(), runTo() and runSteps()
+    /// share the scene without this call.
     void setRanks(Exchange& exchange, const RankOptions& options);
+    void gather() override;
     /// The exact sum, or the largest, of a number of which each rank gives its own part: for hooks, which all
     /// ranks call in the same order. On one rank it is the number itself.
     [[nodiscard]] double sumOverRanks(double own) const;
@@ -279,6 +281,8 @@ private:
     void advanceByStep(bool another) override;
     void tellEvents() override;
     [[nodiscard]] RunNumbers numbers() const override;
+    [[nodiscard]] bool isShared() const override;
+    [[nodiscard]] double agreeOnLargest(double own) override;
     void visitAll(StateArchive& archive) override;
     void writeLastState(const std::filesystem::path& grains, const std::filesystem::path& contacts,
                         const std::string& remark) override;

@@ -79,7 +79,7 @@ void Scene::Inside::takeOverChanges() {
             !ParticleHandler::Inside::hasChanges(particles))
             return;
         const GrainChanges changes = ParticleHandler::Inside::takeChanges(particles);
-        if (sharing) {
+        if (isDistributed()) {
             if (newLaws || changedWalls || newStep) refuseForRanks(changes, true);
             return takeOverOnRanks(changes, lastBodyWent);
         }

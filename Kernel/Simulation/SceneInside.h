@@ -59,6 +59,15 @@ public:
     /// The context of a step that begins now.
     StepContext& contextNow(double length);
 
+    // SceneRanks.cpp
+
+    /// Whether each rank has its own grains only.
+    [[nodiscard]] bool isDistributed() const { return sharing && sharing->areDistributed(); }
+    /// All grains and contacts come to all ranks, until the next step.
+    void gather();
+    /// Of all ranks together; all must call it.
+    [[nodiscard]] RunNumbers numbersOfAll();
+
     // SceneChanges.cpp
 
     /// Checks as at set-up what hooks have changed since the last step; it holds from now on. Throws RunError
@@ -139,8 +148,6 @@ private:
     void moveAll(StepContext& step);
     /// Ghosts get the motion of the grains that they stand for.
     void exchangeMotion(StepContext& step);
-    /// Throws InputError for what several ranks cannot do, and no feature stands for.
-    void refuseForRanks() const;
     void findForces(StepContext& step);
     /// A grain that moves its radius in a step, or whose motion is not a number, ends the run.
     void refuseRunaway(double shift) const;

@@ -49,7 +49,6 @@ void Scene::Inside::refuseUnlessBridgesJoin() const {
 void Scene::Inside::setUp() {
     ParticleHandler& particles = scene.particleHandler;
     scene.setupInitialConditions();
-    if (sharing) refuseForRanks();
     // A wall that wears needs the ledger: it tells what slides.
     if (std::ranges::any_of(wornWalls(scene.wallHandler),
                             [](const WornWall* wall) { return wall != nullptr; }))
@@ -103,21 +102,6 @@ Features Scene::Inside::featuresOfScene() const {
     if (contacts.events().areListenedTo()) found.add(Feature::ContactEvents);
     if (sharing) found.add(Feature::Ranks);
     return found;
-}
-
-void Scene::Inside::refuseForRanks() const {
-    if (scene.hasCourse())
-        throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) writes no files yet; call initialise() and "
-            "step() instead of solve().");
-    if (scene.isRestarted())
-        throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) cannot go on from a restart file yet; run it "
-            "on one rank.");
-    if (scene.hasOutputs())
-        throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) writes no outputs yet; leave addOutput() out, "
-            "or run it on one rank.");
 }
 
 Features Scene::Inside::wakeParts() {

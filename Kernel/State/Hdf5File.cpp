@@ -11,6 +11,7 @@
 #ifdef PENDULAR_HAS_HDF5
     #include <algorithm>
     #include <array>
+    #include <mutex>
     #include <utility>
 
     #include "Kernel/State/Hdf5Library.h"
@@ -24,9 +25,18 @@ void Hdf5File::fail(std::string_view what) const { hdf5::refuse(place, what); }
 
 using hdf5::makeQuiet, hdf5::nativeType, hdf5::Object;
 
+namespace {
+
+/// The library is not made for several threads, and scenes of several may be read at the same time.
+std::recursive_mutex library;
+using Alone = std::scoped_lock<std::recursive_mutex>;
+
+}  // namespace
+
 bool Hdf5File::isAvailable() { return true; }
 
 Hdf5File::Hdf5File(std::filesystem::path path, Access access) : place(std::move(path)) {
+    const Alone alone(library);
     makeQuiet();
     if (access == Access::Read) {
         requireRegularIfThere(place);
@@ -42,6 +52,7 @@ Hdf5File::Hdf5File(std::filesystem::path path, Access access) : place(std::move(
 }
 
 Hdf5File::~Hdf5File() {
+    const Alone alone(library);
     closeDataset();
     if (file >= 0) H5Fclose(file);
 }
@@ -70,12 +81,14 @@ void Hdf5File::writeDataset(const std::string& name, Id type, Id space, const vo
 }
 
 void Hdf5File::write(const std::string& name, const TableShape& shape, const void* numbers) {
+    const Alone alone(library);
     const std::array<hsize_t, 2> extent{shape.rows, shape.columns};
     const Object space(H5Screate_simple(2, extent.data(), nullptr), H5Sclose);
     writeDataset(name, nativeType(shape.kind), space, shape.rows > 0 ? numbers : nullptr);
 }
 
 void Hdf5File::write(const std::string& name, std::string_view text) {
+    const Alone alone(library);
     const std::string ended(text);  // HDF5 knows no empty fixed string: the terminator is part of it
     const Object type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type, ended.size() + 1);
@@ -84,6 +97,7 @@ void Hdf5File::write(const std::string& name, std::string_view text) {
 }
 
 std::vector<std::string> Hdf5File::names() const {
+    const Alone alone(library);
     std::vector<std::string> found;
     const auto take = [](hid_t, const char* name, const H5O_info_t* info, void* list) -> herr_t {
         if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(list)->emplace_back(name);
@@ -112,6 +126,7 @@ bool Hdf5File::isOwn(const std::string& name) const {
 }
 
 bool Hdf5File::holds(const std::string& name) const {
+    const Alone alone(library);
     const std::size_t last = name.rfind('/');
     if (last != std::string::npos && !isOwn(name.substr(0, last))) return false;
     return own.contains(name) || H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
@@ -136,6 +151,7 @@ Hdf5File::Id Hdf5File::openDataset(const std::string& name) const {
 }
 
 std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
+    const Alone alone(library);
     const Id set = openDataset(name);
     const Object type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
     std::array<hsize_t, 2> extent{0, 1};
@@ -161,6 +177,7 @@ std::optional<TableShape> Hdf5File::shapeOf(const std::string& name) const {
 }
 
 void Hdf5File::read(const std::string& name, const TableShape& shape, void* numbers) const {
+    const Alone alone(library);
     const Id set = openDataset(name);
     if (shape.rows > 0)
         check(H5Dread(set, nativeType(shape.kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers),
@@ -168,6 +185,7 @@ void Hdf5File::read(const std::string& name, const TableShape& shape, void* numb
 }
 
 std::string Hdf5File::readText(const std::string& name) const {
+    const Alone alone(library);
     const Id set = openDataset(name);
     const Object type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
     constexpr std::size_t longest = std::size_t{1} << 20;  // bytes
@@ -181,6 +199,7 @@ std::string Hdf5File::readText(const std::string& name) const {
 }
 
 void Hdf5File::close() {
+    const Alone alone(library);
     closeDataset();
     errno = 0;
     check(H5Fclose(std::exchange(file, -1)), "cannot be completed");

@@ -6,8 +6,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "Tools/Python/HOW-DO-I.md").read_text()
-# A Python script needs no project; the other one is about MercuryDPM's C++.
-ONLY_CPP = {"Write a driver outside this repository", "Port a driver from MercuryDPM"}
+# A Python script needs no project; another one is about MercuryDPM's C++, and ranks are not bound.
+ONLY_CPP = {"Write a driver outside this repository", "Port a driver from MercuryDPM", "Run on several machines"}
 
 
 def sections():

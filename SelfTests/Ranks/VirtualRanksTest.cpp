@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Ranks/AllRanks.h"
-#include "Kernel/Ranks/SlabCuts.h"
+#include "Kernel/Ranks/Bisection.h"
+#include "Kernel/State/Random.h"
 
 namespace pendular::virtualRanksTest {
 namespace {
@@ -106,25 +108,59 @@ TEST(AllRanks, addUpExactly) {
     EXPECT_EQ(alone.sum(std::uint64_t{3}), 3u);
 }
 
-TEST(SlabCuts, giveEachRankItsShare) {
-    for (const std::vector<double>& shares : {std::vector<double>{1, 1, 1}, {1, 2, 5}})
+/// Points at random in a box, those of its upper half thrice as heavy.
+std::vector<Bisection::Point> heavyAbove(std::size_t count) {
+    UniformRandom random(1);
+    std::vector<Bisection::Point> points;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double x = random.uniform(0, 1), y = random.uniform(0, 1), z = random.uniform(0, 1);
+        points.push_back({{2 * x, y, z}, z < 0.5 ? 1.0 : 3.0});
+    }
+    return points;
+}
+
+TEST(Bisection, givesEachRankItsShare) {
+    const std::vector<Bisection::Point> points = heavyAbove(3000);
+    for (const std::vector<double>& shares :
+         {std::vector<double>{1, 1, 1}, {1, 2, 5}, {3, 1, 1, 1, 2, 1, 1}, std::vector<double>(64, 1)})
         VirtualRanks(3).run([&](Exchange& exchange) {
-            std::vector<SlabCuts::Point> own;  // y is the widest axis
-            for (std::size_t k = exchange.rank(); k < 800; k += 3)
-                own.push_back({{0.3, static_cast<double>(k % 800) * 0.01, 0.2}, k < 400 ? 1.0 : 3.0});
-            SlabCuts cuts;
+            std::vector<Bisection::Point> own;
+            for (std::size_t k = exchange.rank(); k < points.size(); k += 3) own.push_back(points[k]);
+            Bisection cuts;
             cuts.cut(exchange, own, shares);
-            std::vector<double> weights(3);
-            for (std::size_t k = 0; k < 800; ++k)
-                weights[cuts.ownerOf({0.3, static_cast<double>(k) * 0.01, 0.2})] += k < 400 ? 1 : 3;
-            const double perShare = 1600 / (shares[0] + shares[1] + shares[2]);
-            for (std::size_t q = 0; q < 3; ++q) EXPECT_NEAR(weights[q], shares[q] * perShare, 3);
+            std::vector<double> weights(shares.size());
+            double all = 0, allShares = 0;
+            for (const auto& [position, weight] : points)
+                weights[cuts.ownerOf(position)] += weight, all += weight;
+            for (const double share : shares) allShares += share;
+            // Each cut is at most half of a point, of weight 3, off; there are at most six on the way to a
+            // rank.
+            for (std::size_t q = 0; q < shares.size(); ++q)
+                EXPECT_NEAR(weights[q], shares[q] / allShares * all, 6 * 1.5);
         });
 }
 
-TEST(SlabCuts, standWithoutPoints) {
+/// Brute force: a part of space is as near as some place in it.
+TEST(Bisection, findsAllPartsThatAreNear) {
+    const std::vector<Bisection::Point> points = heavyAbove(2000);
+    Bisection cuts;
+    cuts.cut(points, std::vector<double>(50, 1));
+    for (std::size_t k = 0; k < 40; ++k) {
+        std::vector<bool> found(50);
+        cuts.forEachNear(points[k].position, 0.2, [&](std::size_t rank) { found[rank] = true; });
+        EXPECT_TRUE(found[cuts.ownerOf(points[k].position)]);
+        EXPECT_LT(std::count(found.begin(), found.end(), true), 50);
+        for (const Bisection::Point& point : points) {
+            if (norm(point.position - points[k].position) < 0.2) {
+                EXPECT_TRUE(found[cuts.ownerOf(point.position)]);
+            }
+        }
+    }
+}
+
+TEST(Bisection, standsWithoutPoints) {
     VirtualRanks(3).run([](Exchange& exchange) {
-        SlabCuts cuts;
+        Bisection cuts;
         cuts.cut(exchange, {}, std::vector<double>{1, 1, 1});
         EXPECT_LT(cuts.ownerOf({1, 2, 3}), 3u);
     });

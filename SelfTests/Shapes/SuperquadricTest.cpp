@@ -229,7 +229,9 @@ TEST(Superquadric, isHeldByItsCoveringBalls) {
         const double around = 4 * std::numbers::pi / 3 * std::pow(s.boundingRadius(), 3),
                      held = balls.size() == 1 ? around : unionOfSpheres(balls, 1e-3).volume;
         EXPECT_LE(held, around);
-        if (around > 3 * s.volume()) EXPECT_LT(held, 2 * s.volume());
+        if (around > 3 * s.volume()) {
+            EXPECT_LT(held, 2 * s.volume());
+        }
     }
     EXPECT_EQ(coveringBalls({1, 1, 1}).size(), 1u);
 }

@@ -111,7 +111,9 @@ TEST(ShapesCome, byDenseStarts) {
         EXPECT_EQ(made.number, number);
         EXPECT_NEAR(made.solidFraction, fraction, 1e-9);
         EXPECT_LT(made.orientationOrder, scenes::mostOrder(number));
-        if (shape.n1 < 8) EXPECT_GT(made.orientationOrder, 0);  // a cube has no axis
+        if (shape.n1 < 8) {  // a cube has no axis
+            EXPECT_GT(made.orientationOrder, 0);
+        }
         scene.initialise();
         EXPECT_TRUE(scene.interactions().empty()) << fraction;
     }

@@ -198,3 +198,17 @@ if(PYTHON3 AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_BUILD_TYPE STREQUAL 
                      "HertzianViscoelastic, pendular::Mindlin, pendular::NoAdhesion")
     set_tests_properties(Contacts/PacksInRegisters PROPERTIES LABELS "fast;build" SKIP_RETURN_CODE 77)
 endif()
+
+if(hasMpi AND NOT isQuickSanitizer)
+    add_executable(rank-program "${selfTests}/Ranks/Program/RankProgram.cpp")
+    target_link_libraries(rank-program PRIVATE Pendular::Kernel)
+    target_compile_options(rank-program PRIVATE ${testOptimisation})
+    set_target_properties(rank-program PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
+    add_warnings(rank-program)
+    add_library(CountMessages MODULE "${selfTests}/Ranks/Program/CountMessages.cpp")
+    target_compile_features(CountMessages PRIVATE cxx_std_20)
+    target_link_libraries(CountMessages PRIVATE MPI::MPI_CXX)
+    set_target_properties(CountMessages PROPERTIES PREFIX "" SUFFIX .so
+                          LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/SelfTests")
+    add_warnings(CountMessages)
+endif()

@@ -1,0 +1,197 @@
+/// Ranks that are processes of MPI-3.1. This file is a module of its own, which the kernel loads where
+/// mpirun or srun has started several processes: the kernel and all programs need no MPI.
+
+// The bindings of C alone.
+#define OMPI_SKIP_MPICXX 1
+#define MPICH_SKIP_MPICXX 1
+#include <mpi.h>
+#include <sched.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Ranks/ProgramRanks.h"
+
+namespace pendular {
+
+namespace {
+
+/// So long (s) a rank that has failed waits for the first one to say so.
+constexpr double patience = 30;
+
+void require(int result) {
+    if (result != MPI_SUCCESS) throw AnotherRankFailed("MPI has failed.");
+}
+
+/// The length of a message as MPI counts it.
+int lengthOf(std::size_t bytes) {
+    if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw InputError(
+            "A message from one rank to another has more than 2 GiB; take more ranks, so that each has fewer "
+            "grains.");
+    return static_cast<int>(bytes);
+}
+
+class MpiRanks final : public ProcessRanks {
+public:
+    MpiRanks() {
+        int threads = 0, number = 0, all = 1;
+        // Only the thread that does the steps sends.
+        MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &threads);
+        MPI_Comm_dup(MPI_COMM_WORLD, &work);
+        MPI_Comm_dup(MPI_COMM_WORLD, &failures);
+        MPI_Comm_set_errhandler(work, MPI_ERRORS_RETURN);
+        MPI_Comm_set_errhandler(failures, MPI_ERRORS_RETURN);
+        MPI_Comm_rank(work, &number);
+        MPI_Comm_size(work, &all);
+        own = static_cast<std::size_t>(number);
+        ranks = static_cast<std::size_t>(all);
+    }
+
+    [[nodiscard]] std::size_t rank() const override { return own; }
+    [[nodiscard]] std::size_t count() const override { return ranks; }
+
+    // NOLINTNEXTLINE(bugprone-exception-escape): it exchanges messages, not what two names stand for
+    [[nodiscard]] std::vector<Message> swap(std::vector<Message> toEach) override {
+        std::vector<std::int64_t> to(ranks), from(ranks);
+        for (std::size_t q = 0; q < ranks; ++q) to[q] = static_cast<std::int64_t>(toEach[q].size());
+        wait([&](MPI_Request* request) {
+            return MPI_Ialltoall(to.data(), 1, MPI_INT64_T, from.data(), 1, MPI_INT64_T, work, request);
+        });
+        return swapWithNeighbours(std::move(toEach), {from.begin(), from.end()});
+    }
+
+    [[nodiscard]] std::vector<Message> swapWithNeighbours(
+        std::vector<Message> toEach, const std::vector<std::size_t>& bytesFromEach) override {
+        std::vector<std::string> got(ranks);
+        std::vector<MPI_Request> requests;
+        for (std::size_t q = 0; q < ranks; ++q) {
+            if (q == own || bytesFromEach[q] == 0) continue;
+            got[q].resize(bytesFromEach[q]);
+            require(MPI_Irecv(got[q].data(), lengthOf(got[q].size()), MPI_BYTE, static_cast<int>(q), 0, work,
+                              &requests.emplace_back()));
+        }
+        for (std::size_t q = 0; q < ranks; ++q) {
+            if (q == own || toEach[q].size() == 0) continue;
+            const std::string_view bytes = toEach[q].all();
+            require(MPI_Isend(bytes.data(), lengthOf(bytes.size()), MPI_BYTE, static_cast<int>(q), 0, work,
+                              &requests.emplace_back()));
+        }
+        wait(requests);
+        std::vector<Message> fromEach;
+        for (std::size_t q = 0; q < ranks; ++q)
+            fromEach.push_back(q == own ? std::move(toEach[q]) : Message(std::move(got[q])));
+        return fromEach;
+    }
+
+    [[nodiscard]] double largest(double value) override {
+        if (std::isnan(value)) value = INFINITY;  // MPI_MAX need not pass it on
+        double most = 0;
+        wait([&](MPI_Request* request) {
+            return MPI_Iallreduce(&value, &most, 1, MPI_DOUBLE, MPI_MAX, work, request);
+        });
+        return most;
+    }
+
+    void addUp(std::span<std::int64_t> integers) override {
+        wait([&](MPI_Request* request) {
+            return MPI_Iallreduce(MPI_IN_PLACE, integers.data(), lengthOf(integers.size()), MPI_INT64_T,
+                                  MPI_SUM, work, request);
+        });
+    }
+
+    void fail(std::string_view sentence) noexcept override {
+        if (hasFailed) return;
+        hasFailed = true;
+        told = ranks > 1 && own > 0 ? sentence : std::string_view();
+        message = std::string(sentence.substr(0, longest));
+        for (std::size_t q = 0; q < ranks; ++q)
+            if (q != own)
+                MPI_Isend(message.data(), static_cast<int>(message.size()), MPI_CHAR, static_cast<int>(q), 0,
+                          failures, &sending.emplace_back());
+    }
+
+    [[nodiscard]] std::string end() noexcept override {
+        std::string news;
+        MPI_Request all = MPI_REQUEST_NULL;
+        MPI_Ibarrier(failures, &all);
+        double waited = 0;
+        const double begin = MPI_Wtime();
+        for (int isThere = 0; MPI_Test(&all, &isThere, MPI_STATUS_IGNORE), isThere == 0; sched_yield()) {
+            const bool before = hasFailed;
+            if (const std::string sentence = failure(); !sentence.empty() && !before) news = sentence;
+            waited = MPI_Wtime() - begin;
+            if (hasFailed && waited > patience) abort(news.empty() ? told : news);
+        }
+        // What has come at the last moment.
+        if (const bool before = hasFailed; !before) news = failure();
+        while (!failure().empty()) {}
+        MPI_Finalize();
+        return news;
+    }
+
+private:
+    static constexpr std::size_t longest = 4000;  // bytes of a sentence: so much is sent without waiting
+
+    /// The sentence of a rank that has failed; empty if none has.
+    std::string failure() noexcept {
+        int isThere = 0, length = 0;
+        MPI_Status status;
+        MPI_Iprobe(MPI_ANY_SOURCE, 0, failures, &isThere, &status);
+        if (isThere == 0) return {};
+        MPI_Get_count(&status, MPI_CHAR, &length);
+        std::string sentence(static_cast<std::size_t>(length), ' ');
+        MPI_Recv(sentence.data(), length, MPI_CHAR, status.MPI_SOURCE, 0, failures, MPI_STATUS_IGNORE);
+        hasFailed = true;
+        return sentence.empty() ? "another rank has failed." : sentence;
+    }
+
+    /// Where the others do not end by themselves, as when one is stuck.
+    [[noreturn]] static void abort(const std::string& sentence) noexcept {
+        if (!sentence.empty()) std::fprintf(stderr, "Error: %s\n", sentence.c_str());
+        MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+        std::_Exit(EXIT_FAILURE);
+    }
+
+    /// Waits until all is done: awake for about a millisecond, and then mostly asleep, so that other
+    /// programs, and ranks on the same processor, get on. Where another rank has failed, it never will be
+    /// done.
+    void wait(std::vector<MPI_Request>& requests) {
+        for (std::size_t tries = 0;; ++tries) {
+            int isDone = 0;
+            require(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &isDone,
+                                MPI_STATUSES_IGNORE));
+            if (isDone != 0) return;
+            if (tries < 100) continue;
+            sched_yield();
+            if (tries > 2000) std::this_thread::sleep_for(std::chrono::microseconds(20));
+            if (tries % 64 != 0) continue;
+            if (const std::string sentence = failure(); !sentence.empty()) throw AnotherRankFailed(sentence);
+        }
+    }
+    template <class Start>
+    void wait(Start&& start) {
+        std::vector<MPI_Request> request(1);
+        require(start(request.data()));
+        wait(request);
+    }
+
+    MPI_Comm work = MPI_COMM_NULL, failures = MPI_COMM_NULL;
+    std::size_t own = 0, ranks = 1;
+    bool hasFailed = false;  // this rank or another one
+    std::string told;        // by this rank, if it is not the first one, which says it by itself
+    std::string message;
+    std::vector<MPI_Request> sending;
+};
+
+}  // namespace
+
+}  // namespace pendular
+
+extern "C" [[gnu::visibility("default")]] pendular::ProcessRanks* makePendularRanks() {
+    static pendular::MpiRanks ranks;
+    return &ranks;
+}

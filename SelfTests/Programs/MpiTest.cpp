@@ -1,0 +1,152 @@
+// Runs on several processes, started by mpirun.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <map>
+#include <regex>
+
+#include "BuildFolders.h"
+#include "Kernel/State/RestartFile.h"
+#include "SelfTests/Support/Dependency.h"
+#include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular::mpiTest {
+namespace {
+
+using namespace support;
+namespace fs = std::filesystem;
+
+const std::string program = (folders::binary / "SelfTests/rank-program").string() + " ";
+
+/// Of more ranks than there are processors, and by any user.
+std::string onRanks(int count) {
+    return fmt::format(
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 120 mpirun "
+        "--oversubscribe -n {} ",
+        count);
+}
+
+/// All files of a folder by their names, without those that tell times of the clock.
+std::map<std::string, std::string> filesOf(const fs::path& folder) {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (const std::string name = entry.path().filename(); !name.ends_with("summary.csv"))
+            if (entry.is_regular_file()) found[name] = contentOf(entry.path());
+    return found;
+}
+
+void expectSameFiles(const fs::path& expected, const fs::path& found) {
+    const auto a = filesOf(expected), b = filesOf(found);
+    EXPECT_EQ(a.size(), b.size());
+    for (const auto& [name, content] : a) {
+        ASSERT_TRUE(b.contains(name)) << name;
+        EXPECT_TRUE(content == b.at(name)) << name << " differs";
+    }
+}
+
+std::size_t countOf(const std::string& text, const std::string& part) {
+    const std::regex pattern(part);
+    return static_cast<std::size_t>(
+        std::distance(std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()));
+}
+
+class Mpi : public testing::Test {
+protected:
+    void SetUp() override {
+        if (isMissing(fs::exists(folders::binary / "PendularMpi.so") && run("mpirun --version").exitCode == 0,
+                      "libopenmpi-dev"))
+            GTEST_SKIP() << without("libopenmpi-dev", "a run on several processes");
+    }
+    const TestFolder folder;
+    [[nodiscard]] std::string in(const std::string& name) const { return (folder.path() / name).string(); }
+};
+
+TEST_F(Mpi, runsHaveTheFilesOfOneProcess) {
+    EXPECT_EQ(run(program + in("1") + " 200").exitCode, 0);
+    for (const int ranks : {2, 3}) {
+        const std::string own = in(std::to_string(ranks));
+        const ProgramResult begun = run(onRanks(ranks) + program + own + " 100");
+        EXPECT_EQ(begun.exitCode, 0) << begun.output;
+        const ProgramResult ended = run(onRanks(5 - ranks) + program + own + " 200");
+        EXPECT_EQ(ended.exitCode, 0) << ended.output;
+        expectSameFiles(in("1"), own);
+    }
+}
+
+/// A driver has the same files and the same one log.
+TEST_F(Mpi, driversRunAsTheyAre) {
+    const std::string drum = (folders::drivers / "RotatingDrum/RotatingDrum").string() +
+                             " --number 120 --softening 1000 --end-time-s 0.001 --output ";
+    const ProgramResult alone = run(drum + in("1"));
+    fs::create_directory(in("2"));  // the state at the start, which takes long to settle, is taken from there
+    fs::copy(in("1") + "/preparation-restart.h5", in("2"));
+    const ProgramResult shared = run(onRanks(2) + drum + in("2") + " --resume");
+    EXPECT_EQ(alone.exitCode, 0) << alone.output;
+    EXPECT_EQ(shared.exitCode, 0) << shared.output;
+    expectSameFiles(in("1"), in("2"));
+    for (const char* once : {"Summary of the run", "120 grains, 0.00101 s in"})
+        EXPECT_EQ(countOf(shared.output, once), 1u) << shared.output;
+    const ProgramResult wrong = run(onRanks(2) + drum + in("2") + " --speed 3");
+    EXPECT_NE(wrong.exitCode, 0);
+    EXPECT_EQ(countOf(wrong.output, "there is no option --speed"), 1u) << wrong.output;
+}
+
+/// Whatever happens to one rank, all end, with one sentence, and a run can go on from a whole restart file.
+TEST_F(Mpi, allEndWhereOneFails) {
+    struct Fault {
+        std::string what, rank, sentence;
+    };
+    for (const auto& [what, rank, sentence] :
+         {Fault{"setup", "1", "Error: The scene of this rank is wrong\\."},
+          {"step", "1", "Error: A grain of this rank has gone; the state after 0 steps is in [^\n]*\\."},
+          {"output", "1", "Error: This rank cannot write\\."},
+          {"disk", "0", "Error: [^\n]*cannot be written[^\n]*\\."},
+          {"term", "1", "SIGTERM has stopped the run at time [^\n]* after 120 steps; restart from [^\n]*\\."},
+          {"kill", "1", ""}}) {
+        SCOPED_TRACE(what);
+        const std::string own = in(what);
+        const auto begin = std::chrono::steady_clock::now();
+        const ProgramResult result = run(onRanks(2) + program + own + " 200 " + what + " " + rank);
+        EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+        EXPECT_NE(result.exitCode, 0);
+        EXPECT_NE(result.exitCode, 124) << "it has not ended by itself";
+        EXPECT_EQ(countOf(result.output, "Error: "), sentence.starts_with("Error") ? 1u : 0u)
+            << result.output;
+        EXPECT_EQ(countOf(result.output, sentence.empty() ? "signal 9" : sentence), 1u) << result.output;
+        const fs::path restart = restartFileOf(own + "/run");
+        if (what == "setup") continue;
+        EXPECT_NO_THROW(checkRestartFile(restart));
+        EXPECT_FALSE(fs::exists(restart.string() + ".part"));
+    }
+}
+
+/// A step has one message to each neighbour, and at most two reductions; besides, messages go when contacts
+/// are listed and grains are gathered, one to each at most in each of these exchanges, with a reduction at
+/// most.
+TEST_F(Mpi, sendsOneMessageToANeighbourInAStep) {
+    constexpr int steps = 160;
+    const std::string counted =
+        "-x LD_PRELOAD=" + (folders::binary / "SelfTests/CountMessages.so").string() + " ";
+    const ProgramResult result = run(onRanks(2) + counted + program + in("run") + fmt::format(" {}", steps));
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    const std::regex line(R"((\d+) sends, (\d+) reductions, (\d+) exchanges)");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(result.output, found, line)) << result.output;
+    const int sends = std::stoi(found[1]), reductions = std::stoi(found[2]), exchanges = std::stoi(found[3]);
+    EXPECT_GT(sends, steps / 2);
+    EXPECT_LE(sends, steps + exchanges);
+    EXPECT_GE(reductions, 2 * steps);
+    EXPECT_LE(reductions, 2 * steps + exchanges);
+    EXPECT_LT(exchanges, steps);
+}
+
+TEST_F(Mpi, isRefusedWhereProcessesCannotWorkTogether) {
+    const std::string one = program + in("1") + " 10";
+    expectOneSentence(run("SLURM_NTASKS=4 " + one), "start it with mpirun or srun --mpi=pmix");
+    expectOneSentence(run("OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=0 " + one), "MPI knows 1 of them");
+    EXPECT_EQ(run("SLURM_NTASKS=4 PENDULAR_RANKS=1 " + one).exitCode, 0);
+}
+
+}  // namespace
+}  // namespace pendular::mpiTest

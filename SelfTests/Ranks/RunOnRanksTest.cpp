@@ -1,0 +1,225 @@
+// Whole runs that several ranks do together: their files are those of one process, byte for byte, and they go
+// on from each other's restart files.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+
+#include "Kernel/Output/Hdf5Output.h"
+#include "Kernel/Output/MercuryOutput.h"
+#include "Kernel/Output/ParaViewOutput.h"
+#include "Kernel/Output/RunTable.h"
+#include "Kernel/Output/WallForceFile.h"
+#include "SelfTests/Ranks/SharedScene.h"
+#include "SelfTests/Restart/StateContent.h"
+#include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/Refusal.h"
+#include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/TestFolder.h"
+
+namespace pendular::runOnRanksTest {
+namespace {
+
+using namespace support;
+using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
+namespace fs = std::filesystem;
+
+constexpr std::size_t half = 210, whole = 420;  // steps
+
+/// Wet grains that fall and touch, with a table of the driver and all kinds of files.
+class SharedRun : public scenes::SettlingBox<Wet> {
+public:
+    SharedRun(const fs::path& folder, std::size_t steps)
+        : SettlingBox(6), table(folder / "table.csv", "time_s,z_m,J") {
+        setQuiet();
+        // Slowly: evaluations of too large overlaps, across ranks, would count twice
+        // (Kernel/Ranks/README.md).
+        for (GrainReference grain : particleHandler) grain.setVelocity(0.2 * grain.getVelocity());
+        setName((folder / "run").string());
+        setTimeMax(static_cast<double>(steps) * getTimeStep());
+        setSaveCount(70);
+        keepRestartFile();
+        const double interval = 100 * getTimeStep();
+        addOutput(ParaViewOutput().withInterval(interval));
+        addOutput(Hdf5Output().withInterval(interval));
+        addOutput(WallForceFile(interval));
+        addOutput(MercuryOutput().withEnergies(false));
+        if (fs::exists(restartFile())) restartFrom(restartFile());
+    }
+    void writeOutput() override {
+        table.row(getTime(), particleHandler.getObject(3).getPosition().z(), getKineticEnergy());
+    }
+    void completeOutput() override { table.close(); }
+    void visitState(StateArchive& archive) override { table.visitState(archive); }
+
+private:
+    RunTable table;
+};
+
+void runOn(std::size_t ranks, const fs::path& folder, std::size_t steps, const RankOptions& options = {}) {
+    VirtualRanks(ranks).run([&](Exchange& exchange) {
+        SharedRun run(folder, steps);
+        run.setRanks(exchange, options);
+        run.solve();
+    });
+}
+
+/// All files of a folder by their names.
+std::map<std::string, std::string> filesOf(const fs::path& folder) {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) found[entry.path().filename().string()] = contentOf(entry.path());
+    return found;
+}
+
+void expectSameFiles(const fs::path& expected, const fs::path& found) {
+    const auto a = filesOf(expected), b = filesOf(found);
+    EXPECT_EQ(a.size(), b.size());
+    for (const auto& [name, content] : a) {
+        ASSERT_TRUE(b.contains(name)) << name;
+        EXPECT_TRUE(content == b.at(name)) << name << " differs";
+    }
+}
+
+TEST(RunOnRanks, writesTheFilesOfOneProcess) {
+    const TestFolder folder;
+    const fs::path serial = folder.path() / "1";
+    SharedRun(serial, whole).solve();
+    EXPECT_GT(filesOf(serial).size(), 10u);
+    for (const std::size_t ranks : {2u, 3u}) {
+        const fs::path own = folder.path() / fmt::format("{}", ranks);
+        SCOPED_TRACE(fmt::format("{} ranks", ranks));
+        runOn(ranks, own, whole, {.cutsWander = ranks == 3});
+        expectSameFiles(serial, own);
+    }
+}
+
+/// With rigid bodies.
+class RichRun : public SharedRun {
+public:
+    explicit RichRun(const fs::path& folder) : SharedRun(folder, whole) {
+        for (std::uint32_t k = 0; k + 1 < 96; k += 8) bodyHandler.join({k, k + 1});
+        setTimeStep(0x1p-19);
+    }
+};
+
+TEST(RunOnRanks, writesTheFilesOfBodies) {
+    const TestFolder folder;
+    RichRun(folder.path() / "1").solve();
+    VirtualRanks(3).run([&](Exchange& exchange) {
+        RichRun run(folder.path() / "3");
+        run.setRanks(exchange, {.cutsWander = true});
+        run.solve();
+    });
+    expectSameFiles(folder.path() / "1", folder.path() / "3");
+    expectSameState(folder.path() / "1/run-restart.h5", folder.path() / "3/run-restart.h5");
+}
+
+TEST(RunOnRanks, refusesAccountsThatAreNotGathered) {
+    const TestFolder folder;
+    const std::string told = refusal([&] {
+        VirtualRanks(2).run([&](Exchange& exchange) {
+            SharedRun run(folder.path(), half);
+            run.keepEnergyLedger();
+            run.setRanks(exchange, {});
+            run.solve();
+        });
+    });
+    EXPECT_TRUE(isOneSentence(told));
+    EXPECT_TRUE(contains(told, "energy ledger"));
+}
+
+TEST(RunOnRanks, goesOnFromTheFilesOfAnyNumber) {
+    const TestFolder folder;
+    const fs::path serial = folder.path() / "serial";
+    SharedRun(serial, whole).solve();
+    for (const std::size_t first : {1u, 2u, 3u, 4u}) {
+        const fs::path begun = folder.path() / fmt::format("{}", first);
+        runOn(first, begun, half);
+        for (const std::size_t second : {1u, 2u, 3u, 4u}) {
+            const fs::path own = folder.path() / fmt::format("{}-{}", first, second);
+            SCOPED_TRACE(fmt::format("{} ranks, then {}", first, second));
+            fs::copy(begun, own);
+            runOn(second, own, whole);
+            EXPECT_EQ(contentOf(serial / "table.csv"), contentOf(own / "table.csv"));
+            EXPECT_TRUE(contentOf(serial / "run-restart.h5") == contentOf(own / "run-restart.h5"));
+        }
+    }
+}
+
+/// Between parts of a run, and in a hook after gather(), all is there on all ranks, and may be changed.
+TEST(RunOnRanks, mayBeChangedBetweenParts) {
+    const auto runParts = [](SharedRun& run) {
+        run.runSteps(100);
+        EXPECT_EQ(run.particleHandler.getSize(), 96u);
+        run.particleHandler.removeObject(5);
+        run.particleHandler.getObject(7).setVelocity({0.03, 0, 0.1});
+        run.runSteps(100);
+        run.setTimeStep(0x1p-18);
+        run.runSteps(50);
+        run.finishRun();
+        return stateHash(run.particleHandler.store());
+    };
+    const TestFolder folder;
+    SharedRun alone(folder.path() / "1", whole);
+    const std::uint64_t expected = runParts(alone);
+    VirtualRanks(3).run([&](Exchange& exchange) {
+        SharedRun run(folder.path() / "3", whole);
+        run.setRanks(exchange, {});
+        EXPECT_EQ(runParts(run), expected);
+        EXPECT_EQ(run.rankCounts().unequal, 0u);
+    });
+    expectSameState(folder.path() / "1/run-restart.h5", folder.path() / "3/run-restart.h5");
+}
+
+/// A cloud that becomes twice as long along x: with the first cuts, one half of space would have three
+/// quarters of the grains in the end. Cuts are made anew where a rank has a tenth more than the mean; the
+/// list at which that is found comes a little later.
+TEST(RunOnRanks, divideTheLoadAgain) {
+    std::array<double, 4> loads{};
+    VirtualRanks(4).run([&](Exchange& exchange) {
+        Simulation<LinearViscoelasticSpecies> scene;
+        auto* const species =
+            scene.speciesHandler.copyAndAddObject(scenes::boxMaterial<LinearViscoelasticSpecies>(0));
+        SphericalParticle grain;
+        grain.setSpecies(species);
+        grain.setRadius(1e-3);
+        for (int k = 0; k < 16 * 16 * 16; ++k) {
+            grain.setPosition(2.5e-3 * Vec3D(k % 16, k / 16 % 16, k / 256));
+            grain.setVelocity({500 * grain.getPosition().x(), 0, 0});
+            scene.particleHandler.copyAndAddObject(grain);
+        }
+        scene.setTimeStep(1e-5);
+        scene.setQuiet();
+        scene.setRanks(exchange, {});
+        scene.initialise();
+        scene.step(200);
+        loads[exchange.rank()] = scene.rankCounts().load;
+    });
+    EXPECT_EQ(loads[0] + loads[1] + loads[2] + loads[3], 4096);
+    for (const double load : loads) EXPECT_LT(load, 1.15 * 1024);
+}
+
+/// What one rank is asked, all do.
+TEST(RunOnRanks, stopsWhereOneIsAskedTo) {
+    const TestFolder folder;
+    try {
+        VirtualRanks(3).run([&](Exchange& exchange) {
+            SharedRun run(folder.path(), whole);
+            run.setRanks(exchange, {});
+            if (exchange.rank() == 2) run.requestStop();
+            run.solve();
+        });
+        ADD_FAILURE() << "it has not stopped";
+    } catch (const RunStopped& stop) {
+        EXPECT_TRUE(contains(stop.what(), "requestStop() has stopped the run at time 0 s, after 0 steps"));
+    }
+    EXPECT_FALSE(fs::exists(folder.path() / "run-restart.h5.part"));
+    runOn(2, folder.path(), whole);
+    const fs::path serial = folder.path() / "serial";
+    SharedRun(serial, whole).solve();
+    EXPECT_TRUE(contentOf(serial / "run-restart.h5") == contentOf(folder.path() / "run-restart.h5"));
+}
+
+}  // namespace
+}  // namespace pendular::runOnRanksTest
