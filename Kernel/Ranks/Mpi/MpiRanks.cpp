@@ -7,19 +7,22 @@
 #include <mpi.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Ranks/ProgramRanks.h"
 
 namespace pendular {
 
 namespace {
 
-/// So long (s) a rank that has failed waits for the first one to say so.
+/// So long (s) a rank that has failed waits for the first one to say so, and one for another that has ended.
 constexpr double patience = 30;
 
 void require(int result) {
@@ -56,17 +59,21 @@ public:
 
     // NOLINTNEXTLINE(bugprone-exception-escape): it exchanges messages, not what two names stand for
     [[nodiscard]] std::vector<Message> swap(std::vector<Message> toEach) override {
-        std::vector<std::int64_t> to(ranks), from(ranks);
-        for (std::size_t q = 0; q < ranks; ++q) to[q] = static_cast<std::int64_t>(toEach[q].size());
+        lengthsTo.resize(ranks), lengthsFrom.resize(ranks);
+        for (std::size_t q = 0; q < ranks; ++q) lengthsTo[q] = static_cast<std::int64_t>(toEach[q].size());
         wait([&](MPI_Request* request) {
-            return MPI_Ialltoall(to.data(), 1, MPI_INT64_T, from.data(), 1, MPI_INT64_T, work, request);
+            return MPI_Ialltoall(lengthsTo.data(), 1, MPI_INT64_T, lengthsFrom.data(), 1, MPI_INT64_T, work,
+                                 request);
         });
-        return swapWithNeighbours(std::move(toEach), {from.begin(), from.end()});
+        return swapWithNeighbours(std::move(toEach), {lengthsFrom.begin(), lengthsFrom.end()});
     }
 
     [[nodiscard]] std::vector<Message> swapWithNeighbours(
         std::vector<Message> toEach, const std::vector<std::size_t>& bytesFromEach) override {
-        std::vector<std::string> got(ranks);
+        for (const std::size_t bytes : bytesFromEach) static_cast<void>(lengthOf(bytes));
+        for (const Message& message : toEach) static_cast<void>(lengthOf(message.size()));
+        got.assign(ranks, {});
+        sent = std::move(toEach);
         std::vector<MPI_Request> requests;
         for (std::size_t q = 0; q < ranks; ++q) {
             if (q == own || bytesFromEach[q] == 0) continue;
@@ -75,32 +82,33 @@ public:
                               &requests.emplace_back()));
         }
         for (std::size_t q = 0; q < ranks; ++q) {
-            if (q == own || toEach[q].size() == 0) continue;
-            const std::string_view bytes = toEach[q].all();
+            if (q == own || sent[q].size() == 0) continue;
+            const std::string_view bytes = sent[q].all();
             require(MPI_Isend(bytes.data(), lengthOf(bytes.size()), MPI_BYTE, static_cast<int>(q), 0, work,
                               &requests.emplace_back()));
         }
         wait(requests);
         std::vector<Message> fromEach;
         for (std::size_t q = 0; q < ranks; ++q)
-            fromEach.push_back(q == own ? std::move(toEach[q]) : Message(std::move(got[q])));
+            fromEach.push_back(q == own ? std::move(sent[q]) : Message(std::move(got[q])));
         return fromEach;
     }
 
     [[nodiscard]] double largest(double value) override {
-        if (std::isnan(value)) value = INFINITY;  // MPI_MAX need not pass it on
-        double most = 0;
+        given = std::isnan(value) ? INFINITY : value;  // MPI_MAX need not pass it on
         wait([&](MPI_Request* request) {
-            return MPI_Iallreduce(&value, &most, 1, MPI_DOUBLE, MPI_MAX, work, request);
+            return MPI_Iallreduce(&given, &most, 1, MPI_DOUBLE, MPI_MAX, work, request);
         });
         return most;
     }
 
     void addUp(std::span<std::int64_t> integers) override {
+        sums.assign(integers.begin(), integers.end());
         wait([&](MPI_Request* request) {
-            return MPI_Iallreduce(MPI_IN_PLACE, integers.data(), lengthOf(integers.size()), MPI_INT64_T,
-                                  MPI_SUM, work, request);
+            return MPI_Iallreduce(MPI_IN_PLACE, sums.data(), lengthOf(sums.size()), MPI_INT64_T, MPI_SUM,
+                                  work, request);
         });
+        std::ranges::copy(sums, integers.begin());
     }
 
     void fail(std::string_view sentence) noexcept override {
@@ -116,6 +124,7 @@ public:
 
     [[nodiscard]] std::string end() noexcept override {
         std::string news;
+        if (!hasFailed) sayGoodbye();
         MPI_Request all = MPI_REQUEST_NULL;
         MPI_Ibarrier(failures, &all);
         double waited = 0;
@@ -129,12 +138,14 @@ public:
         // What has come at the last moment.
         if (const bool before = hasFailed; !before) news = failure();
         while (!failure().empty()) {}
+        while (takeGoodbye()) {}
         MPI_Finalize();
         return news;
     }
 
 private:
     static constexpr std::size_t longest = 4000;  // bytes of a sentence: so much is sent without waiting
+    static constexpr int goodbye = 1;             // the tag of a message without content
 
     /// The sentence of a rank that has failed; empty if none has.
     std::string failure() noexcept {
@@ -147,6 +158,29 @@ private:
         MPI_Recv(sentence.data(), length, MPI_CHAR, status.MPI_SOURCE, 0, failures, MPI_STATUS_IGNORE);
         hasFailed = true;
         return sentence.empty() ? "another rank has failed." : sentence;
+    }
+
+    /// Tells the others that this rank does nothing with them any more.
+    void sayGoodbye() noexcept {
+        for (std::size_t q = 0; q < ranks; ++q)
+            if (q != own)
+                MPI_Isend(nullptr, 0, MPI_CHAR, static_cast<int>(q), goodbye, failures,
+                          &sending.emplace_back());
+    }
+    /// Whether one more rank has ended.
+    bool takeGoodbye() noexcept {
+        int isThere = 0;
+        MPI_Status status;
+        MPI_Iprobe(MPI_ANY_SOURCE, goodbye, failures, &isThere, &status);
+        if (isThere == 0) return false;
+        MPI_Recv(nullptr, 0, MPI_CHAR, status.MPI_SOURCE, goodbye, failures, MPI_STATUS_IGNORE);
+        return true;
+    }
+    /// What is waited for from a rank that has ended never comes; what it sent before is on its way.
+    void refuseToWaitForNobody() {
+        if (takeGoodbye() && !hasLeft) hasLeft = MPI_Wtime();
+        if (hasLeft && MPI_Wtime() - *hasLeft > patience)
+            throw RunError("A rank has ended while others waited for it.");
     }
 
     /// Where the others do not end by themselves, as when one is stuck.
@@ -170,6 +204,7 @@ private:
             if (tries > 2000) std::this_thread::sleep_for(std::chrono::microseconds(20));
             if (tries % 64 != 0) continue;
             if (const std::string sentence = failure(); !sentence.empty()) throw AnotherRankFailed(sentence);
+            refuseToWaitForNobody();
         }
     }
     template <class Start>
@@ -179,10 +214,17 @@ private:
         wait(request);
     }
 
+    // What MPI reads and writes: it stays where a call that has begun is never done, as another rank fails.
+    std::vector<std::int64_t> lengthsTo, lengthsFrom, sums;
+    std::vector<std::string> got;
+    std::vector<Message> sent;
+    double given = 0, most = 0;
+
     MPI_Comm work = MPI_COMM_NULL, failures = MPI_COMM_NULL;
     std::size_t own = 0, ranks = 1;
-    bool hasFailed = false;  // this rank or another one
-    std::string told;        // by this rank, if it is not the first one, which says it by itself
+    bool hasFailed = false;         // this rank or another one
+    std::optional<double> hasLeft;  // s, when another one was found to have ended
+    std::string told;               // by this rank, if it is not the first one, which says it by itself
     std::string message;
     std::vector<MPI_Request> sending;
 };
