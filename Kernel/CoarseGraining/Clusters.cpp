@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/Contacts/ContactSystem.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Contacts/ObservedContact.h"
 #include "Kernel/Particles/ParticleHandler.h"
