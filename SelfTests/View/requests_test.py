@@ -104,6 +104,15 @@ def test_words_that_are_no_numbers_fields_or_json(served):
         refused(served, "/api/start", "POST", body)
 
 
+def test_frames_that_no_run_writes_are_refused_in_one_sentence(serve, write_frames):
+    server = serve()
+    for kind, words in (("lines", "no line between two points"), ("ends", "no line between two points"), ("identity", "more than one number each")):
+        run = write_frames("damaged", kind, kind)
+        _, told = refused(server, f"/api/frame?id={run}&frame=0&contacts=1")
+        assert words in told and told.count(".\n") == 1, told
+    assert server.ask("/api/runs")[0] == 200
+
+
 def send(server, text, wait=5):
     """What a bare connection hears."""
     with socket.create_connection(("127.0.0.1", server.port), timeout=wait) as connection:

@@ -83,14 +83,12 @@ inline void addBridges(Picture& picture, const Frame& frame, const View& view) {
     std::map<double, double> radiusOf;  // by identity
     for (std::size_t k = 0; k < identity->size(); ++k) radiusOf[identity->at(k)] = radii->at(k);
     for (std::size_t k = 0; k < lines.ends.size(); ++k) {
-        const auto end = [&](std::size_t which) {
-            return lines.points[static_cast<std::size_t>(lines.corners[2 * k + which])];
-        };
-        if (bridged->at(k) == 0 || !isInside(end(0), view.box) || !isInside(end(1), view.box)) continue;
+        const auto [begin, end] = endsOf(lines, k);
+        if (bridged->at(k) == 0 || !isInside(begin, view.box) || !isInside(end, view.box)) continue;
         const double r1 = radiusOf.at(first->at(k));
         const double r2 = second->at(k) < 0 ? INFINITY : radiusOf.at(second->at(k));
         const double radius = bridgeRadius(volume->at(k), -overlap->at(k), 1 / (1 / r1 + 1 / r2));
-        picture.rods.push_back({end(0), end(1), radius, {0.15, 0.45, 0.85}, 0.1});
+        picture.rods.push_back({begin, end, radius, {0.15, 0.45, 0.85}, 0.1});
     }
 }
 
@@ -102,12 +100,10 @@ inline void addForces(Picture& picture, const Frame& frame, const View& view, co
         for (std::size_t k = 0; k < radii->size(); ++k) thickest = std::min(thickest, 0.6 * radii->at(k));
     const double largest = std::max(std::abs(span.lowest), std::abs(span.highest));
     for (std::size_t k = 0; k < frame.contacts.ends.size(); ++k) {
-        const auto end = [&](std::size_t which) {
-            return frame.contacts.points[static_cast<std::size_t>(frame.contacts.corners[2 * k + which])];
-        };
-        if (!isInside(end(0), view.box) || !(largest > 0)) continue;
+        const auto [begin, end] = endsOf(frame.contacts, k);
+        if (!isInside(begin, view.box) || !(largest > 0)) continue;
         const double share = std::min(std::abs(force.values[k]) / largest, 1.0);
-        picture.rods.push_back({end(0), end(1), thickest * std::sqrt(share) + 1e-9 * thickest,
+        picture.rods.push_back({begin, end, thickest * std::sqrt(share) + 1e-9 * thickest,
                                 mapOf(view).at(span.share(force.values[k])), 0});
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <set>
 #include <sstream>
@@ -22,16 +23,44 @@ inline PolyData readIfThere(const std::filesystem::path& path) {
     return std::filesystem::exists(path) ? readPolyData(path) : PolyData{};
 }
 
+/// The file of another kind that goes with NAME-particles-STEP.vtp: NAME-contacts-STEP.vtp. Empty if the file
+/// has another name.
+inline std::filesystem::path fileBeside(const std::filesystem::path& particles, std::string_view kind) {
+    constexpr std::string_view own = "-particles-";
+    std::string name = particles.filename().string();
+    const std::size_t at = name.rfind(own);
+    if (at == name.npos) return {};
+    return particles.parent_path() / name.replace(at, own.size(), fmt::format("-{}-", kind));
+}
+
+/// Throws InputError unless each contact has two ends and each identity is one number, which all that draws
+/// takes for granted.
+/// @param file that the sentence names
+inline void checkFrame(const Frame& frame, const std::filesystem::path& file) {
+    const auto refuse = [&](std::string_view what) {
+        throw InputError(fmt::format("The frame {} {}.", shown(file.filename().string()), what));
+    };
+    std::int32_t ends = 0;
+    for (const std::int32_t end : frame.contacts.ends)
+        if (end != (ends += 2)) refuse("has a contact that is no line between two points");
+    const PolyDataField* const identity = frame.grains.pointField("identity");
+    if (identity && identity->components != 1) refuse("has identities that are more than one number each");
+}
+
+/// The two ends of a contact (m), in a frame that has been checked.
+inline std::array<Vector<double>, 2> endsOf(const PolyData& contacts, std::size_t k) {
+    const auto end = [&](std::size_t which) {
+        return contacts.points[static_cast<std::size_t>(contacts.corners[2 * k + which])];
+    };
+    return {end(0), end(1)};
+}
+
 /// NAME-particles-STEP.vtp, and the files of contacts and walls that go with it, if there are any.
 inline Frame readFrame(const std::filesystem::path& particles) {
-    const auto fileOf = [&](std::string_view kind) {
-        constexpr std::string_view own = "-particles-";
-        std::string name = particles.filename().string();
-        const std::size_t at = name.rfind(own);
-        if (at == name.npos) return std::filesystem::path();
-        return particles.parent_path() / name.replace(at, own.size(), fmt::format("-{}-", kind));
-    };
-    return {readPolyData(particles), readIfThere(fileOf("contacts")), readIfThere(fileOf("walls"))};
+    Frame frame{readPolyData(particles), readIfThere(fileBeside(particles, "contacts")),
+                readIfThere(fileBeside(particles, "walls"))};
+    checkFrame(frame, particles);
+    return frame;
 }
 
 /// A table with the columns radius_m, x_m, y_m and z_m, as a run that stops leaves it; its other columns are

@@ -164,13 +164,6 @@ std::vector<float> shapeColumn(const PolyData& shapes,
     return column;
 }
 
-std::array<Vector<double>, 2> endsOf(const PolyData& lines, std::size_t k) {
-    const auto end = [&](std::size_t which) {
-        return lines.points[static_cast<std::size_t>(lines.corners[2 * k + which])];
-    };
-    return {end(0), end(1)};
-}
-
 std::vector<float> bridgeColumn(const snapshot::Frame& frame,
                                 const std::unordered_map<std::int64_t, std::size_t>& rows,
                                 const Vector<double>& origin) {
@@ -185,7 +178,7 @@ std::vector<float> bridgeColumn(const snapshot::Frame& frame,
         return identity < 0 || found == rows.end() ? 0 : 1 / radii->at(found->second);  // 0: a wall
     };
     for (std::size_t k = 0; k < lines.ends.size(); ++k) {
-        const auto [begin, end] = endsOf(lines, k);
+        const auto [begin, end] = snapshot::endsOf(lines, k);
         if (bridged->at(k) == 0 || !isFinite(begin) || !isFinite(end)) continue;
         const double effective = 1 / (inverseRadius(first->at(k)) + inverseRadius(second->at(k)));
         put(column, begin - origin);
@@ -203,11 +196,11 @@ std::vector<float> contactColumn(const PolyData& lines, const Vector<double>& or
     if (!force) return column;
     const Part size{*force};
     for (std::size_t k = 0; k < lines.ends.size(); ++k) {
-        const auto [begin, end] = endsOf(lines, k);
+        const auto [begin, end] = snapshot::endsOf(lines, k);
         put(column, begin - origin);
         column.push_back(static_cast<float>(size.at(k)));
         put(column, end - origin);
-        column.push_back(static_cast<float>(k));
+        column.push_back(0);
     }
     return column;
 }
@@ -233,25 +226,9 @@ std::vector<float> valueColumn(const PolyData& grains, const std::string& wanted
     return column;
 }
 
-std::vector<float> identityColumn(const PolyData& grains) {
-    std::vector<float> column(grains.points.size());
-    const PolyDataField* const identity = grains.pointField("identity");
-    for (std::size_t k = 0; k < column.size(); ++k)
-        column[k] = static_cast<float>(identity ? identity->at(k) : static_cast<double>(k));
-    return column;
-}
-
-std::filesystem::path beside(const std::filesystem::path& particles, std::string_view kind) {
-    constexpr std::string_view own = "-particles-";
-    std::string name = particles.filename().string();
-    const std::size_t at = name.rfind(own);
-    if (at == name.npos) return {};
-    return particles.parent_path() / name.replace(at, own.size(), fmt::format("-{}-", kind));
-}
-
 /// The part of a frame that is in a file of its own, unless that is a link.
 PolyData readBeside(const std::filesystem::path& particles, std::string_view kind) {
-    const std::filesystem::path file = beside(particles, kind);
+    const std::filesystem::path file = snapshot::fileBeside(particles, kind);
     return isOwnFile(file) ? readPolyData(file) : PolyData{};
 }
 
@@ -280,6 +257,7 @@ std::string packFrame(const std::filesystem::path& file, const FrameWish& wish) 
         frame.walls = readBeside(file, "walls");
         shapes = readBeside(file, "shapes");
         if (wish.bridges || wish.contacts) frame.contacts = readBeside(file, "contacts");
+        snapshot::checkFrame(frame, file);
     }
     const Limits limits(frame.grains.points);
     const Vector<double> origin = wish.origin.value_or(0.5 * (limits.low + limits.high));
@@ -294,7 +272,6 @@ std::string packFrame(const std::filesystem::path& file, const FrameWish& wish) 
     Columns columns;
     columns.add("shapes", shapeColumn(shapes, rows, origin, isShape));
     columns.add("grains", grainColumn(frame.grains, origin, isShape));
-    columns.add("identity", identityColumn(frame.grains));
     columns.add("value", valueColumn(frame.grains, wish.field.empty() ? "radius_m" : wish.field));
     columns.add("walls", wallColumn(frame.walls, origin));
     if (wish.bridges) columns.add("bridges", bridgeColumn(frame, rows, origin));

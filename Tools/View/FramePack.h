@@ -33,10 +33,9 @@ struct FrameWish {
 /// has:
 ///
 /// grains     x, y, z (m, from the origin), radius (m; negative: drawn by its shape) of each grain
-/// identity   of each grain
 /// value      of the field of the wish
 /// bridges    x, y, z, radius, x, y, z, 0: cylinders of the bridges' volumes
-/// contacts   x, y, z, force (N), x, y, z, row in the file
+/// contacts   x, y, z, force (N), x, y, z, 0, in the order of the file
 /// walls      x, y, z: triangles
 /// shapes     x, y, z, row of the grain: triangles of grains that are no spheres
 ///

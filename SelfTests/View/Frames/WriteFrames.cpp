@@ -1,5 +1,8 @@
 // Writes runs that the tests of `view` look at, by the kernel's own writers.
 //   ViewFrames picture FOLDER          a frame with grains, a bridge, a shape and a mesh of known places
+//   ViewFrames damaged FOLDER KIND     a frame as no run writes it: lines (contacts without ends), ends (a
+//   contact with
+//                                      four), identity (of nine numbers)
 //   ViewFrames lattice FOLDER N BRIDGES FRAMES    N grains in a lattice, with about so many bridges
 
 #include <cmath>
@@ -119,6 +122,25 @@ void writePicture(const std::string& name) {
     writeSummary(name, places.size(), 0);
 }
 
+/// Two grains, and what would be read or written out of bounds if it were trusted.
+void writeDamaged(const std::string& name, const std::string& kind) {
+    ParaViewSeries series(name, -INFINITY);
+    PolyData grains = grainsOf({{0, 0, 0}, {2e-3, 0, 0}, {4e-3, 0, 0}}, Floats(3, 1e-3F), Floats(3, 0));
+    PolyData contacts = contactsOf(grains, {{0, 1, 1e-10}, {1, 2, 1e-10}, {0, 2, 1e-10}});
+    if (kind == "lines") contacts.corners.clear(), contacts.ends.assign(3, 0);
+    if (kind == "ends") contacts.ends = {0, 2, 6};
+    if (kind == "identity") {
+        Wholes nine(27);
+        for (std::size_t k = 0; k < nine.size(); ++k) nine[k] = static_cast<std::int32_t>(k);
+        grains.pointFields[2] = {"identity", 9, nine};
+    }
+    writePolyData(series.add("particles", 0, 0), grains);
+    writePolyData(series.add("contacts", 0, 0), contacts);
+    writePolyData(series.add("shapes", 0, 0), cube({0, 0, 0}, 8e-4, 26));
+    series.write();
+    writeSummary(name, 3, 0);
+}
+
 /// The frames differ in the speeds, so that each is recognised.
 void writeLattice(const std::string& name, std::size_t count, std::size_t bridges, int frames) {
     const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
@@ -150,6 +172,7 @@ int main(int argc, char** argv) {
     if (argc < 3) return 2;
     const std::string name = argv[2] + std::string("/run");
     if (argv[1] == std::string("picture")) writePicture(name);
+    else if (argc == 4 && argv[1] == std::string("damaged")) writeDamaged(name, argv[3]);
     else if (argc == 6)
         writeLattice(name, std::strtoull(argv[3], nullptr, 10), std::strtoull(argv[4], nullptr, 10),
                      std::atoi(argv[5]));

@@ -239,10 +239,10 @@ export class Viewer {
 
     async showPicked(found) {
         if (!found) return this.picked.replaceChildren();
-        const row = found.kind === "contact" ? this.scene.frame.contacts[8 * found.row + 7] : found.row;
         try {
-            const { fields } = await get("row", { id: this.id, frame: this.shown, of: `${found.kind}s`, row });
-            const title = found.kind === "grain" ? `Grain ${this.scene.frame.identity[found.row]}` : "Contact";
+            const { fields } = await get("row", { id: this.id, frame: this.shown, of: `${found.kind}s`, row: found.row });
+            const identity = fields.find(({ name }) => name === "identity")?.value[0];
+            const title = found.kind === "grain" ? `Grain ${identity ?? `in row ${found.row}`}` : "Contact";
             this.picked.replaceChildren(make("h3", {}, title), make("table", {}, ...fields.map((f) => make("tr", {}, make("td", {}, fieldLabel(f)), make("td", {}, f.value.map((v) => number(v, 6)).join(", "))))));
         } catch (problem) {
             tell(problem.message);
