@@ -7,17 +7,17 @@
 namespace pendular {
 
 /// The accounts of energy and liquid, and the counts of events, are not yet right after grains were gathered.
-static void refuseToGather(const ContactSystem& contacts, bool keepsEnergy) {
-    if (!contacts.movesLiquid() && !contacts.events().areListenedTo() && !keepsEnergy) return;
+void Scene::Inside::refuseToGather() const {
+    if (laws().layout.liquid == 0 && !contacts.events().areListenedTo() && !account.isKept()) return;
     throw InputError(
-        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, the energy ledger is kept "
-        "or "
-        "events of contacts are listened to, has no outputs and restart files yet; run it on one rank.");
+        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, the energy ledger is kept, "
+        "a wall wears or events of contacts are listened to, has no outputs and restart files yet; run it on "
+        "one rank.");
 }
 
 void Scene::Inside::gather() {
     if (!isDistributed()) return;
-    refuseToGather(contacts, account.isKept());
+    refuseToGather();
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
     contacts.gather(scene.particleHandler.store());

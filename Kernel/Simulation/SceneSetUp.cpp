@@ -57,6 +57,7 @@ void Scene::Inside::setUp() {
     scene.requireTimeStep();
     account.show(context);
     laws().mixAll();
+    if (sharing && scene.hasCourse()) refuseToGather();
     ParticleHandler::Inside::settleSpin(particles);
     if (!scene.isRestarted()) ParticleHandler::Inside::renewMasses(particles);
     particles.films().settle(particles.store(), laws().layout.liquid > 0);

@@ -202,20 +202,26 @@ std::string refusalOnRanks(SetUp&& setUp) {
     });
 }
 
-struct NoOutput {
-    static void write(const Scene&) {}
-};
-
-TEST(SharedScene, refusesWhatRanksCannotShareYet) {
-    const auto expectRefused = [](auto&& change, std::string_view part) {
+TEST(SharedScene, refusesFilesOfWhatIsNotGathered) {
+    const auto expectRefused = [](auto&& change) {
         const std::string told = refusalOnRanks([&](auto& scene) {
             change(scene);
             scene.initialise();
+            scene.step(10);
+            scene.gather();
         });
         EXPECT_TRUE(support::isOneSentence(told)) << told;
-        EXPECT_TRUE(support::contains(told, part)) << told;
         EXPECT_TRUE(support::contains(told, "setRanks()")) << told;
     };
+    expectRefused([](auto& scene) { scene.keepEnergyLedger(); });
+    expectRefused([](auto& scene) { scene.listenToContacts(); });
+    const support::TestFolder folder;
+    const std::string atSetUp = refusalOnRanks([&](auto& scene) {
+        scene.setName((folder.path() / "run").string());
+        scene.keepEnergyLedger(), scene.setTimeMax(1);
+        scene.solve();  // before the first step
+    });
+    EXPECT_TRUE(support::contains(atSetUp, "setRanks()")) << atSetUp;
     EXPECT_EQ(refusalOnRanks([](auto& scene) { scene.initialise(); }), "");
 }
 
