@@ -123,3 +123,17 @@ def test_the_list_goes_on_under_the_focus_and_contexts_are_given_back(serve, roo
             page.js("location.hash = 'start'")
             page.wait("pendular.viewer.isOver")
         assert not [entry for entry in page.driver.get_log("browser") if "Too many active WebGL" in entry["message"]]
+
+
+def test_a_run_without_frames_shows_its_latest_restart_file(serve, root):
+    server = serve()
+    options = {name: value for name, value in DRUM.items() if name != "--paraview-interval-s"}
+    run = server.post("start", driver="RotatingDrum", name="plain", options={**options, "--end-time-s": "100", "--restart-interval-s": "1"})["id"]
+    with browser.page() as page:
+        page.open(server, "run=plain%2Frun")
+        page.wait("pendular.viewer && pendular.viewer.loads > 0", 120)
+        first = page.js("return pendular.viewer.scene.frame.time")
+        page.wait(f"pendular.viewer.scene.frame.time > {first}")
+        server.post("stop", id=run)
+        page.wait("document.querySelector('.state.stopped')")
+        assert page.problems() == []

@@ -228,6 +228,7 @@ Json details(const RunFiles& run) {
     } catch (const InputError& problem) {
         all["frameProblem"] = problem.what();
     }
+    all["stateWritten"] = changedAt(run.file("-restart.h5"));
     all["tables"] = tablesOf(run);
     all["log"] = endOfLog(run);
     all["start"] = startOf(run);

@@ -24,7 +24,7 @@ export function showCompare(page, ids) {
             const runs = await Promise.all(ids.map((id) => get("run", { id })));
             if (isOver) return;
             showDifferences(differences, runs);
-            viewers.forEach((viewer, k) => viewer.setTimes(runs[k].frames, runs[k].changed));
+            viewers.forEach((viewer, k) => viewer.setTimes(runs[k].frames, runs[k].stateWritten));
             await chart.refresh(runs);
         } catch (problem) {
             tell(problem.message);

@@ -58,7 +58,7 @@ export function showRun(page, id) {
             showState(run);
             log.textContent = run.log;
             logPart.hidden = run.log === "";
-            viewer.setTimes(run.frames, run.changed);
+            viewer.setTimes(run.frames, run.stateWritten);
             await charts.refresh(run.tables);
             told.clear();
         } catch (problem) {

@@ -50,12 +50,12 @@ export class Viewer {
         this.scene?.end();
     }
 
-    /** The times of the frames (s), as they are known now, and when the run has changed: a run without frames shows its
-     * restart file (its time is null), which is written anew. */
-    setTimes(times, changed = 0) {
-        const isNewState = times.length === 1 && times[0] === null && changed !== this.changed;
+    /** The times of the frames (s), as they are known now, and when the restart file was written: a run without frames shows
+     * that (its time is null). */
+    setTimes(times, stateWritten) {
+        const isNewState = times.length === 1 && times[0] === null && stateWritten !== this.stateWritten;
         const grew = times.length !== this.times.length || isNewState;
-        this.changed = changed;
+        this.stateWritten = stateWritten;
         this.times = times;
         this.slider.max = Math.max(times.length - 1, 0);
         if (this.shown >= times.length) this.shown = -1;
