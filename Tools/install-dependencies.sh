@@ -66,7 +66,8 @@ if [[ $view == yes ]]; then
     packages+='
 libmicrohttpd-dev||server of runs in the browser
 nlohmann-json3-dev||what it sends, and the options of drivers
-python3-pytest||tests of it'
+python3-pytest||tests of it
+nodejs|node|syntax of its page'
 fi
 if [[ $page == yes ]]; then
     packages+='

@@ -32,6 +32,7 @@ void describe(CLI::App& app, Options& o) {
            "--sizes", o.sizes,
            "CSV file of the grains' sizes, as Kernel/Sizes/README.md says; the mean diameter is then the "
            "median by volume")
+        ->type_name(fileName)
         ->excludes("--grain-diameter-m");
     app.add_option("--cone-deg", o.cone,
                    "slope of a conical bottom, degrees to the horizontal, which empties; 0: a flat bottom");

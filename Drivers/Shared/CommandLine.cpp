@@ -15,7 +15,7 @@
 namespace pendular {
 
 void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const std::string& run) {
-    app.add_option("--output", o.output, "folder for " + files)->capture_default_str();
+    app.add_option("--output", o.output, "folder for " + files)->type_name(folderName)->capture_default_str();
     app.add_option("--threads", o.threads, "threads; the results do not depend on their number")
         ->capture_default_str();
     auto* resume =
@@ -24,7 +24,9 @@ void addRunOptions(CLI::App& app, RunOptions& o, const std::string& files, const
                      "again and removes the frames of an earlier run. Give the other options as before; "
                      "only end, intervals and threads may change. Do not switch --energy-interval-s on or "
                      "off");
-    app.add_option("--restart", o.restart, "go on from this restart file")->excludes(resume);
+    app.add_option("--restart", o.restart, "go on from this restart file")
+        ->type_name(fileName)
+        ->excludes(resume);
     app.add_option("--restart-interval-s", o.restartInterval,
                    "time on the clock between two restart files, s; 0: at the start and the end only. One is "
                    "also written on SIGINT, SIGTERM (the run ends), and SIGUSR1 (it goes on)")

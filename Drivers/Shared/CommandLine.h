@@ -35,6 +35,10 @@ struct NumberOption {
     [[nodiscard]] std::string option() const { return "--" + name + (unit.empty() ? "" : "-" + unit); }
 };
 
+/// The type_name() of each option that names a file or a folder: --help shows it, and the page of runs in the
+/// browser leaves the option out, as nobody may reach files through it.
+inline constexpr const char *fileName = "FILE", *folderName = "FOLDER";
+
 /// What a driver says of itself on its command line.
 struct DriverProgram {
     std::string name, description;

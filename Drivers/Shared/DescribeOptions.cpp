@@ -8,9 +8,8 @@
 #include <set>
 #include <string_view>
 
-#if __has_include(<nlohmann/json.hpp>)
+#ifdef PENDULAR_HAS_JSON
     #include <nlohmann/json.hpp>
-    #define PENDULAR_HAS_JSON
 #endif
 
 #include "Drivers/Shared/CommandLine.h"
@@ -35,9 +34,14 @@ Json rangeOf(const Range& range) {
 }
 
 /// Without the checks that CLI11 writes behind it: "FLOAT:INT in [1 - 3]".
+std::string kindOf(const CLI::Option& option) {
+    const std::string name = option.get_type_name();
+    return name.substr(0, name.find_first_of(": "));
+}
+
 std::string typeOf(const CLI::Option& option) {
     if (option.get_expected_max() == 0) return "flag";
-    const std::string name = option.get_type_name(), kind = name.substr(0, name.find_first_of(": "));
+    const std::string kind = kindOf(option);
     if (kind == "FLOAT") return "number";
     if (kind == "INT") return "whole";
     return kind == "UINT" ? "count" : "text";
@@ -60,8 +64,8 @@ Json namesOf(const std::set<CLI::Option*>& options) {
     return names;
 }
 
-/// A name ends with its unit (CONTRIBUTING): "--viscosity-Pa-s".
-std::string unitOf(const std::string& name) {
+/// Of an option that is no NumberOption. A name ends with its unit (CONTRIBUTING): "--viscosity-Pa-s".
+std::string unitInName(const std::string& name) {
     if (name.ends_with("-Pa-s")) return "Pa s";
     constexpr std::string_view units[] = {"s",   "m",     "m3", "m/s",     "m/s2", "rad/s", "rpm",
                                           "deg", "kg/m3", "kg", "percent", "Pa",   "N/m"};
@@ -75,10 +79,15 @@ std::string defaultOf(const CLI::Option& option) {
     return text;
 }
 
-bool isPath(const std::string& name) {
-    constexpr std::string_view paths[] = {"--output", "--restart", "--grains", "--walls"};
-    return std::find(std::begin(paths), std::end(paths), name) != std::end(paths);
+std::string unitOf(const DriverProgram& driver, const CLI::Option& option, const std::string& name) {
+    for (const NumberOption& number : driver.numbers)
+        if (number.option() == name) return number.unit;
+    const std::string type = typeOf(option);
+    return type == "flag" || type == "text" ? "" : unitInName(name);
 }
+
+/// As its driver says: type_name(fileName).
+bool isPath(const CLI::Option& option) { return kindOf(option) == fileName || kindOf(option) == folderName; }
 
 /// Of the options that all drivers have; runDriver() checks them.
 std::map<std::string, Range> rangesOf(const DriverProgram& driver) {
@@ -100,14 +109,14 @@ std::string describeOptions(const DriverProgram& driver, const CLI::App& app) {
         if (name == "--help" || name == "--describe-options") continue;
         Json row{{"name", name},
                  {"type", typeOf(*option)},
-                 {"unit", unitOf(name)},
+                 {"unit", unitOf(driver, *option, name)},
                  {"text", option->get_description()},
                  {"default", defaultOf(*option)},
                  {"several", option->get_expected_max() > 1},
                  {"choices", choicesOf(*option)},
                  {"excludes", namesOf(option->get_excludes())},
                  {"needs", namesOf(option->get_needs())},
-                 {"path", isPath(name)}};
+                 {"path", isPath(*option)}};
         if (const auto known = ranges.find(name); known != ranges.end())
             row["range"] = rangeOf(known->second);
         options.push_back(std::move(row));

@@ -64,7 +64,8 @@ inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv)
     for (CLI::Option* option : app.get_options()) {
         const std::string name = option->get_type_name(),
                           kind = name.substr(0, name.find(':'));  // UINT:POSITIVE
-        if (kind != "UINT" && kind != "INT" && kind != "FLOAT" && kind != "TEXT") continue;
+        const auto isOneOf = [&](auto... kinds) { return ((kind == kinds) || ...); };
+        if (!isOneOf("UINT", "INT", "FLOAT", "TEXT", "FILE", "FOLDER")) continue;
         option->check([kind](const std::string& text) { return objectionTo(kind, text); });
     }
     try {

@@ -22,7 +22,9 @@ class Server:
             page.mkdir(exist_ok=True)
             for name in ("index.html", "main.js", "main.css", "icon.svg"):
                 (page / name).write_text("<!doctype html>")
-        command = [os.environ["PENDULAR_VIEW"], str(root), "--page", str(page), "--drivers", os.environ["PENDULAR_DRIVERS"], *options]
+        command = [os.environ["PENDULAR_VIEW"], str(root), "--page", str(page), *options]
+        if "--drivers" not in options:
+            command += ["--drivers", os.environ["PENDULAR_DRIVERS"]]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while True:
             line = self.process.stdout.readline()
@@ -34,13 +36,13 @@ class Server:
         self.port, self.token = int(found[1]), found[2]
         self.cookie = f"pendular-{self.token[:8]}={self.token}"
 
-    def ask(self, path, method="GET", body=None, **headers):
+    def ask(self, path, method="GET", body=None, at="127.0.0.1", **headers):
         """Status, content and headers of the answer; None takes a header away."""
         given = {"Host": f"127.0.0.1:{self.port}", "Cookie": self.cookie}
         if method == "POST":
             given.update({"Origin": f"http://127.0.0.1:{self.port}", "Content-Type": "application/json", "X-Pendular": "1"})
         given.update({name.replace("_", "-"): value for name, value in headers.items()})
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection = http.client.HTTPConnection(at, self.port, timeout=60)
         connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
         for name, value in given.items():
             if value is not None:
@@ -79,6 +81,16 @@ class Server:
     def end(self):
         self.process.send_signal(signal.SIGTERM)
         assert self.process.wait(20) == 0
+
+
+def driver_of(folder, name, lines):
+    """A program that describes itself as a driver, and then does what the lines say."""
+    (folder / name).mkdir(parents=True)
+    program = folder / name / name
+    told = json.dumps({"driver": name, "description": "", "options": []})
+    program.write_text(f"#!/bin/sh\nif [ \"$1\" = --describe-options ]; then\n{lines[0]}\necho '{told}'; exit\nfi\n{lines[1]}\n")
+    program.chmod(0o755)
+    return program
 
 
 @pytest.fixture

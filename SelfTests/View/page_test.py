@@ -10,6 +10,7 @@ browser = pytest.importorskip("browser")
 if not browser.is_there():
     pytest.skip("Chromium is not installed", allow_module_level=True)
 
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -99,3 +100,40 @@ def test_a_run_is_followed(serve, root):
         page.wait("document.querySelector('.state.stopped')")
         assert page.problems() == []
     assert time.time() - max(path.stat().st_mtime for path in (root / "live").glob("*.vtp")) < 60
+
+
+def test_the_list_goes_on_under_the_focus_and_contexts_are_given_back(serve, root, write_frames):
+    server = serve()
+    write_frames("picture", "wet")
+    server.post("start", driver="RotatingDrum", name="live", options={**DRUM, "--end-time-s": "100"})
+    server.wait_for("live/run", "running")
+    with browser.page() as page:
+        page.open(server)
+        page.wait("document.querySelector('.state.running')")
+        page.js("document.querySelector('[data-key=\"act live/run\"]').focus()")
+        ActionChains(page.driver).send_keys(Keys.ENTER).perform()  # stops it
+        page.wait("document.querySelector('.state.stopped')")
+        page.wait("document.activeElement.getAttribute('data-key') === 'act live/run'")  # now: goes on
+        assert page.js("return document.querySelector('nav [aria-current=page]').textContent") == "Runs"
+        page.js("document.getElementById('skip').click()")
+        assert page.js("return [document.activeElement.id, location.hash]") == ["page", "#runs"]
+        for _ in range(18):  # a browser keeps 16 contexts
+            page.js("location.hash = 'run=wet%2Frun'")
+            page.wait("pendular.viewer && !pendular.viewer.isOver && pendular.viewer.loads > 0")
+            page.js("location.hash = 'start'")
+            page.wait("pendular.viewer.isOver")
+        assert not [entry for entry in page.driver.get_log("browser") if "Too many active WebGL" in entry["message"]]
+
+
+def test_a_run_without_frames_shows_its_latest_restart_file(serve, root):
+    server = serve()
+    options = {name: value for name, value in DRUM.items() if name != "--paraview-interval-s"}
+    run = server.post("start", driver="RotatingDrum", name="plain", options={**options, "--end-time-s": "100", "--restart-interval-s": "1"})["id"]
+    with browser.page() as page:
+        page.open(server, "run=plain%2Frun")
+        page.wait("pendular.viewer && pendular.viewer.loads > 0", 120)
+        first = page.js("return pendular.viewer.scene.frame.time")
+        page.wait(f"pendular.viewer.scene.frame.time > {first}")
+        server.post("stop", id=run)
+        page.wait("document.querySelector('.state.stopped')")
+        assert page.problems() == []

@@ -6,6 +6,7 @@ import socket
 import time
 
 import pytest
+from conftest import driver_of
 
 START = json.dumps({"driver": "RotatingDrum", "name": "", "options": {}}).encode()
 
@@ -24,13 +25,21 @@ def served(serve, write_frames, tmp_path):
 
 
 def test_the_token_becomes_a_cookie_that_scripts_do_not_see(served):
-    status, _, headers = served.ask(f"/?token={served.token}", Cookie=None)
-    assert status == 303 and headers["Location"] == "."
+    status, content, headers = served.ask(f"/?token={served.token}", Cookie=None)
+    assert status == 200 and b'content="0; url=."' in content and served.token.encode() not in content
     assert headers["Set-Cookie"].startswith(served.cookie + ";")
     assert "HttpOnly" in headers["Set-Cookie"] and "SameSite=Strict" in headers["Set-Cookie"]
     assert served.ask("/")[0] == 200
     policy = served.ask("/")[2]["Content-Security-Policy"]
     assert "default-src 'none'" in policy and "frame-ancestors 'none'" in policy and "unsafe" not in policy
+
+
+def test_it_is_known_by_the_names_that_it_was_given(serve):
+    server = serve("--listen", "127.0.0.2", "--host-name", "Cluster.Example", "--frame-of", "http://LOCALHOST:8888")
+    assert server.address.startswith(f"http://localhost:{server.port}/")  # of the notebook's site, or its cookie is kept back
+    for host in (f"127.0.0.2:{server.port}", "cluster.example", "CLUSTER.EXAMPLE:443"):
+        assert server.ask("/api/runs", Host=host, at="127.0.0.2")[0] == 200, host
+    assert server.ask("/api/runs", Host="example", at="127.0.0.2")[0] == 403
 
 
 def test_strangers_are_refused(served):
@@ -111,6 +120,24 @@ def test_frames_that_no_run_writes_are_refused_in_one_sentence(serve, write_fram
         _, told = refused(server, f"/api/frame?id={run}&frame=0&contacts=1")
         assert words in told and told.count(".\n") == 1, told
     assert server.ask("/api/runs")[0] == 200
+
+
+def test_waiting_for_the_server_itself_takes_nobody_s_time(serve, tmp_path):
+    """Two drivers that think for longer than a sender has: five who ask for them are all answered, and so is the list."""
+    for name in ("One", "Two"):
+        driver_of(tmp_path / "programs", name, ("sleep 6", ""))
+    server = serve("--drivers", str(tmp_path / "programs"))
+    head = f"Host: 127.0.0.1:{server.port}\r\nCookie: {server.cookie}\r\n\r\n"
+    asking = [socket.create_connection(("127.0.0.1", server.port), timeout=60) for _ in range(5)]
+    for connection in asking:
+        connection.sendall(f"GET /api/drivers HTTP/1.1\r\n{head}".encode())
+    time.sleep(1)
+    with socket.create_connection(("127.0.0.1", server.port), timeout=60) as late:  # all who compute are busy
+        late.sendall(f"GET /api/runs HTTP/1.1\r\n{head}".encode())
+        assert late.recv(100).startswith(b"HTTP/1.1 200")
+    for connection in asking:
+        assert connection.recv(100).startswith(b"HTTP/1.1 200")
+        connection.close()
 
 
 def send(server, text, wait=5):

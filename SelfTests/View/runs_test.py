@@ -3,10 +3,12 @@ cannot be."""
 import json
 import os
 import pathlib
+import re
 import subprocess
 import time
 
 import pytest
+from conftest import driver_of
 
 DRIVERS = pathlib.Path(os.environ["PENDULAR_DRIVERS"])
 DRUM = {"--number": "120", "--softening": "1000", "--end-time-s": "0.01", "--interval-s": "0.001", "--energy-interval-s": "0.001"}
@@ -49,7 +51,7 @@ def test_stopped_and_resumed_it_leaves_the_bytes_of_an_unbroken_run(serve, root,
     server = serve()
     run = server.post("start", driver="RotatingDrum", name="broken", options=options)["id"]
     server.wait_for(run, "running")
-    while server.get("table", id=run, name="zones.csv")["rows"] == []:
+    while "zones.csv" not in server.get("run", id=run)["tables"] or server.get("table", id=run, name="zones.csv")["rows"] == []:
         time.sleep(0.02)
     server.post("stop", id=run)
     stopped = server.wait_for(run, "stopped", "ended")
@@ -89,6 +91,43 @@ def test_a_run_that_cannot_begin_says_why(serve):
     assert "has room for" in failed["reason"] and failed["reason"] in failed["log"]
 
 
+def test_each_end_of_a_run_is_told_as_it_was(serve, root, tmp_path):
+    drivers = tmp_path / "programs"
+    driver_of(drivers, "Well", ("", "echo done"))
+    driver_of(drivers, "Signal", ("", "echo 50 percent; kill -KILL $$"))
+    driver_of(drivers, "Code", ("", "echo 50 percent; exit 3"))
+    driver_of(drivers, "Error", ("", "echo 'Error: no grains.'; echo 50 percent; exit 1"))
+    driver_of(drivers, "Mute", ("", "echo 50 percent; exit 1"))
+    driver_of(drivers, "Long", ("", "exec sleep 60"))
+    driver_of(drivers, "Gone", ("", ""))
+    server = serve("--drivers", str(drivers))
+    ends = {"Well": ("ended", ""), "Signal": ("failed", "it was ended by the signal 9"), "Code": ("failed", "it ended with the exit code 3"),
+            "Error": ("failed", "Error: no grains."), "Mute": ("failed", "it ended with an error")}
+    for name, (state, reason) in ends.items():
+        run = server.wait_for(server.post("start", driver=name, name="", options={})["id"], "ended", "failed", "stopped")
+        assert run["state"] == state and run["reason"].startswith(reason) and (reason or not run["reason"]), run
+        assert run["healthy"] is (False if state == "failed" else None)
+    first, second = (server.post("start", driver=name, name="", options={})["id"] for name in ("Long", "Gone"))
+    running = server.wait_for(first, "running")
+    assert running["reason"] == "" and server.get("run", id=second)["state"] == "waiting" and server.get("run", id=second)["reason"] == ""
+    (drivers / "Gone" / "Gone").write_text("#!/no/such/shell\n")
+    server.post("stop", id=first)
+    assert server.wait_for(first, "stopped", "failed")["state"] == "stopped"
+    assert "cannot be started: No such file" in server.wait_for(second, "failed", "ended")["reason"]
+
+
+def test_a_driver_that_could_not_say_its_options_is_asked_again(serve, root, tmp_path):
+    drivers = tmp_path / "programs"
+    driver_of(drivers, "Late", (f"[ -e {tmp_path}/ready ] || exit 1", ""))
+    server = serve("--drivers", str(drivers))
+    assert server.get("drivers") == []
+    (tmp_path / "ready").touch()
+    end = time.time() + 30
+    while [driver["driver"] for driver in server.get("drivers")] != ["Late"]:
+        assert time.time() < end
+        time.sleep(0.5)
+
+
 def test_the_form_is_checked_by_the_drivers_own_description(serve, root):
     server = serve()
     drivers = {description["driver"]: description for description in server.get("drivers")}
@@ -109,6 +148,9 @@ def test_the_form_is_checked_by_the_drivers_own_description(serve, root):
     assert "is there already" in refusal(server, "start", driver="RotatingDrum", name="there", options={})
     assert "not under way" in refusal(server, "stop", id="nobody/run")
     assert "was started from this page" in refusal(server, "resume", id="nobody/run")
+    assert "is there already" in refusal(server, "check", driver="RotatingDrum", name="there", options={})
+    assert "is no number" in refusal(server, "check", driver="RotatingDrum", name="new", options={"--end-time-s": "x"})
+    assert server.post("check", driver="RotatingDrum", name="new", options=DRUM) == {"told": "It can start."}
     assert sorted(path.name for path in root.iterdir()) == ["there"]
 
 
@@ -124,6 +166,8 @@ def test_every_driver_describes_what_its_help_says():
         described = {option["name"] for option in told["options"]}
         assert names - {"--describe-options"} == described, program.name
         for option in told["options"]:
+            says_path = re.search(r"\bfile\b|^folder for ", option["text"]) and option["type"] == "text"
+            assert option["path"] == bool(says_path), (program.name, option)
             assert option["text"] and option["type"] in ("number", "whole", "count", "text", "flag")
             if option["default"]:
                 assert f"={option['default'].split(',')[0]}" in text or f"=[{option['default'].split(',')[0]}" in text, (program.name, option)

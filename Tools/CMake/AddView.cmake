@@ -5,6 +5,7 @@ file(GLOB viewSources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Tools/View/*.cpp"
 list(FILTER viewSources EXCLUDE REGEX "/(view|Server)\\.cpp$")
 add_library(PendularView STATIC ${viewSources})
 target_link_libraries(PendularView PUBLIC Pendular::Kernel)
+target_include_directories(PendularView SYSTEM PUBLIC "${JSON_INCLUDE_FOLDER}")
 add_warnings(PendularView)
 precompile_headers(PendularView PendularKernel)
 

@@ -96,6 +96,7 @@ Reply Api::change(const Request& request) {
     const Json wish = Json::parse(request.body, nullptr, false);
     if (!wish.is_object()) return sentence(400, "The content is no JSON object.");
     if (request.path == "/api/start") return json({{"id", queue.start(wish)}});
+    if (request.path == "/api/check") return queue.check(wish), json({{"told", "It can start."}});
     if (request.path == "/api/resume") return queue.resume(wish), json({{"told", "It goes on."}});
     if (request.path == "/api/stop") {
         if (!wish.contains("id") || !wish["id"].is_string())
@@ -129,23 +130,28 @@ Reply Api::frame(const Request& request, const RunFiles& run) {
         return {200, "application/json",
                 describeRow(frames[number].file, request.asked("of") == "contacts", wholeOf(request, "row"))};
     const FrameWish wish{request.asked("field"), request.asked("contacts") == "1",
-                         request.asked("bridges") != "0", originOf(request.asked("origin"))};
+                         request.asked("bridges") != "0", request.asked("orRadius") == "1",
+                         originOf(request.asked("origin"))};
     return {200, "application/octet-stream", packFrame(frames[number].file, wish)};
 }
 
 void Api::addQueue(Json& overview, const RunFiles& run) {
-    const std::string state = queue.stateOf(run.id), told = overview["state"];
-    if (state == "waiting") overview["state"] = "waiting";
-    if (state == "running" && told != "preparing") overview["state"] = "running";
+    const auto [state, reason] = queue.stateOf(run.id);
+    const std::string told = overview["state"];
+    const bool isUnderWay = state == "waiting" || (state == "running" && told != "preparing");
+    const bool isOver = told == "silent" && (state == "ended" || state == "stopped");
+    if (isUnderWay || isOver) overview["state"] = state, overview["reason"] = "";
     if (state != "failed" || told == "failed") return;
     overview["state"] = "failed";
-    overview["reason"] = lastSentenceOf(run);
+    overview["reason"] = reason.empty() ? errorOf(run) : reason;
+    overview["healthy"] = false;
 }
 
 Reply Api::list() {
     std::vector<Json> all;
+    const Locks locks;
     for (const RunFiles& run : runs.list()) {
-        all.push_back(overview(run));
+        all.push_back(overview(run, locks));
         addQueue(all.back(), run);
     }
     std::stable_sort(all.begin(), all.end(), [](const Json& a, const Json& b) {

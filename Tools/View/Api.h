@@ -15,11 +15,12 @@ namespace pendular::view {
 ///
 /// GET   api/runs                        overviews (RunState.h), newest first
 ///       api/run?id=                     details
-///       api/frame?id=&frame=&field=&bridges=&contacts=&origin=x,y,z    a frame (FramePack.h)
+///       api/frame?id=&frame=&field=&orRadius=&bridges=&contacts=&origin=x,y,z
+///                                       a frame (FramePack.h)
 ///       api/row?id=&frame=&of=grains|contacts&row=                     fields of a grain or a contact
 ///       api/table?id=&name=&from=       rows of a table
 ///       api/drivers                     descriptions of the drivers' options
-/// POST  api/start, api/stop, api/resume (RunQueue.h)
+/// POST  api/start, api/check, api/stop, api/resume (RunQueue.h)
 class Api {
 public:
     struct Places {

@@ -20,6 +20,7 @@ using Json = DriverOptions::Json;
 namespace {
 
 constexpr std::size_t longestValue = 500;
+constexpr std::chrono::seconds pause(5);  // before a driver that has not said its options is asked again
 
 bool isName(const std::string& word) {
     return !word.empty() && word.size() < 100 && std::all_of(word.begin(), word.end(), [](unsigned char c) {
@@ -108,11 +109,15 @@ fs::path DriverOptions::program(const std::string& driver) const {
 const Json& DriverOptions::describe(const std::string& driver) {
     const fs::path path = program(driver);
     const auto written = fs::last_write_time(path);
-    const auto found = known.find(driver);
-    if (found != known.end() && found->second.written == written) return found->second.description;
+    const auto found = known.find(driver), end = known.end();
+    const auto now = std::chrono::steady_clock::now();
+    if (found != end && found->second.written == written &&
+        (!found->second.description.is_null() || now - found->second.asked < pause))
+        return found->second.description;
     const Json told = Json::parse(outputOf(path, {"--describe-options"}), nullptr, false);
     const bool isWhole = told.is_object() && told.contains("options") && told["options"].is_array();
-    return (known[driver] = {written, isWhole ? told : Json(nullptr)}).description;
+    return (known[driver] = {written, std::chrono::steady_clock::now(), isWhole ? told : Json(nullptr)})
+        .description;
 }
 
 Json DriverOptions::all() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -32,7 +33,8 @@ private:
 
     struct Known {
         std::filesystem::file_time_type written;
-        Json description;
+        std::chrono::steady_clock::time_point asked;
+        Json description;  // null: it has not said its options; it may yet
     };
     std::filesystem::path folder;
     std::mutex mutex;

@@ -219,6 +219,12 @@ std::vector<float> grainColumn(const PolyData& grains, const Vector<double>& ori
     return column;
 }
 
+/// The wished field, or, where the frame has none of the name and that is allowed, the radius.
+std::string fieldOf(const FrameWish& wish, const PolyData& grains) {
+    const bool isThere = grains.pointField(wish.field.substr(0, wish.field.rfind('.'))) != nullptr;
+    return wish.field.empty() || (wish.orRadius && !isThere) ? "radius_m" : wish.field;
+}
+
 std::vector<float> valueColumn(const PolyData& grains, const std::string& wanted) {
     const Part part = partOf(grains, wanted);
     std::vector<float> column(part.rows());
@@ -267,12 +273,14 @@ std::string packFrame(const std::filesystem::path& file, const FrameWish& wish) 
               {"low", list(limits.low - origin)},
               {"high", list(limits.high - origin)},
               {"fields", describeFields(frame.grains)}};
+    const std::string field = fieldOf(wish, frame.grains);
+    head["field"] = field;
     const auto rows = rowsByIdentity(frame.grains);
     std::vector<bool> isShape(frame.grains.points.size());
     Columns columns;
     columns.add("shapes", shapeColumn(shapes, rows, origin, isShape));
     columns.add("grains", grainColumn(frame.grains, origin, isShape));
-    columns.add("value", valueColumn(frame.grains, wish.field.empty() ? "radius_m" : wish.field));
+    columns.add("value", valueColumn(frame.grains, field));
     columns.add("walls", wallColumn(frame.walls, origin));
     if (wish.bridges) columns.add("bridges", bridgeColumn(frame, rows, origin));
     if (wish.contacts) columns.add("contacts", contactColumn(frame.contacts, origin));

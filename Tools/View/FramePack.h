@@ -24,6 +24,7 @@ std::vector<FrameEntry> framesOf(const RunFiles& run);
 struct FrameWish {
     std::string field;  // that colours the grains; "velocity_m_per_s.z" is a part
     bool contacts = false, bridges = true;
+    bool orRadius = false;                 // by the radius where there is no such field
     std::optional<Vector<double>> origin;  // m; nothing: the middle of this frame's grains
 };
 

@@ -29,13 +29,28 @@ std::string withoutPort(const std::string& host) {
     return host.substr(0, colon);
 }
 
+/// Names of hosts are the same in capitals.
+std::string lowered(std::string name) {
+    for (char& c : name)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return name;
+}
+
+/// Leads on to the page. A redirection would still count as asked for by the page that led here, a file or a
+/// message, and the browser would keep back a cookie that is SameSite=Strict.
+constexpr const char* leadsOn =
+    "<!doctype html><html lang=\"en\"><meta http-equiv=\"refresh\" content=\"0; url=.\">"
+    "<link rel=\"icon\" href=\"data:,\"><title>Pendular</title><a href=\".\">To the runs</a></html>\n";
+
 }  // namespace
 
-Gate::Gate(std::string secret, std::set<std::string> names, std::string cookieName)
-    : token(std::move(secret)), cookie(std::move(cookieName)), hosts(std::move(names)) {}
+Gate::Gate(std::string secret, const std::set<std::string>& names, std::string cookieName)
+    : token(std::move(secret)), cookie(std::move(cookieName)) {
+    for (const std::string& name : names) hosts.insert(lowered(name));
+}
 
 bool Gate::isKnownHost(const std::string& host) const {
-    return host.size() < 256 && hosts.contains(withoutPort(host));
+    return host.size() < 256 && hosts.contains(lowered(withoutPort(host)));
 }
 
 std::optional<Reply> Gate::refuseChange(const Request& request) const {
@@ -56,11 +71,10 @@ std::optional<Reply> Gate::answer(const Request& request) const {
         return sentence(403, "The server is not known by this name: start it with --host-name NAME.");
     if (request.method == "GET" && isSame(request.asked("token"), token))
         return Reply{
-            303,
-            "text/plain",
-            "",
-            {{"Location", "."},
-             {"Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", cookie, token)}}};
+            200,
+            "text/html; charset=utf-8",
+            leadsOn,
+            {{"Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", cookie, token)}}};
     if (!isSame(request.cookie, token))
         return sentence(403, "Open the address that the program view has printed; it has the token.");
     if (request.method == "POST") return refuseChange(request);

@@ -16,7 +16,7 @@ public:
     /// @param token that the printed address has; it moves into a cookie
     /// @param hosts names by which the server may be asked, without the port
     /// @param cookie its name
-    Gate(std::string token, std::set<std::string> hosts, std::string cookie);
+    Gate(std::string token, const std::set<std::string>& hosts, std::string cookie);
 
     static constexpr std::size_t longestBody = 65536;  // bytes
 

@@ -106,22 +106,24 @@ std::optional<RunFiles> RunFolder::find(const std::string& id) const {
     return {};
 }
 
-pid_t holderOf(const fs::path& lock) {
-    struct stat file {};
-    if (lstat(lock.c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return 0;
+Locks::Locks() {
     // Lines as "1: FLOCK  ADVISORY  WRITE 1234 08:01:5678 0 EOF" (proc(5)).
     std::ifstream locks("/proc/locks");
     for (std::string line; std::getline(locks, line);) {
-        unsigned long long inode = 0;
-        unsigned major = 0, minor = 0;
-        int process = 0;
-        if (std::sscanf(line.c_str(), "%*d: FLOCK %*s %*s %d %x:%x:%llu", &process, &major, &minor, &inode) !=
-            4)
-            continue;
-        if (inode == file.st_ino && major == gnu_dev_major(file.st_dev) &&
-            minor == gnu_dev_minor(file.st_dev))
-            return process;
+        Lock lock;
+        if (std::sscanf(line.c_str(), "%*d: FLOCK %*s %*s %d %x:%x:%llu", &lock.process, &lock.major,
+                        &lock.minor, &lock.inode) == 4)
+            all.push_back(lock);
     }
+}
+
+pid_t Locks::holderOf(const fs::path& lock) const {
+    struct stat file {};
+    if (lstat(lock.c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return 0;
+    for (const Lock& held : all)
+        if (held.inode == file.st_ino && held.major == gnu_dev_major(file.st_dev) &&
+            held.minor == gnu_dev_minor(file.st_dev))
+            return held.process;
     return 0;
 }
 

@@ -13,7 +13,7 @@ namespace pendular::view {
 /// In the folder of a run that was started from the page: what with.
 inline constexpr std::string_view startFile = "view-start.json";
 
-/// The files of a run: those whose names begin with `beginning` (its setName()), in a folder beneath the
+/// The files of a run: those whose names begin with `name` (its setName()), in a folder beneath the
 /// root.
 struct RunFiles {
     std::string id;  // from the root: "RotatingDrum-output/run"
@@ -52,7 +52,20 @@ private:
 /// Whether the path is a regular file, and no link.
 bool isOwnFile(const std::filesystem::path& path);
 
-/// The process that has a lock (Kernel/Files/FileLock.h), seen without touching the lock; 0: none.
-pid_t holderOf(const std::filesystem::path& lock);
+/// The locks that processes of this machine have now.
+class Locks {
+public:
+    Locks();
+    /// The process that has a lock (Kernel/Files/FileLock.h), seen without touching the lock; 0: none.
+    [[nodiscard]] pid_t holderOf(const std::filesystem::path& lock) const;
+
+private:
+    struct Lock {
+        unsigned long long inode = 0;
+        unsigned major = 0, minor = 0;  // of the device
+        int process = 0;
+    };
+    std::vector<Lock> all;
+};
 
 }  // namespace pendular::view

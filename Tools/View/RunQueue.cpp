@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <utility>
 
@@ -38,6 +39,18 @@ void writeStart(const fs::path& folder, const std::string& driver, const RunQueu
         throw InputError(fmt::format("view: no files can be written into {}.", folder.string()));
 }
 
+/// @param status as waitpid() tells it
+RunQueue::Outcome outcomeOf(int status) {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) return {"stopped", ""};
+    if (WIFSIGNALED(status))
+        return {"failed", fmt::format("it was ended by the signal {} ({})", WTERMSIG(status),
+                                      strsignal(WTERMSIG(status)))};
+    const int code = WEXITSTATUS(status);
+    if (code == 0) return {"ended", ""};
+    if (code == 128 + SIGTERM) return {"stopped", ""};
+    return {"failed", code == 1 ? "" : fmt::format("it ended with the exit code {}", code)};
+}
+
 std::vector<std::string> withFolder(std::vector<std::string> words, const fs::path& folder) {
     words.push_back("--output=" + folder.string());
     return words;
@@ -45,7 +58,7 @@ std::vector<std::string> withFolder(std::vector<std::string> words, const fs::pa
 
 }  // namespace
 
-fs::path RunQueue::newFolder(const std::string& driver, const std::string& wished) const {
+fs::path RunQueue::freeFolder(const std::string& driver, const std::string& wished) const {
     const auto isPlain = [](unsigned char c) {
         return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '=';
     };
@@ -57,15 +70,19 @@ fs::path RunQueue::newFolder(const std::string& driver, const std::string& wishe
     for (int k = 1; wished.empty() && (folder == runs.root() / wished || fs::exists(folder)); ++k)
         folder = runs.root() / fmt::format("{}-{}", driver, k);
     std::error_code problem;
-    if (!fs::create_directory(folder, problem))
-        throw InputError(fmt::format(
-            "The folder {} {}.", folder.filename().string(),
-            problem ? "cannot be made: " + problem.message() : "is there already; give another name"));
+    if (fs::exists(fs::symlink_status(folder, problem)))
+        throw InputError(
+            fmt::format("The folder {} is there already; give another name.", folder.filename().string()));
     return folder;
 }
 
+void RunQueue::check(const Json& wish) {
+    static_cast<void>(drivers.commandLine(textOf(wish, "driver"), optionsOf(wish)));
+    static_cast<void>(freeFolder(textOf(wish, "driver"), textOf(wish, "name")));
+}
+
 void RunQueue::add(Job job) {
-    failed.erase(job.id);
+    outcomes.erase(job.id);
     queue.push_back(std::move(job));
 }
 
@@ -76,7 +93,11 @@ std::string RunQueue::start(const Json& wish) {
     const std::scoped_lock one(mutex);
     if (queue.size() >= mostWaiting)
         throw InputError(fmt::format("{} runs wait already; that is the most.", queue.size()));
-    const fs::path folder = newFolder(driver, name);
+    const fs::path folder = freeFolder(driver, name);
+    std::error_code problem;
+    if (!fs::create_directory(folder, problem))
+        throw InputError(
+            fmt::format("The folder {} cannot be made: {}.", folder.filename().string(), problem.message()));
     writeStart(folder, driver, options);
     const std::string id = (folder.filename() / "run").string();
     add({id, driver, folder, withFolder(std::move(words), folder)});
@@ -92,8 +113,9 @@ void RunQueue::stop(const std::string& id) {
             return;
         }
     const auto run = runs.find(id);  // not started by this server
-    pid_t holder = run ? holderOf(run->file(".pendular-lock")) : 0;
-    if (run && holder == 0) holder = holderOf(run->preparationFile(".pendular-lock"));
+    const Locks locks;
+    pid_t holder = run ? locks.holderOf(run->file(".pendular-lock")) : 0;
+    if (run && holder == 0) holder = locks.holderOf(run->preparationFile(".pendular-lock"));
     if (holder <= 1 || kill(holder, SIGTERM) != 0) throw InputError("This run is not under way.");
 }
 
@@ -104,7 +126,7 @@ void RunQueue::resume(const Json& wish) {
     if (before.is_null())
         throw InputError(
             "Only a run that was started from this page can go on from it: its options are not known.");
-    if (holderOf(run->file(".pendular-lock")) != 0) throw InputError("This run is under way.");
+    if (Locks().holderOf(run->file(".pendular-lock")) != 0) throw InputError("This run is under way.");
     Json options = before["options"];
     const Json others = optionsOf(wish);
     options.update(others);
@@ -120,13 +142,14 @@ void RunQueue::resume(const Json& wish) {
     add({id, driver, run->folder, std::move(words)});
 }
 
-std::string RunQueue::stateOf(const std::string& id) {
+RunQueue::Outcome RunQueue::stateOf(const std::string& id) {
     const std::scoped_lock one(mutex);
     const auto isThis = [&](const Job& job) { return job.id == id; };
-    if (std::any_of(queue.begin(), queue.end(), isThis)) return "waiting";
+    if (std::any_of(queue.begin(), queue.end(), isThis)) return {"waiting", ""};
     if (std::any_of(running.begin(), running.end(), [&](const auto& r) { return isThis(r.second); }))
-        return "running";
-    return failed.contains(id) ? "failed" : "";
+        return {"running", ""};
+    const auto over = outcomes.find(id);
+    return over == outcomes.end() ? Outcome{} : over->second;
 }
 
 void RunQueue::startNext() {
@@ -135,8 +158,8 @@ void RunQueue::startNext() {
     try {
         const pid_t process = startProcess(drivers.program(job.driver), job.arguments, logFileOf(job.folder));
         running.emplace(process, std::move(job));
-    } catch (const InputError&) {
-        failed.insert(job.id);
+    } catch (const InputError& problem) {
+        outcomes[job.id] = {"failed", problem.what()};
     }
 }
 
@@ -148,8 +171,7 @@ void RunQueue::tend() {
             ++run;
             continue;
         }
-        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-        if (code != 0 && code != 128 + SIGTERM) failed.insert(run->second.id);
+        outcomes[run->second.id] = outcomeOf(status);
         run = running.erase(run);
     }
     while (!queue.empty() && running.size() < atOnce) startNext();

@@ -5,7 +5,6 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -28,13 +27,19 @@ public:
     /// Puts a run into the queue; returns its id. Throws InputError.
     /// @param wish {"driver", "name" of its folder (empty: the driver's with a number), "options"}
     std::string start(const Json& wish);
+    /// Whether such a run could be put into the queue. Throws InputError where not; makes nothing.
+    void check(const Json& wish);
     /// Asks a run to stop after its step, with a restart file. One that waits is taken from the queue.
     void stop(const std::string& id);
     /// Goes on with a run from its restart file. Throws InputError.
     /// @param wish {"id", "options" that are to be others than before}
     void resume(const Json& wish);
-    /// "waiting", "running", "failed" (it ended with an error), or empty: of another time, or ended.
-    [[nodiscard]] std::string stateOf(const std::string& id);
+    /// How a run is that this server has started, or was to start.
+    struct Outcome {
+        std::string state;   // "waiting", "running", "ended", "stopped", "failed"; empty: not of this server
+        std::string reason;  // why it failed; empty: as it has said itself
+    };
+    [[nodiscard]] Outcome stateOf(const std::string& id);
     /// Looks after runs that have ended and starts the next; to be called a few times a second.
     void tend();
 
@@ -44,7 +49,9 @@ private:
         std::filesystem::path folder;
         std::vector<std::string> arguments;
     };
-    [[nodiscard]] std::filesystem::path newFolder(const std::string& driver, const std::string& wished) const;
+    /// A folder that there is not yet. Throws InputError.
+    [[nodiscard]] std::filesystem::path freeFolder(const std::string& driver,
+                                                   const std::string& wished) const;
     void add(Job job);
     void startNext();
 
@@ -54,7 +61,7 @@ private:
     std::mutex mutex;
     std::deque<Job> queue;
     std::map<pid_t, Job> running;
-    std::set<std::string> failed;  // ids
+    std::map<std::string, Outcome> outcomes;  // by id, of those that are over
 };
 
 }  // namespace pendular::view

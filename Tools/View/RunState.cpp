@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -54,11 +56,11 @@ struct State {
     std::optional<SummaryFile> summary{};
 };
 
-State stateOf(const RunFiles& run) {
-    const bool runs = holderOf(run.file(".pendular-lock")) != 0;
+State stateOf(const RunFiles& run, const Locks& locks) {
+    const bool runs = locks.holderOf(run.file(".pendular-lock")) != 0;
     State state{"", "", false, summaryOf(run.file(SummaryFile::ending))};
     const auto preparation = summaryOf(run.preparationFile(SummaryFile::ending));
-    const bool prepares = run.name == "run" && holderOf(run.preparationFile(".pendular-lock")) != 0;
+    const bool prepares = run.name == "run" && locks.holderOf(run.preparationFile(".pendular-lock")) != 0;
     if (prepares || (!state.summary && preparation && run.name == "run"))
         state.isPreparation = true, state.summary = preparation;
     const std::string told = valueOf(state.summary, "state");
@@ -68,19 +70,52 @@ State stateOf(const RunFiles& run) {
     else if (told == "stopped by an error") state.word = "failed";
     else if (told == "asked to stop") state.word = "stopped";
     else if (told == "at its end") state.word = state.isPreparation ? "stopped" : "ended";
+    else if (locks.holderOf(run.folder / ".pendular-lock") != 0) state.word = "running";  // it begins
     else state.word = "silent";
     if (state.word == "silent")
         state.reason = "it has said nothing of its end: it was killed, or runs on another machine";
     return state;
 }
 
-/// Bytes of the files beside each other whose names begin as the run's.
-std::uintmax_t bytesOf(const RunFiles& run) {
-    std::uintmax_t sum = 0;
-    std::error_code problem;
-    for (const auto& entry : fs::directory_iterator(run.folder, problem))
-        if (isOwnFile(entry.path())) sum += entry.file_size(problem);
-    return sum;
+/// Bytes of the files in a folder. It is counted again where a file has come or gone, or a run may write, but
+/// then for a twentieth of the time at most: there may be a hundred thousand frames.
+class FolderSizes {
+public:
+    std::uintmax_t of(const fs::path& folder, bool isWritten) {
+        const std::scoped_lock one(mutex);
+        Known& known = all[folder];
+        std::error_code problem;
+        const auto changed = fs::last_write_time(folder, problem);
+        if ((changed == known.changed && !isWritten) || Clock::now() < known.next) return known.bytes;
+        const auto begin = Clock::now();
+        known = {changed, begin, count(folder)};
+        const auto end = Clock::now();
+        known.next = end + std::max<Clock::duration>(20 * (end - begin), std::chrono::milliseconds(500));
+        return known.bytes;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    struct Known {
+        fs::file_time_type changed = fs::file_time_type::min();
+        Clock::time_point next = Clock::time_point::min();
+        std::uintmax_t bytes = 0;
+    };
+    static std::uintmax_t count(const fs::path& folder) {
+        std::uintmax_t sum = 0;
+        std::error_code problem;
+        for (const auto& entry : fs::directory_iterator(folder, problem))
+            if (isOwnFile(entry.path())) sum += entry.file_size(problem);
+        return sum;
+    }
+
+    std::mutex mutex;
+    std::map<fs::path, Known> all;
+};
+
+std::uintmax_t bytesOf(const RunFiles& run, bool isWritten) {
+    static FolderSizes sizes;
+    return sizes.of(run.folder, isWritten);
 }
 
 double changedAt(const fs::path& file) {
@@ -99,8 +134,8 @@ Json overviewOf(const RunFiles& run, const State& state) {
             {"time", numberOf(state.summary, "time")},
             {"endTime", numberOf(state.summary, "end time")},
             {"grains", numberOf(state.summary, "grains")},
-            {"healthy", state.summary ? state.summary->complaints().empty() : true},
-            {"bytes", bytesOf(run)},
+            {"healthy", state.summary ? Json(state.summary->complaints().empty()) : Json(nullptr)},
+            {"bytes", bytesOf(run, state.word == "running" || state.word == "preparing")},
             {"changed", changedAt(state.isPreparation ? run.preparationFile(SummaryFile::ending)
                                                       : run.file(SummaryFile::ending))}};
 }
@@ -167,16 +202,18 @@ Json startOf(const RunFiles& run) {
     return isWhole ? start : Json(nullptr);
 }
 
-std::string lastSentenceOf(const RunFiles& run) {
-    std::string log = endOfLog(run);
-    while (log.ends_with('\n')) log.pop_back();
-    return log.substr(log.rfind('\n') + 1);
+std::string errorOf(const RunFiles& run) {
+    std::istringstream lines(endOfLog(run));
+    std::string found;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("Error: ") || line.ends_with("; see --help")) found = line;
+    return found.empty() ? "it ended with an error, and has not said which" : found;
 }
 
-Json overview(const RunFiles& run) { return overviewOf(run, stateOf(run)); }
+Json overview(const RunFiles& run, const Locks& locks) { return overviewOf(run, stateOf(run, locks)); }
 
 Json details(const RunFiles& run) {
-    const State state = stateOf(run);
+    const State state = stateOf(run, Locks());
     Json all = overviewOf(run, state);
     all["rows"] = all["complaints"] = all["frames"] = Json::array();
     if (state.summary) {
@@ -191,6 +228,7 @@ Json details(const RunFiles& run) {
     } catch (const InputError& problem) {
         all["frameProblem"] = problem.what();
     }
+    all["stateWritten"] = changedAt(run.file("-restart.h5"));
     all["tables"] = tablesOf(run);
     all["log"] = endOfLog(run);
     all["start"] = startOf(run);

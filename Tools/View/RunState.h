@@ -8,12 +8,13 @@
 namespace pendular::view {
 
 /// How a run is, in a few words for the list of runs, from its summary and its lock: id, state ("preparing",
-/// "running", "ended", "stopped", "failed", "silent"), reason, time and endTime (s), healthy, grains, bytes
-/// on the disk, changed (s since 1970, of the summary), driver.
-nlohmann::ordered_json overview(const RunFiles& run);
+/// "running", "ended", "stopped", "failed", "silent"), reason, time and endTime (s), healthy (null: nothing
+/// is known of it yet), grains, bytes of its folder, changed (s since 1970, of the summary), driver.
+nlohmann::ordered_json overview(const RunFiles& run, const Locks& locks);
 
 /// All that the page of a run needs but frames and tables themselves: the overview, the rows of the summary,
-/// what is wrong, times of the frames, names of the tables, the end of the log, the options of its start.
+/// what is wrong, times of the frames, when the restart file was written (s since 1970; 0: there is none),
+/// names of the tables, the end of the log, the options of its start.
 nlohmann::ordered_json details(const RunFiles& run);
 
 /// Rows of a table of the run from a place in the file (bytes) on: columns, rows (null: no number), next (the
@@ -25,7 +26,7 @@ std::string tableRows(const RunFiles& run, const std::string& table, std::uintma
 nlohmann::ordered_json startOf(const RunFiles& run);
 /// Where what a run prints goes that was started from the page.
 std::filesystem::path logFileOf(const std::filesystem::path& folder);
-/// The last line of that: of a run that could not begin, why.
-std::string lastSentenceOf(const RunFiles& run);
+/// The last error in that, as runProgram() and the command line print it: of a run that could not begin, why.
+std::string errorOf(const RunFiles& run);
 
 }  // namespace pendular::view

@@ -9,8 +9,9 @@
 namespace pendular::view {
 
 /// Takes requests by HTTP and has them answered. A connection is closed after one answer. One that has not
-/// sent its request in `patience` is cut off, however it goes on sending; a request has at most 16 kB of head
-/// and 64 kB of content; there are at most 200 connections, others wait.
+/// sent its request in `patience` is cut off, however it goes on sending; who takes nothing of an answer for
+/// 120 s as well; a request has at most 16 kB of head and 64 kB of content; there are at most 200
+/// connections, others wait.
 class Server {
 public:
     static constexpr int patience = 10;  // s

@@ -5,6 +5,7 @@
 
 #include <malloc.h>
 
+#include <cctype>
 #include <csignal>
 #include <ctime>
 
@@ -36,14 +37,16 @@ void describe(CLI::App& app, Options& o) {
     app.add_option("--port", o.port, "0: any that is free");
     app.add_option(
         "--listen", o.listen,
-        "address to listen at. With another one than 127.0.0.1, others in the network can read all that "
-        "is sent: take ssh -L instead");
+        "address to listen at. Any 127.x.y.z is of this machine alone; with another one, others in the "
+        "network can read all that is sent: take ssh -L instead");
     app.add_option("--host-name", o.hosts,
                    "name by which a browser may ask besides localhost, as that of a proxy (Open OnDemand, "
                    "JupyterHub)")
         ->allow_extra_args(false);
-    app.add_option("--frame-of", o.frameOf,
-                   "page that may show this one in a frame, as http://localhost:8888 of a notebook");
+    app.add_option(
+        "--frame-of", o.frameOf,
+        "page that may show this one in a frame, as http://localhost:8888 of a notebook. Both must "
+        "be asked for by the same host name, or browsers keep the cookie back");
     app.add_option("--at-once", o.atOnce, "runs that are started from the page and compute at once");
     app.add_option("--drivers", o.drivers, "folder of the drivers");
     app.add_option("--page", o.page, "folder of the built page");
@@ -57,6 +60,23 @@ void check(const Options& o) {
             fmt::format("view: the page has not been built into {}; Tools/view.sh does that.", o.page));
     if (o.frameOf.find_first_of(" ;,'\"\n") != std::string::npos)
         throw InputError("view: --frame-of must be one address, as http://localhost:8888.");
+}
+
+/// "http://localhost:8888/lab": "localhost".
+std::string hostOf(const std::string& address) {
+    const std::size_t slashes = address.find("://"), begin = slashes == address.npos ? 0 : slashes + 3;
+    return address.substr(begin, address.find_first_of(":/", begin) - begin);
+}
+
+/// The name in the printed address. In a frame it must be that of the page around it: a cookie that is
+/// SameSite=Strict is not sent to 127.0.0.1 from a page of localhost.
+std::string printedHost(const Options& o) {
+    if (!o.frameOf.empty()) {
+        std::string around = hostOf(o.frameOf);
+        for (char& c : around) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return around;
+    }
+    return o.listen == "0.0.0.0" ? "localhost" : o.listen;
 }
 
 /// Until Ctrl-C or SIGTERM.
@@ -84,7 +104,7 @@ int run(const Options& o) {
     sigemptyset(&ends), sigaddset(&ends, SIGINT), sigaddset(&ends, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &ends, nullptr);
     const RunFolder runs(o.folder);
-    std::set<std::string> hosts{"localhost", "127.0.0.1", "[::1]"};
+    std::set<std::string> hosts{"localhost", "127.0.0.1", "[::1]", o.listen};
     hosts.insert(o.hosts.begin(), o.hosts.end());
     const std::string token = newToken(), cookie = "pendular-" + token.substr(0, 8);
     Api api({token, hosts, cookie}, runs,
@@ -94,7 +114,7 @@ int run(const Options& o) {
     fmt::print(
         "Runs in {}. Open this address in a browser; Ctrl-C ends the server, not the runs.\n"
         "http://{}:{}/?token={}\n",
-        runs.root().string(), o.listen == "0.0.0.0" ? "localhost" : o.listen, server.port(), token);
+        runs.root().string(), printedHost(o), server.port(), token);
     std::fflush(stdout);
     serve(api, server, ends);
     return 0;

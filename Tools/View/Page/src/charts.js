@@ -108,7 +108,8 @@ export class TableChart {
 
     #draw() {
         if (this.isOver) return;
-        this.chart.data.datasets = [...this.shown].sort((a, b) => a - b).map((k) => ({ label: this.table.columns[k], data: this.table.points(k), borderColor: palette[(k - 1) % palette.length], backgroundColor: palette[(k - 1) % palette.length] }));
+        const columns = [...this.shown].sort((a, b) => a - b);
+        this.chart.data.datasets = columns.map((k) => line(this.table.columns[k], this.table.points(k), k - 1));
         this.chart.update("none");
     }
 }
@@ -136,4 +137,8 @@ export class Charts {
     }
 }
 
-export const colourOf = (k) => palette[k % palette.length];
+/** A line of a chart in the k-th colour. */
+export function line(label, data, k) {
+    const colour = palette[k % palette.length];
+    return { label, data, borderColor: colour, backgroundColor: colour };
+}

@@ -1,5 +1,5 @@
 import { get } from "./api.js";
-import { colourOf, lineChart, Table } from "./charts.js";
+import { line, lineChart, Table } from "./charts.js";
 import { make, tell } from "./text.js";
 import { Viewer } from "./viewer.js";
 
@@ -24,7 +24,7 @@ export function showCompare(page, ids) {
             const runs = await Promise.all(ids.map((id) => get("run", { id })));
             if (isOver) return;
             showDifferences(differences, runs);
-            viewers.forEach((viewer, k) => viewer.setTimes(runs[k].frames));
+            viewers.forEach((viewer, k) => viewer.setTimes(runs[k].frames, runs[k].stateWritten));
             await chart.refresh(runs);
         } catch (problem) {
             tell(problem.message);
@@ -37,7 +37,11 @@ export function showCompare(page, ids) {
 
 /** Options of the start, where both have them; else the rows of the summary that tell of the scene. */
 function showDifferences(table, runs) {
-    const facts = runs.map((run) => new Map(run.start ? Object.entries({ driver: run.start.driver, ...run.start.options }) : run.rows.filter(([name]) => /^(species|grains|time step|gravity|walls|end time)/.test(name)).map(([name, value, unit]) => [name, `${value} ${unit}`])));
+    const ofScene = /^(species|grains|time step|gravity|walls|end time)/;
+    const facts = runs.map(({ start, rows }) => {
+        if (start) return new Map(Object.entries({ driver: start.driver, ...start.options }));
+        return new Map(rows.filter(([name]) => ofScene.test(name)).map(([name, value, unit]) => [name, `${value} ${unit}`]));
+    });
     const names = [...new Set(facts.flatMap((fact) => [...fact.keys()]))].filter((name) => new Set(facts.map((fact) => fact.get(name))).size > 1);
     const head = make("tr", {}, make("th", { scope: "col" }, "option"), ...runs.map(({ id }) => make("th", { scope: "col" }, id)));
     table.replaceChildren(head, ...names.map((name) => make("tr", {}, make("th", { scope: "row" }, name), ...facts.map((fact) => make("td", {}, fact.get(name) ?? "default")))));
@@ -58,8 +62,9 @@ class ComparedTables {
         this.runs = runs;
         const common = runs[0].tables.filter((name) => runs.every(({ tables }) => tables.includes(name)));
         keepChoice(this.table, common);
-        const options = [...new Set(runs.flatMap(({ start }) => Object.keys(start?.options ?? {})))].filter((name) => runs.every(({ start }) => Number.isFinite(Number(start?.options[name]))));
-        keepChoice(this.option, options);
+        const options = new Set(runs.flatMap(({ start }) => Object.keys(start?.options ?? {})));
+        const isNumber = (name) => runs.every(({ start }) => Number.isFinite(Number(start?.options[name])));
+        keepChoice(this.option, [...options].filter(isNumber));
         for (const name of common)
             if (!this.tables.has(name)) this.tables.set(name, this.ids.map((id) => new Table(id, name)));
         if (this.table.value) await Promise.all(this.tables.get(this.table.value).map((table) => table.grow()));
@@ -77,7 +82,7 @@ class ComparedTables {
         keepChoice(this.column, tables[0].columns.slice(1));
         const column = this.column.selectedIndex + 1;
         this.chart ??= lineChart(this.canvas, { x: tables[0].columns[0] });
-        this.chart.data.datasets = tables.map((table, k) => ({ label: this.ids[k], data: table.points(column), borderColor: colourOf(k), backgroundColor: colourOf(k) }));
+        this.chart.data.datasets = tables.map((table, k) => line(this.ids[k], table.points(column), k));
         this.chart.update("none");
         if (this.option.value) this.#drawStudy(tables, column);
     }
@@ -86,7 +91,8 @@ class ComparedTables {
         this.study ??= lineChart(this.studyCanvas, { x: this.option.value, points: true });
         const points = tables.map((table, k) => ({ x: Number(this.runs[k].start.options[this.option.value]), y: meanOfLastHalf(table.points(column)) }));
         this.study.options.scales.x.title.text = this.option.value;
-        this.study.data.datasets = [{ label: this.column.value, data: points.filter(({ y }) => Number.isFinite(y)).sort((a, b) => a.x - b.x), borderColor: colourOf(0), backgroundColor: colourOf(0) }];
+        const shown = points.filter(({ y }) => Number.isFinite(y)).sort((a, b) => a.x - b.x);
+        this.study.data.datasets = [line(this.column.value, shown, 0)];
         this.study.update("none");
     }
 }

@@ -19,8 +19,12 @@ function show() {
     else if (word === "start") end = showStart(page);
     else if (word === "compare") end = showCompare(page, rest.split(",").map(decodeURIComponent));
     else end = showRuns(page);
-    document.querySelectorAll("nav a").forEach((link) => link.toggleAttribute("aria-current", link.hash.slice(1) === word));
+    for (const link of document.querySelectorAll("nav a"))
+        if (link.hash.slice(1) === (word || "runs")) link.setAttribute("aria-current", "page");
+        else link.removeAttribute("aria-current");
 }
 
+// No link: the part of the address behind # says which page is shown.
+document.getElementById("skip").addEventListener("click", () => page.focus());
 addEventListener("hashchange", show);
 show();

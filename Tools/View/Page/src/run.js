@@ -1,13 +1,14 @@
 import { get, post } from "./api.js";
 import { Charts } from "./charts.js";
-import { stateLine, timeLeft } from "./runs.js";
-import { bytes, make, number, tell } from "./text.js";
+import { factsOf, stateLine, timeLeft } from "./runs.js";
+import { make, tell, Teller } from "./text.js";
 import { Viewer } from "./viewer.js";
 
 /** The page of one run. Returns what ends it. */
 export function showRun(page, id) {
     const viewer = new Viewer(id), charts = new Charts(id), speeds = new Map();
-    const state = make("div"), facts = make("div", { class: "quiet" }), health = make("div"), log = make("pre", { tabindex: "0" }), rows = make("table"), buttons = make("div", { class: "buttons" });
+    const state = make("div"), facts = make("div", { class: "quiet" }), health = make("div"), rows = make("table");
+    const log = make("pre", { tabindex: "0" }), buttons = make("div", { class: "buttons" });
     const logPart = make("details", {}, make("summary", {}, "What the run has printed"), log);
     page.replaceChildren(make("h2", {}, id),
         make("div", { class: "run" }, make("div", {}, viewer.element),
@@ -18,7 +19,8 @@ export function showRun(page, id) {
     } catch (problem) {
         tell(problem.message);
     }
-    let isOver = false, before = "", buttonsFor = "";
+    const told = new Teller();
+    let isOver = false, before = "", buttonsFor = "", known = null;  // the driver's options
     const act = async (path, wish) => {
         try {
             await post(path, wish);
@@ -32,7 +34,7 @@ export function showRun(page, id) {
         if (now === before) return;
         before = now;
         state.replaceChildren(stateLine(run, timeLeft(speeds, run)));
-        facts.textContent = [run.driver, run.time !== null ? `${number(run.time)} s of ${number(run.endTime)} s` : null, run.grains !== null ? `${run.grains} grains` : null, bytes(run.bytes)].filter(Boolean).join(", ");
+        facts.textContent = factsOf(run);
         health.replaceChildren(...[run.reason, ...run.complaints, run.frameProblem].filter(Boolean).map((text) => make("div", { class: "failed" }, text)));
         rows.replaceChildren(...run.rows.map((cells) => make("tr", {}, ...cells.map((cell) => make("td", {}, cell)))));
         if (buttonsFor !== run.state) showButtons(run);
@@ -41,20 +43,26 @@ export function showRun(page, id) {
     function showButtons(run) {
         if (["running", "preparing", "waiting"].includes(run.state))
             return buttons.replaceChildren(make("button", { click: () => act("stop", { id }) }, "Stop"));
-        buttons.replaceChildren(...(run.start ? resumeForm(run.start.options, (options) => act("resume", { id, options })) : []));
+        buttons.replaceChildren(...(run.start ? resumeForm(run.start, known, (options) => act("resume", { id, options })) : []));
+    }
+    function askOptions(driver) {
+        known = new Set();
+        optionsOf(driver).then((names) => { known = names, before = buttonsFor = ""; }).catch((problem) => tell(problem.message));
     }
     async function refresh() {
         if (isOver) return;
         try {
             const run = await get("run", { id });
             if (isOver) return;
+            if (run.start && !known) askOptions(run.start.driver);
             showState(run);
             log.textContent = run.log;
             logPart.hidden = run.log === "";
-            viewer.setTimes(run.frames);
+            viewer.setTimes(run.frames, run.stateWritten);
             await charts.refresh(run.tables);
+            told.clear();
         } catch (problem) {
-            tell(problem.message);
+            told.say(problem.message);
         }
         if (!isOver) timer = setTimeout(refresh, 1000);
     }
@@ -63,10 +71,19 @@ export function showRun(page, id) {
     return () => { isOver = true; clearTimeout(timer); viewer.end(); charts.end(); };
 }
 
-/** What may be changed where a run goes on: end, intervals, threads. */
-function resumeForm(options, resume) {
+/** The names of a driver's options; none where it is not built here. */
+async function optionsOf(driver) {
+    const described = (await get("drivers")).find((one) => one.driver === driver);
+    return new Set((described?.options ?? []).map(({ name }) => name));
+}
+
+/** What may be changed where a run goes on, if its driver has it: end, intervals, threads. */
+function resumeForm({ options }, known, resume) {
     const changeable = { "--end-time-s": "end (s)", "--paraview-interval-s": "interval of pictures (s)", "--threads": "threads" };
-    const inputs = Object.entries(changeable).map(([name, text]) => [name, make("input", { type: "text", size: 8, value: options[name] ?? "", "aria-label": text, placeholder: text })]);
-    const button = make("button", { click: () => resume(Object.fromEntries(inputs.filter(([, input]) => input.value.trim() !== "").map(([name, input]) => [name, input.value.trim()]))) }, "Go on");
+    const inputs = Object.entries(changeable).filter(([name]) => known.has(name)).map(([name, text]) => {
+        return [name, make("input", { type: "text", size: 8, value: options[name] ?? "", "aria-label": text, placeholder: text })];
+    });
+    const given = () => inputs.map(([name, input]) => [name, input.value.trim()]).filter(([, value]) => value !== "");
+    const button = make("button", { click: () => resume(Object.fromEntries(given())) }, "Go on");
     return [...inputs.map(([, input]) => input), button];
 }

@@ -1,6 +1,6 @@
 import { get, getFrame, post } from "./api.js";
 import { Scene } from "./scene/Scene.js";
-import { bytes, duration, make, number, tell } from "./text.js";
+import { bytes, duration, make, number, tell, Teller } from "./text.js";
 
 const words = { preparing: "makes its first grains", running: "running", ended: "at its end", stopped: "stopped", failed: "failed", silent: "silent", waiting: "waits" };
 const mostGrains = 200000;  // of a run whose picture is drawn here
@@ -17,7 +17,9 @@ class Pictures {
     }
 
     end() {
+        this.isOver = true;
         this.queue = [];
+        this.scene?.end();
         this.canvas.remove();
     }
 
@@ -50,8 +52,9 @@ class Pictures {
     }
 
     async #draw(id, frame) {
-        this.scene ??= new Scene(this.canvas);
         const content = await getFrame({ id, frame, field: "" });
+        if (this.isOver) return null;
+        this.scene ??= new Scene(this.canvas);
         this.scene.show(content);
         const { value } = content;
         this.scene.look.range = [value.reduce((a, b) => Math.min(a, b), Infinity), value.reduce((a, b) => Math.max(a, b), -Infinity)];
@@ -63,7 +66,7 @@ class Pictures {
 
 /** The page with all runs. Returns what ends it. */
 export function showRuns(page) {
-    const list = make("ul", { class: "runs" }), chosen = new Set(), speeds = new Map(), pictures = new Pictures();
+    const list = make("ul", { class: "runs" }), chosen = new Set(), speeds = new Map(), pictures = new Pictures(), told = new Teller();
     const root = make("span", { class: "quiet" });
     const compare = make("button", { disabled: true, click: () => { location.hash = `compare=${[...chosen].map(encodeURIComponent).join(",")}`; } }, "Compare the chosen");
     page.replaceChildren(make("h2", {}, "Runs"), root, make("div", { class: "buttons" }, compare), list);
@@ -79,25 +82,37 @@ export function showRuns(page) {
         } catch (problem) {
             tell(problem.message);
         }
-        refresh();
+        await update();
     };
-    let isOver = false, before = "";
-    async function refresh() {
-        if (isOver) return;
+    const cards = new Map();  // by id: {text, element}; only what has changed is made anew, so that the focus stays
+    let isOver = false, timer = 0;
+    async function update() {
         try {
             const answer = await get("runs");
+            if (isOver) return;
             root.textContent = answer.runs.length > 0 ? `in ${answer.root}` : `There are no runs in ${answer.root} yet.`;
-            const items = answer.runs.map((run) => ({ run, left: timeLeft(speeds, run), picture: pictures.of(run) }));
-            const now = JSON.stringify(items);
-            if (now !== before && !list.contains(document.activeElement)) list.replaceChildren(...items.map((item) => card(item, { chosen, choose, act })));
-            before = list.contains(document.activeElement) ? before : now;
+            showCards(answer.runs.map((run) => ({ run, left: timeLeft(speeds, run), picture: pictures.of(run) })));
+            told.clear();
         } catch (problem) {
-            tell(problem.message);
+            told.say(problem.message);
         }
     }
+    function showCards(items) {
+        const focus = document.activeElement?.getAttribute("data-key");
+        for (const item of items) {
+            const text = JSON.stringify(item), { id } = item.run;
+            if (cards.get(id)?.text !== text) cards.set(id, { text, element: card(item, { chosen, choose, act }) });
+        }
+        const elements = items.map(({ run }) => cards.get(run.id).element);
+        if (elements.length !== list.children.length || elements.some((element, k) => element !== list.children[k])) list.replaceChildren(...elements);
+        if (focus && document.activeElement?.getAttribute("data-key") !== focus) list.querySelector(`[data-key="${CSS.escape(focus)}"]`)?.focus();
+    }
+    async function refresh() {  // the next question comes after the answer
+        await update();
+        if (!isOver) timer = setTimeout(refresh, 2000);
+    }
     refresh();
-    const timer = setInterval(refresh, 2000);
-    return () => { isOver = true; clearInterval(timer); pictures.end(); };
+    return () => { isOver = true; clearTimeout(timer); pictures.end(); };
 }
 
 /** s on the clock, from how far the run came since it was first seen; null: not known. */
@@ -115,18 +130,24 @@ export function stateLine(run, left) {
         left !== null && left !== undefined ? `, ${duration(left)} left` : "");
 }
 
+/** Driver, time, grains and size in one line. */
+export function factsOf({ driver, time, endTime, grains, bytes: size }) {
+    const facts = [driver, time !== null ? `${number(time)} s of ${number(endTime)} s` : null, grains !== null ? `${grains} grains` : null, bytes(size)];
+    return facts.filter(Boolean).join(", ");
+}
+
 function card({ run, left, picture }, { chosen, choose, act }) {
     const isActive = ["running", "preparing", "waiting"].includes(run.state);
     const hasTime = run.time !== null && run.endTime !== null && run.endTime > 0 && run.endTime < 1e300;
-    const box = make("input", { type: "checkbox", checked: chosen.has(run.id), "aria-label": `choose ${run.id}`, change: (event) => choose(run.id, event.target.checked) });
+    const box = make("input", { type: "checkbox", checked: chosen.has(run.id), "aria-label": `choose ${run.id}`, "data-key": `choose ${run.id}`, change: (event) => choose(run.id, event.target.checked) });
     return make("li", { class: "panel" },
-        make("h3", {}, box, make("a", { href: `#run=${encodeURIComponent(run.id)}` }, run.id)),
+        make("h3", {}, box, make("a", { href: `#run=${encodeURIComponent(run.id)}`, "data-key": `show ${run.id}` }, run.id)),
         picture ? make("img", { src: picture, alt: `The grains of ${run.id}, coloured by radius` }) : make("div", { class: "none" }),
         stateLine(run, left),
         run.reason ? make("div", { class: "failed" }, run.reason) : null,
         hasTime ? make("progress", { max: 1, value: Math.min(run.time / run.endTime, 1), "aria-label": "time over the end time" }) : null,
-        make("div", { class: "quiet" }, [run.driver, run.time !== null ? `${number(run.time)} s of ${number(run.endTime)} s` : null, run.grains !== null ? `${run.grains} grains` : null, bytes(run.bytes)].filter(Boolean).join(", ")),
+        make("div", { class: "quiet" }, factsOf(run)),
         make("div", { class: "buttons" },
-            isActive ? make("button", { click: () => act("stop", { id: run.id }), "aria-label": `stop ${run.id}` }, "Stop") : null,
-            !isActive && run.driver ? make("button", { click: () => act("resume", { id: run.id, options: {} }), "aria-label": `go on with ${run.id}` }, "Go on") : null));
+            isActive ? make("button", { click: () => act("stop", { id: run.id }), "aria-label": `stop ${run.id}`, "data-key": `act ${run.id}` }, "Stop") : null,
+            !isActive && run.driver ? make("button", { click: () => act("resume", { id: run.id, options: {} }), "aria-label": `go on with ${run.id}`, "data-key": `act ${run.id}` }, "Go on") : null));
 }

@@ -48,8 +48,9 @@ class Form {
         this.options = description.options.filter(({ name, path }) => !path && !["--resume", "--wall-time", "--quiet"].includes(name));
         this.inputs = new Map(this.options.map((option) => [option.name, this.#input(option)]));
         this.name = make("input", { type: "text", placeholder: `${this.driver}-1, -2, ...` });
-        this.studies = [0, 1].map((k) => [make("select", { "aria-label": `option ${k + 1} of the study` }, new Option("no study", ""), ...this.options.map(({ name }) => new Option(name))), make("input", { type: "text", placeholder: "values, with blanks between", "aria-label": `values of option ${k + 1} of the study` })]);
-        const study = make("details", {}, make("summary", {}, "A study: a run for each value of an option, or for each pair of two"), ...this.studies.map((pair) => make("div", { class: "pair" }, ...pair)));
+        this.studies = [1, 2].map((k) => this.#studied(k));
+        const study = make("details", {}, make("summary", {}, "A study: a run for each value of an option, or for each pair of two"),
+            ...this.studies.map((pair) => make("div", { class: "pair" }, ...pair)));
         form.replaceChildren(
             make("div", { class: "form" }, make("label", {}, "Name of the folder", this.name), ...this.options.map((option) => this.#labelled(option))),
             study, make("div", { class: "buttons" }, make("button", { type: "submit" }, "Start")));
@@ -57,6 +58,13 @@ class Form {
             event.preventDefault();
             this.start();
         };
+    }
+
+    /** The k-th option of a study and its values. */
+    #studied(k) {
+        const names = this.options.map(({ name }) => new Option(name));
+        const values = { type: "text", placeholder: "values, with blanks between", "aria-label": `values of option ${k} of the study` };
+        return [make("select", { "aria-label": `option ${k} of the study` }, new Option("no study", ""), ...names), make("input", values)];
     }
 
     #input(option) {
@@ -94,20 +102,29 @@ class Form {
     /** The options of each run, and what is added to its name. */
     runs() {
         let all = [{ options: this.given(), ending: "" }];
-        for (const [select, values] of this.studies)
-            if (select.value)
-                all = all.flatMap(({ options, ending }) => values.value.split(/[\s]+/).filter(Boolean).map((value) => ({ options: { ...options, [select.value]: value }, ending: `${ending}-${select.value.slice(2)}=${value}`.replaceAll(/[^\w.=-]/g, "_") })));
+        for (const [{ value: name }, values] of this.studies) {
+            if (!name) continue;
+            const added = (value) => `-${name.slice(2)}=${value}`.replaceAll(/[^\w.=-]/g, "_");
+            const words = values.value.split(/\s+/).filter(Boolean);
+            all = all.flatMap(({ options, ending }) => words.map((value) => ({ options: { ...options, [name]: value }, ending: ending + added(value) })));
+        }
         return all;
+    }
+
+    /** Before the first run of a study begins: all of them, and that the names of their folders differ. */
+    async #check(wishes) {
+        const names = wishes.map(({ name }) => name), again = names.find((name, k) => names.indexOf(name) !== k);
+        if (again !== undefined) throw new Error(`The study has two runs of the name ${again}; give each value once.`);
+        for (const wish of wishes) await post("check", wish);
     }
 
     async start() {
         try {
             const runs = this.runs(), ids = [], base = this.name.value.trim();
             if (runs.length === 0) throw new Error("The study has no values.");
-            for (const { options, ending } of runs) {
-                const name = ending ? `${base || this.driver}${ending}` : base;
-                ids.push((await post("start", { driver: this.driver, name, options })).id);
-            }
+            const wishes = runs.map(({ options, ending }) => ({ driver: this.driver, name: ending ? `${base || this.driver}${ending}` : base, options }));
+            if (wishes.length > 1) await this.#check(wishes);
+            for (const wish of wishes) ids.push((await post("start", wish)).id);
             tell();
             location.hash = ids.length === 1 ? `run=${encodeURIComponent(ids[0])}` : `compare=${ids.map(encodeURIComponent).join(",")}`;
         } catch (problem) {

@@ -47,6 +47,20 @@ export function labelled(text, input, ...more) {
     return make("label", {}, `${text} `, input, ...more);
 }
 
+/** Of something that is done again and again: takes its own sentence away when it has worked, and no other. */
+export class Teller {
+    said = "";
+
+    say(text) {
+        tell(this.said = text);
+    }
+
+    clear() {
+        if (this.said && document.getElementById("told").textContent === this.said) tell();
+        this.said = "";
+    }
+}
+
 /** Says something at the top of the page; nothing: takes it away. */
 export function tell(text = "") {
     const told = document.getElementById("told");

@@ -1,7 +1,7 @@
 import { get, getFrame } from "./api.js";
 import { colourMap, colourMapNames } from "./scene/colours.js";
 import { Scene } from "./scene/Scene.js";
-import { fieldLabel, labelled, make, number, tell } from "./text.js";
+import { fieldLabel, labelled, make, number, tell, Teller } from "./text.js";
 
 const presets = { front: [0, 0], right: [Math.PI / 2, 0], behind: [Math.PI, 0], left: [-Math.PI / 2, 0], above: [0, Math.PI / 2], slanted: [-0.6, 0.35] };
 const defaultField = "velocity_m_per_s";
@@ -14,6 +14,8 @@ export class Viewer {
     shown = -1;
     times = [];
     follows = true;
+    over = new AbortController();
+    told = new Teller();
 
     constructor(id, { onLook = () => {} } = {}) {
         this.id = id;
@@ -33,18 +35,27 @@ export class Viewer {
     begin() {
         this.scene = new Scene(this.canvas);
         this.#takeBackground();
-        new ResizeObserver(() => this.redraw()).observe(this.canvas);
-        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#takeBackground());
+        this.size = new ResizeObserver(() => this.redraw());
+        this.size.observe(this.canvas);
+        const { signal } = this.over;
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#takeBackground(), { signal });
     }
 
+    /** Gives back listeners and the context, of which a browser has few. */
     end() {
         clearInterval(this.playing);
         this.isOver = true;
+        this.over.abort();
+        this.size?.disconnect();
+        this.scene?.end();
     }
 
-    /** The times of the frames (s), as they are known now. */
-    setTimes(times) {
-        const grew = times.length !== this.times.length;
+    /** The times of the frames (s), as they are known now, and when the restart file was written: a run without frames shows
+     * that (its time is null). */
+    setTimes(times, stateWritten) {
+        const isNewState = times.length === 1 && times[0] === null && stateWritten !== this.stateWritten;
+        const grew = times.length !== this.times.length || isNewState;
+        this.stateWritten = stateWritten;
         this.times = times;
         this.slider.max = Math.max(times.length - 1, 0);
         if (this.shown >= times.length) this.shown = -1;
@@ -63,9 +74,9 @@ export class Viewer {
                 this.wanted = null;
                 await this.#load(next);
             }
-            tell();
+            this.told.clear();
         } catch (problem) {
-            tell(problem.message);
+            this.told.say(problem.message);
         } finally {
             this.isBusy = false;
         }
@@ -76,7 +87,7 @@ export class Viewer {
         this.isDue = true;
         requestAnimationFrame(() => {
             this.isDue = false;
-            this.scene.render();
+            if (!this.isOver) this.scene.render();
         });
     }
 
@@ -127,14 +138,14 @@ export class Viewer {
 
     /** The frame, with the field that it has been asked for. */
     async #load(frame) {
-        const { scene } = this, words = { id: this.id, frame, field: this.fields.length > 0 ? this.field : "", contacts: scene.look.contacts ? 1 : 0, bridges: scene.look.bridges ? 1 : 0 };
+        if (!this.scene) return;
+        const { scene } = this, words = { id: this.id, frame, field: this.field, orRadius: 1, contacts: scene.look.contacts ? 1 : 0, bridges: scene.look.bridges ? 1 : 0 };
         if (this.origin) words.origin = this.origin.join(",");
-        let next = await getFrame(words);
+        const next = await getFrame(words);
         const first = this.fields.length === 0;
         this.origin ??= next.origin;
         this.fields = next.fields;
-        if (!next.fields.some(({ name }) => name === this.field.split(".")[0])) this.field = "radius_m";
-        if (first) next = await getFrame({ ...words, field: this.field, origin: this.origin.join(",") });
+        this.field = next.field;  // the wished one, if there is such a field
         if (this.isOver) return;
         if (first) this.#offerFields();
         this.shown = frame;
@@ -149,7 +160,8 @@ export class Viewer {
 
     #sayTime() {
         const time = this.times[this.shown];
-        this.when.textContent = this.times.length === 0 ? "no frames" : `${time === null || time === undefined ? "state" : number(time) + " s"}, ${this.shown + 1} of ${this.times.length}`;
+        const what = time === null || time === undefined ? "state" : `${number(time)} s`;
+        this.when.textContent = this.times.length === 0 ? "no frames" : `${what}, ${this.shown + 1} of ${this.times.length}`;
     }
 
     #describe() {
@@ -243,7 +255,9 @@ export class Viewer {
             const { fields } = await get("row", { id: this.id, frame: this.shown, of: `${found.kind}s`, row: found.row });
             const identity = fields.find(({ name }) => name === "identity")?.value[0];
             const title = found.kind === "grain" ? `Grain ${identity ?? `in row ${found.row}`}` : "Contact";
-            this.picked.replaceChildren(make("h3", {}, title), make("table", {}, ...fields.map((f) => make("tr", {}, make("td", {}, fieldLabel(f)), make("td", {}, f.value.map((v) => number(v, 6)).join(", "))))));
+            const cells = fields.map((field) => [fieldLabel(field), field.value.map((part) => number(part, 6)).join(", ")]);
+            const rows = cells.map((row) => make("tr", {}, ...row.map((cell) => make("td", {}, cell))));
+            this.picked.replaceChildren(make("h3", {}, title), make("table", {}, ...rows));
         } catch (problem) {
             tell(problem.message);
         }

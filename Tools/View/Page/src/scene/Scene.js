@@ -22,7 +22,6 @@ export class Scene {
         this.textures = Object.fromEntries(["colours", "grains", "values", "bridges", "contacts"].map((name) => [name, this.#texture()]));
         this.rectangles = { array: gl.createVertexArray(), buffer: gl.createBuffer(), count: 0 };
         this.surfaces = { walls: this.#surface(), shapes: this.#surface() };
-        canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     }
 
     /** Takes a frame as getFrame() gives it. */
@@ -33,6 +32,12 @@ export class Scene {
         this.#fill(this.textures.contacts, frame.contactRods, 4);
         this.#upload(this.surfaces.walls, withRow(frame.walls), frame.walls.length / 3);
         this.#upload(this.surfaces.shapes, frame.shapes, frame.shapes.length / 4);
+    }
+
+    /** Gives its memory and its context back; nothing can be drawn any more. */
+    end() {
+        this.frame = null;
+        this.gl.getExtension("WEBGL_lose_context")?.loseContext();
     }
 
     lookAtAll() {
