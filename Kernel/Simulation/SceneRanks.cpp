@@ -1,3 +1,5 @@
+#include "Kernel/Simulation/SceneRanks.h"
+
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -6,18 +8,17 @@
 
 namespace pendular {
 
-/// The accounts of energy and liquid, and the counts of events, are not yet right after grains were gathered.
-static void refuseToGather(const ContactSystem& contacts, bool keepsEnergy) {
-    if (!contacts.movesLiquid() && !contacts.events().areListenedTo() && !keepsEnergy) return;
+void refuseToGather() {
     throw InputError(
-        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, the energy ledger is kept "
-        "or "
-        "events of contacts are listened to, has no outputs and restart files yet; run it on one rank.");
+        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, or whose events of "
+        "contacts "
+        "are listened to, has no solve(), outputs and restart files yet, and cannot be gathered; run it on "
+        "one rank.");
 }
 
 void Scene::Inside::gather() {
     if (!isDistributed()) return;
-    refuseToGather(contacts, account.isKept());
+    if (contacts.movesLiquid() || contacts.events().areListenedTo()) refuseToGather();
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
     contacts.gather(scene.particleHandler.store());

@@ -202,6 +202,9 @@ std::string refusalOnRanks(SetUp&& setUp) {
 struct NoOutput {
     static void write(const Scene&) {}
 };
+struct NoPart : StepPart {
+    [[nodiscard]] std::string_view name() const override { return "no part"; }
+};
 
 TEST(SharedScene, refusesWhatRanksCannotShareYet) {
     const auto expectRefused = [](auto&& change, std::string_view part) {
@@ -213,6 +216,18 @@ TEST(SharedScene, refusesWhatRanksCannotShareYet) {
         EXPECT_TRUE(support::contains(told, part)) << told;
         EXPECT_TRUE(support::contains(told, "setRanks()")) << told;
     };
+    expectRefused([](auto& scene) { scene.template addPart<NoPart>(); }, "addPart()");
+    const auto expectNotGathered = [&](auto&& change) {
+        expectRefused(
+            [&](auto& scene) {
+                scene.listenToContacts();
+                change(scene);
+            },
+            "events of contacts are listened to");
+    };
+    expectNotGathered([](auto& scene) { scene.addOutput(NoOutput()); });
+    expectNotGathered([](auto& scene) { scene.setTimeMax(1), scene.solve(); });
+    expectNotGathered([](auto& scene) { scene.initialise(), scene.step(), scene.gather(); });
     EXPECT_EQ(refusalOnRanks([](auto& scene) { scene.initialise(); }), "");
 }
 
