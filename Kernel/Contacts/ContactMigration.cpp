@@ -33,6 +33,7 @@ void ContactMigration::pack(std::size_t self, std::span<const std::size_t> owner
 
 void ContactMigration::packAll(Message& message) const {
     std::vector<double> numbers(memory.numberCount());
+    remembered.noteCounted(grains);
     for (std::uint32_t k = 0; k < remembered.size(); ++k) {
         const RememberedContacts::Entry& entry = remembered.entry(k);
         if (grains.place.contains(entry.owner)) add(message, entry, remembered.slotOf(k), numbers);

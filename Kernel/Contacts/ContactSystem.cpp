@@ -92,8 +92,7 @@ void ContactSystem::gather(Grains& grains) {
     gatherWatches();
     listAgain(grains, remembered);
     listedOnRanks(grains);
-    findWallPoints(grains, 0);
-    sumWallForces(grains);
+    findWallPoints(grains, 0);  // the forces on walls are those of all ranks already
 }
 
 /// All know what all have seen, until they go on counting (distribute()).

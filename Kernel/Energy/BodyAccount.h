@@ -32,7 +32,8 @@ public:
     }
 
     /// What was taken of bodies that have gone to other ranks goes with them.
-    void follow(const ParticleStore& grains, const AllRanks& ranks) {
+    /// @param allWereHere when it was taken, as on all ranks: each keeps that of its own
+    void follow(const ParticleStore& grains, const AllRanks& ranks, bool allWereHere) {
         if (!ranks.areSeveral()) return;
         const auto followOne = [&](auto& records) {
             const auto isElsewhere = [&](const auto& record) {
@@ -42,6 +43,7 @@ public:
                 std::stable_partition(records.begin(), records.end(), std::not_fn(isElsewhere));
             const std::remove_reference_t<decltype(records)> left(stays, records.end());
             records.erase(stays, records.end());
+            if (allWereHere) return;
             for (const auto& record : ranks.gather(left))
                 if (!isElsewhere(record)) records.push_back(record);
             std::stable_sort(records.begin(), records.end(),

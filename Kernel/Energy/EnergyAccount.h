@@ -53,6 +53,7 @@ public:
             grains.atStart[place] = motionOf(grains, place);
         takeHeldLoads(grains, contacts.store());
         bodies.begin(grains, contacts.store());
+        allWereHere = !grains.isShared;
     }
 
     /// Membranes may have been added and removed in the run: what was stored in them came with them.
@@ -126,7 +127,7 @@ public:
                 const Vector<double>& gravity, double step, const Integrator& scheme, EnergyLedger& ledger) {
         // Grains may have gone to other ranks since the start of the step.
         const AllRanks& ranks = contacts.ranks();
-        bodies.follow(grains, ranks);
+        bodies.follow(grains, ranks, allWereHere);
         followHeldLoads(grains, ranks);
         ExactSum byHolders;
         addGivenByHolders(grains, contacts.store(), gravity, step, byHolders);
@@ -377,7 +378,8 @@ private:
         for (const HeldLoad& load : heldLoads)
             if (!grains.place.contains(load.identity)) left.push_back(load);
         const auto isElsewhere = [&](const HeldLoad& load) { return !grains.place.contains(load.identity); };
-        for (const HeldLoad& load : ranks.gather(left)) heldLoads.push_back(load);
+        if (!allWereHere)
+            for (const HeldLoad& load : ranks.gather(left)) heldLoads.push_back(load);
         std::erase_if(heldLoads, isElsewhere);
     }
     /// J: what keeps their motion there does against contacts and weight.
@@ -438,6 +440,7 @@ private:
     }
 
     std::vector<HeldLoad> heldLoads;
+    bool allWereHere = true;  // at the start of the step: ranks did not share the grains
     BodyAccount bodies;
     ExactRows<ledgerEntries> sums;  // over the contacts of a step
     std::vector<ContactLoss> lossesOfStep;

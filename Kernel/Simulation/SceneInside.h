@@ -65,8 +65,6 @@ public:
     [[nodiscard]] bool isDistributed() const { return sharing && sharing->areDistributed(); }
     /// All grains and contacts come to all ranks, until the next step.
     void gather();
-    /// Throws InputError for a scene of which not all comes.
-    void refuseToGather() const;
     /// Of all ranks together; all must call it.
     [[nodiscard]] RunNumbers numbersOfAll();
 

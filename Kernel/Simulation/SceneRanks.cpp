@@ -1,3 +1,5 @@
+#include "Kernel/Simulation/SceneRanks.h"
+
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/SceneInside.h"
@@ -6,18 +8,17 @@
 
 namespace pendular {
 
-/// The accounts of energy and liquid, and the counts of events, are not yet right after grains were gathered.
-void Scene::Inside::refuseToGather() const {
-    if (laws().layout.liquid == 0 && !contacts.events().areListenedTo() && !account.isKept()) return;
+void refuseToGather() {
     throw InputError(
-        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, the energy ledger is kept, "
-        "a wall wears or events of contacts are listened to, has no outputs and restart files yet; run it on "
+        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, or whose events of "
+        "contacts "
+        "are listened to, has no solve(), outputs and restart files yet, and cannot be gathered; run it on "
         "one rank.");
 }
 
 void Scene::Inside::gather() {
     if (!isDistributed()) return;
-    refuseToGather();
+    if (contacts.movesLiquid() || contacts.events().areListenedTo()) refuseToGather();
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
     contacts.gather(scene.particleHandler.store());

@@ -12,6 +12,7 @@
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/SceneInside.h"
+#include "Kernel/Simulation/SceneRanks.h"
 #include "Kernel/Walls/WallSeams.h"
 #include "Kernel/Walls/WornWall.h"
 
@@ -57,7 +58,6 @@ void Scene::Inside::setUp() {
     scene.requireTimeStep();
     account.show(context);
     laws().mixAll();
-    if (sharing && scene.hasCourse()) refuseToGather();
     ParticleHandler::Inside::settleSpin(particles);
     if (!scene.isRestarted()) ParticleHandler::Inside::renewMasses(particles);
     particles.films().settle(particles.store(), laws().layout.liquid > 0);
@@ -142,6 +142,9 @@ void Scene::Inside::check() {
     const Features found = wakeParts();
     refuseConflicts(found);
     refuseConflicts(found, conflictsOfRanks());
+    const bool isGathered = sharing && (scene.hasCourse() || scene.hasOutputs() || scene.isRestarted());
+    if (isGathered && (found.has(Feature::MovingLiquid) || found.has(Feature::ContactEvents)))
+        refuseToGather();
     refuseOutOfPlane(context);
     refuseForDiscs(context);
     parts.refuseOwnConflicts(found);

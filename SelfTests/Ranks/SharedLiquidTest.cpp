@@ -3,6 +3,7 @@
 
 #include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Ranks/SharedScene.h"
+#include "SelfTests/Support/Refusal.h"
 
 namespace pendular::sharedLiquidTest {
 namespace {
@@ -93,6 +94,24 @@ void expectNoneLost(int steps) {
         if (exchange.rank() == 0) fmt::print("{} ruptures in {} steps\n", ruptures, steps);
     });
 }
+
+// Its accounts are those of each rank: they are refused rather than written wrong.
+TEST(SharedLiquid, isNotGatheredYet) {
+    const auto expectRefused = [](auto&& run) {
+        const std::string told = support::refusal([&] {
+            VirtualRanks(2).run([&](Exchange& exchange) {
+                Box scene(1);
+                scene.setRanks(exchange, {});
+                run(scene);
+            });
+        });
+        EXPECT_TRUE(support::isOneSentence(told)) << told;
+        EXPECT_TRUE(support::contains(told, "in which liquid moves")) << told;
+    };
+    expectRefused([](Box& scene) { scene.setTimeMax(1), scene.solve(); });
+    expectRefused([](Box& scene) { scene.initialise(), scene.step(), scene.gather(); });
+}
+
 TEST(SharedLiquid, noneIsLost) { expectNoneLost(1000); }
 TEST(LongSharedLiquid, noneIsLost) { expectNoneLost(200000); }
 

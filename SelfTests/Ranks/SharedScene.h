@@ -119,7 +119,12 @@ struct Outcome {
     bool tellTheSame = true;                           // all ranks
 };
 
-/// Runs a scene on virtual ranks.
+/// Whether gather() is not refused.
+inline bool canBeGathered(const Scene& scene) {
+    return !scene.movesLiquid() && !scene.contacts().events().areListenedTo();
+}
+
+/// Runs a scene on virtual ranks. Where cuts wander, all grains are gathered on the way, if that can be.
 /// @param make (use) makes the scene and calls use(scene), on each rank; @param Through what a rank has
 /// instead of its exchange
 template <class Through = Exchange&, class Make>
@@ -132,7 +137,13 @@ Outcome runOnRanks(std::size_t ranks, const RankOptions& options, std::size_t st
         make([&](Scene& scene) {
             scene.setRanks(through, options);
             scene.initialise();
-            scene.step(steps);
+            if (options.cutsWander && canBeGathered(scene)) {
+                scene.step(steps / 2);
+                scene.gather();
+                scene.step(steps - steps / 2);
+            } else {
+                scene.step(steps);
+            }
             const std::vector<double> told = toldBy(scene);
             ParticleStore own = scene.particleHandler.store();
             const std::lock_guard lock(mutex);

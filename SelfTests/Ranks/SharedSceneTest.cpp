@@ -202,26 +202,35 @@ std::string refusalOnRanks(SetUp&& setUp) {
     });
 }
 
-TEST(SharedScene, refusesFilesOfWhatIsNotGathered) {
-    const auto expectRefused = [](auto&& change) {
+struct NoOutput {
+    static void write(const Scene&) {}
+};
+struct NoPart : StepPart {
+    [[nodiscard]] std::string_view name() const override { return "no part"; }
+};
+
+TEST(SharedScene, refusesWhatRanksCannotShareYet) {
+    const auto expectRefused = [](auto&& change, std::string_view part) {
         const std::string told = refusalOnRanks([&](auto& scene) {
             change(scene);
             scene.initialise();
-            scene.step(10);
-            scene.gather();
         });
         EXPECT_TRUE(support::isOneSentence(told)) << told;
+        EXPECT_TRUE(support::contains(told, part)) << told;
         EXPECT_TRUE(support::contains(told, "setRanks()")) << told;
     };
-    expectRefused([](auto& scene) { scene.keepEnergyLedger(); });
-    expectRefused([](auto& scene) { scene.listenToContacts(); });
-    const support::TestFolder folder;
-    const std::string atSetUp = refusalOnRanks([&](auto& scene) {
-        scene.setName((folder.path() / "run").string());
-        scene.keepEnergyLedger(), scene.setTimeMax(1);
-        scene.solve();  // before the first step
-    });
-    EXPECT_TRUE(support::contains(atSetUp, "setRanks()")) << atSetUp;
+    expectRefused([](auto& scene) { scene.template addPart<NoPart>(); }, "addPart()");
+    const auto expectNotGathered = [&](auto&& change) {
+        expectRefused(
+            [&](auto& scene) {
+                scene.listenToContacts();
+                change(scene);
+            },
+            "events of contacts are listened to");
+    };
+    expectNotGathered([](auto& scene) { scene.addOutput(NoOutput()); });
+    expectNotGathered([](auto& scene) { scene.setTimeMax(1), scene.solve(); });
+    expectNotGathered([](auto& scene) { scene.initialise(), scene.step(), scene.gather(); });
     EXPECT_EQ(refusalOnRanks([](auto& scene) { scene.initialise(); }), "");
 }
 
