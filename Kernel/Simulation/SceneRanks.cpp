@@ -13,7 +13,8 @@ void refuseToGather() {
         "Simulation: a scene on several ranks (setRanks()) in which liquid moves, or whose events of "
         "contacts "
         "are listened to, has no solve(), outputs and restart files yet, and cannot be gathered; run it on "
-        "one rank.");
+        "one "
+        "rank.");
 }
 
 void Scene::Inside::gather() {
