@@ -20,9 +20,9 @@ struct OrientationOrder {
 };
 OrientationOrder orientationOrder(std::span<const Vec3D> axes);
 
-/// The axis of a body with these principal moments (in any order), as the number of a principal axis: of a rod
-/// that of the smallest moment, of a plate that of the largest, whichever is farther from the other two. None
-/// where all moments are equal to 1e-6.
+/// The axis of a body with these principal moments (in any order), as the number of a principal axis: of a
+/// rod that of the smallest moment, of a plate that of the largest, whichever is farther from the other two.
+/// None where all moments are equal to 1e-6.
 std::optional<int> axisOf(const Vector<double>& moments);
 
 /// The order of the rigid bodies that have an axis. @param first of those that are looked at
