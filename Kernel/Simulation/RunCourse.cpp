@@ -216,7 +216,7 @@ int Run::whatIsHeard() {
     if (heard == RunControl::Nothing && course->progress && course->progress->isDue(steps))
         heard = RunControl::Show;
     if (!isShared()) return heard;
-    constexpr int going = 1 << 20;  // above all that can be heard
+    constexpr int going = 1 << 20;          // above all that can be heard
     const bool isWanted = continueSolve();  // asked for on all ranks: it may ask for what they know together
     const bool goesOn = heard >= RunControl::OutOfTime || isWanted;
     const int all = static_cast<int>(agreeOnLargest(goesOn ? going + heard : 0));
