@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <map>
 #include <regex>
 
 #include "BuildFolders.h"
 #include "Kernel/State/RestartFile.h"
 #include "SelfTests/Support/Dependency.h"
 #include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/SameFiles.h"
 #include "SelfTests/Support/TestFolder.h"
 
 namespace pendular::mpiTest {
@@ -17,6 +17,7 @@ namespace {
 using namespace support;
 namespace fs = std::filesystem;
 
+constexpr std::string_view timed = "summary.csv";  // such files tell times of the clock
 const std::string program = (folders::binary / "SelfTests/rank-program").string() + " ";
 
 /// Of more ranks than there are processors, and by any user.
@@ -25,24 +26,6 @@ std::string onRanks(int count) {
         "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 120 mpirun "
         "--oversubscribe -n {} ",
         count);
-}
-
-/// All files of a folder by their names, without those that tell times of the clock.
-std::map<std::string, std::string> filesOf(const fs::path& folder) {
-    std::map<std::string, std::string> found;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (const std::string name = entry.path().filename(); !name.ends_with("summary.csv"))
-            if (entry.is_regular_file()) found[name] = contentOf(entry.path());
-    return found;
-}
-
-void expectSameFiles(const fs::path& expected, const fs::path& found) {
-    const auto a = filesOf(expected), b = filesOf(found);
-    EXPECT_EQ(a.size(), b.size());
-    for (const auto& [name, content] : a) {
-        ASSERT_TRUE(b.contains(name)) << name;
-        EXPECT_TRUE(content == b.at(name)) << name << " differs";
-    }
 }
 
 std::size_t countOf(const std::string& text, const std::string& part) {
@@ -70,7 +53,7 @@ TEST_F(Mpi, runsHaveTheFilesOfOneProcess) {
         EXPECT_EQ(begun.exitCode, 0) << begun.output;
         const ProgramResult ended = run(onRanks(5 - ranks) + program + own + " 200");
         EXPECT_EQ(ended.exitCode, 0) << ended.output;
-        expectSameFiles(in("1"), own);
+        expectSameFiles(in("1"), own, timed);
     }
 }
 
@@ -84,7 +67,7 @@ TEST_F(Mpi, driversRunAsTheyAre) {
     const ProgramResult shared = run(onRanks(2) + drum + in("2") + " --resume");
     EXPECT_EQ(alone.exitCode, 0) << alone.output;
     EXPECT_EQ(shared.exitCode, 0) << shared.output;
-    expectSameFiles(in("1"), in("2"));
+    expectSameFiles(in("1"), in("2"), timed);
     for (const char* once : {"Summary of the run", "120 grains, 0.00101 s in"})
         EXPECT_EQ(countOf(shared.output, once), 1u) << shared.output;
     const ProgramResult wrong = run(onRanks(2) + drum + in("2") + " --speed 3");

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <map>
 
 #include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/Hdf5Output.h"
@@ -16,6 +15,7 @@
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
+#include "SelfTests/Support/SameFiles.h"
 #include "SelfTests/Support/TestFolder.h"
 
 namespace pendular::runOnRanksTest {
@@ -66,23 +66,6 @@ void runOn(std::size_t ranks, const fs::path& folder, std::size_t steps, const R
         run.setRanks(exchange, options);
         run.solve();
     });
-}
-
-/// All files of a folder by their names.
-std::map<std::string, std::string> filesOf(const fs::path& folder) {
-    std::map<std::string, std::string> found;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) found[entry.path().filename().string()] = contentOf(entry.path());
-    return found;
-}
-
-void expectSameFiles(const fs::path& expected, const fs::path& found) {
-    const auto a = filesOf(expected), b = filesOf(found);
-    EXPECT_EQ(a.size(), b.size());
-    for (const auto& [name, content] : a) {
-        ASSERT_TRUE(b.contains(name)) << name;
-        EXPECT_TRUE(content == b.at(name)) << name << " differs";
-    }
 }
 
 TEST(RunOnRanks, writesTheFilesOfOneProcess) {
