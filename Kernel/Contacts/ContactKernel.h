@@ -54,7 +54,8 @@ public:
 
     /// @param accelerations m/s^2, of the grains in the last step
     ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactTiming contactTiming,
-                  const OverlapWatch& watch, ContactStore& contactStore, const Vector<double>* accelerations)
+                  const OverlapWatch& watch, ContactStore& contactStore, const Vector<double>* accelerations,
+                  const OwnTotals& forceTotals)
         : overlaps(watch),
           laws(preparedLaws),
           timeStep(step),
@@ -63,6 +64,8 @@ public:
           acceleration(accelerations),
           store(contactStore),
           memory(contactStore.memory),
+          quantum(contactStore.totals.quantum),
+          own(forceTotals),
           ledger(!contactStore.memory.energies.empty()),
           amongTorques(S::hasTorque || contactStore.memory.getLayout().hasTorque) {}
 
@@ -165,7 +168,7 @@ public:
             }
             geometry.writeRecords(memory, block, touching | bridged, normalForce, tangential, couple);
         } else {
-            writeRecords(block, g.normal, normal.lever, normalForce, tangential);
+            writeRecords(block, geometry, g.normal, normal.lever, normalForce, tangential);
         }
         state.touching = bits(touching);
         state.bridged = bits(bridged);
@@ -473,42 +476,79 @@ private:
     /// Whether the records of the scene have a torque: always so for laws that have one, and for others where
     /// another pair of species has one.
     [[nodiscard]] bool writesTorques() const { return S::hasTorque || amongTorques; }
-    [[nodiscard]] double* recordsAt(std::size_t block) const {
-        if (writesTorques()) return reinterpret_cast<double*>(&memory.records[block * Pack::lanes]);
-        else return reinterpret_cast<double*>(&memory.forces[block * Pack::lanes]);
+    [[nodiscard]] double* forcesAt(std::size_t block) const {
+        return reinterpret_cast<double*>(&memory.forces[block * Pack::lanes]);
+    }
+    /// A column of the records of a block.
+    [[nodiscard]] double* columnAt(std::size_t block, std::size_t column) const {
+        return memory.records.ofBlock(block) + column * Pack::lanes;
     }
     template <class Geometry>
     [[nodiscard]] LastForces loadLastForces(std::size_t block,
                                             [[maybe_unused]] const Geometry& geometry) const {
-        static constexpr std::array<std::uint32_t, Pack::lanes> each{0, 1, 2, 3, 4, 5, 6, 7};
-        const double* base = recordsAt(block);
-        if constexpr (S::hasTorque && ShapedGeometry<Geometry>) {
-            auto [x, y, z] = loadRecords<3>(base, 8, each.data());
-            return {cross(geometry.lastNormal(), {x, y, z}), gatherColumn(base + 7, 8)};
-        } else if constexpr (S::hasTorque) {
-            auto [x, y, z, normal] = loadRecords<4>(base + 4, 8, each.data());
-            return {{x, y, z}, normal};
+        if (!writesTorques()) return {{}, gatherColumn(forcesAt(block) + 3, 4)};
+        const Pack normalForce = Pack::load(columnAt(block, RecordColumns::normalForce));
+        if constexpr (S::hasTorque) {
+            const auto load = [&](std::size_t column) __attribute__((always_inline)) {
+                return Pack::load(columnAt(block, column));
+            };
+            if constexpr (ShapedGeometry<Geometry>)
+                return {cross(geometry.lastNormal(), {load(0), load(1), load(2)}), normalForce};
+            constexpr std::size_t first = RecordColumns::leverless;
+            return {{load(first), load(first + 1), load(first + 2)}, normalForce};
         } else {
-            return {{}, writesTorques() ? gatherColumn(base + 7, 8) : gatherColumn(base + 3, 4)};
+            return {{}, normalForce};
         }
     }
 
-    void writeRecords(std::size_t block, const Vector<Pack>& direction, Pack overlap, Pack normalForce,
-                      const Vector<Pack>& tangential) {
-        double* base = recordsAt(block);
+    template <class Geometry>
+    void writeRecords(std::size_t block, const Geometry& geometry, const Vector<Pack>& direction,
+                      Pack overlap, Pack normalForce, const Vector<Pack>& tangential) {
+        Vector<Pack> force = -normalForce * direction, leverless = zero();
         if constexpr (S::hasTorque) {
-            Vector<Pack> force = fma(-normalForce, direction, tangential);
-            Vector<Pack> torque = cross(direction, tangential);
-            storeRecords(base, std::array<Pack, 8>{force.x, force.y, force.z, Pack(0.5) * overlap, torque.x,
-                                                   torque.y, torque.z, normalForce});
-        } else if (writesTorques()) {
-            const Vector<Pack> along = -normalForce * direction;
-            storeRecords(base, std::array<Pack, 8>{along.x, along.y, along.z, Pack(0.5) * overlap, Pack(0),
-                                                   Pack(0), Pack(0), normalForce});
-        } else {
-            const Vector<Pack> along = -normalForce * direction;
-            storeRecords(base, std::array<Pack, 4>{along.x, along.y, along.z, normalForce});
+            force = fma(-normalForce, direction, tangential);
+            leverless = cross(direction, tangential);
         }
+        const Pack half = Pack(0.5) * overlap;
+        if (writesTorques()) storeColumns(memory.records.ofBlock(block), force, half, leverless, normalForce);
+        else storeRecords(forcesAt(block), std::array<Pack, 4>{force.x, force.y, force.z, normalForce});
+        if (own.totals != nullptr) addToTotals(block, geometry, force, half, leverless);
+    }
+
+    /// Adds the forces to the totals of both bodies, as sumQuanta() does (ParticleSum.h).
+    /// @param half m, of the overlap
+    template <class Geometry>
+    [[gnu::always_inline]] void addToTotals([[maybe_unused]] std::size_t block, const Geometry& geometry,
+                                            const Vector<Pack>& force, Pack half,
+                                            const Vector<Pack>& leverless) {
+        Vector<Pack> couple = zero();
+        if constexpr (S::hasContactTorque) couple = loadTorques(block);
+        if constexpr (requires { geometry.radius2; }) {
+            addToTotals(geometry.block.first, geometry.radius1, force, half, leverless, couple);
+            addToTotals(geometry.block.second, geometry.radius2, -force, half, leverless, -couple);
+        } else {
+            // The grain of a lane without a contact may have been removed: its radius is zero, then.
+            addToTotals(geometry.block.first, max(geometry.radius, Pack(1e-30)), force, half, leverless,
+                        couple);
+        }
+    }
+    [[gnu::always_inline]] void addToTotals(const std::array<std::uint32_t, Pack::lanes>& grains, Pack radius,
+                                            const Vector<Pack>& force, Pack half,
+                                            const Vector<Pack>& leverless,
+                                            [[maybe_unused]] const Vector<Pack>& couple) {
+        if (own.marks != nullptr)
+            for (const std::uint32_t grain : grains) own.marks[grain / OwnTotals::grainsOfAMark] = 1;
+        const Pack perNewton = quantum.perNewton(radius),
+                   perNewtonMetre = ForceQuantum::perNewtonMetre(radius, perNewton);
+        const Pack beyond = select(ForceQuantum::fits(force, perNewton), Pack(0), Pack(1));
+        Vector<Pack> whole = perNewton * force, torque;
+        if constexpr (S::hasContactTorque) torque = fma(radius - half, leverless, couple);
+        else if constexpr (S::hasTorque) torque = (radius - half) * leverless;
+        else torque = zero();
+        torque = perNewtonMetre * torque;
+        addNearestIntegers(
+            reinterpret_cast<std::int64_t*>(own.totals), grains.data(),
+            std::array<Pack, 8>{whole.x, whole.y, whole.z, beyond, torque.x, torque.y, torque.z, Pack(0)});
     }
 
     // Arguments are passed by value: what the kernel hands out by reference it would have to keep in memory
@@ -590,9 +630,10 @@ private:
         if ((state.touching | state.bridged) == 0) return;
         memory.history.store<History>(block, {});
         memory.normalHistory.store<NormalHistory>(block, {});
+        if (writesTorques())
+            std::fill_n(memory.records.ofBlock(block), RecordColumns::numbers * Pack::lanes, 0.0);
         for (int k = 0; k < Pack::lanes; ++k) {
-            if (writesTorques()) memory.records[block * Pack::lanes + k] = {};
-            else memory.forces[block * Pack::lanes + k] = {};
+            if (!writesTorques()) memory.forces[block * Pack::lanes + k] = {};
             if (!memory.torques.empty()) memory.torques[block * Pack::lanes + k] = {};
             if (ledger) memory.energies[block * Pack::lanes + k].now = {};
         }
@@ -606,6 +647,8 @@ private:
     const Vector<double>* acceleration;  // m/s^2
     ContactStore& store;
     ContactMemory& memory;
+    const ForceQuantum quantum;
+    const OwnTotals own;
     const bool ledger, amongTorques;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Kernel/Contacts/ContactTiming.h"
+#include "Kernel/Contacts/ForceTotals.h"
 #include "Kernel/Contacts/LiquidLaws.h"
 #include "Kernel/Contacts/OverlapWatch.h"
 #include "Kernel/Particles/GrainSpecies.h"
@@ -55,6 +56,7 @@ struct ContactTask {
     bool withLedger;
     OverlapWatch* overlaps;
     CapillaryWatch* capillaryNumbers;
+    OwnTotals totals;
 };
 
 /// A number of a law, with its name and unit.
@@ -102,6 +104,8 @@ public:
     /// The stiffnesses of many contacts at a time, at the overlaps that they have.
     virtual void stiffnesses(int a, int b, std::span<const PressedPair> contacts,
                              std::span<ContactStiffness> found) const = 0;
+    /// The overlap that ends a run, over the smaller radius.
+    [[nodiscard]] virtual double largestOverlap(int /*a*/, int /*b*/) const { return largestOverlapInRun; }
     /// N/m, the slope of the normal law at an overlap (m).
     [[nodiscard]] virtual double normalStiffness(int a, int b, const Bodies& bodies,
                                                  double overlap) const = 0;

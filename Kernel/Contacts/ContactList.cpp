@@ -237,8 +237,10 @@ void ContactList::fillBlock(const Group& g, std::size_t b, const Grains& grains,
         store.blocks[block].second[lane] = contact.second;
     }
     store.states[block].listed = static_cast<std::uint8_t>((1u << count) - 1);
+    if (g.bucket.wall >= 0) return;
+    store.blocks[block].pointToListed(store.states[block].listed);
     // The first of a block has the smallest gap.
-    if (g.bucket.wall < 0) store.gaps[block] = gapOf(grains, g.contacts[b * Pack::lanes]) - 1e-9 * skin;
+    store.gaps[block] = gapOf(grains, g.contacts[b * Pack::lanes]) - 1e-9 * skin;
 }
 
 }  // namespace pendular

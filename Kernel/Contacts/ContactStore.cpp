@@ -24,8 +24,7 @@ void takeRecord(const double*& from, Record& record) {
 
 double ContactMemory::clear(std::size_t slot) {
     for (MemoryColumns* each : columns()) each->clear(slot);
-    if (layout.hasTorque) records[slot] = {};
-    else forces[slot] = {};
+    if (!layout.hasTorque) forces[slot] = {};
     if (layout.hasContactTorque) torques[slot] = {};
     if (energies.empty()) return 0;
     const double stored = energies[slot].stored();
@@ -34,10 +33,11 @@ double ContactMemory::clear(std::size_t slot) {
 }
 
 std::size_t ContactMemory::numberCount() const {
-    const std::size_t force = layout.hasTorque ? sizeof(ForceTorqueRecord) : sizeof(ForceRecord);
+    const std::size_t force = layout.hasTorque ? 0 : sizeof(ForceRecord);
     const std::size_t torque = layout.hasContactTorque ? sizeof(TorqueRecord) : 0;
-    return layout.history + layout.normalHistory + layout.interaction + layout.liquid + layout.named +
-           (force + torque) / sizeof(double);
+    std::size_t sum = (force + torque) / sizeof(double);
+    for (const MemoryColumns* each : columns()) sum += each->count;
+    return sum;
 }
 
 void ContactMemory::getNumbers(std::size_t slot, double* to) const {
@@ -45,8 +45,7 @@ void ContactMemory::getNumbers(std::size_t slot, double* to) const {
         each->get(slot, to);
         to += each->count;
     }
-    if (layout.hasTorque) putRecord(records[slot], to);
-    else putRecord(forces[slot], to);
+    if (!layout.hasTorque) putRecord(forces[slot], to);
     if (layout.hasContactTorque) putRecord(torques[slot], to);
 }
 
@@ -55,8 +54,7 @@ void ContactMemory::setNumbers(std::size_t slot, const double* from) {
         each->set(slot, from);
         from += each->count;
     }
-    if (layout.hasTorque) takeRecord(from, records[slot]);
-    else takeRecord(from, forces[slot]);
+    if (!layout.hasTorque) takeRecord(from, forces[slot]);
     if (layout.hasContactTorque) takeRecord(from, torques[slot]);
 }
 
@@ -81,7 +79,6 @@ void ContactMemory::rearrange(std::vector<std::uint32_t> origins, std::vector<st
                     return numbers;
                 },
                 [&](std::uint32_t slot, const ContactNumbers& numbers) { each->set(slot, numbers.data()); });
-    rearrangeRecords(records);
     rearrangeRecords(forces);
     rearrangeRecords(torques);
     rearrangeRecords(energies);

@@ -11,6 +11,7 @@
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactSample.h"
 #include "Kernel/Contacts/ContactSides.h"
+#include "Kernel/Contacts/ForceTotals.h"
 #include "Kernel/Contacts/MemoryColumns.h"
 #include "Kernel/Contacts/Prefetch.h"
 #include "Kernel/Math/Pack.h"
@@ -76,9 +77,8 @@ struct BlockState {
     friend bool operator==(const BlockState&, const BlockState&) = default;
 };
 
-/// The record that the kernel writes for a contact and the particle sum reads: the force on body 1, half the
-/// overlap (each body's lever arm is its radius minus that), n x force, and the normal force (repulsion
-/// positive).
+/// What the kernel writes for a contact: the force on body 1, half the overlap (each body's lever arm is its
+/// radius minus that), n x force, and the normal force (repulsion positive).
 struct alignas(64) ForceTorqueRecord {
     Vector<double> force;      // N
     double halfOverlap;        // m
@@ -99,6 +99,32 @@ struct alignas(32) TorqueRecord {
     double unused = 0;
 };
 
+/// The records of all contacts, by columns, as the kernel writes them.
+struct RecordColumns : MemoryColumns {
+    static constexpr std::size_t numbers = sizeof(ForceTorqueRecord) / sizeof(double);
+    static constexpr std::size_t leverless = 4, normalForce = 7;  // the columns where these begin
+
+    [[nodiscard]] ForceTorqueRecord operator[](std::size_t slot) const {
+        std::array<double, numbers> record;
+        get(slot, record.data());
+        return std::bit_cast<ForceTorqueRecord>(record);
+    }
+    [[nodiscard]] Vector<double> force(std::size_t slot) const {
+        return {at(slot, 0), at(slot, 1), at(slot, 2)};
+    }
+    /// Its eight columns of a block.
+    [[nodiscard]] double* ofBlock(std::size_t block) { return columns[block * numbers].lane.data(); }
+};
+/// Writes the records of a block, as its columns.
+[[gnu::always_inline]] inline void storeColumns(double* columns, const Vector<Pack>& force,
+                                                const Pack& halfOverlap, const Vector<Pack>& leverless,
+                                                const Pack& normalForce) {
+    force.x.store(columns), force.y.store(columns + 8), force.z.store(columns + 16);
+    halfOverlap.store(columns + 24);
+    leverless.x.store(columns + 32), leverless.y.store(columns + 40), leverless.z.store(columns + 48);
+    normalForce.store(columns + 56);
+}
+
 /// Blocks [begin, end) whose contacts all join the same two species, or a species and one wall.
 struct Bucket {
     std::uint32_t begin = 0;
@@ -117,13 +143,13 @@ public:
     MemoryColumns history;  // of the friction law
     MemoryColumns normalHistory;
     MemoryColumns interaction;
-    MemoryColumns liquid;                    // m^3, the volumes of a bridge whose liquid moves
-    MemoryColumns named;                     // of the driver's own columns
-    std::vector<ForceTorqueRecord> records;  // of laws with friction
-    std::vector<ForceRecord> forces;         // of laws without
-    std::vector<TorqueRecord> torques;       // empty unless the friction law has a torque of its own
-    std::vector<EnergyRecord> energies;      // empty unless a ledger is kept
-    std::vector<std::uint32_t> blockOf;      // the block of contacts that has this block of memory
+    MemoryColumns liquid;                // m^3, the volumes of a bridge whose liquid moves
+    MemoryColumns named;                 // of the driver's own columns
+    RecordColumns records;               // of laws with friction
+    std::vector<ForceRecord> forces;     // of laws without
+    std::vector<TorqueRecord> torques;   // empty unless the friction law has a torque of its own
+    std::vector<EnergyRecord> energies;  // empty unless a ledger is kept
+    std::vector<std::uint32_t> blockOf;  // the block of contacts that has this block of memory
 
     /// The volume of a bridge whose liquid moves, and the one for which it was prepared, negative (or -0) if
     /// it is to be prepared again for whatever change.
@@ -140,6 +166,7 @@ public:
         interaction.count = of.interaction;
         liquid.count = of.liquid;
         named.count = of.named;
+        records.count = of.hasTorque ? RecordColumns::numbers : 0;
     }
     [[nodiscard]] const ContactLayout& getLayout() const { return layout; }
 
@@ -162,8 +189,7 @@ public:
     /// Room for so many blocks in all.
     void reserve(std::size_t blocks) {
         for (MemoryColumns* each : columns()) each->reserve(blocks);
-        if (layout.hasTorque) reserveLarge(records, blocks * Pack::lanes);
-        else reserveLarge(forces, blocks * Pack::lanes);
+        if (!layout.hasTorque) reserveLarge(forces, blocks * Pack::lanes);
         if (layout.hasContactTorque) reserveLarge(torques, blocks * Pack::lanes);
         blockOf.reserve(blocks);
         if (!energies.empty()) energies.reserve(blocks * Pack::lanes);
@@ -182,8 +208,8 @@ public:
         normalHistory.prefetchBlock(block);
         interaction.prefetchBlock(block);
         const std::size_t first = block * Pack::lanes;
-        if (layout.hasTorque) prefetch<true>(records.data() + first, Pack::lanes * sizeof(ForceTorqueRecord));
-        else prefetch<true>(forces.data() + first, Pack::lanes * sizeof(ForceRecord));
+        records.prefetchBlock(block);
+        if (!layout.hasTorque) prefetch<true>(forces.data() + first, Pack::lanes * sizeof(ForceRecord));
         if (layout.hasContactTorque)
             prefetch<true>(torques.data() + first, Pack::lanes * sizeof(TorqueRecord));
     }
@@ -195,20 +221,19 @@ public:
     void setNumbers(std::size_t slot, const double* from);
     [[nodiscard]] std::size_t bytes() const {
         return bytesOf(history.columns, normalHistory.columns, interaction.columns, liquid.columns,
-                       named.columns, records, forces, torques, energies, blockOf);
+                       named.columns, records.columns, forces, torques, energies, blockOf);
     }
 
 private:
-    [[nodiscard]] std::array<MemoryColumns*, 5> columns() {
-        return {&history, &normalHistory, &interaction, &liquid, &named};
+    [[nodiscard]] std::array<MemoryColumns*, 6> columns() {
+        return {&history, &normalHistory, &interaction, &liquid, &named, &records};
     }
-    [[nodiscard]] std::array<const MemoryColumns*, 5> columns() const {
-        return {&history, &normalHistory, &interaction, &liquid, &named};
+    [[nodiscard]] std::array<const MemoryColumns*, 6> columns() const {
+        return {&history, &normalHistory, &interaction, &liquid, &named, &records};
     }
     void resize(std::size_t blocks) {
         for (MemoryColumns* each : columns()) each->resize(blocks);
-        if (layout.hasTorque) records.resize(blocks * Pack::lanes);
-        else forces.resize(blocks * Pack::lanes);
+        if (!layout.hasTorque) forces.resize(blocks * Pack::lanes);
         if (layout.hasContactTorque) torques.resize(blocks * Pack::lanes);
         blockOf.resize(blocks);
         if (!energies.empty()) energies.resize(blocks * Pack::lanes);
@@ -232,6 +257,8 @@ public:
     std::vector<WallPointColumns> wallPoints;  // of the wall blocks, which come last
 
     ContactSides sides;
+    bool keepsTotals = false;    // the kernel sums forces
+    mutable ForceTotals totals;  // whoever moves the grains takes them
     /// The gap (m) of each block: while no two bodies have approached by this since they were listed, nothing
     /// in it can begin to touch, or to form a bridge at its filmContactGap. It has no meaning for blocks with
     /// memory.
@@ -269,14 +296,14 @@ public:
         return memory.blockOf[slot / Pack::lanes] * Pack::lanes + slot % Pack::lanes;
     }
     /// The force (N) on body 1.
-    [[nodiscard]] const Vector<double>& forceOf(std::size_t contact) const {
+    [[nodiscard]] Vector<double> forceOf(std::size_t contact) const {
         const std::size_t slot = slotOf(contact);
-        return memory.getLayout().hasTorque ? memory.records[slot].force : memory.forces[slot].force;
+        return memory.getLayout().hasTorque ? memory.records.force(slot) : memory.forces[slot].force;
     }
     /// N, repulsion positive.
     [[nodiscard]] double normalForceOf(std::size_t contact) const {
         const std::size_t slot = slotOf(contact);
-        return memory.getLayout().hasTorque ? memory.records[slot].normalForce
+        return memory.getLayout().hasTorque ? memory.records.at(slot, RecordColumns::normalForce)
                                             : memory.forces[slot].normalForce;
     }
     /// Whether another contact of the grain stands for this one with a wall.
@@ -326,7 +353,8 @@ public:
     }
     /// Bytes of memory that the contacts take.
     [[nodiscard]] std::size_t bytes() const {
-        return bytesOf(buckets, blocks, states, slots, wallPoints, gaps) + memory.bytes() + sides.bytes();
+        return bytesOf(buckets, blocks, states, slots, wallPoints, gaps) + memory.bytes() + sides.bytes() +
+               totals.bytes();
     }
     /// The bit of a contact's lane.
     static bool bitOf(unsigned bits, std::size_t contact) {

@@ -24,6 +24,8 @@ void ContactSystem::prepare(ContactLaws& contactLaws, const WallHandler& wallHan
     skin = skinChoice;
     ledger = withLedger;
     unlisted = infinity;
+    contacts.keepsTotals = !species->shapes();
+    contacts.totals = {};
     ContactLayout layout = species->layout;
     layout.named = namedColumns.size();
     contacts.memory.setLayout(layout);
@@ -112,7 +114,7 @@ void ContactSystem::listWithin(Grains& grains, double reach) {
     findWallPoints(grains, 0);
 }
 
-double ContactSystem::renew(Grains& grains) {
+double ContactSystem::renew(Grains& grains, bool hasNewLaws) {
     double stored = 0;
     forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
         if (lastsThroughChange(grains, bucket, contact)) {
@@ -123,6 +125,7 @@ double ContactSystem::renew(Grains& grains) {
         stored += endContact(grains, contact);
     });
     sumLostForces(grains);
+    if (hasNewLaws) chooseQuantum(grains);
     listNow(grains, false);
     liquid.clip(contacts, grains);
     return stored;
@@ -214,6 +217,7 @@ std::size_t ContactSystem::listAgain(Grains& grains, const RememberedContacts& r
                      std::max(reach, largestFilmContactGap()), filmsReach);
     const std::size_t recalled = list.rebuild(grains, contacts, remembered, takesInGrains);
     if (takesInGrains) cells = list.takeSearch();
+    if (!contacts.totals.quantum.isChosen()) chooseQuantum(grains);
     wallPatches.listed(contacts, *species, grains);
     skin.listed(contacts, grains.size());
     idleLanes.listed();
@@ -350,7 +354,7 @@ void ContactSystem::takeForceAway(Grains& grains, const Bucket& bucket, std::uin
     const std::size_t lane = contact % Pack::lanes, slot = contacts.slotOf(contact);
     const ContactMemory& memory = contacts.memory;
     const auto torqueOn = [&](const TranslationRecord& grain, double sign) {
-        const ForceTorqueRecord& record = memory.records[slot];
+        const ForceTorqueRecord record = memory.records[slot];
         Vector<double> torque = (grain.radius - record.halfOverlap) * record.leverless;
         if (memory.getLayout().hasContactTorque) torque += sign * memory.torques[slot].torque;
         return torque;
@@ -466,6 +470,12 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     archive.group("overlap", [&] { overlapWatch.visitState(archive); });
     if (species->hasLargestCapillaryNumber)
         archive.group("capillaryNumbers", [&] { capillaryWatch.visitState(archive); });
+    if (contacts.keepsTotals) {
+        double quanta = contacts.totals.quantum.perUnitForce();
+        archive.finite("quanta", quanta);
+        archive.require(quanta >= 0, "quanta", "is negative");
+        if (archive.isReading()) contacts.totals.quantum.setPerUnitForce(quanta);
+    }
     archive.group("events", [&] { contactEvents.visitState(archive); });
     if (liquid.moves()) archive.group("liquid", [&] { liquid.visitState(archive); });
     if (!archive.isReading()) return;
@@ -477,9 +487,43 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
 }
 
 void ContactSystem::computePairForces(const Grains& grains, double step, ContactTiming timing) {
+    if (contacts.keepsTotals) contacts.totals.begin(grains.size(), threads);
     contactEvents.begin();
     liquid.prepareChanged(contacts, *species, grains);
     compute(grains, step, timing, 0, firstWallBucket());
+}
+/// By the largest pressure that springs of the scene can have: that of its largest and of its smallest grain,
+/// with each other and with a wall, at the overlap that ends a run. No spring is softer there than on the way
+/// to it. The same on all ranks, and whatever species there are that nothing has.
+void ContactSystem::chooseQuantum(const Grains& grains) {
+    Bodies sizes{infinity, 0};
+    std::vector<bool> ofGrains(species->speciesCount()), ofWalls = ofGrains;
+    for (std::size_t k = 0; k < grains.ownSize(); ++k) {
+        if (grains.isGap(k)) continue;
+        ofGrains[grains.species[k]] = true;
+        sizes.radius1 = std::min(sizes.radius1, grains.translation[k].radius);
+        sizes.radius2 = std::max(sizes.radius2, grains.translation[k].radius);
+    }
+    for (std::size_t w = 0; w < walls->getSize(); ++w)
+        if (!walls->isRemoved(w))
+            ofWalls[static_cast<std::size_t>(walls->getObject(w).getSpeciesIndex())] = true;
+    for (std::size_t a = 0; a < ofGrains.size(); ++a) ofGrains[a] = allRanks.any(ofGrains[a]);
+    sizes = {-allRanks.largest(-sizes.radius1), allRanks.largest(sizes.radius2)};
+    if (sizes.radius2 == 0) return;  // no grains yet
+    double pressure = 0;
+    const auto add = [&](std::size_t a, std::size_t b, const Bodies& bodies) {
+        const int first = static_cast<int>(a), second = static_cast<int>(b);
+        const double most = species->largestOverlap(first, second) * bodies.radius1;
+        pressure = std::max(pressure, species->normalStiffness(first, second, bodies, most) * most /
+                                          (bodies.radius1 * bodies.radius1));
+    };
+    for (std::size_t a = 0; a < ofGrains.size(); ++a)
+        for (std::size_t b = 0; ofGrains[a] && b < ofGrains.size(); ++b)
+            for (const double radius : {sizes.radius1, sizes.radius2}) {
+                if (ofGrains[b]) add(a, b, {radius, radius});
+                if (ofWalls[b]) add(a, b, {radius});
+            }
+    contacts.totals.quantum = ForceQuantum(pressure);
 }
 void ContactSystem::computeWallForces(const Grains& grains, double step, ContactTiming timing) {
     findWallPoints(grains, step);
@@ -593,13 +637,14 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
                            unlisted,
                            ledger,
                            nullptr,
-                           nullptr};
+                           nullptr,
+                           {}};
     std::atomic<bool> allHaveMemory = true;
     watches.assign(static_cast<std::size_t>(threads), overlapWatch.part());
     capillaryWatches.assign(static_cast<std::size_t>(threads), {});
     // Whether all blocks of a range have memory; what they have seen is added to the watches.
     const auto computeRange = [&](std::size_t begin, std::size_t end, OverlapWatch& overlaps,
-                                  CapillaryWatch& capillaryNumbers) {
+                                  CapillaryWatch& capillaryNumbers, int thread) {
         ContactTask own = task;
         own.begin = begin;
         own.end = end;
@@ -607,6 +652,7 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
         CapillaryWatch ownCapillaryNumbers;
         own.overlaps = &ownOverlaps;
         own.capillaryNumbers = &ownCapillaryNumbers;
+        if (contacts.keepsTotals) own.totals = contacts.totals.of(thread);
         const bool haveMemory = species->compute(own);
         overlaps.add(ownOverlaps);
         capillaryNumbers.add(ownCapillaryNumbers);
@@ -616,7 +662,8 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
         bucket.end - bucket.begin, threads,
         [&](int part, std::size_t begin, std::size_t end) {
             const auto own = static_cast<std::size_t>(part);
-            if (!computeRange(bucket.begin + begin, bucket.begin + end, watches[own], capillaryWatches[own]))
+            if (!computeRange(bucket.begin + begin, bucket.begin + end, watches[own], capillaryWatches[own],
+                              part))
                 allHaveMemory = false;
         },
         blocksWorthAThread, shareOf(blocksOfAShare));
@@ -626,7 +673,7 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
     for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
         if (contacts.slots[b] != ContactStore::waking) continue;
         wake(b, bucket, grains);
-        computeRange(b, b + 1, overlapWatch, capillaryWatch);
+        computeRange(b, b + 1, overlapWatch, capillaryWatch, 0);
     }
 }
 

@@ -66,7 +66,7 @@ public:
     /// Contacts whose bodies the change takes apart end, also where both bodies are held now, and contacts
     /// whose pair has other laws now, which know nothing of what the contact remembers. Returns the energy
     /// (J) that was stored in what has ended, where a ledger is kept.
-    double renew(Grains& grains);
+    double renew(Grains& grains, bool hasNewLaws);
     /// Brings grains back into a periodic scene whose walls have ends that were put outside between two
     /// steps: their contacts at walls go on at what the walls have behind the face. Before renew().
     /// @param places of these grains; @param hasEnds of each wall; @param bringBack changes their positions
@@ -176,9 +176,7 @@ public:
     [[nodiscard]] bool isBridged(std::size_t contact) const { return contacts.isBridged(contact); }
     [[nodiscard]] bool acts(std::size_t contact) const { return contacts.acts(contact); }
     /// N, on its first grain
-    [[nodiscard]] const Vector<double>& forceOf(std::size_t contact) const {
-        return contacts.forceOf(contact);
-    }
+    [[nodiscard]] Vector<double> forceOf(std::size_t contact) const { return contacts.forceOf(contact); }
     /// N, repulsion positive
     [[nodiscard]] double normalForceOf(std::size_t contact) const { return contacts.normalForceOf(contact); }
     /// The place of its first grain, and of its second one; at a wall, the part of it.
@@ -251,6 +249,7 @@ public:
     [[nodiscard]] double springLength(std::uint32_t contact) const;
 
 private:
+    void chooseQuantum(const Grains& grains);
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
     }

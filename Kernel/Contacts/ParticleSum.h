@@ -3,36 +3,24 @@
 #include <bit>
 
 #include "Kernel/Contacts/ContactStore.h"
-#include "Kernel/Contacts/Prefetch.h"
-#include "Kernel/Math/Four.h"
+#include "Kernel/Contacts/ForceTotals.h"
 
 namespace pendular {
 
-/// The force and torque of all contacts of a grain; lane 3 has no meaning.
-template <bool hasTorque>
-struct ForceAndTorque {
-    Four force{};   // N
-    Four torque{};  // N m
-};
-template <>
-struct ForceAndTorque<false> {
-    Four force{};  // N
-};
-
-/// The sum over the contacts of the grain at a place, always in the order of its partners: no scatter, no
-/// atomics, and the same bits for any number of threads. Contacts with memory that do not act at the moment
-/// add zeros, which is cheaper than to ask. A record with torque is one Pack, weighted by the side's sign for
-/// the force and by the grain's lever arm for the torque.
+/// The sum over the contacts of the grain at a place, in the order of its partners: the same bits for any
+/// number of threads. Contacts with memory that do not act at the moment add zeros, which is cheaper than to
+/// ask. A record with torque is one Pack, weighted by the side's sign for the force and by the grain's lever
+/// arm for the torque.
 /// @param radius of the grain, m
 template <bool hasTorque, bool hasContactTorque>
-[[gnu::always_inline]] inline ForceAndTorque<hasTorque> sumContacts(const ContactStore& store,
-                                                                    std::size_t grain, double radius) {
+[[gnu::always_inline]] inline ForceAndTorque<hasTorque> sumInOrder(const ContactStore& store,
+                                                                   std::size_t grain, double radius) {
     static constexpr std::array<double, 2> signs{1, -1};  // on body 1, on body 2
     if constexpr (hasTorque) {
         const Mask torquePart = maskFromBits(0b01110000);
         Pack sum = 0;
         for (const std::uint32_t side : store.sides.of(grain)) {
-            const ForceTorqueRecord& record = store.memory.records[side / 2];
+            const ForceTorqueRecord record = store.memory.records[side / 2];
             const Pack weight = select(torquePart, Pack(radius - record.halfOverlap), Pack(signs[side & 1]));
             sum = fma(Pack::load(&record.force.x), weight, sum);
         }
@@ -49,27 +37,91 @@ template <bool hasTorque, bool hasContactTorque>
     }
 }
 
-/// The same, whatever is kept of a contact: N, and N m about the grain's centre.
+/// The force (and torque) of a contact on one of its bodies, in quanta.
+template <bool hasTorque, bool hasContactTorque>
+class QuantaOfContact {
+public:
+    QuantaOfContact(const ContactStore& contacts, double grainRadius)
+        : store(contacts),
+          radius(grainRadius),
+          perNewton(contacts.totals.quantum.perNewton(grainRadius)),
+          quanta(
+              select(forcePart(), Pack(perNewton),
+                     select(torquePart(), Pack(ForceQuantum::perNewtonMetre(radius, perNewton)), Pack(0)))) {}
+
+    [[nodiscard]] bool fits(std::size_t slot) const {
+        if constexpr (hasTorque) return ForceQuantum::fits(store.memory.records.force(slot), perNewton);
+        else return ForceQuantum::fits(store.memory.forces[slot].force, perNewton);
+    }
+    /// @param sign 1 on body 1, -1 on body 2
+    [[nodiscard]] std::array<std::int64_t, Pack::lanes> of(std::size_t slot, double sign) const {
+        if constexpr (hasTorque) {
+            const ForceTorqueRecord record = store.memory.records[slot];
+            const Pack weight = select(torquePart(), Pack(radius - record.halfOverlap), Pack(sign));
+            Pack own = 0;
+            if constexpr (hasContactTorque) {
+                const Vector<double> couple = sign * store.memory.torques[slot].torque;
+                own = Pack::fromLanes({0, 0, 0, 0, couple.x, couple.y, couple.z, 0});
+            }
+            return nearestIntegers(quanta * fma(Pack::load(&record.force.x), weight, own));
+        } else {
+            const Vector<double> force = sign * store.memory.forces[slot].force;
+            return nearestIntegers(quanta * Pack::fromLanes({force.x, force.y, force.z, 0, 0, 0, 0, 0}));
+        }
+    }
+
+private:
+    static Mask forcePart() { return maskFromBits(0b00000111); }
+    static Mask torquePart() { return maskFromBits(0b01110000); }
+
+    const ContactStore& store;
+    double radius, perNewton;
+    Pack quanta;
+};
+
+/// The sum in quanta, as the kernel adds them to the totals; in order where a force does not fit.
+template <bool hasTorque, bool hasContactTorque>
+[[gnu::noinline]] ForceAndTorque<hasTorque> sumQuanta(const ContactStore& store, std::size_t grain,
+                                                      double radius) {
+    const QuantaOfContact<hasTorque, hasContactTorque> quanta(store, radius);
+    std::array<std::int64_t, Pack::lanes> sum{};
+    for (const std::uint32_t side : store.sides.of(grain)) {
+        if (!quanta.fits(side / 2)) return sumInOrder<hasTorque, hasContactTorque>(store, grain, radius);
+        const auto own = quanta.of(side / 2, (side & 1) == 0 ? 1 : -1);
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += own[k];
+    }
+    return store.totals.inNewtons<hasTorque>(std::bit_cast<ForceTotal>(sum), radius);
+}
+
+/// The sum at the end of a step, which leaves the totals of the grain at zero.
+template <bool hasTorque, bool hasContactTorque>
+[[gnu::always_inline]] inline ForceAndTorque<hasTorque> takeSum(const ContactStore& store, std::size_t grain,
+                                                                double radius) {
+    // Nothing has been added to the total of a grain without contacts.
+    if (store.sides.of(grain).empty()) return {};
+    if (store.keepsTotals) [[likely]] {
+        const ForceTotal total = store.totals.take(grain);
+        if (total.fits()) [[likely]]
+            return store.totals.inNewtons<hasTorque>(total, radius);
+    }
+    return sumInOrder<hasTorque, hasContactTorque>(store, grain, radius);
+}
+
+/// The sum of the records at any time, whatever is kept of a contact: N, and N m about the grain's centre.
 struct ContactSum {
     Vector<double> force, torque;
 };
 inline ContactSum contactSum(const ContactStore& store, std::size_t grain, double radius) {
-    const auto vectors = [](const ForceAndTorque<true>& sum) {
-        return ContactSum{vectorOf(sum.force), vectorOf(sum.torque)};
+    const auto sum = [&]<bool hasTorque, bool hasContactTorque>() -> ContactSum {
+        const auto found = store.keepsTotals ? sumQuanta<hasTorque, hasContactTorque>(store, grain, radius)
+                                             : sumInOrder<hasTorque, hasContactTorque>(store, grain, radius);
+        if constexpr (hasTorque) return {vectorOf(found.force), vectorOf(found.torque)};
+        else return {vectorOf(found.force), {0, 0, 0}};
     };
     const ContactLayout& layout = store.memory.getLayout();
-    if (!layout.hasTorque)
-        return {vectorOf(sumContacts<false, false>(store, grain, radius).force), {0, 0, 0}};
-    return vectors(layout.hasContactTorque ? sumContacts<true, true>(store, grain, radius)
-                                           : sumContacts<true, false>(store, grain, radius));
-}
-
-/// Asks for what sumContacts reads.
-template <bool hasTorque>
-[[gnu::always_inline]] inline void prefetchContacts(const ContactStore& store, std::size_t grain) {
-    for (const std::uint32_t side : store.sides.of(grain))
-        if constexpr (hasTorque) prefetch(&store.memory.records[side / 2], sizeof(ForceTorqueRecord));
-        else prefetch(&store.memory.forces[side / 2], sizeof(ForceRecord));
+    return !layout.hasTorque         ? sum.template operator()<false, false>()
+           : layout.hasContactTorque ? sum.template operator()<true, true>()
+                                     : sum.template operator()<true, false>();
 }
 
 }  // namespace pendular

@@ -42,8 +42,14 @@ public:
                      std::span<ContactStiffness> found) const override {
         ofPair(a, b).stiffnesses(a, b, contacts, found);
     }
+    /// Zero where the pair has no laws, as the range.
     [[nodiscard]] double normalStiffness(int a, int b, const Bodies& bodies, double overlap) const override {
-        return ofPair(a, b).normalStiffness(a, b, bodies, overlap);
+        const ContactLaws* const laws = find(a, b);
+        return laws ? laws->normalStiffness(a, b, bodies, overlap) : 0;
+    }
+    [[nodiscard]] double largestOverlap(int a, int b) const override {
+        const ContactLaws* const laws = find(a, b);
+        return laws ? laws->largestOverlapInRun : 0;
     }
     [[nodiscard]] std::vector<std::pair<std::string_view, DomainLimit>> brokenLimits(
         int a, int b, const Bodies& bodies) const override {

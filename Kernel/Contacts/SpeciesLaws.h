@@ -223,7 +223,8 @@ protected:
         const double unlisted = task.unlisted;
         using Geometry = decltype(geometryOf(task.begin));
         ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing,
-                                task.overlaps->part(overlapLimit.largest), task.store, task.acceleration);
+                                task.overlaps->part(overlapLimit.largest), task.store, task.acceleration,
+                                task.totals);
         bool all = true;
         for (std::size_t b = task.begin, end = task.end; b < end; ++b)
             if (slots[b] != ContactStore::asleep || unlisted > gaps[b]) {
@@ -252,10 +253,22 @@ private:
     template <class Geometry>
     [[gnu::always_inline]] static void prefetchFrom(const ContactTask& task, std::size_t block) {
         const std::size_t bodies = block + blocksAheadForBodies, memory = block + blocksAheadForMemory;
-        if (bodies < task.end)
-            Geometry::prefetchBodies(task.translation, task.rotation, task.store.blocks[bodies]);
+        if (bodies < task.end) {
+            const ContactBlock& ahead = task.store.blocks[bodies];
+            Geometry::prefetchBodies(task.translation, task.rotation, ahead);
+            if (task.totals.totals != nullptr) {
+                prefetchTotals(task.totals.totals, ahead.first);
+                if constexpr (requires(Geometry g) { g.radius2; })
+                    prefetchTotals(task.totals.totals, ahead.second);
+            }
+        }
         if (memory < task.end && task.store.slots[memory] != ContactStore::asleep)
             task.store.memory.prefetchBlock(task.store.slots[memory]);
+    }
+
+    [[gnu::always_inline]] static void prefetchTotals(const ForceTotal* totals,
+                                                      const std::array<std::uint32_t, Pack::lanes>& grains) {
+        for (const std::uint32_t grain : grains) prefetch<true>(totals + grain, sizeof(ForceTotal));
     }
 
     SpeciesHandler<S>& species;

@@ -40,12 +40,15 @@ inline void handOver(ContactStore& store, const ContactLaws& laws, const Bucket&
     memory.named.get(old, numbers);
     memory.named.set(next, numbers);
     // The kernel reads the forces of the last step.
+    memory.records.get(old, numbers);
+    memory.records.set(next, numbers);
+    memory.records.clear(old);
     const auto move = [&](auto& column) {
         if (column.empty()) return;
         column[next] = column[old];
         column[old] = {};
     };
-    move(memory.records), move(memory.forces), move(memory.torques), move(memory.energies);
+    move(memory.forces), move(memory.torques), move(memory.energies);
     const auto moveBit = [&](std::uint8_t& bitsFrom, std::uint8_t& bitsTo) {
         const unsigned bit = bitsFrom >> (from % Pack::lanes) & 1u;
         bitsFrom = static_cast<std::uint8_t>(bitsFrom & ~(bit << (from % Pack::lanes)));
@@ -80,7 +83,7 @@ inline void addWallForces(const ContactStore& store, const Bucket& bucket, const
             point += (grain.radius - memory.records[store.slotOf(c)].halfOverlap) *
                      Vector<double>{n[0].lane[lane], n[1].lane[lane], n[2].lane[lane]};
         }
-        const Vector<double>& force = store.forceOf(c);
+        const Vector<double> force = store.forceOf(c);
         ++sum.touches;
         sum.force.add(-force);
         sum.torque.add(-cross(point, force));
@@ -98,7 +101,7 @@ inline void addWallForcesOnShapes(const ContactStore& store, const Bucket& bucke
         if (!store.acts(c)) continue;
         const TranslationRecord& grain = grains.translation[store.firstOf(c)];
         const Vector<double> place = grain.position - wall.imageShift(store.secondOf(c), grain.position);
-        const ForceTorqueRecord& record = memory.records[store.slotOf(c)];
+        const ForceTorqueRecord record = memory.records[store.slotOf(c)];
         ++sum.touches;
         sum.force.add(-record.force);
         sum.torque.add(-cross(place - about, record.force));

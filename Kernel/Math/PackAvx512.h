@@ -246,6 +246,34 @@ requires(columns == 8 || columns == 4)
     }
 }
 
+/// Adds the nearest integers (ties to even) of the columns to eight records of eight integers: that of lane k
+/// of column c to member c of the record at base + 8 * index[k]. Records may be the same. |value| < 2^63.
+/// Aligned to 64 bytes.
+[[gnu::always_inline]] inline void addNearestIntegers(std::int64_t* base, const std::uint32_t* index,
+                                                      const std::array<Pack, 8>& column) {
+    const auto integers = [](Pack a) { return _mm512_castsi512_pd(_mm512_maskz_cvtpd_epi64(0xff, a.value)); };
+    std::array<Pack, 4> first =
+        transposeBlocks(integers(column[0]), integers(column[1]), integers(column[2]), integers(column[3]));
+    std::array<Pack, 4> last =
+        transposeBlocks(integers(column[4]), integers(column[5]), integers(column[6]), integers(column[7]));
+    const auto add = [&](int k, __m512d record) {
+        auto* const to = reinterpret_cast<__m512i*>(base + std::size_t{8} * index[k]);
+        _mm512_store_si512(to, _mm512_add_epi64(_mm512_load_si512(to), _mm512_castpd_si512(record)));
+    };
+#pragma GCC unroll 4
+    for (int r = 0; r < 4; ++r) add(r, _mm512_maskz_shuffle_f64x2(0xff, first[r].value, last[r].value, 0x44));
+#pragma GCC unroll 4
+    for (int r = 0; r < 4; ++r)
+        add(r + 4, _mm512_maskz_shuffle_f64x2(0xff, first[r].value, last[r].value, 0xee));
+}
+
+/// The nearest integers, ties to even, for |value| < 2^63.
+[[gnu::always_inline]] inline std::array<std::int64_t, Pack::lanes> nearestIntegers(Pack a) {
+    std::array<std::int64_t, Pack::lanes> integers;
+    _mm512_storeu_si512(integers.data(), _mm512_maskz_cvtpd_epi64(0xff, a.value));
+    return integers;
+}
+
 /// Lane k from base[stride * k]: one member of eight consecutive records.
 [[gnu::always_inline]] inline Pack gatherColumn(const double* base, std::size_t stride) {
     return Pack(_mm512_setr_pd(base[0], base[stride], base[2 * stride], base[3 * stride], base[4 * stride],

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 namespace pendular {
@@ -273,6 +275,37 @@ requires(columns == 8 || columns == 4)
                 part::interleaveOdd(column0, column1), part::interleaveEven(column2, column3),
                 part::interleaveOdd(column2, column3));
         }
+}
+
+/// The nearest integers, ties to even, for |value| < 2^63.
+[[gnu::always_inline]] inline std::array<std::int64_t, Pack::lanes> nearestIntegers(const Pack& a) {
+    return std::bit_cast<std::array<std::int64_t, Pack::lanes>>(Pack::map([&](int k) __attribute__((
+        always_inline)) { return part::asDoubles(part::nearestIntegers(a.value[k])); }));
+}
+
+/// Adds the nearest integers (ties to even) of the columns to eight records of eight integers: that of lane k
+/// of column c to member c of the record at base + 8 * index[k]. Records may be the same. |value| < 2^63.
+/// Aligned to 64 bytes.
+[[gnu::always_inline]] inline void addNearestIntegers(std::int64_t* base, const std::uint32_t* index,
+                                                      const std::array<Pack, 8>& column) {
+    std::array<Pack, 8> whole;
+#pragma GCC unroll 8
+    for (std::size_t c = 0; c < 8; ++c)
+        whole[c] = Pack::map([&](int k) __attribute__((always_inline)) {
+            return part::asDoubles(part::nearestIntegers(column[c].value[k]));
+        });
+    alignas(64) std::array<double, 64> records;
+    storeRecords(records.data(), whole);
+    for (std::size_t k = 0; k < Pack::lanes; ++k) {
+        std::int64_t* const to = base + std::size_t{8} * index[k];
+        for (std::size_t c = 0; c < 8; c += part::lanes) {
+            part::Naturals sum, own;
+            std::memcpy(&sum, to + c, sizeof sum);
+            std::memcpy(&own, &records[8 * k + c], sizeof own);
+            sum += own;
+            std::memcpy(to + c, &sum, sizeof sum);
+        }
+    }
 }
 
 /// Lane k from base[stride * k]: one member of eight consecutive records.

@@ -104,6 +104,15 @@ typedef unsigned long long Naturals __attribute__((vector_size(8 * lanes)));
 #endif
 }
 
+/// The nearest integers, ties to even, for |a| < 2^63, in two steps of less than 2^51: from 2^52 on doubles
+/// have no fraction, and their last bits are the integer.
+[[gnu::always_inline]] inline Naturals nearestIntegers(Doubles a) {
+    constexpr double counted = 0x1.8p52;
+    const Doubles high = a * 0x1p-32 + counted, rest = a - (high - counted) * 0x1p32, low = rest + counted;
+    const Naturals zero = asNaturals(broadcast(counted));
+    return ((asNaturals(high) - zero) << 32) + (asNaturals(low) - zero);
+}
+
 // Transposition: a register holds two neighbouring members of its records, those of the records 0 (and 2), or
 // of the records 1 (and 3); interleaving the two gives each of the members for all records. The way back is
 // the same.

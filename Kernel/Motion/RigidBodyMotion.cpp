@@ -207,10 +207,10 @@ private:
                                                  const ContactStore& contacts) const {
         Four force{}, torque{};
         for (std::size_t m = bodies.firstInSpace(body); m < bodies.firstInSpace(body + 1); ++m) {
-            if (m + grainsAhead < members.size()) prefetchGrain(contacts, members[m + grainsAhead].place);
+            if (m + grainsAhead < members.size()) prefetchGrain(members[m + grainsAhead].place);
             const MemberInSpace& member = members[m];
-            const auto sum = sumContacts<hasSpin, hasContactTorque>(contacts, member.place,
-                                                                    grains.translation[member.place].radius);
+            const auto sum = takeSum<hasSpin, hasContactTorque>(contacts, member.place,
+                                                                grains.translation[member.place].radius);
             force += sum.force;
             torque += crossFour(axes.turn(lane, member.arm), sum.force);
             if constexpr (hasSpin) torque += sum.torque;
@@ -218,10 +218,9 @@ private:
         return {force, torque};
     }
 
-    [[gnu::always_inline]] void prefetchGrain(const ContactStore& contacts, std::uint32_t place) const {
+    [[gnu::always_inline]] void prefetchGrain(std::uint32_t place) const {
         prefetch<true>(&grains.translation[place], sizeof(TranslationRecord));
         if constexpr (hasSpin) prefetch<true>(&grains.rotation[place], sizeof(RotationRecord));
-        prefetchContacts<hasSpin>(contacts, place);
     }
 
     double moveGrains(std::size_t body, const EightInSpace& now, std::size_t lane, double length) {

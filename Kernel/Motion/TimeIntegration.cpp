@@ -15,7 +15,6 @@ class Loops {
 public:
     using Grains = ParticleStore;
     static constexpr std::size_t grainsWorthAThread = 512, grainsOfAShare = 512;
-    static constexpr std::size_t grainsAhead = 8;  // whose contacts are asked for before
 
     /// Moves all grains by a step; returns the largest squared displacement (m^2), infinite
     /// if one is not a number.
@@ -192,9 +191,8 @@ private:
     [[gnu::always_inline]] static void accelerate(Grains& grains, const ContactStore& store, Four gravity,
                                                   double step, const Integrator& scheme, std::size_t k,
                                                   Motion& motion) {
-        if (k + grainsAhead < grains.size()) prefetchContacts<hasSpin>(store, k + grainsAhead);
         const TranslationRecord& grain = grains.translation[k];
-        const auto sum = sumContacts<hasSpin, hasContactTorque>(store, k, grain.radius);
+        const auto sum = takeSum<hasSpin, hasContactTorque>(store, k, grain.radius);
         const Four weight = grain.inverseMass == 0 ? Four{} : gravity;
         Four acceleration = grain.inverseMass * sum.force + weight;
         if constexpr (isHeld) acceleration = freePart(acceleration, grains.held[k].freeAlong());
@@ -235,20 +233,27 @@ double TimeIntegration::begin(ParticleStore& grains, double step, int threads, c
     return withLoops(grains.hasSpin, false, box.imagesMove,
                      [&]<class L>() { return L::begin(grains, step, threads, scheme, box); });
 }
+/// Grains of rigid bodies, and those of other ranks, are not moved here.
+static void noteTaken(const ParticleStore& grains, const ContactStore& store) {
+    if (grains.bodies.empty() && grains.ownSize() == grains.size()) store.totals.allAreTaken();
+}
 void TimeIntegration::finish(ParticleStore& grains, const ContactStore& store, const Vector<double>& gravity,
                              double step, int threads, const Integrator& scheme) {
     grains.bodies.refresh(grains);
     withLoops(grains.hasSpin, store.memory.getLayout().hasContactTorque, false,
               [&]<class L>() { L::finish(grains, store, gravity, step, threads, scheme); });
+    noteTaken(grains, store);
 }
 double TimeIntegration::finishAndBegin(ParticleStore& grains, const ContactStore& store,
                                        const Vector<double>& gravity, double step, double nextStep,
                                        int threads, const Integrator& scheme, const PeriodicBox& box) {
     grains.bodies.refresh(grains);
-    return withLoops(
-        grains.hasSpin, store.memory.getLayout().hasContactTorque, box.imagesMove, [&]<class L>() {
+    const double shift2 =
+        withLoops(grains.hasSpin, store.memory.getLayout().hasContactTorque, box.imagesMove, [&]<class L>() {
             return L::finishAndBegin(grains, store, gravity, step, nextStep, threads, scheme, box);
         });
+    noteTaken(grains, store);
+    return shift2;
 }
 void TimeIntegration::takeBack(ParticleStore& grains, double step, const Integrator& scheme) {
     withLoops(grains.hasSpin, false, false, [&]<class L>() { L::takeBack(grains, step, scheme); });

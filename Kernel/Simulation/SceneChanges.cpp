@@ -105,7 +105,7 @@ void Scene::Inside::takeOverChanges() {
         ParticleStore& grains = particles.store();
         if (periodicWalls.haveEnds()) wrapPlaced(grains, changes, hadEnds);
         if (newLaws || newBodies) {
-            bookEnergyOfEnded(contacts.renew(grains));
+            bookEnergyOfEnded(contacts.renew(grains, newLaws));
             renewAccelerations(changes);
         } else if (periodicWalls.takeNewImages() || !contacts.takeIn(grains, changes.added)) {
             contacts.listNow(grains);

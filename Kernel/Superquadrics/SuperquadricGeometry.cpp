@@ -243,9 +243,7 @@ void SuperquadricGeometry::writeRecords(ContactMemory& memory, std::size_t block
     if (!isAtWall)
         leverless = (Pack(1) / (radius1 + radius2)) * (torque1 - select(acts, cross(arm2, force), zero()));
     const Vector<Pack> own = torque1 - radius1 * leverless + torque;
-    storeRecords(reinterpret_cast<double*>(&memory.records[block * Pack::lanes]),
-                 std::array<Pack, 8>{force.x, force.y, force.z, Pack(0), leverless.x, leverless.y,
-                                     leverless.z, normalForce});
+    storeColumns(memory.records.ofBlock(block), force, Pack(0), leverless, normalForce);
     storeRecords(reinterpret_cast<double*>(&memory.torques[block * Pack::lanes]),
                  std::array<Pack, 4>{own.x, own.y, own.z, Pack(0)});
     store(normal, normalColumns(memory, block));

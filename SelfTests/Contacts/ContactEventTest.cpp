@@ -6,6 +6,7 @@
 #include "Kernel/Contacts/ContactSystem.h"
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Scenes/SettlingBox.h"
+#include "SelfTests/Support/Quantum.h"
 
 namespace pendular::contactEventTest {
 namespace {
@@ -130,7 +131,9 @@ TEST(Interactions, ofAGrainSumToItsForce) {
             EXPECT_NEAR(dot(c.tangentialForce(), c.normal()), 0, 1e-12 * norm(c.force));
         }
         const Vec3D sum = scene.contactForceOn(grain.getId()) + grain.getMass() * Vec3D(0, 0, -9.81);
-        EXPECT_LT((sum - grain.getForce()).norm(), 1e-14 * scale * 10);  // of some ten roundings
+        // Of some ten roundings, and those to half a quantum.
+        EXPECT_LT((sum - grain.getForce()).norm(),
+                  1e-14 * scale * 10 + 5 * support::quantumOf(scene, grain.getRadius()));
     }
     EXPECT_GT(several, 10);
 

@@ -41,7 +41,7 @@ TEST(IdleLanes, areThoseOfBlocksThatAct) {
     IdleLanes parted;
     EXPECT_FALSE(parted.newListPays(full, 1e3));
     EXPECT_FALSE(parted.newListPays(none, 1e3));
-    ContactStore bridged = full;
+    ContactStore bridged = storeWith(100, 8);
     for (BlockState& state : bridged.states) state = {.listed = 0xff, .touching = 1, .bridged = 0xfe};
     IdleLanes wet;
     EXPECT_FALSE(wet.newListPays(full, 1e3));

@@ -255,11 +255,25 @@ TYPED_TEST(MovingBridgeCloud, outlivesAGrainThatIsRemoved) {
     Cloud<TypeParam> one, relisted;
     one.initialise();
     relisted.initialise();
+    const std::vector<std::size_t> gone{13, 14, 4};
+    // The force of a grain that is given its radius is summed again, which would differ in its last bits from
+    // what a removal takes away: it is none of the partners.
+    const auto isPartner = [&](std::size_t identity) {
+        return std::ranges::any_of(gone, [&](std::size_t k) {
+            const auto its = relisted.interactionsOf(k);
+            return k == identity || std::ranges::any_of(its, [&](const ObservedContact& c) {
+                       return c.particle1 == identity || c.particle2 == identity;
+                   });
+        });
+    };
+    std::size_t given = 5;
     for (int k = 0; k < 600; ++k) {
-        if (k == 200)
+        if (k == 200) {
+            for (given = 0; isPartner(given);) ++given;
             for (Cloud<TypeParam>* cloud : {&one, &relisted})
-                for (const std::size_t gone : {13, 14, 4}) cloud->particleHandler.removeObject(gone);
-        auto grain = relisted.particleHandler.getObject(5);
+                for (const std::size_t each : gone) cloud->particleHandler.removeObject(each);
+        }
+        auto grain = relisted.particleHandler.getObject(given);
         grain.setRadius(grain.getRadius());
         one.step();
         relisted.step();

@@ -425,6 +425,42 @@ TEST(Records, storeTransposesBackAndTouchesNothingElse) {
     expectStored<4>(36);  // aligned to 32 bytes only
 }
 
+TEST(Pack, nearestIntegersAreThoseOfTheStandardLibrary) {
+    std::mt19937_64 generator(9);
+    std::uniform_real_distribution<double> exponent(-3, 62), significand(-1, 1);
+    for (int repetition = 0; repetition < 1000; ++repetition) {
+        Lanes lanes;
+        for (double& lane : lanes) lane = significand(generator) * std::exp2(exponent(generator));
+        lanes[0] = static_cast<double>(repetition - 500) + 0.5;  // a tie
+        const auto integers = nearestIntegers(Pack::fromLanes(lanes));
+        for (std::size_t k = 0; k < lanes.size(); ++k)
+            EXPECT_EQ(integers[k], static_cast<std::int64_t>(std::nearbyint(lanes[k])));
+    }
+}
+
+TEST(Records, addNearestIntegersAddsToEachRecordAlsoToOneManyTimes) {
+    struct alignas(64) Whole {
+        std::array<std::int64_t, 8 * 12> value;
+    };
+    std::mt19937_64 generator(11);
+    Whole sums{}, expected{};
+    for (int repetition = 0; repetition < 200; ++repetition) {
+        std::array<std::uint32_t, 8> index;
+        for (std::uint32_t& i : index) i = static_cast<std::uint32_t>(generator() % 12);
+        std::array<Pack, 8> columns;
+        for (std::size_t c = 0; c < 8; ++c) {
+            Lanes lanes;
+            for (std::size_t k = 0; k < 8; ++k) {
+                lanes[k] = (static_cast<double>(generator() % 4096) - 2048) * 0.25 * std::exp2(5.0 * c);
+                expected.value[8 * index[k] + c] += static_cast<std::int64_t>(std::nearbyint(lanes[k]));
+            }
+            columns[c] = Pack::fromLanes(lanes);
+        }
+        addNearestIntegers(sums.value.data(), index.data(), columns);
+    }
+    EXPECT_EQ(sums.value, expected.value);
+}
+
 TEST(Records, gatherColumnTakesOneMemberOfEachRecord) {
     const Memory memory;
     for (std::size_t stride : {1, 4, 8, 16, 39}) {

@@ -91,7 +91,7 @@ TEST(SeveralSpecies, aSceneOfOneTypeHasRecordsOfThatTypeOnly) {
     SettlingBox<Hertz> smooth(2);
     run(smooth, 500);
     const ContactMemory& memory = smooth.contacts().store().memory;
-    EXPECT_TRUE(memory.records.empty() && memory.torques.empty() && memory.history.columns.empty() &&
+    EXPECT_TRUE(memory.records.columns.empty() && memory.torques.empty() && memory.history.columns.empty() &&
                 memory.interaction.columns.empty());
     EXPECT_FALSE(memory.forces.empty());
     EXPECT_TRUE(smooth.particleHandler.store().rotation.empty());
@@ -257,7 +257,7 @@ std::set<std::pair<int, int>> bridgedPairs() {
                 if (seen.separation > 0) found.insert(pair);
             }
             if (pair == std::pair(0, 0) && store.acts(c)) {
-                const ForceTorqueRecord& record = store.memory.records[store.slotOf(c)];
+                const ForceTorqueRecord record = store.memory.records[store.slotOf(c)];
                 EXPECT_EQ(norm(record.leverless), 0);
                 EXPECT_EQ(seen.adhesiveForce, 0);
                 EXPECT_GT(record.halfOverlap, 0);

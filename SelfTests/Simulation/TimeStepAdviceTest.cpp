@@ -160,7 +160,8 @@ TEST(TimeStepAdvice, tangentialSpringsOfASingleContactHaveNoLimitOfTheirOwn) {
                     1, 1e-14);
         const double force = 4.0 / 3.0 * modulus * std::sqrt(radius) * std::pow(0.049 * radius, 1.5);
         const GrainMotion slip{.velocity = {1e-6, 0, 0}, .spin = {0, -1e-3, 0}};
-        for (double share : {0.1, 0.3, 1.0, 4.0, 12.0, 16.0, 50.0}) {
+        // The normal spring is at its own limit at 38 times the advice.
+        for (double share : {0.1, 0.3, 1.0, 4.0, 12.0, 16.0, 35.0}) {
             if (restitution == 1 && share > 12.6) continue;
             EXPECT_FALSE(grows(species, force, slip, share * advice)) << restitution << ' ' << share;
         }

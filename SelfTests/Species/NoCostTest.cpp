@@ -118,10 +118,10 @@ TEST(NoCost, grainsWithoutSpinHaveNoRotation) {
 TEST(NoCost, torquesOfContactsAreKeptForLawsThatHaveThem) {
     ContactMemory smooth = memoryOf<Wet>(), rough = memoryOf<Rough>(), rolling = memoryOf<Rolling>();
     for (int k = 0; k < 3; ++k) smooth.add(0), rough.add(0), rolling.add(0);
-    EXPECT_EQ(smooth.records.capacity(), 0u);
+    EXPECT_EQ(smooth.records.columns.capacity(), 0u);
     EXPECT_EQ(rough.forces.capacity(), 0u);
     EXPECT_EQ(rough.torques.capacity(), 0u);
-    EXPECT_EQ(rolling.torques.size(), rolling.records.size());
+    EXPECT_EQ(rolling.torques.size() * RecordColumns::numbers, rolling.records.columns.size() * Pack::lanes);
 }
 
 TEST(NoCost, everySpeciesHasTheMemoryOfItsLawsAndNoMore) {

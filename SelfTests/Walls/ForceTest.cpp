@@ -6,6 +6,7 @@
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/InfiniteWall.h"
 #include "SelfTests/Support/CsvRows.h"
+#include "SelfTests/Support/Quantum.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/TestFolder.h"
 #include "SelfTests/Walls/WallScene.h"
@@ -73,9 +74,11 @@ TYPED_TEST(WallForces, areMinusTheForcesOnTheGrainsInEveryStep) {
             wallForce += scene.wallHandler.getObject(w).getForce();
             wallTorque += scene.wallHandler.getObject(w).getTorque();
         }
-        // Round-off of sums of some hundred terms; lever arms are up to 20 mm.
-        ASSERT_LT((force + wallForce).norm(), 1e-13 * sizes + 1e-18);
-        ASSERT_LT((torque + wallTorque).norm(), 1e-13 * sizes * 20e-3 + 1e-20) << k;
+        // Round-off of sums of some hundred terms, each also rounded to half a quantum; lever arms are up to
+        // 20 mm.
+        const double error = 1e-13 * sizes + 1e-18 + 50 * support::quantumOf(scene, 1e-3);
+        ASSERT_LT((force + wallForce).norm(), error);
+        ASSERT_LT((torque + wallTorque).norm(), error * 20e-3) << k;
         largest = std::max(largest, wallForce.norm());
     }
     EXPECT_GT(largest, mass() * 9.81);

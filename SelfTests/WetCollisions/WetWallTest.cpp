@@ -289,9 +289,11 @@ TEST(WetWall, anyDirectionOfImpactIsAlike) {
         const auto turned =
             turnedBy(Eigen::AngleAxisd(random.uniform(0, 3), axis.normalized()).toRotationMatrix());
         EXPECT_EQ(turned.end, upright.end);
-        EXPECT_NEAR(turned.normalRestitution, upright.normalRestitution, 1e-12);
-        EXPECT_NEAR(turned.tangentialRestitution, upright.tangentialRestitution, 1e-12);
-        EXPECT_NEAR(turned.spin / upright.spin, 1, 1e-12);
+        // Forces are rounded along other axes, to some 1e-14 of the largest: of some hundred steps, and of
+        // what comes of it while the liquid slows the grain.
+        EXPECT_NEAR(turned.normalRestitution, upright.normalRestitution, 1e-11);
+        EXPECT_NEAR(turned.tangentialRestitution, upright.tangentialRestitution, 1e-11);
+        EXPECT_NEAR(turned.spin / upright.spin, 1, 1e-11);
     }
 }
 

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "Kernel/Base/ZeroedLines.h"
+#include "Kernel/Contacts/ForceQuantum.h"
+#include "Kernel/Math/Four.h"
+
+namespace pendular {
+
+/// The force and the torque that contacts give a grain, in quanta: one line of the cache.
+struct alignas(64) ForceTotal {
+    typedef long long Whole __attribute__((vector_size(32)));
+
+    Whole force{};   // x, y, z; how many contacts have a force that does not fit
+    Whole torque{};  // x, y, z; -
+
+    [[nodiscard]] bool fits() const { return force[3] == 0; }
+    ForceTotal& operator+=(const ForceTotal& other) {
+        force += other.force;
+        torque += other.torque;
+        return *this;
+    }
+};
+
+/// The force and torque of all contacts of a grain; lane 3 has no meaning.
+template <bool hasTorque>
+struct ForceAndTorque {
+    Four force{};   // N
+    Four torque{};  // N m
+};
+template <>
+struct ForceAndTorque<false> {
+    Four force{};  // N
+};
+
+/// The totals to which a thread adds.
+struct OwnTotals {
+    /// So many grains, one after the other, have one mark.
+    static constexpr std::size_t grainsOfAMark = 64;
+
+    ForceTotal* totals = nullptr;   // of each grain; null where the kernel makes no sums
+    std::uint8_t* marks = nullptr;  // which grains it has added to; null: all may be
+};
+
+/// The totals of all grains, of each thread that adds to them.
+class ForceTotals {
+public:
+    ForceQuantum quantum;
+
+    /// All totals are zero from now on, for so many grains and threads.
+    void begin(std::size_t grains, int threads);
+    /// Those of all grains have been taken: they are zero.
+    void allAreTaken() { areZero = true; }
+
+    [[nodiscard]] OwnTotals of(int thread);
+
+    /// Takes the total of a grain, and leaves zero.
+    [[gnu::always_inline]] ForceTotal take(std::size_t grain) {
+        ForceTotal sum = first[grain];
+        first[grain] = {};
+        for (Copy& copy : others) {
+            if (copy.marks[grain / OwnTotals::grainsOfAMark] == 0) continue;
+            sum += copy.totals[grain];
+            copy.totals[grain] = {};
+        }
+        return sum;
+    }
+    /// In N (and N m), of a grain of a radius (m).
+    template <bool hasTorque>
+    [[nodiscard, gnu::always_inline]] ForceAndTorque<hasTorque> inNewtons(const ForceTotal& total,
+                                                                          double radius) const {
+        const double newtons = quantum.newtons(radius);
+        ForceAndTorque<hasTorque> sum;
+        sum.force = __builtin_convertvector(total.force, Four) * newtons;
+        if constexpr (hasTorque)
+            sum.torque =
+                __builtin_convertvector(total.torque, Four) * (newtons * ForceQuantum::lengthOf(radius));
+        return sum;
+    }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    struct Copy {
+        ZeroedLines<ForceTotal> totals;
+        std::vector<std::uint8_t> marks;
+
+        void clearMarked();
+    };
+
+    ZeroedLines<ForceTotal> first;  // of the first thread
+    std::vector<Copy> others;
+    bool areZero = false;
+};
+
+}  // namespace pendular
