@@ -39,6 +39,7 @@ ClumpTemplate::ClumpTemplate(std::vector<Ball> all)
         solid.inertia =
             0.4 * solid.volume * spheres[0].radius * spheres[0].radius * Eigen::Matrix3d::Identity();
     }
+    checkValue("ClumpTemplate", "volume", solid.volume, "m^3", positive);  // spheres may be too small for one
     finish(solid.centre);
 }
 

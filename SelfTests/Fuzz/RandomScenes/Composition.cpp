@@ -19,7 +19,7 @@ using support::contains;
 
 constexpr std::string_view wetShapes = "HertzianViscoelasticMindlinLiquidBridgeWillett";
 
-constexpr std::array<std::string_view, 64> composed{
+constexpr std::array<std::string_view, 68> composed{
     // materials
     "HertzianViscoelasticMindlinJKR", wetShapes, "HertzianViscoelasticMindlinViscousLiquidBridgeWillett",
     "LinearViscoelasticSlidingFrictionLiquidMigrationWillett",
@@ -32,11 +32,13 @@ constexpr std::array<std::string_view, 64> composed{
     "HeldGrains", "HeldAxes", "HeldBodies", "Clumps", "Superquadrics", "Blocks", "JoinInRun", "BodyChange",
     // walls
     "Planes", "Cylinder", "Rod", "Tube", "Funnel", "MovingPlane", "VibratingPlane", "Belt", "WallThatComes",
-    "Mesh", "MovingMesh", "Wear", "WornVertices", "Membrane", "Piston", "ForceServo", "Rotor", "FreeWall",
+    "Mesh", "HalfSpaces", "MovingMesh", "Wear", "WornVertices", "Membrane", "Piston", "ForceServo", "Slider",
+    "Rotor", "FreeWall",
     // liquid
     "Films", "LiquidDensity", "Evaporation", "Spray", "JoinAtStart",
     // grains that come and go
-    "Insert", "InsertedClumps", "DenseClumps", "InsertInRun", "Inlet", "ClumpInlet", "Outlet", "FluxPlane",
+    "Insert", "InsertedClumps", "DenseClumps", "DenseSuperquadrics", "InsertInRun", "Inlet", "ClumpInlet",
+    "SuperquadricInlet", "Outlet", "FluxPlane",
     // changes in the run
     "TimeStepChange", "MaterialChange", "Remove",
     // outputs
@@ -118,6 +120,7 @@ std::string_view whyNoPair(std::string_view a, std::string_view b) {
     const Feature &first = featureNamed(a), &second = featureNamed(b);
     const auto both = [&](std::string_view word) { return first.is(word) && second.is(word); };
     if (both("integrator")) return "a scene has one integrator";
+    if (both("dense")) return "one dense start leaves the other no room";
     if (both("shear") || both("strain")) return "a scene has one shear and one strain";
     const auto are = [&](std::string_view word, std::string_view other) {
         return (first.is(word) && second.is(other)) || (first.is(other) && second.is(word));

@@ -87,6 +87,27 @@ void addRotor(Making& making) {
     });
 }
 
+/// With a velocity across its direction now and then, which it keeps.
+void addSlider(Making& making) {
+    Vec3D middle;
+    std::optional<TriangleWall> box = boxInCell(making, middle);
+    if (!box) return;
+    SliderSettings settings{
+        .mass = making.draw.give("mass", making.draw.decades(5, 100) * making.scales.mass()),
+        .force = making.draw.give("force", 5 * loadOf(making))};
+    const double speed = 0.1 * making.scales.speed;
+    if (making.draw.oneIn(2)) settings.friction = making.draw.give("friction", 0.2 * settings.force);
+    if (making.draw.oneIn(2)) settings.largestSpeed = making.draw.give("largest", 2 * speed);
+    if (making.draw.oneIn(2))
+        box->setVelocity(making.draw.give("velocity", Vec3D(making.draw.inCube(speed))));
+    const Vec3D direction = making.draw.give("direction", making.draw.direction());
+    box->setSlider(direction, settings);
+    TriangleWall* const added = making.scene.wallHandler.copyAndAddObject(*box);
+    if (!making.draw.oneIn(3)) return;
+    settings.force *= -2;
+    making.before(making.someStep(), [added, direction, settings] { added->setSlider(direction, settings); });
+}
+
 void addFreeWall(Making& making) {
     Vec3D middle;
     std::optional<TriangleWall> box = boxInCell(making, middle);
@@ -115,6 +136,12 @@ std::vector<Feature> drivenWallFeatures() {
          .kinds = {"wall", "driven wall"},
          .excludes = {"room", "WallThatGoes"},
          .needs = {"Grains"}},
+        {.name = "Slider",
+         .share = byName,
+         .add = addSlider,
+         .loses = both,
+         .kinds = {"wall", "parts", "moved wall"},
+         .excludes = {"WallThatGoes"}},
         {.name = "Rotor",
          .share = 0.06,
          .add = addRotor,

@@ -19,6 +19,9 @@ enum Loses : unsigned {
     places = 4            // grains may lie outside of the box
 };
 
+/// The share of a feature that scenes have by name only: the scenes of all seeds are as if there was none.
+inline constexpr double byName = -1;
+
 /// Something that a scene may have. One entry of the table in Features.cpp: a feature is added there, and
 /// nowhere else.
 struct Feature {

@@ -54,35 +54,57 @@ void addInsert(Making& making) {
                         {.sample = making.draw.oneIn(2) ? Sample::Exact : Sample::Random});
 }
 
-void addInsertedClumps(Making& making) {
-    Clump rod(ClumpTemplate({{{0, 0, -0.5}, 1}, {{0, 0, 0.5}, 1}}));
+Clump anyRod(Making& making, double half) {
+    Clump rod(ClumpTemplate({{{0, 0, -half}, 1}, {{0, 0, half}, 1}}));
     rod.setSpecies(making.anyMaterial());
+    return rod;
+}
+
+void addInsertedClumps(Making& making) {
+    const Clump rod = anyRod(making, 0.5);
     const double size = 1.2 * making.scales.radius;
     making.scene.insert(
         evenSizes(making.draw.give("smallest", 0.8 * size), making.draw.give("largest", size)),
         roomOf(making), Amount::grains(static_cast<std::size_t>(making.draw.whole(1, 3))), rod);
 }
 
-/// One in three times a mixture with grains, and one in two times so dense that they grow.
-void addDenseClumps(Making& making) {
-    const double size = making.scales.radius;
-    Clump rod(ClumpTemplate({{{0, 0, -0.4}, 1}, {{0, 0, 0.4}, 1}}));
-    rod.setSpecies(making.anyMaterial());
-    BodyMixture mixture;
-    mixture.add(rod, evenSizes(making.draw.give("smallest", 0.8 * size), making.draw.give("largest", size)));
-    if (making.draw.oneIn(3))
-        mixture.add(anyLike(making), evenSizes(0.8 * size, size), making.draw.give("share", 0.5));
-    // A part of the room, for a few.
+/// A part of the room, for a few bodies of a size (m).
+BoxRegion roomForFew(Making& making, double size) {
     const Vec3D middle = 0.5 * (making.lowest + making.highest);
     const double top = making.top + 0.02 * making.scales.cell;
     const Vec3D half =
         0.9 * Vec3D::Constant(std::min({size * 2, 0.5 * (making.highest.z() - top),
                                         middle.x() - making.lowest.x(), middle.y() - making.lowest.y()}));
     const Vec3D centre(middle.x(), middle.y(), top + half.z());
+    return {Vec3D(centre - half), Vec3D(centre + half)};
+}
+
+/// One in three times a mixture with grains, and one in two times so dense that they grow.
+template <class Body>
+void addDense(Making& making, const Body& body) {
+    const double size = making.scales.radius;
+    BodyMixture mixture;
+    mixture.add(body, evenSizes(making.draw.give("smallest", 0.8 * size), making.draw.give("largest", size)));
+    if (making.draw.oneIn(3))
+        mixture.add(anyLike(making), evenSizes(0.8 * size, size), making.draw.give("share", 0.5));
     making.scene.insert(
-        mixture, BoxRegion(centre - half, centre + half),
+        mixture, roomForFew(making, size),
         Amount::solidFraction(making.draw.give("fraction", making.draw.oneIn(2) ? 0.15 : 0.25)));
 }
+
+void addDenseClumps(Making& making) { addDense(making, anyRod(making, 0.4)); }
+
+/// An ellipsoid or a rounded block that is up to twice as long as wide; its size is given where it comes.
+SuperquadricGrain anySuperquadric(Making& making) {
+    const auto half = [&] { return making.draw.give("half length", making.draw.even(0.5, 1)); };
+    const double x = half(), y = half();
+    const int exponent = making.draw.oneIn(2) ? 2 : making.draw.whole(2, 6);
+    SuperquadricGrain grain(Superquadric{x, y, half(), exponent, exponent});
+    grain.setSpecies(making.anyMaterial());
+    return grain;
+}
+
+void addDenseSuperquadrics(Making& making) { addDense(making, anySuperquadric(making)); }
 
 void addInsertInRun(Making& making) {
     const SizeDistribution sizes = anySizes(making);
@@ -124,30 +146,42 @@ void addInlet(Making& making) {
     addInletOf(making, inlet, anyFlow(making));
 }
 
-/// Clumps, or a mixture of them with grains.
-void addClumpInlet(Making& making) {
+/// Bodies, or a mixture of them with grains. @param make a body; @param setOnly (inlet, body) brings it alone
+template <class Make, class SetOnly>
+void addInletOfBodies(Making& making, const Make& make, const SetOnly& setOnly) {
     Inlet inlet;
     inlet.setRegion(roomOf(making));
     const double size = 1.2 * making.scales.radius;
     const SphericalParticle grain = anyLike(making);
-    Clump rod(ClumpTemplate({{{0, 0, -0.5}, 1}, {{0, 0, 0.5}, 1}}));
-    rod.setSpecies(making.anyMaterial());
-    rod.setVelocity(grain.getVelocity());
-    rod.setAngularVelocity(making.draw.give(
+    auto body = make();
+    body.setVelocity(grain.getVelocity());
+    body.setAngularVelocity(making.draw.give(
         "spin", Vec3D(making.scales.speed / making.scales.radius * making.draw.inCube(0.3))));
     const SizeDistribution sizes =
         evenSizes(making.draw.give("smallest", 0.8 * size), making.draw.give("largest", size));
     if (making.draw.oneIn(2)) {
         BodyMixture mixture;
-        mixture.add(rod, sizes);
+        mixture.add(body, sizes);
         mixture.add(grain, anySizes(making), making.draw.give("share", making.draw.even(0.1, 2)));
         inlet.setBodies(mixture);
     } else {
-        inlet.setClump(rod);
+        setOnly(inlet, body);
         inlet.setSizes(sizes);
     }
     inlet.setRandomTurns(!making.draw.oneIn(4));
     addInletOf(making, inlet, anyFlow(making));
+}
+
+void addClumpInlet(Making& making) {
+    addInletOfBodies(
+        making, [&] { return anyRod(making, 0.5); },
+        [](Inlet& inlet, const Clump& rod) { inlet.setClump(rod); });
+}
+
+void addSuperquadricInlet(Making& making) {
+    addInletOfBodies(
+        making, [&] { return anySuperquadric(making); },
+        [](Inlet& inlet, const SuperquadricGrain& grain) { inlet.setSuperquadric(grain); });
 }
 
 void addOutlet(Making& making) {
@@ -187,7 +221,11 @@ std::vector<Feature> flowFeatures() {
     return {
         {.name = "Insert", .share = 0.12, .add = addInsert, .kinds = {"room"}},
         {.name = "InsertedClumps", .share = 0.05, .add = addInsertedClumps, .kinds = {"room", "body"}},
-        {.name = "DenseClumps", .share = 0.05, .add = addDenseClumps, .kinds = {"room", "body"}},
+        {.name = "DenseClumps", .share = 0.05, .add = addDenseClumps, .kinds = {"room", "body", "dense"}},
+        {.name = "DenseSuperquadrics",
+         .share = byName,
+         .add = addDenseSuperquadrics,
+         .kinds = {"room", "body", "shape", "dense"}},
         {.name = "InsertInRun",
          .share = 0.08,
          .add = addInsertInRun,
@@ -203,6 +241,11 @@ std::vector<Feature> flowFeatures() {
          .add = addClumpInlet,
          .loses = both,
          .kinds = {"room", "inlet", "body", "comes in the run"}},
+        {.name = "SuperquadricInlet",
+         .share = byName,
+         .add = addSuperquadricInlet,
+         .loses = both,
+         .kinds = {"room", "inlet", "body", "shape", "comes in the run"}},
         {.name = "Outlet", .share = 0.08, .add = addOutlet, .loses = both, .kinds = {"outlet"}},
         {.name = "FluxPlane", .share = 0.1, .add = addFluxPlane},
     };

@@ -1,6 +1,7 @@
 // Walls of triangles, what grains wear off them, and membranes.
 #include <numbers>
 
+#include "Kernel/Walls/IntersectionOfHalfSpaces.h"
 #include "Kernel/Walls/Membrane.h"
 #include "Kernel/Walls/TriangleWall.h"
 #include "SelfTests/Fuzz/RandomScenes/Making.h"
@@ -58,6 +59,41 @@ void addMovingMesh(Making& making) {
                                 making.draw.give("point", making.lowest));
     }
     making.scene.wallHandler.copyAndAddObject(mesh);
+}
+
+/// A ridge or a tip below the grains, or a trough that holds them; nearly flat, so that its images cross it
+/// below all grains.
+std::vector<SolidFace> anySolid(Making& making) {
+    const bool holds = making.draw.oneIn(2);
+    Vec3D point = making.lowest;
+    if (!holds) point.x() = making.draw.even(point.x(), making.highest.x());
+    const double below = making.draw.even(0, 0.2) * making.scales.radius;
+    if (!making.isPeriodic[2]) point.z() -= below;  // else its images would be in the grains
+    std::vector<SolidFace> faces;
+    for (const int axis : {0, 1})
+        for (const double side : {-1.0, 1.0}) {
+            if (axis == 1 && !holds && making.draw.oneIn(2)) continue;
+            if (holds && making.isPeriodic[static_cast<std::size_t>(axis)]) continue;
+            Vec3D normal = side * making.draw.even(0.02, 0.2) * Vec3D::Unit(axis) - Vec3D(0, 0, 1);
+            if (holds) normal = Vec3D(-side * Vec3D::Unit(axis) + Vec3D(0, 0, making.draw.even(0, 0.1)));
+            if (holds) point[axis] = side < 0 ? making.lowest[axis] : making.highest[axis];
+            faces.push_back({making.draw.give("normal", normal), making.draw.give("point", point)});
+        }
+    if (holds)
+        faces.push_back({making.draw.give("normal", Vec3D(0, 0, 1)), making.draw.give("point", point)});
+    return faces;
+}
+
+void addHalfSpaces(Making& making) {
+    Vec3D middle = 0.5 * (making.lowest + making.highest), width = making.highest - making.lowest;
+    // A mesh that is repeated is at most four periods long: that of a sphere around the floor alone.
+    if (making.has("periodic")) middle.z() = making.lowest.z(), width.z() = 0;
+    const double radius = 0.5 * width.norm() + making.scales.cell;
+    const std::vector<SolidFace> faces = anySolid(making);
+    TriangleWall wall;
+    wall.set(intersectionOfHalfSpaces(faces, middle, making.draw.give("radius", radius)));
+    wall.setSpecies(making.anyMaterial());
+    making.scene.wallHandler.copyAndAddObject(wall)->keepForces(making.draw.oneIn(2));
 }
 
 WearLaw anyWear(Making& making) {
@@ -124,6 +160,11 @@ std::vector<Feature> meshFeatures() {
     constexpr unsigned both = momentum | angularMomentum;
     return {
         {.name = "Mesh", .share = 0.1, .add = addMesh, .loses = both, .kinds = {"wall", "parts"}},
+        {.name = "HalfSpaces",
+         .share = byName,
+         .add = addHalfSpaces,
+         .loses = both,
+         .kinds = {"wall", "parts"}},
         {.name = "MovingMesh",
          .share = 0.07,
          .add = addMovingMesh,

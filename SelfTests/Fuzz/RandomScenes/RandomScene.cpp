@@ -1,5 +1,6 @@
 #include "SelfTests/Fuzz/RandomScenes/RandomScene.h"
 
+#include <algorithm>
 #include <deque>
 
 #include "Kernel/Base/InputError.h"
@@ -95,7 +96,8 @@ std::unique_ptr<RandomScene> sceneOf(const Recipe& recipe) {
     for (const std::string& name : recipe.features)
         if (featureNamed(name).is("material")) types.push_back(name + "Species");
     std::unique_ptr<RandomScene> made;
-    if (recipe.has("Superquadrics") || recipe.has("Blocks"))
+    if (std::ranges::any_of(recipe.features,
+                            [](const std::string& name) { return featureNamed(name).is("shape"); }))
         return sceneOfShapes(types.empty() ? std::string() : types[0]);
     if (types.size() == 1 && Scales(recipe).isOneType)
         OneTypes::forEach([&]<class S>() {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <set>
 
 #include "Kernel/Base/InputError.h"
 #include "SelfTests/Fuzz/RandomScenes/Composition.h"
@@ -80,11 +81,14 @@ int survey(std::uint64_t first, std::uint64_t count) {
 }
 
 /// What comes of each two features, and which pairs are at fault.
-int surveyPairs() {
+/// @param asked of pairs with one of these; empty: of all
+int surveyPairs(const std::set<std::string_view>& asked) {
     int faults = 0;
     const std::span<const std::string_view> all = composedFeatures();
+    for (const std::string_view name : asked) featureNamed(name);
     for (std::size_t a = 0; a < all.size(); ++a)
         for (std::size_t b = a + 1; b < all.size(); ++b) {
+            if (!asked.empty() && !asked.contains(all[a]) && !asked.contains(all[b])) continue;
             if (!whyNoPair(all[a], all[b]).empty()) continue;
             const Recipe recipe = recipeWith(std::array{all[a], all[b]}, 1);
             const Verdict verdict = judgeComposition(recipe);
@@ -101,15 +105,15 @@ int surveyPairs() {
 
 }  // namespace pendular::fuzz
 
-/// SelfTestFuzzRandomScenes [--seed N | --scene RECIPE | --survey FIRST COUNT | --survey-pairs | options of
-/// GoogleTest]
+/// SelfTestFuzzRandomScenes [--seed N | --scene RECIPE | --survey FIRST COUNT | --survey-pairs [FEATURE ...]
+/// | options of GoogleTest]
 int main(int count, char** words) {
     using namespace pendular::fuzz;
     // Threads share also what is not worth a thread: the scenes are small.
     setenv("PENDULAR_SHARE_SMALL_WORK", "1", 1);
     const std::string_view option = count > 1 ? words[1] : "";
     try {
-        if (option == "--survey-pairs") return surveyPairs();
+        if (option == "--survey-pairs") return surveyPairs({words + 2, words + count});
         if (option == "--seed" && count > 2) return show(recipeOf(std::strtoull(words[2], nullptr, 10)));
         if (option == "--scene" && count > 2) return show(recipeFrom(words[2]));
         if (option == "--survey" && count > 3)

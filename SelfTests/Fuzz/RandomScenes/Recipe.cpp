@@ -61,7 +61,8 @@ public:
 private:
     std::vector<const Feature*> shuffled() {
         std::vector<const Feature*> order;
-        for (const Feature& feature : allFeatures()) order.push_back(&feature);
+        for (const Feature& feature : allFeatures())
+            if (feature.share != byName) order.push_back(&feature);
         for (std::size_t k = order.size(); k > 1; --k)
             std::swap(order[k - 1], order[static_cast<std::size_t>(draw.whole(0, static_cast<int>(k) - 1))]);
         return order;
