@@ -38,7 +38,7 @@ struct MindlinSpring : SlidingSpring<Law> {
               "sqrt(2/3) x the dissipation of HertzianViscoelastic (equation 4.8)"},
              {"slidingFrictionCoefficient", &Spring::slidingFrictionCoefficient, "", notNegative,
               Mixing::Geometric, "Coulomb's coefficient mu", "Thornton et al. (2023), section 4.2"},
-             {"springFactor", &Spring::springFactor, "", positive, Mixing::Arithmetic,
+             {"springFactor", &Spring::springFactor, "", positiveUpTo(10), Mixing::Arithmetic,
               "factor of the stiffness 8 G* a: see the law", "Di Renzo and Di Maio (2005), equation 15"}});
     }
 
