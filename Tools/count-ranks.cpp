@@ -24,10 +24,11 @@ namespace {
 struct Options {
     std::string file;
     std::vector<std::size_t> ranks{1, 2, 4, 8, 16, 32, 64, 128};
-    double skin = 0.1;        // of the smallest radius
-    double rate = 1e7;        // grains and ghosts x steps / s
-    double latency = 2e-6;    // s, of a message
-    double bandwidth = 10e9;  // byte/s
+    std::vector<double> grains;  // of larger scenes; none: only the one in the file
+    double skin = 0.1;           // of the smallest radius
+    double rate = 1e7;           // grains and ghosts x steps / s
+    double latency = 2e-6;       // s, of a message
+    double bandwidth = 10e9;     // byte/s
 };
 
 struct Scene {
@@ -112,6 +113,20 @@ Counts count(const Scene& scene, std::size_t ranks, double skin) {
             mean(neighbours), std::ranges::max(neighbours)};
 }
 
+/// Of a scene with more grains, alike all over, that grows in all directions, where a rank has so many of its
+/// own: as many ranks as give each so many are counted in this scene; where it has too few grains for that,
+/// ghosts grow as the surface of a part.
+Counts onPaper(const Scene& scene, double own, double skin) {
+    constexpr double enough = 27;  // ranks, so that the part of one lies between those of others
+    const auto all = static_cast<double>(scene.grains.size());
+    const double ranks = std::clamp(std::round(all / own), enough, std::max(enough, all));
+    Counts found = count(scene, static_cast<std::size_t>(ranks), skin);
+    const double ratio = own / found.meanOwn, ofSurface = std::cbrt(ratio * ratio);
+    for (double* const number : {&found.meanOwn, &found.mostOwn}) *number *= ratio;
+    for (double* const number : {&found.meanGhosts, &found.mostGhosts}) *number *= ofSurface;
+    return found;
+}
+
 /// s, of a step: the work of the fullest rank, its messages, and a reduction over all ranks. A model, not a
 /// measurement: it knows no walls, lists or outputs.
 double modelOfStep(const Options& o, const Counts& found, std::size_t ranks, double bytesOfGhost) {
@@ -129,18 +144,25 @@ void run(const Options& o) {
     for (const std::size_t ranks : o.ranks)
         checkValue("count-ranks", "number of ranks", static_cast<double>(ranks), "", {1, 1e6});
     const Scene scene = read(o.file);
+    const auto inFile = static_cast<double>(scene.grains.size());
+    for (const double grains : o.grains)
+        checkValue("count-ranks", "number of grains", grains, "", {inFile, 1e12});
     const double bytes = scene.hasSpin ? 72 : 48;
     fmt::print(
-        "ranks,own_mean,own_largest_over_mean,ghosts_mean,ghosts_largest,neighbours_mean,"
+        "grains,ranks,own_mean,own_largest_over_mean,ghosts_mean,ghosts_largest,neighbours_mean,"
         "neighbours_largest,bytes_sent_a_step_mean,model_step_s,model_speed_up\n");
-    const double alone = static_cast<double>(scene.grains.size()) / o.rate;
-    for (const std::size_t ranks : o.ranks) {
-        const Counts found = count(scene, ranks, o.skin);
+    const auto row = [&](double grains, std::size_t ranks, const Counts& found) {
         const double step = modelOfStep(o, found, ranks, bytes);
-        fmt::print("{},{:.6g},{:.4g},{:.6g},{:.6g},{:.4g},{:.6g},{:.6g},{:.4g},{:.4g}\n", ranks,
-                   found.meanOwn, found.mostOwn / found.meanOwn, found.meanGhosts, found.mostGhosts,
-                   found.meanNeighbours, found.mostNeighbours, bytes * found.meanGhosts, step, alone / step);
-    }
+        fmt::print("{:.6g},{},{:.6g},{:.4g},{:.6g},{:.6g},{:.4g},{:.6g},{:.6g},{:.4g},{:.4g}\n", grains,
+                   ranks, found.meanOwn, found.mostOwn / found.meanOwn, found.meanGhosts, found.mostGhosts,
+                   found.meanNeighbours, found.mostNeighbours, bytes * found.meanGhosts, step,
+                   grains / o.rate / step);
+    };
+    if (o.grains.empty())
+        for (const std::size_t ranks : o.ranks) row(inFile, ranks, count(scene, ranks, o.skin));
+    for (const double grains : o.grains)
+        for (const std::size_t ranks : o.ranks)
+            row(grains, ranks, onPaper(scene, grains / static_cast<double>(ranks), o.skin));
 }
 
 }  // namespace
@@ -156,6 +178,8 @@ int main(int argc, char** argv) {
     app.option_defaults()->always_capture_default();
     app.add_option("file", o.file, "the restart file")->required();
     app.add_option("--ranks", o.ranks, "numbers of ranks");
+    app.add_option("--grains", o.grains,
+                   "numbers of grains of larger scenes that are as this one all over: on paper");
     app.add_option("--skin", o.skin, "gap up to which contacts are listed, over the smallest radius");
     app.add_option("--rate-1/s", o.rate, "grains x steps that one rank does, with its threads, 1/s");
     app.add_option("--latency-s", o.latency, "time of a message without content, s");

@@ -68,8 +68,9 @@ void SweptSearch::meetGrains(const Sweep& sweep, const ParticleStore& grains, co
     const Vector<double> middle = 0.5 * (sweep.from + sweep.to);
     const double half = 0.5 * norm(sweep.to - sweep.from);
     const double farther = moved + stepShift + sweep.time * speedOfImages(box);
+    const std::size_t ownPlaces = grains.ownSize();  // ghosts are told of by their ranks
     cells->forEachNear(middle, half + sweep.radius, farther, [&](std::uint32_t place) {
-        if (grains.isGap(place)) return;
+        if (place >= ownPlaces || grains.isGap(place)) return;
         const TranslationRecord& grain = grains.translation[place];
         const Approach approach = approachTo(grain, sweep, box);
         const double share = shareAtReach(approach.start, approach.way, grain.radius + sweep.radius);

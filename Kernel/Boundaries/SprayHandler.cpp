@@ -112,10 +112,33 @@ void SprayHandler::advance(const SprayStep& step) {
                 flights[k].hit = search.firstHit(flights[k].sweep, step.grains, step.periodic, step.walls);
         },
         64);
+    joinHits(step);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < inFlight.size(); ++k)
         if (finish(step, inFlight[k], flights[k])) inFlight[kept++] = inFlight[k];
     inFlight.resize(kept);
+}
+
+void SprayHandler::joinHits(const SprayStep& step) {
+    struct Met {
+        std::uint32_t flight, particle;
+        double share;  // of the way
+    };
+    std::vector<Met> own;
+    for (std::uint32_t k = 0; k < flights.size(); ++k)
+        if (const SweepHit& hit = flights[k].hit; hit.grain != SweepHit::none) {
+            flights[k].particle = step.grains.identity[hit.grain];
+            own.push_back({k, flights[k].particle, hit.share});
+        }
+    if (!step.contacts.ranks().areSeveral()) return;
+    for (const Met& met : step.contacts.ranks().gather(own)) {
+        Flight& flight = flights[met.flight];
+        if (met.share > flight.hit.share) continue;
+        // `none` is the largest number: a wall comes after grains
+        if (met.share == flight.hit.share && met.particle >= flight.particle) continue;
+        flight.hit = {met.share, SweepHit::none, -1};
+        flight.particle = met.particle;
+    }
 }
 
 /// x + v t + g t^2 / 2, exact for any step; a droplet that has just come out flies for a part of it.
@@ -148,7 +171,7 @@ void SprayHandler::dry(const SprayStep& step, Droplet& droplet, double time) {
     if (!law.dropletsEvaporate() || step.time <= law.startTime()) return;
     droplet.radius = law.radiusLeftAfter(droplet.radius, time);
     const double left = std::min(wholeVolume(droplet.radius), droplet.volume);
-    step.contacts.movingLiquid().addEvaporated(droplet.volume - left);
+    if (step.contacts.ranks().isFirst()) step.contacts.movingLiquid().addEvaporated(droplet.volume - left);
     droplet.volume = left;
 }
 
@@ -166,12 +189,12 @@ bool SprayHandler::finish(const SprayStep& step, Droplet& droplet, const Flight&
     const Vector<double> way = flight.sweep.to - flight.sweep.from;
     CaughtDroplet end{spray, CaughtDroplet::none, hit.wall,
                       flight.sweep.from + std::min(hit.share, 1.0) * way, droplet.volume};
-    if (hit.grain != SweepHit::none) {
-        end.particle = step.grains.identity[hit.grain];
-        hitGrain(step, droplet, flight);
-    } else if (hit.wall < 0 ||
-               !step.contacts.movingLiquid().giveToWall(step.contacts.laws(),
-                                                        static_cast<std::size_t>(hit.wall), droplet.volume)) {
+    if (flight.particle != CaughtDroplet::none) {
+        end.particle = flight.particle;
+        if (step.grains.place.contains(flight.particle)) hitGrain(step, droplet, flight);
+    } else if (hit.wall < 0 || !step.contacts.movingLiquid().giveToWall(
+                                   step.contacts.laws(), static_cast<std::size_t>(hit.wall),
+                                   step.contacts.ranks().isFirst() ? droplet.volume : 0)) {
         lost += droplet.volume;
     }
     caughtInStep.push_back(end);
@@ -179,7 +202,7 @@ bool SprayHandler::finish(const SprayStep& step, Droplet& droplet, const Flight&
 }
 
 void SprayHandler::hitGrain(const SprayStep& step, const Droplet& droplet, const Flight& flight) {
-    const std::uint32_t place = flight.hit.grain;
+    const std::uint32_t place = step.grains.place[flight.particle];
     step.films.wet(step.grains, place, droplet.volume);
     const double density = sprays[static_cast<std::size_t>(droplet.spray)].liquidDensity();
     if (density == 0) return;

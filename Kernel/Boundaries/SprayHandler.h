@@ -85,11 +85,14 @@ private:
         Sweep sweep;
         Vector<double> velocity;  // m/s, at the start of the step
         SweepHit hit;
+        std::uint32_t particle = CaughtDroplet::none;  // identity of the grain that is hit, on any rank
     };
 
     [[nodiscard]] double wholeVolume(double radius) const;
     void fly(const SprayStep& step);
     void dry(const SprayStep& step, Droplet& droplet, double time);
+    /// Droplets fly alike on all ranks, and what is met first on any of them counts on all.
+    void joinHits(const SprayStep& step);
     /// Whether it flies on.
     bool finish(const SprayStep& step, Droplet& droplet, const Flight& flight);
     void hitGrain(const SprayStep& step, const Droplet& droplet, const Flight& flight);

@@ -97,8 +97,26 @@ void ContactEvents::finish() {
     for (const ContactEvent& event : events) sums.add(event.kind);
 }
 
+void ContactEvents::gather(const AllRanks& ranks) {
+    if (!listening) return;
+    for (std::vector<ContactEvent>* const list : {&events, &early}) {
+        *list = ranks.gather(*list);
+        std::ranges::stable_sort(*list, {}, contactOf);
+    }
+    for (std::uint64_t* const sum :
+         {&sums.touchesBegun, &sums.touchesEnded, &sums.bridgesFormed, &sums.bridgesRuptured})
+        *sum = ranks.sum(*sum);
+}
+
+void ContactEvents::leaveToFirstRank() {
+    early.clear();
+    sums = {};
+}
+
 void ContactEvents::visitState(StateArchive& archive) {
     archive.record<std::uint64_t>("counts", sums);
+    // As they will be told, however many ranks have heard them.
+    if (archive.isWriting()) std::ranges::stable_sort(early, {}, contactOf);
     std::vector<Row> rows;
     for (const ContactEvent& e : early)
         rows.push_back({e.particle1, e.particle2, static_cast<std::uint32_t>(e.wall + 1), e.part,

@@ -4,6 +4,7 @@
 
 #include "Kernel/Contacts/ContactEvent.h"
 #include "Kernel/Contacts/ContactStore.h"
+#include "Kernel/Ranks/AllRanks.h"
 
 namespace pendular {
 
@@ -62,6 +63,10 @@ public:
 
     [[nodiscard]] const std::vector<ContactEvent>& ofStep() const { return events; }
     [[nodiscard]] const ContactEventCounts& counts() const { return sums; }
+    /// Each rank gets what all have heard and counted, until they share the grains again: from then on the
+    /// first one goes on with it, and the others forget it.
+    void gather(const AllRanks& ranks);
+    void leaveToFirstRank();
     void visitState(StateArchive& archive);
 
 private:

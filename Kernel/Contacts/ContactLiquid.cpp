@@ -375,6 +375,22 @@ LiquidLedger ContactLiquid::ledger(const ContactStore& store, const ParticleStor
     return found;
 }
 
+void ContactLiquid::gather() {
+    if (!moves()) return;
+    for (double& account : walls) account = sumOfRanks(account);
+    evaporated = sumOfRanks(evaporated);
+    driedOut = ranks.sum(driedOut);
+    filmsOfGrains->setAccounts(sumOfRanks(filmsOfGrains->absorbed()), sumOfRanks(filmsOfGrains->removed()));
+}
+
+void ContactLiquid::leaveToFirstRank() {
+    if (!moves()) return;
+    std::ranges::fill(walls, 0.0);
+    evaporated = 0;
+    driedOut = 0;
+    filmsOfGrains->setAccounts(0, 0);
+}
+
 void ContactLiquid::visitState(StateArchive& archive) {
     archive.column<double>("walls", walls);
     archive.requireFinite("walls", walls);

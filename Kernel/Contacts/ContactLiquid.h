@@ -197,6 +197,10 @@ public:
     [[nodiscard]] double ofWall(std::size_t wall) const {
         return sumOfRanks(wall < walls.size() ? walls[wall] : 0);
     }
+    /// The accounts of each rank become those of all, until they share the grains again: from then on the
+    /// first one goes on with them, and the others begin anew.
+    void gather();
+    void leaveToFirstRank();
     void visitState(StateArchive& archive);
     /// Called when contacts have been listed that were read: throws InputError unless their volumes are
     /// whole.

@@ -196,7 +196,22 @@ double ContactList::gapOf(const Grains& grains, const Listed& pair) const {
     return norm(periodic.nearest(b.position - a.position)) - reach;
 }
 
+void ContactList::separateThoseOfOthers(const Grains& grains) {
+    Groups all;
+    for (Group& g : groups) {
+        const auto others = std::stable_partition(
+            g.contacts.begin(), g.contacts.end(),
+            [own = grains.ownSize()](const Listed& contact) { return contact.first < own; });
+        Group ofOthers{g.bucket, {others, g.contacts.end()}};
+        g.contacts.erase(others, g.contacts.end());
+        all.push_back(std::move(g));
+        if (!ofOthers.contacts.empty()) all.push_back(std::move(ofOthers));
+    }
+    groups = std::move(all);
+}
+
 void ContactList::fill(const Grains& grains, ContactStore& store) {
+    if (grains.ownSize() < grains.size()) separateThoseOfOthers(grains);
     std::size_t blocks = 0, wallBlocks = 0;
     store.buckets.clear();
     for (Group& g : groups) {

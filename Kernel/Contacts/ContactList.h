@@ -92,6 +92,8 @@ private:
     /// How far two grains must approach (m) before the pair acts.
     double gapOf(const Grains& grains, const Listed& pair) const;
 
+    /// Contacts that count on another rank, whose body 1 is a ghost, get groups of their own.
+    void separateThoseOfOthers(const Grains& grains);
     /// Turns the groups into blocks.
     void fill(const Grains& grains, ContactStore& store);
 

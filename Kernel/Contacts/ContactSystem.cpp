@@ -73,8 +73,7 @@ bool ContactSystem::newListPays() { return allRanks.any(idleLanes.newListPays(co
 void ContactSystem::distribute(Grains& grains, RememberedContacts& remembered, double reach) {
     if (!sharing->areDistributed()) {
         rangeOfAll = largestRange(*species, grains);
-        // What has been counted so far, or was in a restart file, counts on the first rank.
-        if (sharing->rank() > 0) overlapWatch = overlapWatch.part(), capillaryWatch = {};
+        if (sharing->rank() > 0) leaveCountsToFirstRank();
     }
     ContactMigration migration(remembered, contacts.memory, grains);
     sharing->distribute(grains, periodic, skin.width() + std::max(reach, rangeOfAll),
@@ -87,18 +86,20 @@ void ContactSystem::gather(Grains& grains) {
     RememberedContacts remembered;
     remembered.take(contacts, grains.identity, threads);
     for (const std::uint32_t place : std::exchange(passed, {})) remembered.goOn(place, {});
+    gatherCounts();
     ContactMigration migration(remembered, contacts.memory, grains);
     sharing->gather(grains, migration.luggage(sharing->rank()));
     const auto [all, unequal] = migration.file();
     sharing->countHeldTwice(all, unequal);
-    gatherWatches();
     listAgain(grains, remembered);
     listedOnRanks(grains);
     findWallPoints(grains, 0);  // the forces on walls are those of all ranks already
 }
 
 /// All know what all have seen, until they go on counting (distribute()).
-void ContactSystem::gatherWatches() {
+void ContactSystem::gatherCounts() {
+    contactEvents.gather(allRanks);
+    liquid.gather();
     const auto gathered = [&](const auto& watch) {
         auto all = sharing->ofAll(watch);
         for (std::size_t q = 1; q < all.size(); ++q) all[0].add(all[q]);
@@ -106,6 +107,14 @@ void ContactSystem::gatherWatches() {
     };
     overlapWatch = gathered(overlapWatch);
     capillaryWatch = gathered(capillaryWatch);
+}
+
+/// What has been counted so far, or was in a restart file, counts there.
+void ContactSystem::leaveCountsToFirstRank() {
+    overlapWatch = overlapWatch.part();
+    capillaryWatch = {};
+    contactEvents.leaveToFirstRank();
+    liquid.leaveToFirstRank();
 }
 
 void ContactSystem::listWithin(Grains& grains, double reach) {
@@ -181,7 +190,15 @@ void ContactSystem::listAgain(Grains& grains, bool keepsBridges, double reach, b
     if (areShared) listedOnRanks(grains);
 }
 
-void ContactSystem::listedOnRanks(const Grains& grains) {
+void ContactSystem::listedOnRanks(Grains& grains) {
+    if (sharing->areDistributed()) {
+        std::vector<bool> isListed(grains.size());
+        contacts.forEachListed([&](const Bucket& bucket, std::uint32_t contact) {
+            isListed[firstOf(contact)] = true;
+            if (bucket.wall < 0) isListed[secondOf(contact)] = true;
+        });
+        sharing->keepGhosts(grains, isListed);
+    }
     sharing->findPlaces(grains);
     ownPlaces = grains.ownSize();
     contactEvents.setOwnPlaces(ownPlaces);
@@ -667,14 +684,14 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
                 allHaveMemory = false;
         },
         blocksWorthAThread, shareOf(blocksOfAShare));
-    for (const OverlapWatch& watch : watches) overlapWatch.add(watch);
-    for (const CapillaryWatch& watch : capillaryWatches) capillaryWatch.add(watch);
-    if (allHaveMemory) return;
-    for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
+    for (std::uint32_t b = bucket.begin; !allHaveMemory && b < bucket.end; ++b) {
         if (contacts.slots[b] != ContactStore::waking) continue;
         wake(b, bucket, grains);
-        computeRange(b, b + 1, overlapWatch, capillaryWatch, 0);
+        computeRange(b, b + 1, watches[0], capillaryWatches[0], 0);
     }
+    if (!countsHere(bucket)) return;
+    for (const OverlapWatch& watch : watches) overlapWatch.add(watch);
+    for (const CapillaryWatch& watch : capillaryWatches) capillaryWatch.add(watch);
 }
 
 void ContactSystem::wake(std::size_t block, const Bucket& bucket, const Grains& grains) {
@@ -728,20 +745,14 @@ void ContactSystem::findWallPoints(const Grains& grains, double step) {
 
 ContactCounts ContactSystem::counts() const {
     ContactCounts all;
-    const auto countHere = [&](std::size_t block) {
-        BlockState state = contacts.states[block];
-        std::uint8_t here = 0xff;
-        for (std::size_t lane = 0; lane < Pack::lanes; ++lane)
-            if (contacts.blocks[block].first[lane] >= ownPlaces)
-                here = static_cast<std::uint8_t>(here & ~(1u << lane));
-        state.touching &= here, state.bridged &= here;
-        return state;
-    };
-    for (std::size_t block = 0; block < contacts.states.size(); ++block) {
-        const BlockState state = allRanks.areSeveral() ? countHere(block) : contacts.states[block];
-        all.touching += static_cast<std::size_t>(std::popcount(state.touching));
-        all.bridged += static_cast<std::size_t>(std::popcount(state.bridged));
-        all.acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
+    for (const Bucket& bucket : contacts.buckets) {
+        if (!countsHere(bucket)) continue;
+        for (std::size_t block = bucket.begin; block < bucket.end; ++block) {
+            const BlockState& state = contacts.states[block];
+            all.touching += static_cast<std::size_t>(std::popcount(state.touching));
+            all.bridged += static_cast<std::size_t>(std::popcount(state.bridged));
+            all.acting += static_cast<std::size_t>(std::popcount(unsigned{state.touching} | state.bridged));
+        }
     }
     return all;
 }

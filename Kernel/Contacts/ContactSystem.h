@@ -256,6 +256,11 @@ private:
     /// The motion of a wall in the step, for the account of the energy.
     void showWallMotion(const Grains& grains, const Bucket& bucket, std::uint32_t contact,
                         EnergyRecord& record) const;
+    /// Whether its contacts count on this rank: their body 1 is no ghost (ContactList lists them by
+    /// themselves).
+    [[nodiscard]] bool countsHere(const Bucket& bucket) const {
+        return contacts.firstOf(std::size_t{bucket.begin} * Pack::lanes) < ownPlaces;
+    }
     static constexpr std::size_t blocksWorthAThread = 32;
     [[nodiscard]] std::size_t slotOf(const ObservedContact& seen) const;
     /// None of a grain that came after the list.
@@ -285,10 +290,11 @@ private:
                           double reach = 0);
     /// Whether idle lanes cost more than a new list, on any rank.
     [[nodiscard]] bool newListPays();
-    void listedOnRanks(const Grains& grains);
+    void listedOnRanks(Grains& grains);
     /// Grains go to the ranks that own them, with what their contacts remember.
     void distribute(Grains& grains, RememberedContacts& remembered, double reach);
-    void gatherWatches();
+    void gatherCounts();
+    void leaveCountsToFirstRank();
     double endContact(Grains& grains, std::uint32_t contact);
     /// The accelerations of its bodies lose the force of a contact that ends between two steps: it does not
     /// act in the first half of the next one. Those of rigid bodies alike.

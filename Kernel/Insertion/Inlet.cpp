@@ -219,12 +219,21 @@ double InletHandler::liquidBy(const ParticleHandler& particles, double time) con
     return sum;
 }
 
-void InletHandler::requireLiquid(const ParticleHandler& particles, double time) const {
+/// m^3, of films that have come to the grains of other ranks.
+static double absorbedByOthers(const GrainFilms& films, const AllRanks& ranks) {
+    ExactSum all;
+    all.add(films.absorbed());
+    return ranks.sum(all) - films.absorbed();
+}
+
+void InletHandler::requireLiquid(const ParticleHandler& particles, const AllRanks& ranks, double time) const {
+    const GrainFilms& films = particles.films();
     for (const Kept& kept : inlets) {
         double film = 0;  // m^3
         for (const BodyKind& kind : kept.bodies) film = std::max(film, kind.film());
         if (film == 0 || time <= kept.inlet.first || time > kept.inlet.last) continue;
-        if (const auto objection = particles.films().objectionToMore(film)) throw InputError(*objection);
+        if (const auto objection = films.objectionToMore(film + absorbedByOthers(films, ranks)))
+            throw InputError(*objection);
     }
 }
 
@@ -318,12 +327,18 @@ void InletHandler::checkStream(const InsertionScene& scene, std::size_t number) 
 
 void InletHandler::letIn(const InsertionScene& scene, ContactSystem& contacts, double time,
                          const std::function<void(std::string)>& tell) {
-    for (std::size_t k = 0; k < inlets.size(); ++k) letInOf(scene, contacts, k, time, tell);
-    if (contacts.isArriving()) contacts.finishArrival(scene.particles.store());
+    ParticleStore& grains = scene.particles.store();
+    GrainFilms& films = scene.particles.films();
+    const double absorbed = films.absorbed(),
+                 elsewhere = bringLiquid() ? absorbedByOthers(films, contacts.ranks()) : 0;
+    for (std::size_t k = 0; k < inlets.size(); ++k) letInOf(scene, contacts, k, time, elsewhere, tell);
+    if (!contacts.isArriving()) return;
+    contacts.finishArrival(grains);  // their films have come on all ranks
+    if (!contacts.ranks().isFirst()) films.setAccounts(absorbed, films.removed());
 }
 
 void InletHandler::letInOf(const InsertionScene& scene, ContactSystem& contacts, std::size_t number,
-                           double time, const std::function<void(std::string)>& tell) {
+                           double time, double filmsElsewhere, const std::function<void(std::string)>& tell) {
     Kept& kept = inlets[number];
     const Inlet& inlet = kept.inlet;
     InletCount& count = kept.count;
@@ -345,7 +360,7 @@ void InletHandler::letInOf(const InsertionScene& scene, ContactSystem& contacts,
         if (whole > due) return;
         // The run ends with a sentence before its next step: requireLiquid().
         const double film = kind.film();
-        if (film > 0 && scene.particles.films().objectionToMore(film)) return;
+        if (film > 0 && scene.particles.films().objectionToMore(film + filmsElsewhere)) return;
         if (!grid) {
             kept.inFlow.requireRoom(fmt::format("At time {:.6g} s inlet {}", time, number), scene.periodic);
             const Vector<double> shift = shiftOf(scene, kept, number);

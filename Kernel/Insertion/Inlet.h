@@ -139,7 +139,7 @@ public:
     [[nodiscard]] double liquidBy(const ParticleHandler& particles, double time) const;
     /// Throws InputError if wet grains are to come by a time (s), and no liquid can be counted any more:
     /// before a step, so that none is half done.
-    void requireLiquid(const ParticleHandler& particles, double time) const;
+    void requireLiquid(const ParticleHandler& particles, const AllRanks& ranks, double time) const;
     /// The run begins, or goes on. Throws InputError for what cannot work; room is looked for only where it
     /// begins, because walls move.
     /// @param atSetUp the periodic box then, which strain changes
@@ -173,8 +173,9 @@ private:
     void checkRoom(const InsertionScene& scene, std::size_t number) const;
     void check(const InsertionScene& scene, std::size_t number) const;
     void checkStream(const InsertionScene& scene, std::size_t number) const;
+    /// @param filmsElsewhere m^3, that have come to the grains of other ranks
     void letInOf(const InsertionScene& scene, ContactSystem& contacts, std::size_t number, double time,
-                 const std::function<void(std::string)>& tell);
+                 double filmsElsewhere, const std::function<void(std::string)>& tell);
     struct Room {
         Vector<double> place;  // m
         Eigen::Quaterniond turn;

@@ -61,6 +61,8 @@ public:
     [[nodiscard]] double absorbed() const { return come; }
     [[nodiscard]] double emitted() const { return sprayed; }
     [[nodiscard]] double removed() const { return gone; }
+    /// m^3, where ranks add them up.
+    void setAccounts(double ofAbsorbed, double ofRemoved) { come = ofAbsorbed, gone = ofRemoved; }
     [[nodiscard]] double sum(const ParticleStore& grains) const;
     /// The identities of grains whose films were set since this was called last.
     [[nodiscard]] std::vector<std::uint32_t> takeWetted() { return std::exchange(wetted, {}); }

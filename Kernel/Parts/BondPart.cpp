@@ -74,28 +74,49 @@ static Quaternion turnTo(const Vector<double>& e) {
 }
 static Quaternion inverse(const Quaternion& q) { return {q.real, -q.imaginary}; }
 
+/// Each rank keeps all bonds, so that all must ask for the same ones. Whether any does.
+bool BondPart::areAsked(const AllRanks& ranks) const {
+    if (!ranks.any(!toJoin.empty())) return false;
+    const std::vector<ToJoin> all = ranks.gather(toJoin);
+    bool areSame = !toJoin.empty() && all.size() % toJoin.size() == 0;
+    for (std::size_t k = 0; areSame && k < all.size(); ++k) {
+        const ToJoin &own = toJoin[k % toJoin.size()], &other = all[k];
+        areSame = own.first == other.first && own.second == other.second && own.material == other.material &&
+                  own.length == other.length;
+    }
+    if (!areSame)
+        throw InputError(
+            "bonds: on several ranks (setRanks()) each must join the same grains in the same step; join() "
+            "was "
+            "called otherwise on one of them.");
+    return true;
+}
+
 void BondPart::joinNew(StepContext& step) {
-    if (toJoin.empty()) return;
+    if (!areAsked(step.contacts.ranks())) return;
     const ParticleStore& grains = step.grains();
     const auto key = [](std::uint32_t a, std::uint32_t b) {
         return std::pair(std::min(a, b), std::max(a, b));
     };
-    std::set<std::pair<std::uint32_t, std::uint32_t>> there;
-    for (const Bond& bond : bonds) there.insert(key(bond.first, bond.second));
+    std::set<std::pair<std::uint32_t, std::uint32_t>> before;
+    for (const Bond& bond : bonds) before.insert(key(bond.first, bond.second));
+    for (const ToJoin& pair : toJoin)
+        for (const std::uint32_t identity : {pair.first, pair.second}) static_cast<void>(joinedAt(identity));
+    findGrains(step);
+    const std::vector<bool> there = areThere(step);
     for (const ToJoin& pair : toJoin) {
         const auto owner = [&] {
             return fmt::format("bond of particles {} and {}", pair.first, pair.second);
         };
-        const std::uint32_t first = grains.place[pair.first], second = grains.place[pair.second];
-        if (first == PlaceIndex::none || second == PlaceIndex::none || first == second)
+        const std::uint32_t at1 = joinedAt(pair.first), at2 = joinedAt(pair.second);
+        if (!there[at1] || !there[at2] || at1 == at2)
             throw InputError(owner() + ": they must be two grains of the scene.");
-        if (!there.insert(key(pair.first, pair.second)).second)
+        if (!before.insert(key(pair.first, pair.second)).second)
             throw InputError(owner() + ": they are joined already.");
         const Vector<double> between =
-            step.box.nearest(grains.translation[second].position - grains.translation[first].position);
+            step.box.nearest(movingOf(grains, joined[at2]).position - movingOf(grains, joined[at1]).position);
         const double distance = norm(between), length = pair.length > 0 ? pair.length : distance;
         const Quaternion frame = turnTo((1 / distance) * between);
-        const std::uint32_t at1 = joinedAt(pair.first), at2 = joinedAt(pair.second);
         const BondStiffness k = stiffnessOf(pair.material, length);
         checkValue(owner(), "normal stiffness", k.normal, "N/m", positive);
         checkValue(owner(), "shear stiffness", k.shear, "N/m", notNegative);
@@ -114,7 +135,6 @@ void BondPart::joinNew(StepContext& step) {
                          {},
                          {}});
     }
-    findPlaces(grains);
     toJoin.clear();
     longest.reset();
 }
@@ -128,6 +148,64 @@ std::uint32_t BondPart::joinedAt(std::uint32_t identity) {
 /// Grains are sorted now and then: their places are those of this step.
 void BondPart::findPlaces(const ParticleStore& grains) {
     for (Joined& one : joined) one.place = grains.place[one.identity];
+}
+
+void BondPart::findGrains(StepContext& step) {
+    const ParticleStore& grains = step.grains();
+    findPlaces(grains);
+    const AllRanks& ranks = step.contacts.ranks();
+    if (!ranks.areSeveral()) return;
+    struct Told {
+        std::uint32_t number;
+        Elsewhere motion;
+    };
+    std::vector<Told> own;
+    for (std::uint32_t k = 0; k < joined.size(); ++k)
+        if (const std::uint32_t place = joined[k].place; place != PlaceIndex::none)
+            own.push_back({k, {grains.translation[place], grains.rotation[place], grains.heldAt(place)}});
+    elsewhere.resize(joined.size());
+    for (const Told& told : ranks.gather(own)) elsewhere[told.number] = told.motion;
+}
+
+void BondPart::shareAccelerations(StepContext& step) {
+    const AllRanks& ranks = step.contacts.ranks();
+    if (!ranks.areSeveral()) return;
+    struct Told {
+        std::uint32_t number;
+        Vector<double> acceleration, angularAcceleration;
+    };
+    std::vector<Told> own;
+    own.reserve(joined.size());
+    for (std::uint32_t k = 0; k < joined.size(); ++k)
+        if (const Joined& one = joined[k]; one.place != PlaceIndex::none)
+            own.push_back({k, one.acceleration, one.angularAcceleration});
+    for (const Told& told : ranks.gather(own)) {
+        joined[told.number].acceleration = told.acceleration;
+        joined[told.number].angularAcceleration = told.angularAcceleration;
+    }
+}
+
+std::vector<bool> BondPart::areThere(const StepContext& step) const {
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t k = 0; k < joined.size(); ++k)
+        if (joined[k].place != PlaceIndex::none) own.push_back(k);
+    std::vector<bool> all(joined.size());
+    for (const std::uint32_t k : step.contacts.ranks().gather(own)) all[k] = true;
+    return all;
+}
+
+const TranslationRecord& BondPart::movingOf(const ParticleStore& grains, const Joined& one) const {
+    if (one.place != PlaceIndex::none) return grains.translation[one.place];
+    return elsewhere[static_cast<std::size_t>(&one - joined.data())].moving;
+}
+const RotationRecord& BondPart::turningOf(const ParticleStore& grains, const Joined& one) const {
+    if (one.place != PlaceIndex::none) return grains.rotation[one.place];
+    return elsewhere[static_cast<std::size_t>(&one - joined.data())].turning;
+}
+
+HeldBits BondPart::heldOf(const ParticleStore& grains, const Joined& one) const {
+    if (one.place != PlaceIndex::none) return grains.heldAt(one.place);
+    return elsewhere[static_cast<std::size_t>(&one - joined.data())].held;
 }
 
 /// Where hooks have changed a grain, its contacts or the gravity, its acceleration was found anew without
@@ -144,16 +222,18 @@ void BondPart::renewForces(StepContext& step) {
         TimeIntegration::renewAccelerations(grains, step.contacts.store(), step.gravity, {&one.place, 1});
         changeAcceleration(grains, one.place, one.force, one.torque);
     }
+    const std::vector<bool> there = areThere(step);
     std::erase_if(bonds, [&](const Bond& bond) {
+        if (there[bond.at1] && there[bond.at2]) return false;
         const std::uint32_t first = joined[bond.at1].place, second = joined[bond.at2].place;
-        if (first != PlaceIndex::none && second != PlaceIndex::none) return false;
         const BondLoad load = bond.elastic + bond.damping;
         if (first != PlaceIndex::none) changeAcceleration(grains, first, load.force, -load.torque1);
         if (second != PlaceIndex::none) changeAcceleration(grains, second, -load.force, -load.torque2);
         return true;
     });
-    if (std::ranges::none_of(joined, [](const Joined& one) { return one.place == PlaceIndex::none; })) return;
-    std::erase_if(joined, [](const Joined& one) { return one.place == PlaceIndex::none; });
+    if (std::ranges::find(there, false) == there.end()) return;
+    std::erase_if(joined,
+                  [&](const Joined& one) { return !there[static_cast<std::size_t>(&one - joined.data())]; });
     numbers.clear();
     for (const Joined& one : joined)
         numbers.emplace(one.identity, static_cast<std::uint32_t>(numbers.size()));
@@ -187,8 +267,7 @@ static Vector<double> sameImage(const PeriodicBox& box, const Vector<double>& ap
 BondState BondPart::stateOf(const StepContext& step, const Bond& bond) const {
     const Joined &one = joined[bond.at1], &other = joined[bond.at2];
     const ParticleStore& grains = step.grains();
-    const Vector<double> apart =
-        grains.translation[other.place].position - grains.translation[one.place].position;
+    const Vector<double> apart = movingOf(grains, other).position - movingOf(grains, one).position;
     return {sameImage(step.box, apart, bond.between), bond.length,
             Axes<double>(one.orientation * bond.frame1), Axes<double>(other.orientation * bond.frame2)};
 }
@@ -206,12 +285,7 @@ namespace {
 struct BondDashpots {
     double normal, shear, bending, twist;
 
-    BondDashpots(const ParticleStore& grains, std::uint32_t first, std::uint32_t second,
-                 const BondStiffness& k, double share) {
-        const double inverseMass =
-                         grains.translation[first].inverseMass + grains.translation[second].inverseMass,
-                     inverseInertia =
-                         grains.rotation[first].inverseInertia + grains.rotation[second].inverseInertia;
+    BondDashpots(double inverseMass, double inverseInertia, const BondStiffness& k, double share) {
         const auto dashpot = [&](double stiffness, double inverse) {
             return inverse > 0 ? 2 * share * std::sqrt(stiffness / inverse) : 0;
         };
@@ -227,10 +301,11 @@ BondLoad BondPart::dampingOf(const StepContext& step, const Bond& bond, const Bo
     const double share = materials[bond.material].damping;
     if (share == 0) return {};
     const ParticleStore& grains = step.grains();
-    const std::uint32_t first = joined[bond.at1].place, second = joined[bond.at2].place;
-    const TranslationRecord &a = grains.translation[first], &b = grains.translation[second];
-    const RotationRecord &turnA = grains.rotation[first], &turnB = grains.rotation[second];
-    const BondDashpots dashpot(grains, first, second, bond.stiffness, share);
+    const Joined &first = joined[bond.at1], &second = joined[bond.at2];
+    const TranslationRecord &a = movingOf(grains, first), &b = movingOf(grains, second);
+    const RotationRecord &turnA = turningOf(grains, first), &turnB = turningOf(grains, second);
+    const BondDashpots dashpot(a.inverseMass + b.inverseMass, turnA.inverseInertia + turnB.inverseInertia,
+                               bond.stiffness, share);
     const Vector<double> e = state.axis();
     const Vector<double> velocity =
         b.velocity - a.velocity - 0.5 * cross(turnA.spin + turnB.spin, state.between);
@@ -251,14 +326,15 @@ double BondPart::largestStep(const StepContext& scene) const {
     for (const Bond& bond : bonds) longestBond = std::max(longestBond, bond.length);
     std::map<std::uint32_t, std::array<SpringAndDashpot, 2>> rows;
     for (const Bond& bond : bonds) {
-        const std::uint32_t first = grains.place[bond.first], second = grains.place[bond.second];
+        const auto massOf = [&](std::uint32_t at) { return movingOf(grains, joined[at]).inverseMass; };
+        const auto inertiaOf = [&](std::uint32_t at) { return turningOf(grains, joined[at]).inverseInertia; };
         const BondStiffness& k = bond.stiffness;
-        const BondDashpots d(grains, first, second, k, materials[bond.material].damping);
+        const BondDashpots d(massOf(bond.at1) + massOf(bond.at2), inertiaOf(bond.at1) + inertiaOf(bond.at2),
+                             k, materials[bond.material].damping);
         const double lever = bond.length * longestBond;
-        for (const std::uint32_t place : {first, second}) {
-            auto& [moving, turning] = rows[place];
-            const double ofMass = grains.translation[place].inverseMass,
-                         ofInertia = grains.rotation[place].inverseInertia;
+        for (const std::uint32_t at : {bond.at1, bond.at2}) {
+            auto& [moving, turning] = rows[at];
+            const double ofMass = massOf(at), ofInertia = inertiaOf(at);
             moving.spring += std::max(2 * k.normal, 4 * k.shear) * ofMass;
             moving.dashpot += std::max(2 * d.normal, 4 * d.shear) * ofMass;
             turning.spring += (2 * std::max(k.bending, k.twist) + k.shear * lever) * ofInertia;
@@ -267,7 +343,7 @@ double BondPart::largestStep(const StepContext& scene) const {
     }
     const SignChange limitOf(*scene.scheme);
     double step = infinity;
-    for (const auto& [place, both] : rows)
+    for (const auto& [at, both] : rows)
         for (const SpringAndDashpot& row : both)
             if (row.spring > 0) step = std::min(step, limitOf.limit(row));
     return step;
@@ -286,10 +362,10 @@ void BondPart::refuseStep(const StepContext& step) {
 void BondPart::turnGrains(StepContext& step) {
     const ParticleStore& grains = step.grains();
     for (Joined& one : joined) {
-        const RotationRecord& turning = grains.rotation[one.place];
+        const RotationRecord& turning = turningOf(grains, one);
         one.before = one.orientation;
         one.forceBefore = one.force, one.torqueBefore = one.torque;
-        one.velocity = grains.translation[one.place].velocity;
+        one.velocity = movingOf(grains, one).velocity;
         one.spin = turning.spin;
         const Vector<double> way = step.length * (turning.spin + (step.scheme->position0 * step.length) *
                                                                      turning.angularAcceleration);
@@ -307,6 +383,7 @@ void BondPart::prepare(StepContext& step) {
 
 void BondPart::beforeMotion(StepContext& step) {
     if (step.length == 0) prepare(step);  // the start of a run, where forces are found
+    findGrains(step);
     atBegin = bonds;
     isAccelerated = false;
     refuseStep(step);
@@ -318,8 +395,8 @@ void BondPart::beforeMotion(StepContext& step) {
     turnGrains(step);
 }
 
-void BondPart::computeLoads(const StepContext& step) {
-    findPlaces(step.grains());
+void BondPart::computeLoads(StepContext& step) {
+    findGrains(step);
     for (Joined& one : joined) one.force = one.torque = {0, 0, 0};
     for (Bond& bond : bonds) {
         const BondState state = stateOf(step, bond);
@@ -337,6 +414,7 @@ void BondPart::computeLoads(const StepContext& step) {
 void BondPart::accelerate(StepContext& step, double time) {
     ParticleStore& grains = step.grains();
     for (const Joined& one : joined) {
+        if (one.place == PlaceIndex::none) continue;
         const HeldBits held = grains.heldAt(one.place);
         TranslationRecord& moving = grains.translation[one.place];
         RotationRecord& turning = grains.rotation[one.place];
@@ -350,6 +428,7 @@ void BondPart::accelerate(StepContext& step, double time) {
 void BondPart::afterForces(StepContext& step) {
     computeLoads(step);
     for (Joined& one : joined) {
+        if (one.place == PlaceIndex::none) continue;
         one.velocityBefore = step.grains().translation[one.place].velocity;
         one.spinBefore = step.grains().rotation[one.place].spin;
     }
@@ -362,7 +441,7 @@ void BondPart::takeBack(StepContext& step) {
     for (Joined& one : joined) {
         one.orientation = one.before;
         one.force = one.forceBefore, one.torque = one.torqueBefore;
-        if (!isAccelerated) continue;
+        if (!isAccelerated || one.place == PlaceIndex::none) continue;
         grains.translation[one.place].velocity = one.velocityBefore;
         grains.rotation[one.place].spin = one.spinBefore;
     }
@@ -374,8 +453,8 @@ void BondPart::takeBack(StepContext& step) {
 double BondPart::power(const StepContext& step, const Bond& bond, const BondLoad& load) const {
     const ParticleStore& grains = step.grains();
     const auto mean = [&](const Joined& one) {
-        return std::pair(0.5 * (one.velocity + grains.translation[one.place].velocity),
-                         0.5 * (one.spin + grains.rotation[one.place].spin));
+        return std::pair(0.5 * (one.velocity + movingOf(grains, one).velocity),
+                         0.5 * (one.spin + turningOf(grains, one).spin));
     };
     const auto [velocity1, spin1] = mean(joined[bond.at1]);
     const auto [velocity2, spin2] = mean(joined[bond.at2]);
@@ -393,12 +472,13 @@ void BondPart::addWork(const StepContext& step, const Bond& bond, Work& work) co
         const Joined& one = joined[isFirst ? bond.at1 : bond.at2];
         const Vector<double> force = isFirst ? -load.force : load.force,
                              torque = isFirst ? load.torque1 : load.torque2;
-        const HeldBits held = grains.heldAt(one.place);
-        const bool moves = grains.translation[one.place].inverseMass > 0;
+        const TranslationRecord& moving = movingOf(grains, one);
+        const HeldBits held = heldOf(grains, one);
+        const bool moves = moving.inverseMass > 0;
         const Vector<double> kept = moves ? force - held.partAlong(force) : force,
                              turned = moves ? torque - held.partAbout(torque) : torque;
-        work.onHeld.add(half * (dot(kept, 0.5 * (one.velocity + grains.translation[one.place].velocity)) +
-                                dot(turned, 0.5 * (one.spin + grains.rotation[one.place].spin))));
+        work.onHeld.add(half * (dot(kept, 0.5 * (one.velocity + moving.velocity)) +
+                                dot(turned, 0.5 * (one.spin + turningOf(grains, one).spin))));
     }
 }
 
@@ -435,14 +515,19 @@ void BondPart::breakBonds(StepContext& step) {
 }
 
 void BondPart::finish(StepContext& step) {
-    if (step.ledger) account(step);
+    if (step.ledger) {
+        findGrains(step);
+        account(step);
+    }
     breakBonds(step);
     ParticleStore& grains = step.grains();
     for (Joined& one : joined) {
+        if (one.place == PlaceIndex::none) continue;
         changeAcceleration(grains, one.place, one.force, one.torque);
         one.acceleration = grains.acceleration[one.place];
         one.angularAcceleration = grains.rotation[one.place].angularAcceleration;
     }
+    shareAccelerations(step);
     if (step.ledger) stored = step.ledger->bondElastic = energy(step);
 }
 

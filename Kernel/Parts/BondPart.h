@@ -9,6 +9,7 @@
 #include "Kernel/Math/ExactSum.h"
 #include "Kernel/Particles/ParticleHandler.h"
 #include "Kernel/Parts/BondLaw.h"
+#include "Kernel/Ranks/AllRanks.h"
 #include "Kernel/Step/StepPart.h"
 
 namespace pendular {
@@ -57,6 +58,7 @@ public:
     [[nodiscard]] double largestStep(const StepContext& scene) const;
 
     [[nodiscard]] std::string_view name() const override { return "bonds"; }
+    [[nodiscard]] bool actsOnRanks() const override { return true; }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
     void prepare(StepContext& step) override;
@@ -71,7 +73,7 @@ public:
 private:
     /// A grain that is bonded.
     struct Joined {
-        std::uint32_t identity, place;                    // place: of this step
+        std::uint32_t identity, place;                    // place: of this step; none on another rank
         Quaternion orientation, before;                   // now, and at the start of the step
         Vector<double> velocity{0, 0, 0}, spin{0, 0, 0};  // m/s, rad/s, at the start of the step
         // m/s, rad/s, before the forces of the step give it a part of their motion
@@ -80,6 +82,12 @@ private:
         Vector<double> forceBefore{0, 0, 0}, torqueBefore{0, 0, 0};  // the same, of the last step
         // m/s^2, rad/s^2, as the last step has left them
         Vector<double> acceleration{0, 0, 0}, angularAcceleration{0, 0, 0};
+    };
+    /// How a grain moves that is on another rank.
+    struct Elsewhere {
+        TranslationRecord moving{};
+        RotationRecord turning{};
+        HeldBits held{};
     };
     struct Pair {
         std::uint32_t first, second, material;
@@ -95,9 +103,19 @@ private:
     [[nodiscard]] BondStiffness stiffnessOf(std::uint32_t material, double length) const;
     [[nodiscard]] std::uint32_t joinedAt(std::uint32_t identity);
     void findPlaces(const ParticleStore& grains);
+    /// Finds the grains. On several ranks, which all have all bonds, each tells the others how its own grains
+    /// move.
+    void findGrains(StepContext& step);
+    void shareAccelerations(StepContext& step);
+    /// Which of them are in the scene, on any rank.
+    [[nodiscard]] std::vector<bool> areThere(const StepContext& step) const;
+    [[nodiscard]] const TranslationRecord& movingOf(const ParticleStore& grains, const Joined& one) const;
+    [[nodiscard]] const RotationRecord& turningOf(const ParticleStore& grains, const Joined& one) const;
+    [[nodiscard]] HeldBits heldOf(const ParticleStore& grains, const Joined& one) const;
     [[nodiscard]] BondState stateOf(const StepContext& step, const Bond& bond) const;
     [[nodiscard]] BondLoad dampingOf(const StepContext& step, const Bond& bond, const BondState& state) const;
     [[nodiscard]] double energy(const StepContext& step) const;
+    [[nodiscard]] bool areAsked(const AllRanks& ranks) const;
     void joinNew(StepContext& step);
     void renewForces(StepContext& step);
     void addWork(const StepContext& step, const Bond& bond, Work& work) const;
@@ -107,7 +125,7 @@ private:
                                    const Vector<double>& torque);
     void refuseStep(const StepContext& step);
     void turnGrains(StepContext& step);
-    void computeLoads(const StepContext& step);
+    void computeLoads(StepContext& step);
     void accelerate(StepContext& step, double time);
     void breakBonds(StepContext& step);
     [[nodiscard]] double power(const StepContext& step, const Bond& bond, const BondLoad& load) const;
@@ -117,6 +135,7 @@ private:
     std::vector<ToJoin> toJoin;
     std::vector<Bond> bonds, atBegin;                // now, and at the start of the step
     std::vector<Joined> joined;                      // in the order of their first bonds
+    std::vector<Elsewhere> elsewhere;                // of each of these, on several ranks
     std::map<std::uint32_t, std::uint32_t> numbers;  // among these, by identity
     double stored = 0;                               // J, at the end of the last step
     std::optional<double> longest;                   // s, the longest stable step, where it is known

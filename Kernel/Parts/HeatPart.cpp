@@ -104,7 +104,7 @@ double HeatPart::storedIn(StepContext& step) const {
     const ParticleStore& grains = step.grains();
     for (const std::uint32_t place : grains.place)
         sum.add(capacityAt(step, place) * temperatures[grains.identity[place]]);
-    return sum.value();
+    return step.contacts.ranks().sum(sum);
 }
 
 double HeatPart::contactRadius(double effectiveRadius, double overlap) const {
@@ -130,52 +130,84 @@ double HeatPart::conductanceAtWall(const HeldWall& wall, int species, const Obse
            contactRadius(radius, seen.overlap());
 }
 
-void HeatPart::conductBetween(const StepContext& step, const ObservedContact& seen) {
+/// Of grains, and on several ranks of ghosts.
+void HeatPart::readTemperatures(const StepContext& step) {
     const ParticleStore& grains = step.grains();
-    const std::uint32_t first = grains.place[seen.particle1];
+    before.assign(grains.size(), 0);
+    for (const std::uint32_t place : grains.place) before[place] = temperatures[grains.identity[place]];
+    std::vector<double> none(grains.bodies.sizeWithGhosts());
+    step.contacts.tellGhosts(before, none);
+}
+
+void HeatPart::conductBetween(const StepContext& step, const ObservedContact& seen, std::uint32_t first,
+                              std::uint32_t second) {
+    const ParticleStore& grains = step.grains();
     const TranslationRecord& one = grains.translation[first];
-    const double temperature = temperatures[seen.particle1];
     if (seen.wall >= 0) {
         const auto held = heldWalls.find(seen.wall);
         if (held == heldWalls.end()) return;
         const double found = conductanceAtWall(held->second, grains.species[first], seen, one.radius);
-        const double power = found * (held->second.temperature - temperature);
+        const double power = found * (held->second.temperature - before[first]);
         flow[first] += power, conductances[first] += found;
         fromWalls.add(step.length * power);
         return;
     }
-    const std::uint32_t second = grains.place[seen.particle2];
     const TranslationRecord& other = grains.translation[second];
     const double found =
         conductance(grains.species[first], grains.species[second],
                     Bodies{one.radius, other.radius}.effectiveRadius(), seen.overlap(), norm(seen.shift));
-    const double power = found * (temperatures[seen.particle2] - temperature);
+    const double power = found * (before[second] - before[first]);
     flow[first] += power, flow[second] -= power;
     conductances[first] += found, conductances[second] += found;
 }
 
-void HeatPart::conduct(StepContext& step) {
+template <class Function>
+void HeatPart::forEachActing(const StepContext& step, Function&& function) const {
+    const ContactSystem& contacts = step.contacts;
     const ParticleStore& grains = step.grains();
-    step.contacts.forEachActing(grains, [&](const Bucket& bucket, std::uint32_t contact) {
-        if (!step.contacts.touches(contact)) return;
-        const ObservedContact seen = step.contacts.observe(grains, bucket, contact);
-        if (seen.overlap() > 0) conductBetween(step, seen);
+    if (!contacts.ranks().areSeveral()) return contacts.forEachActing(grains, function);
+    std::vector<std::pair<const Bucket*, std::uint32_t>> all;
+    const auto note = [&](const Bucket& bucket, std::uint32_t contact) { all.push_back({&bucket, contact}); };
+    contacts.forEachActing(grains, note);
+    for (const std::uint32_t place : grains.place)
+        contacts.forEachActingOf(place, [&](const Bucket& bucket, std::uint32_t contact) {
+            if (contacts.firstOf(contact) >= grains.ownSize()) note(bucket, contact);
+        });
+    std::ranges::stable_sort(all, {},
+                             [&](const auto& one) { return grains.identity[contacts.firstOf(one.second)]; });
+    for (const auto& [bucket, contact] : all) function(*bucket, contact);
+}
+
+void HeatPart::conduct(StepContext& step) {
+    readTemperatures(step);
+    const ContactSystem& contacts = step.contacts;
+    forEachActing(step, [&](const Bucket& bucket, std::uint32_t contact) {
+        if (!contacts.touches(contact)) return;
+        const ObservedContact seen = contacts.observe(step.grains(), bucket, contact);
+        if (seen.overlap() > 0)
+            conductBetween(step, seen, contacts.firstOf(contact), contacts.secondOf(contact));
     });
 }
 
 void HeatPart::takeLosses(const StepContext& step) {
     const ParticleStore& grains = step.grains();
-    for (const ContactLoss& loss : step.account->losses()) {
-        const double half = 0.5 * loss.energy;
-        const auto give = [&](std::uint32_t identity) {
-            const std::uint32_t place = grains.place[identity];
-            if (place == PlaceIndex::none) return;  // it has left the scene in this step
-            source[place] += half;
-            fromContacts.add(half);
-        };
-        give(loss.first);
-        if (loss.wall < 0) give(loss.second);
-        else toWalls.add(half);
+    const auto isHere = [&](std::uint32_t identity) { return grains.place.contains(identity); };
+    const auto give = [&](std::uint32_t identity, double energy) {
+        if (!isHere(identity)) return;  // it has left the scene in this step, or is on another rank
+        source[grains.place[identity]] += energy;
+        fromContacts.add(energy);
+    };
+    const AllRanks& ranks = step.contacts.ranks();
+    std::vector<ContactLoss> losses = step.account->losses(), ofOthers;
+    for (const ContactLoss& loss : losses)
+        if (loss.wall >= 0) toWalls.add(0.5 * loss.energy);
+        else if (ranks.areSeveral() && !isHere(loss.second)) ofOthers.push_back(loss);
+    for (const ContactLoss& loss : ranks.gather(ofOthers))
+        if (isHere(loss.second)) losses.push_back(loss);
+    std::ranges::stable_sort(losses, {}, &ContactLoss::first);
+    for (const ContactLoss& loss : losses) {
+        give(loss.first, 0.5 * loss.energy);
+        if (loss.wall < 0) give(loss.second, 0.5 * loss.energy);
     }
 }
 
@@ -195,6 +227,7 @@ void HeatPart::changeTemperatures(StepContext& step) {
         if (step.length * conductances[place] > capacity) refuseStep(step, place, longest);
         temperatures[grains.identity[place]] += (step.length * flow[place] + source[place]) / capacity;
     }
+    longest = step.contacts.ranks().smallest(longest);
 }
 
 /// A driver may have set a temperature that cannot be; plastic work that stiffening gives back takes heat.
@@ -221,6 +254,7 @@ void HeatPart::atEnd(StepContext& step) {
     if (contactsHeat) takeLosses(step);
     changeTemperatures(step);
     requireTemperatures(step);
+    step.contacts.ranks().addUp({&fromWalls, &fromContacts, &toWalls});
     heat.fromWalls += fromWalls.value();
     heat.fromContacts += fromContacts.value();
     heat.toWalls += toWalls.value();

@@ -90,6 +90,7 @@ public:
     [[nodiscard]] double longestStep() const { return longest; }
 
     [[nodiscard]] std::string_view name() const override { return "heat"; }
+    [[nodiscard]] bool actsOnRanks() const override { return true; }
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
     [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
     void check(const StepContext& scene) override;
@@ -112,8 +113,14 @@ private:
     [[nodiscard]] double contactRadius(double effectiveRadius, double overlap) const;
     [[nodiscard]] double conductanceAtWall(const HeldWall& wall, int species, const ObservedContact& seen,
                                            double radius) const;
+    /// Calls function(bucket, contact) for each contact of grains here, in the order of identities; on
+    /// several ranks, also for those that count on others.
+    template <class Function>
+    void forEachActing(const StepContext& step, Function&& function) const;
+    void readTemperatures(const StepContext& step);
     void conduct(StepContext& step);
-    void conductBetween(const StepContext& step, const ObservedContact& seen);
+    void conductBetween(const StepContext& step, const ObservedContact& seen, std::uint32_t first,
+                        std::uint32_t second);
     void takeLosses(const StepContext& step);
     void refuseStep(const StepContext& step, std::uint32_t place, double bound) const;
     void changeTemperatures(StepContext& step);
@@ -130,6 +137,7 @@ private:
     double longest = infinity;                  // s
     std::vector<double> flow, source;           // W and J, by place
     std::vector<double> conductances;           // W/K, sum of each grain, by place
+    std::vector<double> before;                 // K, at the start of the step, by place
 };
 
 }  // namespace pendular

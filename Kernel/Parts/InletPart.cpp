@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Logger.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Contacts/ContactSystem.h"
@@ -23,14 +22,6 @@ InsertionScene InletPart::placesOf(const StepContext& scene) {
             scene.box,       scene.threads, scene.laws ? scene.laws->shapes() : nullptr};
 }
 
-void InletPart::check(const StepContext& scene) {
-    if (scene.contacts.ranks().areThere() && (inlets.bringBodies() || inlets.bringLiquid()))
-        throw InputError(
-            "Simulation: inlets of rigid bodies, or of grains with films, cannot be in a scene on several "
-            "ranks "
-            "(setRanks()) yet; run it on one rank.");
-}
-
 void InletPart::begin(StepContext& scene, bool isRestarted) {
     inlets.begin(placesOf(scene), scene.boxAtSetUp, isRestarted);
     for (std::size_t k = 0; k < inlets.getSize(); ++k)
@@ -40,7 +31,9 @@ void InletPart::begin(StepContext& scene, bool isRestarted) {
                     scene.logger(LogLevel::Warn, "inlet {}: clumps: {}.", k, *gap);
 }
 
-void InletPart::prepare(StepContext& step) { inlets.requireLiquid(step.particles, step.time + step.length); }
+void InletPart::prepare(StepContext& step) {
+    inlets.requireLiquid(step.particles, step.contacts.ranks(), step.time + step.length);
+}
 
 void InletPart::atEnd(StepContext& step) {
     inlets.letIn(placesOf(step), step.contacts, step.time + step.length,

@@ -14,7 +14,6 @@ public:
     [[nodiscard]] std::string_view name() const override { return "inlets"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
     [[nodiscard]] bool needsFinishedStep() const override { return false; }
-    void check(const StepContext& scene) override;
     void begin(StepContext& scene, bool isRestarted) override;
     void prepare(StepContext& step) override;
     void atEnd(StepContext& step) override;

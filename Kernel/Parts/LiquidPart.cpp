@@ -92,6 +92,22 @@ Features FilmMassPart::features(const StepContext& /*scene*/) const {
     return density > 0 ? Features{Feature::FilmMass} : Features{};
 }
 
+/// On several ranks, ghosts have the mass of the grains that they stand for.
+void FilmMassPart::afterMotion(StepContext& step) {
+    if (!step.contacts.ranks().areSeveral()) return;
+    ParticleStore& grains = step.grains();
+    const auto tell = [&](auto&& numberAt) {
+        std::vector<double> ofGrains(grains.size()), ofBodies(grains.bodies.sizeWithGhosts());
+        for (std::size_t place = 0; place < grains.ownSize(); ++place) ofGrains[place] = numberAt(place);
+        step.contacts.tellGhosts(ofGrains, ofBodies);
+        for (std::size_t place = grains.ownSize(); place < grains.size(); ++place)
+            if (!grains.isGap(place)) numberAt(place) = ofGrains[place];
+    };
+    tell([&](std::size_t place) -> double& { return grains.translation[place].inverseMass; });
+    if (grains.hasSpin)
+        tell([&](std::size_t place) -> double& { return grains.rotation[place].inverseInertia; });
+}
+
 void FilmMassPart::finish(StepContext& step) { ParticleHandler::Inside::weighFilms(step.particles); }
 
 void FilmMassPart::setDensity(const StepContext& scene, double liquid) {

@@ -44,6 +44,7 @@ class FilmMassPart : public StepPart {
 public:
     [[nodiscard]] std::string_view name() const override { return "filmMass"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
+    void afterMotion(StepContext& step) override;
     void finish(StepContext& step) override;
     void visitState(StateArchive& archive, StepContext& scene) override;
 

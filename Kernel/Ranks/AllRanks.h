@@ -24,6 +24,8 @@ public:
     /// There are others, whether they share the grains already or not.
     [[nodiscard]] bool areThere() const { return exchange != nullptr; }
     [[nodiscard]] bool areSeveral() const { return exchange && (!areDistributed || *areDistributed); }
+    /// Whether what all ranks do alike, and is summed over them, counts on this one.
+    [[nodiscard]] bool isFirst() const { return !areSeveral() || exchange->rank() == 0; }
 
     /// Throws InputError where each rank has its own grains only. @param what needs all of them, "clusters"
     void requireAllGrains(std::string_view what) const;

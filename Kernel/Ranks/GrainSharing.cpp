@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "Kernel/Ranks/GrainExtents.h"
 
@@ -37,7 +38,7 @@ void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, dou
     isDistributed = grains.isShared = true;
     findGhosts(grains, box, reach);
     ++done.lists;
-    done.ghosts += grains.size() - grains.ownSize();
+    done.asked += grains.size() - grains.ownSize();
 }
 
 bool GrainSharing::areImbalanced(const ParticleStore& grains, const Luggage& luggage) {
@@ -75,13 +76,13 @@ void GrainSharing::migrate(ParticleStore& grains, const PeriodicBox& box, const 
         if (owners[k] == self) staying.push_back(k);
         else if (grains.identity[k] < onAllFrom) leaving.push_back(k);
     }
-    onAllFrom = ~std::uint32_t{0};
     std::vector<Message> toEach(exchange.count());
     std::vector<std::uint32_t> numbers(exchange.count());
     for (const std::uint32_t k : leaving) ++numbers[owners[k]];
     for (std::size_t q = 0; q < exchange.count(); ++q) toEach[q].add(numbers[q]);
     for (const std::uint32_t k : leaving) addRow(toEach[owners[k]], grains, k);
     packBodies(grains.bodies, grains, owners, toEach);
+    onAllFrom = ~std::uint32_t{0};
     if (!isDistributed) return grains.keepOnly(staying);  // the others have them
     luggage.pack(owners, toEach);
     done.migrated += leaving.size();
@@ -134,8 +135,10 @@ void GrainSharing::packBodies(RigidBodies& bodies, const ParticleStore& grains,
     std::vector<std::uint32_t> staying;
     OfEachRank leaving(exchange.count());
     for (std::uint32_t k = 0; k < bodies.size(); ++k) {
-        const std::size_t owner = owners[grains.place[bodies.membersOf(k).front().grain]];
-        (owner == exchange.rank() ? staying : leaving[owner]).push_back(k);
+        const std::uint32_t first = bodies.membersOf(k).front().grain;
+        const std::size_t owner = owners[grains.place[first]];
+        if (owner == exchange.rank()) staying.push_back(k);
+        else if (first < onAllFrom) leaving[owner].push_back(k);
     }
     for (std::size_t q = 0; q < exchange.count(); ++q) addBodies(toEach[q], bodies, leaving[q]);
     bodies.keepOnly(staying);
@@ -212,6 +215,30 @@ void GrainSharing::findGhosts(ParticleStore& grains, const PeriodicBox& box, dou
         }
     }
     grains.bodies.sort();
+}
+
+/// A rank asks by boxes around its grains; what is near to a box need not be near to one of them.
+void GrainSharing::keepGhosts(ParticleStore& grains, const std::vector<bool>& isListed) {
+    std::vector<Message> toEach(exchange.count());
+    for (std::size_t q = 0; q < exchange.count(); ++q)
+        for (const std::uint32_t identity : std::exchange(got[q], {})) {
+            const std::uint32_t place = grains.ghostPlace[identity];
+            const bool stays = isListed[place] || grains.bodies.contains(identity);
+            toEach[q].add(stays);
+            if (stays) {
+                got[q].push_back(identity);
+                continue;
+            }
+            TranslationRecord& ghost = grains.translation[place];
+            ghost.radius = ghost.inverseMass = 0;  // a gap
+            ghost.velocity = {0, 0, 0};
+        }
+    std::vector<Message> fromEach = exchange.swap(std::move(toEach));
+    for (std::size_t q = 0; q < exchange.count(); ++q) {
+        done.ghosts += got[q].size();
+        for (const std::uint32_t identity : std::exchange(sent[q], {}))
+            if (fromEach[q].take<bool>()) sent[q].push_back(identity);
+    }
 }
 
 void GrainSharing::findPlaces(const ParticleStore& grains) {

@@ -23,7 +23,8 @@ struct RankOptions {
 struct RankCounts {
     std::size_t lists = 0;      // of contacts
     std::size_t migrated = 0;   // grains that went to another rank
-    std::size_t ghosts = 0;     // sum over the lists
+    std::size_t asked = 0;      // copies of grains that others have sent for a list, sum over the lists
+    std::size_t ghosts = 0;     // and of these, those that are in a contact or a rigid body
     std::size_t heldTwice = 0;  // contacts that came from two ranks, over the lists
     std::size_t unequal = 0;    // and of these, those that were not the same bit for bit
     double load = 0;            // of the own grains at the last list, as they are balanced: see Luggage
@@ -58,6 +59,9 @@ public:
     void gather(ParticleStore& grains, const Luggage& luggage);
     /// The next time, all ranks have all grains whose identities begin at this one, as at first.
     void expectOnAll(std::uint32_t first) { onAllFrom = first; }
+    /// After a list: copies that are in none of its contacts are gaps until the next one, and are not sent.
+    /// @param isListed of each place
+    void keepGhosts(ParticleStore& grains, const std::vector<bool>& isListed);
     /// After grains have been sorted, or have gone from all ranks.
     void findPlaces(const ParticleStore& grains);
     /// Ghosts get the motion of the grains that they stand for.

@@ -152,7 +152,6 @@ protected:
     };
     /// Throws InputError in a run.
     void keepOutput(KeptOutput output);
-    [[nodiscard]] bool hasOutputs() const { return !outputs.empty(); }
     void prepareOutputs();
 
     /// Throws InputError.

@@ -19,9 +19,8 @@ Scene::Scene() : inside(std::make_unique<Inside>(*this)) {
             return contacts.noteEnded(contacts.endContactsOf(particleHandler.store(), place));
         if (inside->isDistributed())
             throw InputError(
-                "Grains cannot be removed in a run on several ranks (setRanks()): the others would keep "
-                "them; "
-                "run on one rank.");
+                "Grains can be removed in a run on several ranks (setRanks()) after gather() only; all ranks "
+                "must call it, and remove the same ones.");
         inside->bookEnergyOfEnded(contacts.endContactsOf(particleHandler.store(), place));
     });
     ParticleHandler::Inside::callToFinishStep(particleHandler, [this] {
@@ -55,7 +54,8 @@ bool Scene::isShared() const { return inside->sharing.has_value(); }
 double Scene::agreeOnLargest(double own) { return isShared() ? inside->sharing->largest(own) : own; }
 
 void Scene::tellEvents() {
-    for (const ContactEvent& event : contactEvents()) actionsOnContactEvent(event);
+    const std::vector<ContactEvent> told = contactEvents();  // gather() in the hook brings others
+    for (const ContactEvent& event : told) actionsOnContactEvent(event);
 }
 
 RunNumbers Scene::numbers() const {

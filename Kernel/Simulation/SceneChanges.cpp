@@ -44,6 +44,7 @@ static bool areKnownNewBodies(const GrainChanges& changes, const ParticleStore& 
     ParticleStore toCheck;
     std::uint32_t last = RigidBodies::none;
     for (const std::uint32_t identity : changes.altered) {
+        if (grains.isShared && !grains.place.contains(identity)) continue;  // another rank knows
         const std::uint32_t number = grains.bodies.bodyOf(identity);
         if (number == RigidBodies::none || !std::ranges::binary_search(changes.added, identity)) return false;
         if (std::exchange(last, number) == number) continue;
@@ -119,11 +120,15 @@ void Scene::Inside::takeOverChanges() {
 }
 
 void Scene::Inside::refuseForRanks(const GrainChanges& changes, bool others) {
-    if (others || !changes.placed.empty() || !changes.altered.empty() ||
+    const auto hasCome = [&](std::uint32_t identity) {
+        return std::ranges::binary_search(changes.added, identity);
+    };
+    if (others || !changes.placed.empty() || !std::ranges::all_of(changes.altered, hasCome) ||
         changes.added.size() != contacts.takeArrived())
         throw InputError(
             "Simulation: grains, walls, species and the time step of a scene on several ranks (setRanks()) "
-            "cannot be changed in a run yet; run it on one rank.");
+            "can "
+            "be changed in a run after gather() only; all ranks must call it, and make the same change.");
 }
 
 /// Grains have come by inlets, which has listed contacts again.
@@ -131,8 +136,10 @@ void Scene::Inside::takeOverOnRanks(const GrainChanges& changes, bool lastBodyWe
     refuseForRanks(changes, false);
     parts.takeOver(contextNow(stepLength()), {});
     choosePartsLength();
-    if (contacts.ranks().any(lastBodyWent || stepLength() != checkedStep || isNewToChecks(changes.added)))
-        check();
+    const bool newBodies = !changes.altered.empty() &&
+                           !areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest());
+    const bool newGrains = isNewToChecks(changes.added);  // all ranks ask
+    if (contacts.ranks().any(lastBodyWent || newBodies || newGrains || stepLength() != checkedStep)) check();
 }
 
 /// A bridge pays for the drift of the step that comes, and Adams' formulas have the weights of equal steps.

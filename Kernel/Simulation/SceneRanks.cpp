@@ -1,6 +1,3 @@
-#include "Kernel/Simulation/SceneRanks.h"
-
-#include "Kernel/Base/InputError.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Simulation/SceneInside.h"
 
@@ -8,18 +5,8 @@
 
 namespace pendular {
 
-void refuseToGather() {
-    throw InputError(
-        "Simulation: a scene on several ranks (setRanks()) in which liquid moves, or whose events of "
-        "contacts "
-        "are listened to, has no solve(), outputs and restart files yet, and cannot be gathered; run it on "
-        "one "
-        "rank.");
-}
-
 void Scene::Inside::gather() {
     if (!isDistributed()) return;
-    if (contacts.movesLiquid() || contacts.events().areListenedTo()) refuseToGather();
     scene.particleHandler.finishStep();
     if (scene.hasBegun()) takeOverChanges();
     contacts.gather(scene.particleHandler.store());

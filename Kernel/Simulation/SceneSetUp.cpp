@@ -12,7 +12,6 @@
 #include "Kernel/Simulation/SceneCheck.h"
 #include "Kernel/Simulation/SceneDomain.h"
 #include "Kernel/Simulation/SceneInside.h"
-#include "Kernel/Simulation/SceneRanks.h"
 #include "Kernel/Walls/WallSeams.h"
 #include "Kernel/Walls/WornWall.h"
 
@@ -141,10 +140,6 @@ void Scene::Inside::check() {
     context.hasInlets = !scene.inletHandler.isEmpty();
     const Features found = wakeParts();
     refuseConflicts(found);
-    refuseConflicts(found, conflictsOfRanks());
-    const bool isGathered = sharing && (scene.hasCourse() || scene.hasOutputs() || scene.isRestarted());
-    if (isGathered && (found.has(Feature::MovingLiquid) || found.has(Feature::ContactEvents)))
-        refuseToGather();
     refuseOutOfPlane(context);
     refuseForDiscs(context);
     parts.refuseOwnConflicts(found);

@@ -44,13 +44,8 @@ constexpr std::array table{
              "velocityVerlet"},
 };
 
-constexpr auto tableOfRanks = [] {
-    constexpr std::array features{FilmMass, Sprays, OwnPart};
-    std::array<Conflict, features.size()> all{};
-    for (std::size_t k = 0; k < all.size(); ++k)
-        all[k] = {Ranks, features[k], "ranks cannot share this yet", "run the scene on one rank"};
-    return all;
-}();
+constexpr std::array tableOfRanks{Conflict{
+    Ranks, OwnPart, "ranks can share only parts that say so (actsOnRanks())", "run the scene on one rank"}};
 
 bool isOf(const Conflict& conflict, Feature a, Feature b) {
     return (conflict.a == a && conflict.b == b) || (conflict.a == b && conflict.b == a);

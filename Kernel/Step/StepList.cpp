@@ -40,6 +40,7 @@ void StepList::refuseOwnConflicts(const Features& scene) const {
         Features named = scene;
         named.add(Feature::OwnPart, std::string(part->name()));
         refuseConflicts(named, part->ownConflicts());
+        if (!part->actsOnRanks()) refuseConflicts(named, conflictsOfRanks());
     }
 }
 

@@ -75,6 +75,10 @@ public:
     /// Visits all else that the part remembers.
     virtual void visitState(StateArchive&, StepContext&) {}
     virtual void addTo(SummaryRows&) const {}
+
+    /// Whether the part of a driver's own acts alike where ranks share the scene: each has its own grains and
+    /// ghosts of others (Kernel/Ranks/README.md). Else it is refused there.
+    [[nodiscard]] virtual bool actsOnRanks() const { return false; }
 };
 
 }  // namespace pendular

@@ -10,6 +10,10 @@
 #include "Kernel/Output/ParaViewOutput.h"
 #include "Kernel/Output/RunTable.h"
 #include "Kernel/Output/WallForceFile.h"
+#include "Kernel/Parts/BondPart.h"
+#include "Kernel/Parts/HeatPart.h"
+#include "Kernel/Sizes/SizeLaws.h"
+#include "SelfTests/Liquid/WetScenes.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Restart/StateContent.h"
 #include "SelfTests/Scenes/SettlingBox.h"
@@ -23,40 +27,46 @@ namespace {
 
 using namespace support;
 using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
+using Moving = Species<HertzianViscoelastic, Mindlin, LiquidMigration<LiquidBridgeBagheri>>;
 namespace fs = std::filesystem;
 
 constexpr std::size_t half = 210, whole = 420;  // steps
 
-/// Wet grains that fall and touch, with a table of the driver and all kinds of files.
-class SharedRun : public scenes::SettlingBox<Wet> {
+/// Six layers of grains that fall and touch, with a table of the driver and all kinds of files.
+template <class Box>
+class RunWithFiles : public Box {
 public:
     /// @param finer of how many steps one is made
-    SharedRun(const fs::path& folder, std::size_t steps, int finer = 1)
-        : SettlingBox(6), table(folder / "table.csv", "time_s,z_m,J") {
-        setQuiet();
-        // Slowly: evaluations of too large overlaps, across ranks, would count twice
-        // (Kernel/Ranks/README.md).
-        for (GrainReference grain : particleHandler) grain.setVelocity(0.2 * grain.getVelocity());
-        setName((folder / "run").string());
-        setTimeMax(static_cast<double>(steps) * getTimeStep());
-        const double interval = 100 * getTimeStep();
-        setTimeStep(getTimeStep() / finer);
-        setSaveCount(70 * finer);
-        keepRestartFile();
-        addOutput(ParaViewOutput().withInterval(interval));
-        addOutput(Hdf5Output().withInterval(interval));
-        addOutput(WallForceFile(interval));
-        addOutput(MercuryOutput().withEnergies(false));
-        if (fs::exists(restartFile())) restartFrom(restartFile());
-    }
-    void writeOutput() override {
-        table.row(getTime(), particleHandler.getObject(3).getPosition().z(), getKineticEnergy());
+    RunWithFiles(const fs::path& folder, std::size_t steps, std::string_view columns, int finer = 1)
+        : Box(6), table(folder / "table.csv", std::string(columns)) {
+        this->setQuiet();
+        this->setName((folder / "run").string());
+        this->setTimeMax(static_cast<double>(steps) * this->getTimeStep());
+        const double interval = 100 * this->getTimeStep();
+        this->setTimeStep(this->getTimeStep() / finer);
+        this->setSaveCount(static_cast<std::size_t>(70 * finer));
+        this->keepRestartFile();
+        this->addOutput(ParaViewOutput().withInterval(interval));
+        this->addOutput(Hdf5Output().withInterval(interval));
+        this->addOutput(WallForceFile(interval));
+        this->addOutput(MercuryOutput().withEnergies(false));
+        if (fs::exists(this->restartFile())) this->restartFrom(this->restartFile());
     }
     void completeOutput() override { table.close(); }
     void visitState(StateArchive& archive) override { table.visitState(archive); }
 
-private:
+protected:
     RunTable table;
+};
+
+/// Of wet grains.
+class SharedRun : public RunWithFiles<scenes::SettlingBox<Wet>> {
+public:
+    SharedRun(const fs::path& folder, std::size_t steps, int finer = 1)
+        : RunWithFiles(folder, steps, "time_s,z_m,J", finer) {}
+    void writeOutput() override {
+        table.row(getTime(), particleHandler.getObject(3).getPosition().z(), getKineticEnergy());
+    }
 };
 
 template <class SomeRun = SharedRun>
@@ -115,23 +125,159 @@ TEST(RunOnRanks, writesTheFilesOfBodiesAndEnergy) {
     }
 }
 
-TEST(RunOnRanks, goesOnFromTheFilesOfAnyNumber) {
+/// Grains with films whose liquid moves: they touch, part, come by an inlet and leave at the bottom.
+class MovingRun : public RunWithFiles<wet::WetBox<Moving>> {
+public:
+    MovingRun(const fs::path& folder, std::size_t steps)
+        : RunWithFiles(folder, steps, "time_s,begun,ended,formed,ruptured,films_m3,bridges_m3,walls_m3") {
+        listenToContacts();
+        Outlet outlet;
+        outlet.setPlane({0, 0, -1}, {0, 0, 0.0018});
+        outletHandler.copyAndAddObject(outlet);
+        SphericalParticle grain;
+        grain.setSpecies(speciesHandler.getObject(0));
+        Inlet inlet;
+        inlet.setGrain(grain);
+        inlet.setSizes(evenSizes(1.8e-3, 2.1e-3));
+        inlet.setRegion(BoxRegion({0.001, 0.001, 0.0186}, {0.0115, 0.0115, 0.0212}));
+        inlet.setNumberFlow(5000);
+        inletHandler.copyAndAddObject(inlet);
+    }
+
+private:
+    /// Every other grain is thrown up, so that bridges rupture.
+    void actionsAfterTimeStep() override {
+        if (getNumberOfTimeSteps() % 120 != 0) return;
+        for (GrainReference grain : particleHandler)
+            if (grain.getId() % 2 == 0) grain.setVelocity(grain.getVelocity() + Vec3D(0, 0, 1));
+    }
+    void writeOutput() override {
+        const ContactEventCounts& events = contactEventCounts();
+        const LiquidLedger liquid = liquidLedger();
+        table.row(getTime(), events.touchesBegun, events.touchesEnded, events.bridgesFormed,
+                  events.bridgesRuptured, liquid.films, liquid.bridges, liquid.walls);
+    }
+};
+
+TEST(RunOnRanks, writesTheFilesOfLiquidThatMovesAndOfEvents) {
+    const TestFolder folder;
+    const fs::path serial = folder.path() / "1";
+    MovingRun alone(serial, whole);
+    alone.solve();
+    EXPECT_GT(alone.contactEventCounts().bridgesRuptured, 20u);
+    EXPECT_GT(alone.liquidLedger().removed, 0);
+    EXPECT_NE(alone.liquidLedger().walls, 0);
+    EXPECT_GT(alone.inletHandler.countOf(0).number, 10u);
+    EXPECT_GT(alone.contacts().overlaps().countAbove(), 0u);
+    for (const std::size_t ranks : {2u, 3u}) {
+        const fs::path own = folder.path() / fmt::format("{}", ranks);
+        SCOPED_TRACE(fmt::format("{} ranks", ranks));
+        runOn<MovingRun>(ranks, own, whole, {.cutsWander = ranks == 3});
+        expectSameFiles(serial, own);
+    }
+}
+
+/// Grains that conduct heat, from a hot floor and from what their contacts lose.
+class HeatedRun : public SharedRun {
+public:
+    HeatedRun(const fs::path& folder, std::size_t steps) : SharedRun(folder, steps, 4) {
+        const GrainColumnReference temperature = particleHandler.addColumn("temperature", "K", 293);
+        for (std::uint32_t k = 0; k < 96; ++k) temperature[k] = 280 + k;
+        heat = &addPart<HeatPart>(temperature);
+        for (const std::size_t kind : {0u, 1u})
+            heat->setMaterial(speciesHandler.getObject(kind), {.conductivity = 1, .heatCapacity = 800});
+        heat->holdWall(5, 400);
+        heat->heatByContacts();
+        keepEnergyLedger();
+    }
+    void writeOutput() override {
+        table.row(getTime(), heat->ledger().fromWalls, heat->ledger().fromContacts);
+    }
+    HeatPart* heat;
+};
+
+/// Two ranks go on with what three have begun, and the other way round, with cuts that wander.
+template <class SomeRun>
+void expectToGoOnWith(const fs::path& serial, const fs::path& folder) {
+    for (const std::size_t ranks : {2u, 3u}) {
+        const fs::path own = folder / fmt::format("{}", ranks);
+        SCOPED_TRACE(fmt::format("{} ranks", ranks));
+        runOn<SomeRun>(ranks, own, half, {.cutsWander = ranks == 3});
+        runOn<SomeRun>(5 - ranks, own, whole, {.cutsWander = ranks == 2});
+        EXPECT_EQ(contentOf(serial / "table.csv"), contentOf(own / "table.csv"));
+        EXPECT_TRUE(contentOf(serial / "run-restart.h5") == contentOf(own / "run-restart.h5"));
+    }
+}
+
+TEST(RunOnRanks, conductsHeat) {
+    const TestFolder folder;
+    const fs::path serial = folder.path() / "1";
+    HeatedRun alone(serial, whole);
+    alone.solve();
+    EXPECT_GT(alone.heat->ledger().fromWalls, 0);
+    EXPECT_GT(alone.heat->ledger().fromContacts, 0);
+    expectToGoOnWith<HeatedRun>(serial, folder.path());
+}
+
+/// Chains of grains that bonds join, some of which break; one of the grains leaves the scene.
+class BondedRun : public SharedRun {
+public:
+    BondedRun(const fs::path& folder, std::size_t steps) : SharedRun(folder, steps, 4) {
+        bonds = &addPart<BondPart>();
+        const std::size_t cement =
+            bonds->addMaterial({.radius = 4e-4,
+                                .stiffness = [](const BondSection& s,
+                                                double length) { return beamBond(2e6, 8e5, 0.9, s, length); },
+                                .strength = {.tensile = 1e5, .shear = 1e5},
+                                .damping = 0.1});
+        for (std::uint32_t k = 0; k < 96; ++k)
+            if (k % 4 < 3) bonds->join(k, k + 1, cement);
+        keepEnergyLedger();
+        addOutput(EnergyFile(200 * getTimeStep()));
+        Outlet outlet;
+        outlet.setPlane({0, 0, -1}, {0, 0, 0.0014});
+        outletHandler.copyAndAddObject(outlet);
+    }
+    void writeOutput() override {
+        table.row(getTime(), static_cast<double>(bonds->broken()), energyLedger().fracture);
+    }
+    BondPart* bonds;
+};
+
+TEST(RunOnRanks, bondsGrains) {
+    const TestFolder folder;
+    const fs::path serial = folder.path() / "1";
+    BondedRun alone(serial, whole);
+    alone.solve();
+    EXPECT_GT(alone.bonds->broken(), 1u);
+    EXPECT_GT(alone.bonds->all().size(), 3u);
+    EXPECT_GT(alone.outletHandler.countOf(0).all().number, 0u);
+    expectToGoOnWith<BondedRun>(serial, folder.path());
+}
+
+/// From a restart file of each number of ranks on each other one.
+template <class SomeRun>
+void expectToGoOnFromEach() {
     const TestFolder folder;
     const fs::path serial = folder.path() / "serial";
-    SharedRun(serial, whole).solve();
+    SomeRun(serial, whole).solve();
     for (const std::size_t first : {1u, 2u, 3u, 4u}) {
         const fs::path begun = folder.path() / fmt::format("{}", first);
-        runOn(first, begun, half);
+        runOn<SomeRun>(first, begun, half);
         for (const std::size_t second : {1u, 2u, 3u, 4u}) {
             const fs::path own = folder.path() / fmt::format("{}-{}", first, second);
             SCOPED_TRACE(fmt::format("{} ranks, then {}", first, second));
             fs::copy(begun, own);
-            runOn(second, own, whole);
+            runOn<SomeRun>(second, own, whole);
             EXPECT_EQ(contentOf(serial / "table.csv"), contentOf(own / "table.csv"));
             EXPECT_TRUE(contentOf(serial / "run-restart.h5") == contentOf(own / "run-restart.h5"));
         }
     }
 }
+
+TEST(RunOnRanks, goesOnFromTheFilesOfAnyNumber) { expectToGoOnFromEach<SharedRun>(); }
+TEST(RunOnRanks, goesOnWithLiquidInletAndOutlet) { expectToGoOnFromEach<MovingRun>(); }
+TEST(LongRunOnRanks, goesOnWithBodiesAndEnergy) { expectToGoOnFromEach<RichRun>(); }
 
 /// Between parts of a run, and in a hook after gather(), all is there on all ranks, and may be changed.
 TEST(RunOnRanks, mayBeChangedBetweenParts) {

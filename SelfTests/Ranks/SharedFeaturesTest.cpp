@@ -172,6 +172,43 @@ TEST(SharedFeatures, inlets) {
                       {3});
 }
 
+/// Clumps of two spheres and grains come together, between the parts of ranks, too.
+template <class S>
+void letClumpsIn(S& scene) {
+    Clump rod(ClumpTemplate({{{0, 0, -0.4}, 0.5}, {{0, 0, 0.4}, 0.5}}));
+    rod.setSpecies(scene.speciesHandler.getObject(0));
+    SphericalParticle grain;
+    grain.setSpecies(scene.speciesHandler.getObject(0));
+    BodyMixture mixture;
+    mixture.add(rod, evenSizes(1.0e-3, 1.2e-3), 2);
+    mixture.add(grain, evenSizes(1.0e-3, 1.2e-3), 1);
+    Inlet inlet;
+    inlet.setBodies(mixture);
+    inlet.setRegion(BoxRegion({0.001, 0.001, 0.0063}, {0.0115, 0.0115, 0.009}));
+    inlet.setNumberFlow(3000);
+    scene.inletHandler.copyAndAddObject(inlet);
+    scene.setTimeStep(0x1p-18);
+}
+
+TEST(SharedFeatures, inletsOfClumps) {
+    std::size_t come = 0;
+    box<Smooth>(2, [](auto& scene) { letClumpsIn(scene); })([&](Scene& scene) {
+        scene.initialise();
+        scene.step(1600);
+        come = scene.bodyHandler.getSize();
+    });
+    EXPECT_GT(come, 8u);
+    expectSameOnRanks(1600, box<Smooth>(2, [](auto& scene) { letClumpsIn(scene); }), {2, 3, 7});
+    expectSameOnRanks(800,
+                      box<Wet>(2,
+                               [](auto& scene) {
+                                   letClumpsIn(scene);
+                                   scene.setTimeStep(0x1p-20);
+                                   keepLedger(scene);
+                               }),
+                      {3});
+}
+
 /// Grains leave at the bottom: in the end all, so that ranks lose their last ones.
 void letOut(Scene& scene) {
     Outlet outlet;

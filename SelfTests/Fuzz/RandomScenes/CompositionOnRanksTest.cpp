@@ -92,7 +92,7 @@ TEST(CompositionOnRanks, ofEachFeature) {
             if (!isOfOneRank(name) && judgeOnRanks(std::array{name}, options) && options.cutsWander)
                 shared.push_back(name);
     RecordProperty("shared", fmt::format("{}", fmt::join(shared, ", ")));
-    EXPECT_GE(shared.size(), 51u);
+    EXPECT_GE(shared.size(), 56u);
 }
 
 TEST(LongCompositionOnRanks, ofEachTwoFeatures) {
