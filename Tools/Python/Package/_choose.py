@@ -26,9 +26,13 @@ def levels(cpuinfo: str = "/proc/cpuinfo") -> List[str]:
     return found
 
 
+def _has_module(folder: str) -> bool:
+    return os.path.isdir(folder) and any(file.startswith("_kernel.") for file in os.listdir(folder))
+
+
 def folder(package: str, cpuinfo: str = "/proc/cpuinfo") -> Optional[str]:
     """The folder of the module; None where the package has but one. PENDULAR_LEVEL in the environment asks for another."""
-    have = sorted(name for name, _ in _LEVELS if os.path.isdir(os.path.join(package, name)))
+    have = [name for name, _ in _LEVELS if _has_module(os.path.join(package, name))]
     if not have:
         return None
     asked = os.environ.get("PENDULAR_LEVEL")
