@@ -11,8 +11,9 @@ if [[ ! -f $package ]]; then refuse "there is no package '$package'; Tools/make-
 root=${2:-$(dirname "${BASH_SOURCE[0]}")/../build/bare-debian}
 command -v mmdebstrap >/dev/null || refuse "mmdebstrap is missing (apt install mmdebstrap)"
 if [[ -e $root ]]; then refuse "$root is there already; remove it, or name another folder"; fi
-trap 'rm -rf --one-file-system "$root"' EXIT
+trap 'umount -q "$root/proc"; rm -rf --one-file-system "$root"' EXIT
 mmdebstrap --quiet --variant=apt bookworm "$root"
+mount -t proc proc "$root/proc"  # where programs find their folder, and the module what the processor is
 cp "$package" "$root/tmp/pendular.deb"
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 inside() { chroot "$root" env -i PATH=/usr/bin:/bin:/usr/sbin:/sbin HOME=/tmp MPLBACKEND=Agg DEBIAN_FRONTEND=noninteractive "$@"; }

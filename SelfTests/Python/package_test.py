@@ -22,6 +22,10 @@ def test_level_of_the_processor(tmp_path, flags, best):
     assert levels(str(tmp_path / "cpuinfo"))[0] == best
 
 
+def test_level_where_the_system_tells_nothing(tmp_path):
+    assert levels(str(tmp_path / "nothing")) == ["x86-64-v2"]
+
+
 def test_folder_of_the_module(tmp_path, monkeypatch):
     monkeypatch.delenv("PENDULAR_LEVEL", raising=False)
     (tmp_path / "cpuinfo").write_text(f"flags : {V4}\n")

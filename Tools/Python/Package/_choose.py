@@ -17,7 +17,7 @@ def levels(cpuinfo: str = "/proc/cpuinfo") -> List[str]:
         with open(cpuinfo) as file:
             flags: Set[str] = next((set(line.split()) for line in file if line.startswith("flags")), set())
     except OSError:
-        return []
+        return [_LEVELS[0][0]]  # not known, as without /proc: what nearly all have
     found: List[str] = []
     for level, needed in _LEVELS:
         if not needed <= flags:
