@@ -60,7 +60,11 @@ python3-nbclient||tests of the notebooks
 python3-nbformat||tests of the notebooks
 python3-ipykernel||notebooks
 python3-tqdm||bars of progress
-mypy|mypy|types of the module'
+mypy|mypy|types of the module
+python3-pip|pip3|wheels of the module
+python3-setuptools||wheels of the module
+python3-wheel||wheels of the module
+python3-venv||test of a wheel'
 fi
 if [[ $view == yes ]]; then
     packages+='

@@ -35,6 +35,11 @@ PolyData grainPoints(const ParticleStore& grains, const ContactLaws& laws);
 template <std::floating_point Real = float>
 PolyDataField grainStresses(const ContactSystem& contacts, const ParticleStore& grains);
 
+/// The fields of contactLines(), of doubles: a row for each contact that has a force, in the order of
+/// identities.
+std::vector<PolyDataField> contactFields(const ContactSystem& contacts, const ParticleStore& grains,
+                                         const ContactLaws& laws, bool withPoints = false, int threads = 1);
+
 /// The contacts that have a force as lines, from centre to centre (of the nearest image) or to the wall's
 /// surface. The first points are the centres of all grains, in the order of identities. The forces are those
 /// on particle1; particle2 is -1 at a wall, and wall is -1 between grains.

@@ -1,4 +1,6 @@
 """The examples run, and give what they say. Those that take longer are in long_examples_test.py."""
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -43,6 +45,21 @@ def test_study(tmp_path):
     run("study.py", "--output", tmp_path, "--only", "0", "--processes", "1")
     row = pandas.read_csv(tmp_path / "study-0.csv").iloc[0]
     assert row["hash"] == heap(0.0)["hash"]  # another process, the same bits
+
+
+def test_job_of_an_array(tmp_path, monkeypatch):
+    """As Slurm runs it, with this interpreter: a job for each value, the last one among them."""
+    pandas = pytest.importorskip("pandas")
+    from study import FRICTIONS
+
+    for file in ("study.py", "study.slurm"):
+        shutil.copy(EXAMPLES / file, tmp_path)
+    (tmp_path / "python3").symlink_to(sys.executable)
+    last = len(FRICTIONS) - 1
+    assert f"#SBATCH --array=0-{last}\n" in (EXAMPLES / "study.slurm").read_text()
+    subprocess.run(["bash", "study.slurm"], cwd=tmp_path, check=True, timeout=600,
+                   env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "SLURM_ARRAY_TASK_ID": str(last)})
+    assert pandas.read_csv(tmp_path / f"study-{last}.csv")["friction"].tolist() == FRICTIONS[-1:]
 
 
 def test_plate_bends_as_under_its_load():

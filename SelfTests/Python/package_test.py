@@ -1,4 +1,9 @@
 """What is around the module: the choice of the processor's level, documentation."""
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
 import pytest
 
 import pendular
@@ -17,13 +22,20 @@ def test_level_of_the_processor(tmp_path, flags, best):
     assert levels(str(tmp_path / "cpuinfo"))[0] == best
 
 
+def test_level_where_the_system_tells_nothing(tmp_path):
+    assert levels(str(tmp_path / "nothing")) == ["x86-64-v2"]
+
+
 def test_folder_of_the_module(tmp_path, monkeypatch):
     monkeypatch.delenv("PENDULAR_LEVEL", raising=False)
     (tmp_path / "cpuinfo").write_text(f"flags : {V4}\n")
     cpuinfo = str(tmp_path / "cpuinfo")
     assert folder(str(tmp_path), cpuinfo) is None  # a module of one build
-    (tmp_path / "x86-64-v3").mkdir()
-    (tmp_path / "x86-64-v2").mkdir()
+    for level in ("x86-64-v2", "x86-64-v3", "x86-64-v4"):
+        (tmp_path / level).mkdir()
+    assert folder(str(tmp_path), cpuinfo) is None  # nothing is built yet
+    for level in ("x86-64-v2", "x86-64-v3"):
+        (tmp_path / level / "_kernel.so").touch()
     assert folder(str(tmp_path), cpuinfo).endswith("x86-64-v3")
     monkeypatch.setenv("PENDULAR_LEVEL", "x86-64-v2")
     assert folder(str(tmp_path), cpuinfo).endswith("x86-64-v2")
@@ -34,6 +46,48 @@ def test_folder_of_the_module(tmp_path, monkeypatch):
     (tmp_path / "cpuinfo").write_text("flags : fpu\n")
     with pytest.raises(ImportError, match="none of them"):
         folder(str(tmp_path), cpuinfo)
+
+
+def installed(folder, *levels):
+    """The script that runs programs, and a program for each level that says which one it is."""
+    (folder / "bin").mkdir()
+    shutil.copy(Path(__file__).parents[2] / "Tools/pendular", folder / "bin")
+    for level in levels:
+        program = folder / "lib/x86_64-linux-gnu/pendular" / level / "Say"
+        program.parent.mkdir(parents=True)
+        program.write_text(f'#!/bin/sh\necho "{level}" "$@"\n')
+        program.chmod(0o755)
+
+    def say(*words, level=""):
+        done = subprocess.run([folder / "bin/pendular", *words], capture_output=True, text=True,
+                              env={**os.environ, "PENDULAR_LEVEL": level})
+        return done.stdout + done.stderr, done.returncode
+
+    return say
+
+
+@pytest.mark.skipif(not levels(), reason="this machine is no x86-64")
+def test_programs_are_of_the_level_that_the_module_takes(tmp_path):
+    """glibc's list of levels, which the script reads, is the one that is made of the processor's flags."""
+    three = ["x86-64-v2", "x86-64-v3", "x86-64-v4"]
+    say = installed(tmp_path, *three)
+    assert say("Say", "a b", "--c") == (f"{levels()[0]} a b --c\n", 0)
+    for level in three:
+        assert say("Say", level=level) == (f"{level}\n", 0)
+    assert say()[0].endswith("\nSay\n")
+    assert "no program Nothing" in say("Nothing")[0]
+    text, code = say("Say", level="x86-64-v9")
+    assert code == 1 and text == "pendular: there are programs for x86-64-v2 x86-64-v3 x86-64-v4 only, and none for x86-64-v9.\n"
+
+
+@pytest.mark.skipif(not levels(), reason="this machine is no x86-64")
+def test_programs_of_a_lower_level(tmp_path):
+    assert installed(tmp_path, "x86-64-v2")("Say") == ("x86-64-v2\n", 0)
+
+
+def test_programs_of_one_build(tmp_path):
+    say = installed(tmp_path, "")
+    assert say("Say", "1") == (" 1\n", 0)
 
 
 def public(value):

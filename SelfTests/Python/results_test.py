@@ -1,4 +1,7 @@
 """What runs have written is read as the arrays of a scene are."""
+import sys
+import types
+
 import numpy as np
 import pytest
 
@@ -64,6 +67,21 @@ def test_picture():
     pendular.draw(scene, color=np.arange(4), axes=axes)
     with pytest.raises(pendular.InputError, match="each of 4 grains"):
         pendular.draw(scene, color=[1, 2])
+
+
+def test_points_of_pyvista(monkeypatch):
+    """What its PolyData is given, by a stand-in: points N x 3, and an array of N rows for each column."""
+    class PolyData(dict):
+        def __init__(self, points):
+            super().__init__(points=points)
+
+    monkeypatch.setitem(sys.modules, "pyvista", types.SimpleNamespace(PolyData=PolyData))
+    scene = tower()
+    points, columns = pendular.to_pyvista(scene), scene.grains()
+    assert np.array_equal(points["points"], scene.position)
+    assert np.array_equal(points["diameter_m"], 2 * scene.radius)
+    for name in set(columns) - {"position_m"}:
+        assert points[name].ndim <= 2 and np.array_equal(points[name].ravel(), columns[name].ravel()), name
 
 
 def test_files_do_not_depend_on_the_threads(tmp_path):

@@ -8,7 +8,8 @@ set(PENDULAR_PYTHON_SHAPED_SPECIES HertzianViscoelasticMindlinSpecies LinearVisc
     "Species of superquadrics and blocks in the Python module (a list): 10 s each to compile")
 
 set(pythonFolder "${PROJECT_SOURCE_DIR}/Tools/Python")
-set(pythonPackage "${PROJECT_BINARY_DIR}/Python/pendular")
+set(pythonPackage "${buildOfAllLevels}/Python/pendular")
+set(pythonKernelFolder "${pythonPackage}/${levelFolder}")
 set(pythonGenerated "${PROJECT_BINARY_DIR}/Generated/Python")
 set(pythonSpecies "${PENDULAR_PYTHON_SPECIES}")
 list(REMOVE_ITEM pythonSpecies ${PENDULAR_POPULAR_SPECIES})
@@ -46,7 +47,7 @@ pybind11_add_module(PendularPython MODULE NO_EXTRAS ${pythonSources} "${pythonGe
                     $<TARGET_OBJECTS:PendularPythonSpecies>)
 # Whole: a library of species that is loaded calls functions which the module itself does not.
 target_link_libraries(PendularPython PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,PendularKernel>")
-set_target_properties(PendularPython PROPERTIES OUTPUT_NAME _kernel LIBRARY_OUTPUT_DIRECTORY "${pythonPackage}")
+set_target_properties(PendularPython PROPERTIES OUTPUT_NAME _kernel LIBRARY_OUTPUT_DIRECTORY "${pythonKernelFolder}")
 # Of the bindings alone, which compute nothing: half of the time of -O3.
 target_compile_options(PendularPython PRIVATE $<$<CONFIG:Release>:-O1>)
 # What computes contacts keeps -O3.
@@ -59,10 +60,12 @@ if(PENDULAR_PRECOMPILED_HEADERS)
 endif()
 
 # Its types, from the module itself.
-add_custom_command(TARGET PendularPython POST_BUILD
-    COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${pythonPackage}" PYTHONDONTWRITEBYTECODE=1
-            "${Python_EXECUTABLE}" "${pythonFolder}/make-stubs.py" "${pythonPackage}/_kernel.pyi"
-    COMMENT "Writing the types of the Python module" VERBATIM)
+if(NOT PENDULAR_LEVEL_OF)  # this machine may not run it
+    add_custom_command(TARGET PendularPython POST_BUILD
+        COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${pythonKernelFolder}" PYTHONDONTWRITEBYTECODE=1
+                "${Python_EXECUTABLE}" "${pythonFolder}/make-stubs.py" "${pythonPackage}/_kernel.pyi"
+        COMMENT "Writing the types of the Python module" VERBATIM)
+endif()
 
 # The examples as notebooks.
 file(GLOB pythonExamples CONFIGURE_DEPENDS "${pythonFolder}/Examples/*.py")
@@ -84,8 +87,6 @@ endforeach()
 
 # Where Python finds it: below /usr in the folder of Debian's packages, else in that of the prefix. (The prefix is known as
 # it is installed.)
-set(PENDULAR_PYTHON_KERNEL_FOLDER "" CACHE STRING
-    "Folder in the package for the compiled module, where the package has several: x86-64-v2, -v3 and -v4 (Tools/make-package.sh)")
 set(ownSite "lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/site-packages")
 if(Python_SITEARCH MATCHES "/dist-packages$")
     string(REPLACE site-packages dist-packages ownSite "${ownSite}")
@@ -96,7 +97,7 @@ if(CMAKE_INSTALL_PREFIX MATCHES \"/usr$\" AND pythonSite MATCHES dist-packages)
     set(pythonSite lib/python3/dist-packages)
 endif()" ALL_COMPONENTS)
 set(site "\${pythonSite}/pendular")
-install(TARGETS PendularPython LIBRARY DESTINATION "${site}/${PENDULAR_PYTHON_KERNEL_FOLDER}" COMPONENT python OPTIONAL)
+install(TARGETS PendularPython LIBRARY DESTINATION "${site}/${levelFolder}" COMPONENT python OPTIONAL)
 install(FILES ${pythonFiles} DESTINATION "${site}" COMPONENT python)
 install(FILES "${pythonPackage}/_kernel.pyi" DESTINATION "${site}" COMPONENT python OPTIONAL)
 install(DIRECTORY "${pythonFolder}/Examples" DESTINATION share/pendular COMPONENT python USE_SOURCE_PERMISSIONS

@@ -10,15 +10,15 @@ namespace pendular::python {
 namespace {
 
 py::dict contacts(const PythonScene& scene) {
-    PolyData lines;
+    std::vector<PolyDataField> fields;
     {
         const PythonScene::WithoutPython others(scene);
         const Scene& of = scene.scene();
-        lines = contactLines<double>(of.contacts(), of.particleHandler.store(), of.laws(), true,
-                                     of.getNumberOfThreads());
+        fields = contactFields(of.contacts(), of.particleHandler.store(), of.laws(), true,
+                               of.getNumberOfThreads());
     }
     py::dict made;
-    for (PolyDataField& field : lines.cellFields) made[py::str(field.name)] = arrayOf(std::move(field));
+    for (PolyDataField& field : fields) made[py::str(field.name)] = arrayOf(std::move(field));
     return made;
 }
 

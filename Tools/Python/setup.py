@@ -1,5 +1,5 @@
-"""A wheel: pip wheel --no-build-isolation Tools/Python. CMake builds the module, in build/wheel or, of a build that is
-there, in the folder PENDULAR_BUILD of the environment."""
+"""A wheel for any x86-64: pip wheel --no-build-isolation Tools/Python. CMake builds the module for three levels of the
+processor in build/wheel; or as it is in the folder of a build that is there, PENDULAR_BUILD of the environment."""
 import os
 import re
 import shutil
@@ -18,12 +18,15 @@ class BuildByCMake(build_ext):
         folder = Path(os.environ.get("PENDULAR_BUILD", ROOT / "build/wheel"))
         if not (folder / "CMakeCache.txt").exists():
             subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DPENDULAR_BUILD_TESTS=OFF",
-                            "-DPENDULAR_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"], check=True)
-        subprocess.run(["cmake", "--build", folder, "--target", "PendularPython", "--parallel"], check=True)
-        to = Path(self.get_ext_fullpath(extension.name)).parent
-        to.mkdir(parents=True, exist_ok=True)
-        for file in (folder / "Python/pendular").glob("_kernel.*"):
-            shutil.copy(file, to)
+                            "-DPENDULAR_PYTHON=ON", "-DPENDULAR_ALL_LEVELS=ON", f"-DPython_EXECUTABLE={sys.executable}"],
+                           check=True)
+        isOfAllLevels = "PENDULAR_ALL_LEVELS:BOOL=ON" in (folder / "CMakeCache.txt").read_text()
+        target = "PendularPythonLevels" if isOfAllLevels else "PendularPython"
+        subprocess.run(["cmake", "--build", folder, "--target", target, "--parallel"], check=True)
+        package, to = folder / "Python/pendular", Path(self.get_ext_fullpath(extension.name)).parent
+        for file in package.rglob("_kernel.*"):
+            (to / file.relative_to(package)).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(file, to / file.relative_to(package))
 
 
 setup(

@@ -1,9 +1,12 @@
 // Runs the scene of a file as a C++ driver does, with 1 and 2 threads, whole and with a restart, and prints
-// the hash of the state of each: same_bits_test.py has the same of Python. Lines of the file:
+// the hash of the state of each: same_bits_test.py has the same of Python. With the word `time` behind the
+// file: with 1 thread alone, and the processor's time (s) of as many steps again, for
+// Tools/Python/measure-overheads.py. Lines of the file:
 //     type NAME | set FIELD VALUE | grain X Y Z RADIUS FILM | plane NX NY NZ PX PY PZ | step S | steps N
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 
@@ -64,23 +67,40 @@ private:
     }
 };
 
+std::string hashOf(const FileScene& scene) {
+    return fmt::format("{:016x}", stateHash(scene.particleHandler.store()));
+}
+
+void printTime(const std::string& file) {
+    FileScene scene(file, 1);
+    scene.runSteps(scene.steps);
+    const std::clock_t begin = std::clock();
+    scene.runSteps(scene.steps);
+    const double taken = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    fmt::print("{} {:.6f}\n", hashOf(scene), taken);
+}
+
+void printHashes(const std::string& file) {
+    const std::string state = file + ".h5";
+    for (const int threads : {1, 2}) {
+        FileScene whole(file, threads);
+        whole.runSteps(whole.steps);
+        FileScene first(file, threads), second(file, threads);
+        first.runSteps(first.steps / 2);
+        first.writeRestart(state);
+        second.restartFrom(state);
+        second.runSteps(second.steps - second.steps / 2);
+        for (const FileScene* scene : {&whole, &second}) fmt::print("{}\n", hashOf(*scene));
+    }
+}
+
 }  // namespace
 
-int main(int, char** argv) {
+int main(int count, char** argv) {
     return runProgram([&] {
         python::registerMoreSpecies();
-        const std::string file = argv[1], state = file + ".h5";
-        for (const int threads : {1, 2}) {
-            FileScene whole(file, threads);
-            whole.runSteps(whole.steps);
-            FileScene first(file, threads), second(file, threads);
-            first.runSteps(first.steps / 2);
-            first.writeRestart(state);
-            second.restartFrom(state);
-            second.runSteps(second.steps - second.steps / 2);
-            for (FileScene* scene : {&whole, &second})
-                fmt::print("{:016x}\n", stateHash(scene->particleHandler.store()));
-        }
+        if (count > 2 && std::string_view(argv[2]) == "time") printTime(argv[1]);
+        else printHashes(argv[1]);
         return 0;
     });
 }

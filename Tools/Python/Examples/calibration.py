@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Calibration: the friction and the rolling friction at which a heap has a measured angle of repose.
 
-Two measurements are met by two numbers: the angle and the width of a heap on a rough base. scipy's least squares does not know
-the noise of heaps, so its steps are large.
+Two measurements are met by two numbers: the angle and the width of a heap on a rough base. What heaps give is noisy, so that
+slopes of it mislead; the simplex of Nelder and Mead (1965), Comput. J. 7, 308, asks for none, and begins large.
 
     calibration.py [--angle DEGREES] [--width M] [--evaluations N]
 """
 import argparse
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import minimize
 
 import pendular
 
@@ -37,24 +37,26 @@ def heap(friction, rolling, seed=1, time=0.25):
     return np.degrees(np.arctan(height / radius)), width
 
 
-def calibrate(angle, width, evaluations=12):
-    def misses(numbers):
+def calibrate(angle, width, evaluations=20):
+    """Friction and rolling friction; an evaluation is two heaps."""
+    def miss(numbers):
         found = np.array([heap(*numbers, seed=seed) for seed in (1, 2)]).mean(0)
-        return (found[0] - angle) / 1.0, (found[1] - width) / 5e-4  # over what two heaps differ by
+        return ((found[0] - angle) / 1.0)**2 + ((found[1] - width) / 5e-4)**2  # over what two heaps differ by
 
-    return least_squares(misses, x0=(0.3, 0.05), bounds=((0.05, 0.0), (1.0, 0.5)), diff_step=0.2,
-                         max_nfev=evaluations)
+    start = [(0.3, 0.05), (0.7, 0.05), (0.3, 0.25)]
+    return minimize(miss, start[0], method="Nelder-Mead", bounds=((0.05, 1.0), (0.0, 0.5)),
+                    options=dict(maxfev=evaluations, initial_simplex=start)).x
 
 
 def main(arguments=None):
     options = argparse.ArgumentParser(description="Calibration against an angle of repose.")
     options.add_argument("--angle", type=float, default=12.0, help="degrees")
     options.add_argument("--width", type=float, default=11e-3, help="m")
-    options.add_argument("--evaluations", type=int, default=6)
+    options.add_argument("--evaluations", type=int, default=20, help="of two heaps each")
     given = options.parse_args(arguments)
     found = calibrate(given.angle, given.width, given.evaluations)
-    angle, width = heap(*found.x)
-    print(f"friction {found.x[0]:.3f}, rolling friction {found.x[1]:.3f}: {angle:.1f} degrees, {1e3 * width:.2f} mm")
+    angle, width = heap(*found)
+    print(f"friction {found[0]:.3f}, rolling friction {found[1]:.3f}: {angle:.1f} degrees, {1e3 * width:.2f} mm")
 
 
 if __name__ == "__main__":

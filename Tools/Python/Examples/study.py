@@ -35,7 +35,8 @@ def main(arguments=None):
     options = argparse.ArgumentParser(description="A study over friction.")
     options.add_argument("--output", type=Path, default=Path("."), help="folder of the table")
     options.add_argument("--processes", type=int, default=2)
-    options.add_argument("--only", type=int, help="the place of one value in the list, for a job of an array")
+    options.add_argument("--only", type=int, choices=range(len(FRICTIONS)),
+                         help="the place of one value in the list, for a job of an array")
     given = options.parse_args(arguments)
     values = FRICTIONS if given.only is None else [FRICTIONS[given.only]]
     with ProcessPoolExecutor(given.processes) as pool:

@@ -17,7 +17,7 @@ def levels(cpuinfo: str = "/proc/cpuinfo") -> List[str]:
         with open(cpuinfo) as file:
             flags: Set[str] = next((set(line.split()) for line in file if line.startswith("flags")), set())
     except OSError:
-        return []
+        return [_LEVELS[0][0]]  # not known, as without /proc: what nearly all have
     found: List[str] = []
     for level, needed in _LEVELS:
         if not needed <= flags:
@@ -26,9 +26,13 @@ def levels(cpuinfo: str = "/proc/cpuinfo") -> List[str]:
     return found
 
 
+def _has_module(folder: str) -> bool:
+    return os.path.isdir(folder) and any(file.startswith("_kernel.") for file in os.listdir(folder))
+
+
 def folder(package: str, cpuinfo: str = "/proc/cpuinfo") -> Optional[str]:
     """The folder of the module; None where the package has but one. PENDULAR_LEVEL in the environment asks for another."""
-    have = sorted(name for name, _ in _LEVELS if os.path.isdir(os.path.join(package, name)))
+    have = [name for name, _ in _LEVELS if _has_module(os.path.join(package, name))]
     if not have:
         return None
     asked = os.environ.get("PENDULAR_LEVEL")
