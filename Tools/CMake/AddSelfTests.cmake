@@ -92,7 +92,7 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(REMOVE_ITEM testFolders Capillary HowDoI Papers PartialSlip Species Species/Adhesion Species/Friction
          Species/Normal Stability WetCollisions)
     if(isQuickSanitizer)
-        list(REMOVE_ITEM testFolders Benchmark CoarseGraining Contacts Drivers Energy Hosts InFlow Insertion Liquid
+        list(REMOVE_ITEM testFolders Benchmark CoarseGraining Contacts Drivers Energy Fluid Hosts InFlow Insertion Liquid
              Membranes Mercury Motion Output Periodic Programs Ranks Restart SeveralSpecies Simulation Superquadrics Walls Walls/Bodies)
     endif()
 endif()
