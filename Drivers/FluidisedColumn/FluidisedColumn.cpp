@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
         .options = options,
         .addOptions =
             [&](CLI::App& app) {
-                app.add_option("--law", scene.law, "of the drag");
+                app.add_option("--law", scene.law, "of the drag")->capture_default_str();
                 app.add_flag("--model-b", scene.isModelB,
                              "no gradient of the pressure on grains, drag over porosity");
             },

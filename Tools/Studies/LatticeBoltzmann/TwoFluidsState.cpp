@@ -104,7 +104,7 @@ double TwoFluids::thrustThroughSide(std::size_t axis, bool isLast) const {
 
 PressureSums TwoFluids::pressureSums() const {
     PressureSums sum;
-    const auto& [first, second] = components;
+    const Component &first = components[0], &second = components[1];  // a lambda takes no structured binding
     grid_.forEachNode([&](const Node& node) {
         if (solidAt(node) >= 0) return;
         const std::size_t site = grid_.at(node);
