@@ -17,7 +17,7 @@ namespace {
 
 struct FluidisedColumn : ColumnBed {
     std::string folder;
-    double stage = 2, largest = 3;  // s; of the speed at lift-off
+    double stage = 1.5, largest = 3;  // s; of the speed at lift-off
     bool isModelB = false;
 
     void setupInitialConditions() override {
