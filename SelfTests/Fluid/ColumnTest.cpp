@@ -13,8 +13,6 @@
 namespace pendular::columnTest {
 namespace {
 
-constexpr FluidMaterial water{.density = 998.2, .viscosity = 1.002e-3};
-
 void fillAndBegin(ColumnBed& bed, std::function<double(double)> speed) {
     bed.fill(std::move(speed));
     bed.initialise();

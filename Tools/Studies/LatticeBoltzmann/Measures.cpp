@@ -28,7 +28,7 @@ FlatInterface flatInterface(const FluidSettings& settings, const Phases& phases)
 }
 
 TensionLine::TensionLine(const FluidSettings& settings)
-    : low(flatInterface(settings, {0.70, 0.04})), high(flatInterface(settings, {0.74, 0.04})) {}
+    : low(flatInterface(settings, {0.67, 0.04})), high(flatInterface(settings, {0.70, 0.04})) {}
 
 double TensionLine::at(double majority) const {
     const double slope = (high.tension - low.tension) / (high.majority - low.majority);
