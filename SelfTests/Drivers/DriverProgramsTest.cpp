@@ -69,6 +69,7 @@ TEST(Drivers, printNothingWhereTheyAreQuietAndGoOnAtTheirEnd) {
     const std::map<std::string, std::string> shorter{
         {"DryingBed", "--number 100 --begin-s 0.002 --end-time-s 0.004"},
         {"EllipsoidPacking", "--number 30 --width 4 --aspects 1 1.4 --friction 0.5"},
+        {"FluidisedColumn", "--cells 2 --stage-s 0.002"},
         {"HopperDischarge",
          "--number 120 --hopper-diameter-m 0.016 --orifice-m 0.01 --orifice-m 0.012 --begin-s 0.02 "
          "--end-time-s 0.06"},

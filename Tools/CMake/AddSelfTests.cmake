@@ -1,5 +1,6 @@
 # A folder below SelfTests/ with a *Test.cpp in it is a test program, made of all .cpp files in the folder. One more has
-# the tests of all studies, Tools/Studies/*/Tests/*.cpp (PENDULAR_BUILD_STUDIES).
+# the tests of all studies, Tools/Studies/*/Tests/*.cpp (PENDULAR_BUILD_STUDIES), but those of LatticeBoltzmann, which have
+# their own (PENDULAR_LATTICE_BOLTZMANN).
 #   SelfTests/CompileFail/*.cpp  must not compile, with the message they expect (CheckCompileFailure.cmake)
 #   SelfTests/Hosts/Library/     a library of species, loaded by the test program of SelfTests/Hosts/
 #   SelfTests/Python/            tests of the Python module (AddPythonTests.cmake)
@@ -34,6 +35,9 @@ function(pendular_add_self_test folder sources)
     string(REPLACE "/" "" joined "${folder}")
     set(name "SelfTest${joined}")
     file(GLOB sources CONFIGURE_DEPENDS "${sources}")
+    if(folder STREQUAL Studies)
+        list(FILTER sources EXCLUDE REGEX "/LatticeBoltzmann/")
+    endif()
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE SpeciesOfTests $<TARGET_NAME_IF_EXISTS:PendularDrivers> Pendular::Kernel
                           GTest::gtest_main)
@@ -88,7 +92,7 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(REMOVE_ITEM testFolders Capillary HowDoI Papers PartialSlip Species Species/Adhesion Species/Friction
          Species/Normal Stability WetCollisions)
     if(isQuickSanitizer)
-        list(REMOVE_ITEM testFolders Benchmark CoarseGraining Contacts Drivers Energy Hosts InFlow Insertion Liquid
+        list(REMOVE_ITEM testFolders Benchmark CoarseGraining Contacts Drivers Energy Fluid Hosts InFlow Insertion Liquid
              Membranes Mercury Motion Output Periodic Programs Ranks Restart SeveralSpecies Simulation Superquadrics Walls Walls/Bodies)
     endif()
 endif()
@@ -109,6 +113,11 @@ if(TARGET SelfTestMercury)
 endif()
 if(PENDULAR_BUILD_STUDIES AND TARGET PendularDrivers)
     pendular_add_self_test(Studies "${PROJECT_SOURCE_DIR}/Tools/Studies/*/Tests/*.cpp")
+endif()
+
+if(TARGET StudyLatticeBoltzmann)
+    pendular_add_self_test(LatticeBoltzmann "${PROJECT_SOURCE_DIR}/Tools/Studies/LatticeBoltzmann/Tests/*.cpp")
+    target_link_libraries(SelfTestLatticeBoltzmann PRIVATE StudyLatticeBoltzmann)
 endif()
 
 # A library of species that a test loads: compiled as a driver is, and not linked to the kernel, which is in the

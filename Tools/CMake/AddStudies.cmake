@@ -1,6 +1,6 @@
 # In a folder of Tools/Studies/, a .cpp file named in small letters is a program, Tools/Studies/NAME in the build folder;
 # the others are linked into each program of the folder. Without PENDULAR_BUILD_STUDIES a program is built only if it is
-# named: --target NAME.
+# named: --target NAME. LatticeBoltzmann is there only with PENDULAR_LATTICE_BOLTZMANN.
 
 function(pendular_add_study folder)
     cmake_path(GET folder FILENAME study)
@@ -22,7 +22,7 @@ function(pendular_add_study folder)
         target_link_libraries(${name} PRIVATE ${libraries})
         list(APPEND targets ${name})
     endforeach()
-    if(NOT PENDULAR_BUILD_STUDIES)
+    if(NOT PENDULAR_BUILD_STUDIES AND NOT study STREQUAL LatticeBoltzmann)
         set_target_properties(${targets} PROPERTIES EXCLUDE_FROM_ALL ON)
     endif()
 endfunction()
@@ -30,6 +30,9 @@ endfunction()
 file(GLOB studyPrograms CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Tools/Studies/*/[a-z]*.cpp")
 list(TRANSFORM studyPrograms REPLACE "/[^/]*$" "" OUTPUT_VARIABLE studies)
 list(REMOVE_DUPLICATES studies)
+if(NOT PENDULAR_LATTICE_BOLTZMANN)
+    list(FILTER studies EXCLUDE REGEX "/LatticeBoltzmann$")
+endif()
 foreach(study IN LISTS studies)
     pendular_add_study("${study}")
 endforeach()

@@ -1,0 +1,43 @@
+#include "Kernel/Fluid/ColumnFlow.h"
+
+#include <fmt/format.h>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
+
+namespace pendular {
+
+ColumnFlow::ColumnFlow(const FluidMaterial& material, std::function<double(double)> superficialSpeed)
+    : fluid(material), speed(std::move(superficialSpeed)) {
+    checkFields(fluid);
+}
+
+void ColumnFlow::check(const FluidGrid& grid) const {
+    if (grid.cells[0] != 1 || grid.cells[1] != 1)
+        throw InputError(
+            fmt::format("fluid: the grid has {} x {} cells across the column; ColumnFlow takes 1 x 1.",
+                        grid.cells[0], grid.cells[1]));
+}
+
+void ColumnFlow::findVelocity(const FluidGrid& grid, FluidFields& fields, double time) {
+    const double flux = speed(time);
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        if (!(fields.porosity[k] > 0))
+            throw RunError(
+                fmt::format("At time {:.6g} s fluid: grains fill cell {} of the column, whose porosity is "
+                            "{:.4g}; it must be above 0.",
+                            time, k, fields.porosity[k]));
+        fields.velocity[k] = {0, 0, (flux - fields.solidFlux[k].z) / fields.porosity[k]};
+    }
+}
+
+void ColumnFlow::findPressure(const FluidGrid& grid, FluidFields& fields, const Vector<double>& gravity) {
+    drop = 0;
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        const double byDrag = fields.drag[k].z / fields.porosity[k];
+        fields.pressureGradient[k] = fluid.density * gravity - Vector<double>{0, 0, byDrag};
+        drop += byDrag * grid.spacing().z;
+    }
+}
+
+}  // namespace pendular

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "Kernel/Species/Field.h"
+
+namespace pendular {
+
+/// A fluid of constant density and viscosity.
+struct FluidMaterial {
+    static constexpr std::string_view name = "Fluid";
+
+    double density = unset;    // kg/m^3
+    double viscosity = unset;  // Pa s
+
+    static constexpr auto fields() {
+        using F = Field<FluidMaterial>;
+        return std::array{F{"density", &FluidMaterial::density, "kg/m^3", positive, Mixing::Arithmetic,
+                            "mass of the fluid by its volume", "water 998.2, air 1.2"},
+                          F{"viscosity", &FluidMaterial::viscosity, "Pa s", positive, Mixing::Arithmetic,
+                            "dynamic viscosity", "water 1.0e-3, air 1.8e-5"}};
+    }
+};
+
+/// What the drag on a grain depends on.
+struct DragState {
+    double porosity;  // share of the fluid's volume around it
+    double slip;      // |u - v|, m/s; u is the velocity of the fluid between the grains
+    double diameter;  // m
+    FluidMaterial fluid;
+
+    [[nodiscard]] double solid() const { return 1 - porosity; }
+    /// rho eps |u - v| d / mu: by the superficial speed, as all laws here have it.
+    [[nodiscard]] double reynolds() const {
+        return fluid.density * porosity * slip * diameter / fluid.viscosity;
+    }
+};
+
+/// A law of the drag of spheres. The force of a law is that of model A: it does not include the force of the
+/// pressure gradient that the drag itself makes (FluidPart.h).
+struct DragLaw {
+    std::string_view name;
+    /// kg/s: the force on a grain over u - v, beta V/(1 - eps). Not negative; at no slip its limit.
+    double (*resistance)(const DragState&);
+    Range porosity;          // where it holds
+    double highestReynolds;  // by the superficial speed
+    std::string_view source;
+};
+
+/// All of them.
+[[nodiscard]] std::span<const DragLaw> dragLaws();
+/// Throws InputError, with the names that there are, for one that is not.
+[[nodiscard]] const DragLaw& dragLaw(std::string_view name);
+
+/// Drag coefficient of a sphere alone: 24/Re (1 + 0.15 Re^0.687) below Re = 1000, 0.44 from there (0.4 %
+/// lower). L. Schiller and A. Naumann, Z. VDI 77 (1933) 318. Times Re, so that it has a limit at Re = 0.
+[[nodiscard]] double schillerNaumannTimesReynolds(double reynolds);
+
+/// m/s: the speed at which the drag of a sphere alone, by Schiller and Naumann, is its weight in the fluid.
+/// @param gravity m/s^2, not negative; @param density kg/m^3, of the sphere, not below that of the fluid
+[[nodiscard]] double terminalSpeed(double diameter, double density, const FluidMaterial& fluid,
+                                   double gravity);
+
+/// m/s: the superficial speed at which the drag on the grains of a homogeneous bed of a porosity is their
+/// weight in the fluid: where a fixed bed lifts off, and how fast a suspension settles.
+[[nodiscard]] double balancedSpeed(const DragLaw& law, double porosity, double diameter, double density,
+                                   const FluidMaterial& fluid, double gravity);
+
+}  // namespace pendular

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "Kernel/Fluid/FluidGrid.h"
+
+namespace pendular {
+
+class StateArchive;
+
+/// Who computes the fluid: a closed form, a solver of one's own, another program. A FluidPart calls it in
+/// each step, in this order.
+class FluidHost {
+public:
+    FluidHost() = default;
+    FluidHost(const FluidHost&) = delete;
+    FluidHost& operator=(const FluidHost&) = delete;
+    virtual ~FluidHost() = default;
+
+    /// Throws InputError for what cannot be; at set-up.
+    virtual void check(const FluidGrid&) const {}
+    /// Sets `velocity`, of `porosity` and `solidFlux`. @param time s, at the start of the step
+    virtual void findVelocity(const FluidGrid& grid, FluidFields& fields, double time) = 0;
+    /// Sets `pressureGradient`, of `drag`. @param gravity m/s^2
+    virtual void findPressure(const FluidGrid& grid, FluidFields& fields, const Vector<double>& gravity) = 0;
+    /// The step's `source` is known. @param length s, of the step
+    virtual void take(const FluidGrid&, const FluidFields&, double /*length*/) {}
+    /// Visits what it remembers from step to step.
+    virtual void visitState(StateArchive&) {}
+};
+
+}  // namespace pendular

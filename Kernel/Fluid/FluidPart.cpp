@@ -1,0 +1,153 @@
+#include "Kernel/Fluid/FluidPart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "Kernel/Base/InputError.h"
+#include "Kernel/Base/RunError.h"
+#include "Kernel/Math/EigenConversion.h"
+#include "Kernel/Particles/GrainName.h"
+#include "Kernel/Particles/ParticleHandler.h"
+#include "Kernel/State/StateArchive.h"
+#include "Kernel/Step/SummaryRows.h"
+
+namespace pendular {
+
+FluidPart::FluidPart(const FluidGrid& grid, const FluidMaterial& material, const DragLaw& drag,
+                     std::unique_ptr<FluidHost> ofFluid, PressureModel pressure)
+    : cells(grid), fluid(material), law(drag), host(std::move(ofFluid)), model(pressure) {
+    cells.check();
+    checkFields(fluid);
+    if (!host) throw InputError("fluid: there is no host, which says how the fluid moves.");
+    host->check(cells);
+    now = FluidFields(cells.size());
+}
+
+std::span<const Conflict> FluidPart::ownConflicts() const {
+    static constexpr std::array table{
+        Conflict{Feature::OwnPart, Feature::RigidBodies,
+                 "the drag laws of the fluid are those of single spheres", "take single grains"},
+        Conflict{Feature::OwnPart, Feature::Superquadrics, "the drag laws of the fluid are those of spheres",
+                 "take spheres"},
+        Conflict{Feature::OwnPart, Feature::Shear, "the fluid does not move with the images",
+                 "leave the fluid out"},
+        Conflict{Feature::OwnPart, Feature::Strain, "the grid of the fluid is not strained",
+                 "leave the fluid out"},
+        Conflict{Feature::OwnPart, Feature::Ranks, "a cell of the fluid needs the grains of all ranks",
+                 "take one process"}};
+    return table;
+}
+
+/// Cells on both sides of a periodic face would have to share what is near it.
+void FluidPart::check(const StepContext& scene) {
+    const std::array lengths{scene.box.length.x, scene.box.length.y, scene.box.length.z};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (lengths[axis] > 0 && cells.cells[axis] > 1)
+            throw InputError(fmt::format(
+                "fluid: the grid has {} cells along {}, along which the scene is periodic; it may have one.",
+                cells.cells[axis], "xyz"[axis]));
+}
+
+void FluidPart::requireInside(const StepContext& step, const GrainReference& grain) const {
+    const Vec3D p = grain.getPosition();
+    if (cells.contains({p.x(), p.y(), p.z()})) return;
+    throw RunError(
+        fmt::format("At time {:.6g} s fluid: {} is at ({:.6g}, {:.6g}, {:.6g}) m, outside the grid; make the "
+                    "grid larger, or "
+                    "take the grain out by an outlet.",
+                    step.time, nameOfGrain(step.grains(), grain.getId()), p.x(), p.y(), p.z()));
+}
+
+void FluidPart::spreadGrains(StepContext& step) {
+    now.porosity.assign(cells.size(), 1);
+    now.solidFlux.assign(cells.size(), {0, 0, 0});
+    const double cellVolume = cells.cellVolume();
+    for (const GrainReference grain : step.particles) {
+        requireInside(step, grain);
+        const double share = grain.getVolume() / cellVolume;
+        const Vector<double> velocity = toVector(grain.getVelocity());
+        for (const CellShare& own : sharesAt(cells, toVector(grain.getPosition()))) {
+            now.porosity[own.cell] -= own.share * share;
+            now.solidFlux[own.cell] += own.share * share * velocity;
+        }
+    }
+}
+
+void FluidPart::countOutside(const DragState& state) const {
+    ++asked;
+    if (!law.porosity.contains(state.porosity) || state.reynolds() > law.highestReynolds) ++outside;
+}
+
+double FluidPart::resistanceOf(const GrainReference& grain, const std::array<CellShare, 8>& shares,
+                               const Vector<double>& slip) const {
+    const double porosity = std::clamp(meanOf(now.porosity, shares), lowestPorosityOfDrag, 1.0);
+    const DragState state{porosity, norm(slip), 2 * grain.getRadius(), fluid};
+    countOutside(state);
+    return law.resistance(state);
+}
+
+void FluidPart::spreadDrag(StepContext& step) {
+    now.drag.assign(cells.size(), {0, 0, 0});
+    for (const GrainReference grain : step.particles) {
+        const auto shares = sharesAt(cells, toVector(grain.getPosition()));
+        const Vector<double> slip = meanOf(now.velocity, shares) - toVector(grain.getVelocity());
+        const Vector<double> force = resistanceOf(grain, shares, slip) / cells.cellVolume() * slip;
+        for (const CellShare& own : shares) now.drag[own.cell] += own.share * force;
+    }
+}
+
+void FluidPart::push(StepContext& step, GrainReference& grain) {
+    const auto shares = sharesAt(cells, toVector(grain.getPosition()));
+    const Vector<double> u = meanOf(now.velocity, shares), v = toVector(grain.getVelocity());
+    const bool isA = model == PressureModel::A;
+    double resistance = resistanceOf(grain, shares, u - v);
+    if (!isA) resistance /= std::clamp(meanOf(now.porosity, shares), lowestPorosityOfDrag, 1.0);
+    const Vector<double> gradient = isA ? meanOf(now.pressureGradient, shares) : fluid.density * step.gravity;
+    const Vector<double> pressure = -grain.getVolume() * gradient;  // N
+    Vector<double> after = v;
+    if (!grain.isFixed()) {
+        const double mass = grain.getMass(), k = step.length * resistance / mass;
+        const Vector<double> moved = 1 / (1 + k) * (v + k * u + step.length / mass * pressure);
+        const HeldAxes held = grain.getHeldAxes();
+        after = {held.x ? v.x : moved.x, held.y ? v.y : moved.y, held.z ? v.z : moved.z};
+        grain.setVelocity(toEigen(after));
+        total.work += 0.5 * mass * dot(after - v, after + v);
+    }
+    const Vector<double> drag = step.length * resistance * (u - after);
+    ofStep += drag;
+    total.impulse += drag + step.length * pressure;
+    for (const CellShare& own : shares)
+        now.source[own.cell] += -own.share / (step.length * cells.cellVolume()) * drag;
+}
+
+void FluidPart::prepare(StepContext& step) {
+    if (step.length == 0) return;
+    spreadGrains(step);
+    host->findVelocity(cells, now, step.time);
+    spreadDrag(step);
+    host->findPressure(cells, now, step.gravity);
+    now.source.assign(cells.size(), {0, 0, 0});
+    ofStep = {0, 0, 0};
+    for (GrainReference grain : step.particles) push(step, grain);
+    host->take(cells, now, step.length);
+}
+
+void FluidPart::visitState(StateArchive& archive, StepContext& /*scene*/) {
+    archive.finite("ledger", total);
+    archive.value("asked", asked);
+    archive.value("outside", outside);
+    archive.group("host", [&] { host->visitState(archive); });
+}
+
+void FluidPart::addTo(SummaryRows& rows) const {
+    rows.add("fluid: drag law", law.name);
+    rows.addNumber("fluid: work on grains", total.work, "J");
+    if (outside > 0)
+        rows.addNumber("fluid: share of drags beyond where the law holds",
+                       static_cast<double>(outside) / static_cast<double>(asked), "");
+}
+
+}  // namespace pendular

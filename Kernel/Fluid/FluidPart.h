@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "Kernel/Fluid/DragLaw.h"
+#include "Kernel/Fluid/FluidHost.h"
+#include "Kernel/Step/StepPart.h"
+
+namespace pendular {
+
+class GrainReference;
+
+/// How the force of the pressure on a grain is counted: Z. Y. Zhou, S. B. Kuang, K. W. Chu and A. B. Yu, J.
+/// Fluid Mech. 661 (2010) 482, sets II (A) and III (B), after D. Gidaspow. In a homogeneous bed both are the
+/// same force.
+enum class PressureModel {
+    /// A grain feels the drag F and -V grad p; the fluid's equation has -eps grad p and the drag.
+    A,
+    /// A grain feels F/eps and its buoyancy -V rho g; the fluid's equation has -grad p and F/eps.
+    B
+};
+
+/// What a fluid has done to grains since the start.
+struct FluidLedger {
+    double work = 0;                  // J, on all grains that move
+    Vector<double> impulse{0, 0, 0};  // N s, on all grains, held ones too
+};
+
+/// The forces of a fluid on the grains in it: a drag law and the gradient of the pressure, on a grid of cells
+/// that a FluidHost fills. One set of weights (sharesAt()) spreads volumes and forces and reads fields, so
+/// that what grains get the fluid gives, to rounding.
+///
+/// In prepare() the velocity of a grain changes, implicitly in its drag with the resistance at the start of
+/// the step:
+///     v' = (v + k u + dt F_p/m)/(1 + k),  k = dt resistance/m,
+/// which is stable for any step. The energy ledger books it as given by the driver.
+class FluidPart : public StepPart {
+public:
+    /// Throws InputError for a grid or a fluid that cannot be.
+    FluidPart(const FluidGrid& grid, const FluidMaterial& fluid, const DragLaw& law,
+              std::unique_ptr<FluidHost> host, PressureModel model = PressureModel::A);
+
+    [[nodiscard]] const FluidGrid& grid() const { return cells; }
+    /// Of the last step.
+    [[nodiscard]] const FluidFields& fields() const { return now; }
+    [[nodiscard]] const FluidLedger& ledger() const { return total; }
+    /// N s: of the drag on all grains in the last step, F of model A and F/eps of model B, without the force
+    /// of the pressure. The sum of `source` over cells and step is the opposite.
+    [[nodiscard]] Vector<double> dragImpulse() const { return ofStep; }
+
+    [[nodiscard]] std::string_view name() const override { return "fluid"; }
+    [[nodiscard]] std::span<const Conflict> ownConflicts() const override;
+    void check(const StepContext& scene) override;
+    void prepare(StepContext& step) override;
+    void visitState(StateArchive& archive, StepContext& scene) override;
+    void addTo(SummaryRows& rows) const override;
+
+private:
+    void spreadGrains(StepContext& step);
+    void spreadDrag(StepContext& step);
+    void push(StepContext& step, GrainReference& grain);
+    [[nodiscard]] double resistanceOf(const GrainReference& grain, const std::array<CellShare, 8>& shares,
+                                      const Vector<double>& slip) const;
+    void requireInside(const StepContext& step, const GrainReference& grain) const;
+    void countOutside(const DragState& state) const;
+
+    FluidGrid cells;
+    FluidMaterial fluid;
+    DragLaw law;
+    std::unique_ptr<FluidHost> host;
+    PressureModel model;
+    FluidFields now;
+    FluidLedger total;
+    Vector<double> ofStep{0, 0, 0};
+    mutable std::uint64_t asked = 0, outside = 0;  // how often the law was asked, and beyond where it holds
+};
+
+/// The lowest porosity that a drag law is asked at: grains overlap, or fill a cell by the way their volumes
+/// are spread. Porosity itself is not changed.
+inline constexpr double lowestPorosityOfDrag = 0.35;
+
+}  // namespace pendular

@@ -1,0 +1,149 @@
+#include "Kernel/Fluid/FluidPart.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "Kernel/Base/RunError.h"
+#include "Kernel/Math/EigenConversion.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular::fluidPartTest {
+namespace {
+
+using S = LinearViscoelasticSpecies;
+
+constexpr FluidMaterial water{.density = 998.2, .viscosity = 1.002e-3};
+constexpr double radius = 1e-3, density = 2500;
+constexpr FluidGrid box{{0, 0, 0}, {0.03, 0.03, 0.04}, {3, 3, 4}};
+
+S glass() {
+    S species;
+    species.setDensity(density), species.setStiffness(100);
+    return species;
+}
+
+/// Water that turns about z and rises, whatever the grains do; its pressure is that of its weight and of the
+/// drag.
+struct Swirl : FluidHost {
+    double rate = 3, rise = 0.05;  // 1/s, m/s
+    void findVelocity(const FluidGrid& grid, FluidFields& fields, double /*time*/) override {
+        for (std::size_t k = 0; k < grid.size(); ++k) {
+            const double x = static_cast<double>(k % 3) - 1, y = static_cast<double>(k / 3 % 3) - 1;
+            fields.velocity[k] = {-0.01 * rate * y, 0.01 * rate * x, rise};
+        }
+    }
+    void findPressure(const FluidGrid& grid, FluidFields& fields, const Vector<double>& gravity) override {
+        for (std::size_t k = 0; k < grid.size(); ++k)
+            fields.pressureGradient[k] = water.density * gravity - 1 / fields.porosity[k] * fields.drag[k];
+    }
+};
+
+/// Water at rest.
+struct Still : Swirl {
+    Still() { rate = 0, rise = 0; }
+};
+
+std::vector<scenes::GrainMotion> cloud() {
+    std::vector<scenes::GrainMotion> grains;
+    for (int k = 0; k < 64; ++k)
+        grains.push_back(
+            {.radius = radius * (0.8 + 0.1 * (k % 4)),
+             .position = {0.003 + 0.007 * (k % 4), 0.004 + 0.007 * (k / 4 % 4), 0.005 + 0.009 * (k / 16)},
+             .velocity = {0.01 * (k % 3), -0.02 * (k % 5), 0.01 * (k % 7)},
+             .fixed = k % 9 == 0});
+    return grains;
+}
+
+template <class Host>
+FluidPart& addFluid(scenes::FewGrains<S>& scene, std::string_view law, PressureModel model) {
+    return scene.addPart<FluidPart>(box, water, dragLaw(law), std::make_unique<Host>(), model);
+}
+
+// What the grains get of the drag, the cells give, to rounding: in each step, for any law and model. And what
+// the grains get altogether is what their momentum has changed by, but for those that are held.
+TEST(FluidPart, givesAndTakesTheSame) {
+    for (const PressureModel model : {PressureModel::A, PressureModel::B})
+        for (const std::string_view law : {"Gidaspow", "DiFelice", "Beetstra"}) {
+            scenes::FewGrains<S> scene(glass(), cloud(), 1e-5);
+            const FluidPart& fluid = addFluid<Swirl>(scene, law, model);
+            scene.initialise();
+            for (int k = 0; k < 20; ++k) {
+                scene.step();
+                Vector<double> given{0, 0, 0};
+                for (const Vector<double>& source : fluid.fields().source)
+                    given += scene.getTimeStep() * box.cellVolume() * source;
+                EXPECT_GT(norm(given), 1e-9);
+                EXPECT_LT(norm(given + fluid.dragImpulse()), 1e-13 * norm(given));
+            }
+        }
+}
+
+// The volume of all grains, and where it goes, are in the cells.
+TEST(FluidPart, spreadsAllVolume) {
+    scenes::FewGrains<S> scene(glass(), cloud(), 1e-5);
+    const FluidPart& fluid = addFluid<Still>(scene, "WenYu", PressureModel::A);
+    scene.initialise();
+    double volume = 0;
+    Vector<double> flux{0, 0, 0};
+    for (const GrainReference grain : scene.particleHandler) {
+        volume += grain.getVolume();
+        flux += grain.getVolume() * toVector(grain.getVelocity());
+    }
+    scene.step();
+    for (std::size_t k = 0; k < box.size(); ++k) {
+        volume -= (1 - fluid.fields().porosity[k]) * box.cellVolume();
+        flux += -box.cellVolume() * fluid.fields().solidFlux[k];
+    }
+    EXPECT_LT(std::abs(volume), 1e-20);
+    EXPECT_LT(norm(flux), 1e-21);
+}
+
+// In water at rest a grain at rest feels its weight and its buoyancy once, in both models: m dv/dt = (rho_s -
+// rho) V g. Then it falls at the speed at which the drag is that: 0.3 mm glass, from an independent program.
+TEST(FluidPart, countsBuoyancyOnce) {
+    for (const PressureModel model : {PressureModel::A, PressureModel::B}) {
+        scenes::FewGrains<S> scene(glass(), {{.radius = 1.5e-4, .position = {0.015, 0.015, 0.035}}}, 1e-6);
+        addFluid<Still>(scene, "SchillerNaumann", model);
+        scene.setGravity({0, 0, -9.81});
+        scene.initialise();
+        scene.step(2);
+        // The drag is still 3e-4 of what it will be.
+        const double after = scene.particleHandler.getObject(0).getVelocity().z();
+        EXPECT_NEAR(after / (-2e-6 * 9.81 * (1 - water.density / density)), 1, 1e-3);
+        scene.step(100000);
+        // At the end of a step it has got its weight of that step, g dt = 2.4e-4 of the speed, and not yet
+        // its drag.
+        EXPECT_NEAR(-scene.particleHandler.getObject(0).getVelocity().z() / 0.0402187764284, 1, 2.5e-4);
+    }
+}
+
+TEST(FluidPart, refusesWhatCannotBe) {
+    const auto refusal = [](const FluidGrid& grid, const FluidMaterial& fluid, bool hasHost = true) {
+        return support::refusal([&] {
+            const FluidPart part(grid, fluid, dragLaw("WenYu"),
+                                 hasHost ? std::make_unique<Still>() : nullptr);
+        });
+    };
+    EXPECT_TRUE(support::isOneSentence(refusal({{0, 0, 0}, {1, 1, 0}, {1, 1, 1}}, water)));
+    EXPECT_TRUE(support::contains(refusal(box, {.density = 1000}), "viscosity"));
+    EXPECT_TRUE(support::contains(refusal(box, water, false), "no host"));
+    scenes::FewGrains<S> periodic(glass(), cloud(), 1e-5);
+    addFluid<Still>(periodic, "WenYu", PressureModel::A);
+    periodic.setPeriodic(0, 0, 0.03);
+    EXPECT_TRUE(support::contains(support::refusal([&] { periodic.initialise(); }), "along x"));
+    scenes::FewGrains<S> outside(glass(), {{.radius = radius, .position = {0.5, 0, 0}}}, 1e-5);
+    addFluid<Still>(outside, "WenYu", PressureModel::A);
+    outside.initialise();
+    try {
+        outside.step();
+        ADD_FAILURE();
+    } catch (const RunError& error) {
+        EXPECT_TRUE(support::contains(error.what(), "outside the grid"));
+    }
+}
+
+}  // namespace
+}  // namespace pendular::fluidPartTest

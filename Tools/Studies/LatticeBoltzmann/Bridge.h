@@ -1,0 +1,47 @@
+#pragma once
+
+#include "Tools/Studies/LatticeBoltzmann/Measures.h"
+
+namespace pendular::lattice {
+
+/// A bridge between two equal spheres on the z axis, of which an eighth is computed: mirror planes through
+/// the axis and half way between the spheres.
+struct BridgeCase {
+    double radius = 20;     // R, nodes
+    double gap = 0.625;     // S/R
+    double volume = 0.133;  // V/(4 pi R^3/3): where it begins
+    double wetting = 0.1;   // Delta rho
+    FluidSettings fluid;
+};
+
+[[nodiscard]] TwoFluids beginBridge(const BridgeCase& bridge);
+
+/// What a bridge is, in units of R; forces attract.
+struct BridgeState {
+    double tension;        // gamma at the mean density of the liquid and the other fluid, lattice units
+    double volume;         // V/(4 pi R^3/3), inside the mid level
+    double force;          // F/(gamma R): of the sphere
+    double thrust;         // the same by the momentum through the mid plane and the far side
+    double liquid, other;  // densities of the component that prevails
+    double speed;          // largest, lattice units
+    double capillaryNumber;
+};
+
+/// Forces are the means of this step and the next one, which is made: a lattice has modes that change their
+/// sign from node to node and from step to step, and die out slowly (the force of one step is up to 7 % off
+/// at R = 8).
+/// @param line gamma over the density
+[[nodiscard]] BridgeState measure(TwoFluids& fluids, const BridgeCase& bridge, const TensionLine& line);
+
+/// Adds liquid until the measured volume is the wanted one to within a share, then lets the bridge come to
+/// rest: until the force changes by 1e-5 in 500 steps. Returns the steps done.
+std::size_t pour(TwoFluids& fluids, const BridgeCase& bridge, double tolerance, std::size_t limit);
+
+/// The angle in degrees at which a drop, without change along z, meets a plane of this Delta rho: of the
+/// circle through the mid level 6 nodes off the plane and farther.
+/// @param dropRadius of the half circle that it begins as, nodes
+[[nodiscard]] double angleOnPlane(double wetting, double dropRadius, const FluidSettings& settings);
+/// The same on the pole of a sphere of a radius.
+[[nodiscard]] double angleOnSphere(double wetting, double radius, const FluidSettings& settings);
+
+}  // namespace pendular::lattice

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "Tools/Studies/LatticeBoltzmann/Grid.h"
+#include "Tools/Studies/LatticeBoltzmann/Solid.h"
+
+namespace pendular::lattice {
+
+/// The densities of the two components at a node.
+using Densities = std::array<double, 2>;
+
+struct PressureSums {
+    double xx = 0, yy = 0, zz = 0, xy = 0;
+};
+
+struct FluidSettings {
+    double coupling = 0.1;  // G, with the degeneracies 2 and 1: 3.6 with the weights of the lattice
+    double relaxation = 1;  // tau of both components; viscosity (2 tau - 1)/6
+    int threads = 1;
+};
+
+/// Two fluids that repel each other on a D3Q19 lattice: X. Shan and H. Chen, Phys. Rev. E 47 (1993) 1815, as
+/// in Yang, Sega and Harting, AIChE J. 67 (2021) e17350, equations 3 to 14:
+/// - each component relaxes towards the equilibrium of second order at u' + tau F/rho, u' the common
+/// velocity;
+/// - F = -psi(x) G sum_i g_i psi'(x + c_i) c_i of the other component, psi = 1 - exp(-rho) (rho0 = 1), g as
+/// degeneracy();
+/// - populations are thrown back half way to a solid, with its momentum if it moves: A. J. C. Ladd, J. Fluid
+/// Mech. 271
+///   (1994) 285;
+/// - the outer shell of a solid holds a virtual fluid: the mean of the fluid nodes beside it, plus Delta rho
+/// of the
+///   first component and minus Delta rho of the second, not below 0 (equations 13 and 14).
+/// Everything is in lattice units. The bits do not depend on the number of threads.
+class TwoFluids {
+public:
+    /// At rest, with these densities. Throws InputError for settings that cannot be.
+    TwoFluids(const Box& box, std::vector<Solid> solids, const FluidSettings& settings,
+              const std::function<Densities(const Vector<double>&)>& begin);
+
+    void step();
+    void steps(std::size_t count);
+
+    [[nodiscard]] const Grid& grid() const { return grid_; }
+    [[nodiscard]] const FluidSettings& settings() const { return settings_; }
+    /// The number of the solid that has this node, or -1: fluid. Also for nodes just beyond the box.
+    [[nodiscard]] int solidAt(const Node& node) const { return solidOf[grid_.at(node)]; }
+    [[nodiscard]] Densities densityAt(const Node& node) const;
+    /// rho/3 of both + 12 G psi psi': the equation of state.
+    [[nodiscard]] double pressureAt(const Node& node) const;
+    /// Of both together: momentum with half of the force, over density.
+    [[nodiscard]] Vector<double> velocityAt(const Node& node) const;
+    [[nodiscard]] double largestSpeed() const;
+    /// Of each component, over all fluid nodes.
+    [[nodiscard]] Densities mass() const;
+    [[nodiscard]] std::vector<SolidForce> solidForces() const;
+    /// Momentum along an axis that crosses its first (false) or last (true) mirror plane in a step, towards
+    /// larger coordinates: pressure times area. Throws InputError where the sides are no mirrors.
+    [[nodiscard]] double thrustThroughSide(std::size_t axis, bool isLast) const;
+    /// The sum over the box of the pressure tensor: moving populations, and pairs of nodes.
+    [[nodiscard]] PressureSums pressureSums() const;
+    /// Multiplies the densities of each fluid node by what function(node) says.
+    void scale(const std::function<Densities(const Node&)>& function);
+
+private:
+    struct Span {
+        std::size_t begin, count;  // sites in a row, with few that are not of fluid
+    };
+    static constexpr std::size_t longestSpan = 256;  // so that what it works on stays in the cache
+    using Row = std::array<double, longestSpan>;
+    struct Component {
+        std::vector<double> moving;   // populations after the collision, direction by direction
+        std::vector<double> arrived;  // before it; empty for tau = 1, where they do not count
+        std::vector<double> density, psi;
+        std::array<std::vector<double>, 3> momentum;
+    };
+    struct Copy {
+        std::size_t to, from;
+    };
+    struct MovingLink {
+        std::size_t slot, site;
+        double factor;  // times the density: what a moving solid adds to a population
+    };
+    struct Link {
+        std::size_t site, outgoing;
+        int solid;
+        double factor;
+    };
+    struct Shell {
+        std::size_t site, firstNeighbour, neighbours;
+        double wetting;
+    };
+
+    void layOut();
+    void addLinks(const Node& node);
+    void addShell(const Node& node);
+    void setEquilibrium(std::size_t site, const Densities& rho);
+    void fillSlots();
+    void stream();
+    void streamSpan(const Span& span);
+    void findForces();
+    void collide();
+    void collideSpan(const Span& span);
+    void sumNeighbours(const Component& other, const Span& span, std::array<Row, 3>& sums) const;
+    void relax(Component& own, const Span& span, const std::array<Row, 3>& u) const;
+    [[nodiscard]] Vector<double> forceOn(std::size_t component, std::size_t site) const;
+    [[nodiscard]] std::size_t slot(std::size_t direction, std::size_t site) const {
+        return direction * grid_.size() + site;
+    }
+
+    Grid grid_;
+    std::vector<Solid> solids;
+    FluidSettings settings_;
+    std::vector<int> solidOf;  // by site, ghosts included
+    std::vector<Span> spans;   // of fluid
+    std::vector<Copy> slots, ghosts;
+    std::vector<MovingLink> movingLinks;
+    std::vector<Link> links;
+    std::vector<Shell> shells;
+    std::vector<std::size_t> shellNeighbours;
+    std::array<Component, 2> components;
+};
+
+}  // namespace pendular::lattice
