@@ -499,7 +499,9 @@ void ContactSystem::visitState(StateArchive& archive, Grains& grains) {
     archive.require(listAgain(grains, remembered) == remembered.size(), "pairs",
                     "has a contact of bodies that are out of reach");
     if (liquid.moves()) liquid.requireWhole(archive, contacts);
-    findWallPoints(grains, 0);
+    // Contacts go on elsewhere in the step that comes, as in the run of the file: walls that wear and grains
+    // that were changed are not where the last step saw them.
+    findWallPoints(grains, 0, false);
     sumWallForces(grains);  // also those that the run of the file did not keep
 }
 
@@ -731,15 +733,15 @@ static void stretchWall(ContactStore& contacts, const ParticleStore& grains, con
     }
 }
 
-void ContactSystem::findWallPoints(const Grains& grains, const Bucket& bucket, double step) {
-    wallPoints.find(contacts, grains, bucket, wallOf(bucket), *species, step, threads,
+void ContactSystem::findWallPoints(const Grains& grains, const Bucket& bucket, double step, bool handsOver) {
+    wallPoints.find(contacts, grains, bucket, wallOf(bucket), *species, step, threads, handsOver,
                     [&](std::size_t block) { wake(block, bucket, grains); });
     if (periodic.imagesMove) stretchWall(contacts, grains, bucket, periodic);
 }
-void ContactSystem::findWallPoints(const Grains& grains, double step) {
+void ContactSystem::findWallPoints(const Grains& grains, double step, bool handsOver) {
     for (const Bucket& bucket : contacts.buckets)
-        if (bucket.wall >= 0) findWallPoints(grains, bucket, step);
-    wallPatches.join(contacts, *species, grains, *walls, threads,
+        if (bucket.wall >= 0) findWallPoints(grains, bucket, step, handsOver);
+    wallPatches.join(contacts, *species, grains, *walls, threads, handsOver,
                      [&](std::size_t block) { wake(block, contacts.bucketOf(block), grains); });
 }
 

@@ -311,9 +311,10 @@ private:
     void compute(const Grains& grains, double step, ContactTiming timing, std::size_t first, std::size_t end);
     void computeBucket(const Grains& grains, double step, ContactTiming timing, std::size_t number);
     void wake(std::size_t block, const Bucket& bucket, const Grains& grains);
-    void findWallPoints(const Grains& grains, const Bucket& bucket, double step);
+    /// @param handsOver contacts go on at the part of the wall that stands for theirs
+    void findWallPoints(const Grains& grains, const Bucket& bucket, double step, bool handsOver = true);
     /// Finds the points at all walls, of which one may stand for another: what is one contact is left once.
-    void findWallPoints(const Grains& grains, double step);
+    void findWallPoints(const Grains& grains, double step, bool handsOver = true);
     void sumWallForces(const Grains& grains);
 
     ContactLaws* species = nullptr;

@@ -112,7 +112,8 @@ void WallPatches::listed(const ContactStore& contacts, const ContactLaws& laws, 
 }
 
 void WallPatches::join(ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains,
-                       const WallHandler& walls, int threads, const std::function<void(std::size_t)>& wake) {
+                       const WallHandler& walls, int threads, bool handsOver,
+                       const std::function<void(std::size_t)>& wake) {
     if (several.empty()) return;
     handOvers.resize(static_cast<std::size_t>(threads));
     for (std::vector<HandOver>& own : handOvers) own.clear();
@@ -125,6 +126,7 @@ void WallPatches::join(ContactStore& contacts, const ContactLaws& laws, const Pa
                        handOvers[static_cast<std::size_t>(part)]);
         },
         worthAThread);
+    if (!handsOver) return;
     for (const auto& part : handOvers)
         for (const HandOver& h : part) {
             if (!contacts.acts(h.from)) continue;

@@ -28,9 +28,11 @@ public:
     void listed(const ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains);
 
     /// Called when the points of all walls have been found.
+    /// @param handsOver contacts that another part stands for go on there
     /// @param wake gives memory to a block of contacts
     void join(ContactStore& contacts, const ContactLaws& laws, const ParticleStore& grains,
-              const WallHandler& walls, int threads, const std::function<void(std::size_t)>& wake);
+              const WallHandler& walls, int threads, bool handsOver,
+              const std::function<void(std::size_t)>& wake);
 
 private:
     /// A grain for which several parts of walls are listed.

@@ -17,10 +17,11 @@ public:
     using Grains = ParticleStore;
 
     /// The contacts of one grain follow each other in the bucket.
-    /// @param laws between the grains and the wall; @param step s; @param wake gives memory to a block
+    /// @param laws between the grains and the wall; @param step s; @param handsOver contacts that another
+    /// part of the wall covers go on there; @param wake gives memory to a block
     template <class Wake>
     void find(ContactStore& contacts, const Grains& grains, const Bucket& bucket, const Wall& wall,
-              const ContactLaws& laws, double step, int threads, Wake&& wake) {
+              const ContactLaws& laws, double step, int threads, bool handsOver, Wake&& wake) {
         if (const auto plane = wall.planeAtRest()) {
             inParts(
                 bucket.end - bucket.begin, threads,
@@ -48,6 +49,7 @@ public:
                          atNextGrain(first + to), handOvers[static_cast<std::size_t>(part)]);
             },
             worthAThread);
+        if (!handsOver) return;
         for (const auto& part : handOvers)
             for (const HandOver& h : part) {
                 if (!contacts.acts(h.from)) continue;

@@ -133,7 +133,9 @@ TEST(Hopper, refusesAnOrificeAsWideAsItself) {
 /// et al. 1961); values of C from 0.5 to 0.7 and of k from 1 to 2 are found with friction and packing
 /// (Nedderman 1992, section 10.3), so these are the limits. If grains left independently of each other, n of
 /// them would scatter by sqrt(n): the flow is steady within three of these standard deviations, and it
-/// follows the fitted law, W^(2/5) linear in D, within the smallest orifice's one, 4 to 5 %.
+/// follows the fitted law, W^(2/5) linear in D, within the smallest orifice's one, 4 to 5 %. Flows that
+/// scatter by 4 % make W^(2/5) scatter by 1.6 %, its slope between orifices of 12 and 18 mm (2/3 and 1 of the
+/// widest, of which k d is a fifth) by 1.6 % sqrt(0.6^2 + 1) / 0.4 = 5 %, and C, its power 5/2, by 12 %.
 TEST(LongHopper, followsBeverloosLaw) {
     const Hopper hopper;
     const auto grains = settledHopperGrains(hopper);
@@ -147,8 +149,8 @@ TEST(LongHopper, followsBeverloosLaw) {
         EXPECT_LT(std::abs(run.change), 3 * std::sqrt(2 / inHalf)) << "a steady flow, orifice " << orifice;
     }
     const BeverlooLaw law = fitBeverloo(flows, bulkDensity, Hopper::gravity, hopper.grainDiameter);
-    EXPECT_GT(law.coefficient, 0.5);
-    EXPECT_LT(law.coefficient, 0.7);
+    EXPECT_GT(law.coefficient, 0.5 * (1 - 0.12));
+    EXPECT_LT(law.coefficient, 0.7 * (1 + 0.12));
     EXPECT_GT(law.emptyAnnulus, 1);
     EXPECT_LT(law.emptyAnnulus, 2);
     for (const CurvePoint& flow : flows) EXPECT_NEAR(flow.y / law.flow(flow.x), 1, 0.05);

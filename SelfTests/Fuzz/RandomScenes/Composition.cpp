@@ -59,6 +59,7 @@ constexpr std::array refusedElsewhere{
     RefusedElsewhere{"is above the stability limit", "a matter of the numbers of a scene"},
     RefusedElsewhere{"and wall 0: initial overlap",
                      "a wall comes where a grain has gone: a matter of places"},
+    RefusedElsewhere{"take a smaller amount", "a dense start finds no room beside what is there"},
     RefusedElsewhere{"blocks cannot be in a scene with superquadrics", "a matter of what touches what"},
     RefusedElsewhere{"superquadrics cannot be in a scene with blocks", "a matter of what touches what"},
     RefusedElsewhere{"blocks do not adhere", "faces attract by their area"},

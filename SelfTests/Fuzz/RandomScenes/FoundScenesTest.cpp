@@ -39,6 +39,9 @@ INSTANTIATE_TEST_SUITE_P(
             "grains=16"},
         FoundScene{"aPlaneThatVibratesBeyondAllNumbers",
                    "seed=8774 features=Grains,VibratingPlane wrong=VibratingPlane#3:1e+300 steps=2 grains=4"},
+        FoundScene{"aViscousBridgeThatFormsAgainOwesNothing",
+                   "seed=3389 features=HertzianViscoelasticMindlinViscousLiquidBridgeWillett,Grains,Planes,"
+                   "VibratingPlane,Radius steps=64 grains=8"},
         FoundScene{"aSpringFactorBeyondAllNumbers",
                    "seed=1080 features=Grains wrong=HertzianViscoelasticMindlin#5:1e+300 steps=4 grains=8"},
         FoundScene{"aClumpWithoutVolume", "seed=3710 features=Clumps wrong=Clumps#3:1e-300 steps=2 grains=1"},

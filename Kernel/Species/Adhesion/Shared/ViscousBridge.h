@@ -167,8 +167,9 @@ private:
         if constexpr (HasFilmContactGap<Law>)
             met = min(T(law.filmContactGap), fma(max(motion.approach, T(0)), motion.step, h));
         const MaskOf<T> meets = motion.forms & (met > max(open, T(0)));
-        // It touches, and has not paid yet for all of the way.
-        const MaskOf<T> owes = touches & (lastGap > contact) & (lastGap < T(never)) & (charged > T(0));
+        // It touches, and has not paid yet for all of the way; one that forms owes nothing of the one before.
+        const MaskOf<T> owes =
+            (!begins) & touches & (lastGap > contact) & (lastGap < T(never)) & (charged > T(0));
         if (!isKept && !any((!staysClosed) | meets | owes)) {  // as all of a bed at rest: nothing follows
             charged = T(0);
             lastGap = h;
