@@ -36,8 +36,8 @@ concept ShapedGeometry = requires(const Geometry& geometry) {
 };
 
 /// The batched contact kernel: geometry, then the three laws, on eight contacts at a time. It reads grains,
-/// reads and writes the contacts' own memory, and writes a force record for each contact; the particle sum
-/// does the rest.
+/// reads and writes the contacts' own memory, writes a force record for each contact, and adds the forces to
+/// the totals of both grains.
 template <class S>
 class ContactKernel {
 public:

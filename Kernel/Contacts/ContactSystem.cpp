@@ -635,7 +635,8 @@ void ContactSystem::compute(const Grains& grains, double step, ContactTiming tim
         contactEvents.after(contacts, contacts.buckets[k], grains.identity);
     }
 }
-/// Blocks are independent: each writes only its own memory and records. A thread takes so many at once that
+/// Blocks are independent: each writes only its own memory and records, and adds to the totals of its
+/// thread. A thread takes so many at once that
 /// it is done with them in some 0.1 ms; with superquadrics, in some ms.
 void ContactSystem::computeBucket(const Grains& grains, double step, ContactTiming timing,
                                   std::size_t number) {

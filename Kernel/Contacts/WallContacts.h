@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Math/ExactSum.h"
@@ -57,6 +59,26 @@ inline void handOver(ContactStore& store, const ContactLaws& laws, const Bucket&
     moveBit(source.touching, target.touching);
     moveBit(source.bridged, target.bridged);
     moveBit(source.closing, target.closing);
+}
+
+/// A contact at a wall that goes on as another one of the same grain.
+struct HandOver {
+    std::uint32_t from, to;  // contacts
+    Vector<double> oldNormal, newNormal;
+};
+/// Those that each thread has found.
+using HandOvers = std::vector<std::vector<HandOver>>;
+
+/// @param wake gives memory to a block of contacts
+template <class Wake>
+void handOver(ContactStore& store, const ContactLaws& laws, const HandOvers& all, Wake&& wake) {
+    for (const std::vector<HandOver>& part : all)
+        for (const HandOver& h : part) {
+            if (!store.acts(h.from)) continue;
+            const std::size_t block = h.to / Pack::lanes;
+            if (store.slots[block] == ContactStore::asleep) wake(block);
+            handOver(store, laws, store.bucketOf(block), h.from, h.to, h.oldNormal, h.newNormal);
+        }
 }
 
 /// The force and the torque of grains on a wall, summed exactly.

@@ -3,7 +3,6 @@
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/ContactPatch.h"
 #include "Kernel/Contacts/GrainShapes.h"
-#include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Walls/PartCover.h"
 
 namespace pendular {
@@ -126,14 +125,7 @@ void WallPatches::join(ContactStore& contacts, const ContactLaws& laws, const Pa
                        handOvers[static_cast<std::size_t>(part)]);
         },
         worthAThread);
-    if (!handsOver) return;
-    for (const auto& part : handOvers)
-        for (const HandOver& h : part) {
-            if (!contacts.acts(h.from)) continue;
-            if (contacts.slots[h.to / Pack::lanes] == ContactStore::asleep) wake(h.to / Pack::lanes);
-            handOver(contacts, laws, contacts.bucketOf(h.to / Pack::lanes), h.from, h.to, h.oldNormal,
-                     h.newNormal);
-        }
+    if (handsOver) handOver(contacts, laws, handOvers, wake);
 }
 
 /// Fills in the points of a grain that are near enough to act.

@@ -6,6 +6,7 @@
 
 #include "Kernel/Contacts/ContactStore.h"
 #include "Kernel/Contacts/GrainShapes.h"
+#include "Kernel/Contacts/WallContacts.h"
 #include "Kernel/Particles/ParticleStore.h"
 #include "Kernel/Walls/WallHandler.h"
 
@@ -55,11 +56,6 @@ private:
         double height;           // m, of the grain's surface above its centre, along the normal
         Vector<double> touched;  // m, from the centre to the point of the wall
     };
-    struct HandOver {
-        std::uint32_t from, to;  // contacts
-        Vector<double> oldNormal, newNormal;
-    };
-
     void joinOf(std::size_t grain, ContactStore& contacts, const GrainShapes* shapes,
                 const ParticleStore& grains, const WallHandler& walls, std::vector<Point>& points,
                 std::vector<HandOver>& found) const;
@@ -74,7 +70,7 @@ private:
     std::vector<Grain> several;   // and one more, for the end of the last one's members
     std::vector<Member> members;  // of each grain in the order of walls and parts
     std::vector<double> ranges;   // m, of each member; empty where nothing acts at a distance
-    std::vector<std::vector<HandOver>> handOvers;  // of each thread
+    HandOvers handOvers;
 };
 
 }  // namespace pendular

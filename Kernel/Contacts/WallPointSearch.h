@@ -49,21 +49,10 @@ public:
                          atNextGrain(first + to), handOvers[static_cast<std::size_t>(part)]);
             },
             worthAThread);
-        if (!handsOver) return;
-        for (const auto& part : handOvers)
-            for (const HandOver& h : part) {
-                if (!contacts.acts(h.from)) continue;
-                if (contacts.slots[h.to / Pack::lanes] == ContactStore::asleep) wake(h.to / Pack::lanes);
-                handOver(contacts, laws, bucket, h.from, h.to, h.oldNormal, h.newNormal);
-            }
+        if (handsOver) handOver(contacts, laws, handOvers, wake);
     }
 
 private:
-    struct HandOver {
-        std::size_t from, to;  // contacts
-        Vector<double> oldNormal, newNormal;
-    };
-
     static std::uint32_t grainOf(const ContactStore& contacts, std::size_t c) {
         return contacts.blocks[c / Pack::lanes].first[c % Pack::lanes];
     }
@@ -123,7 +112,9 @@ private:
                     (begin + k) % Pack::lanes, point);
                 if (point.coveredBy >= 0) {
                     const auto other = static_cast<std::size_t>(point.coveredBy);
-                    found.push_back({begin + k, begin + other, point.normal, points[other].normal});
+                    found.push_back({static_cast<std::uint32_t>(begin + k),
+                                     static_cast<std::uint32_t>(begin + other), point.normal,
+                                     points[other].normal});
                 }
                 refuseCrossing(wall, bucket.wall, record, grains.identity[grain], point, step);
             }
@@ -131,7 +122,7 @@ private:
     }
 
     static constexpr std::size_t worthAThread = 256;  // contacts
-    std::vector<std::vector<HandOver>> handOvers;     // of each thread
+    HandOvers handOvers;
 };
 
 }  // namespace pendular

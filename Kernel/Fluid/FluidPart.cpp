@@ -64,12 +64,14 @@ void FluidPart::requireInside(const StepContext& step, const GrainReference& gra
 void FluidPart::spreadGrains(StepContext& step) {
     now.porosity.assign(cells.size(), 1);
     now.solidFlux.assign(cells.size(), {0, 0, 0});
+    immersed.clear();
     const double cellVolume = cells.cellVolume();
     for (const GrainReference grain : step.particles) {
         requireInside(step, grain);
         const double share = grain.getVolume() / cellVolume;
         const Vector<double> velocity = toVector(grain.getVelocity());
-        for (const CellShare& own : sharesAt(cells, toVector(grain.getPosition()))) {
+        immersed.push_back({sharesAt(cells, toVector(grain.getPosition()))});
+        for (const CellShare& own : immersed.back().shares) {
             now.porosity[own.cell] -= own.share * share;
             now.solidFlux[own.cell] += own.share * share * velocity;
         }
@@ -91,19 +93,21 @@ double FluidPart::resistanceOf(const GrainReference& grain, const std::array<Cel
 
 void FluidPart::spreadDrag(StepContext& step) {
     now.drag.assign(cells.size(), {0, 0, 0});
+    auto here = immersed.begin();
     for (const GrainReference grain : step.particles) {
-        const auto shares = sharesAt(cells, toVector(grain.getPosition()));
+        auto& [shares, resistance] = *here++;
         const Vector<double> slip = meanOf(now.velocity, shares) - toVector(grain.getVelocity());
-        const Vector<double> force = resistanceOf(grain, shares, slip) / cells.cellVolume() * slip;
+        resistance = resistanceOf(grain, shares, slip);
+        const Vector<double> force = resistance / cells.cellVolume() * slip;
         for (const CellShare& own : shares) now.drag[own.cell] += own.share * force;
     }
 }
 
-void FluidPart::push(StepContext& step, GrainReference& grain) {
-    const auto shares = sharesAt(cells, toVector(grain.getPosition()));
+void FluidPart::push(StepContext& step, GrainReference& grain, const Immersed& here) {
+    const auto& shares = here.shares;
     const Vector<double> u = meanOf(now.velocity, shares), v = toVector(grain.getVelocity());
     const bool isA = model == PressureModel::A;
-    double resistance = resistanceOf(grain, shares, u - v);
+    double resistance = here.resistance;
     if (!isA) resistance /= std::clamp(meanOf(now.porosity, shares), lowestPorosityOfDrag, 1.0);
     const Vector<double> gradient = isA ? meanOf(now.pressureGradient, shares) : fluid.density * step.gravity;
     const Vector<double> pressure = -grain.getVolume() * gradient;  // N
@@ -131,7 +135,8 @@ void FluidPart::prepare(StepContext& step) {
     host->findPressure(cells, now, step.gravity);
     now.source.assign(cells.size(), {0, 0, 0});
     ofStep = {0, 0, 0};
-    for (GrainReference grain : step.particles) push(step, grain);
+    auto here = immersed.begin();
+    for (GrainReference grain : step.particles) push(step, grain, *here++);
     host->take(cells, now, step.length);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "Kernel/Fluid/DragLaw.h"
 #include "Kernel/Fluid/FluidHost.h"
@@ -57,9 +59,15 @@ public:
     void addTo(SummaryRows& rows) const override;
 
 private:
+    /// A grain in the fluid, at the start of the step.
+    struct Immersed {
+        std::array<CellShare, 8> shares;
+        double resistance = 0;  // kg/s, of model A
+    };
+
     void spreadGrains(StepContext& step);
     void spreadDrag(StepContext& step);
-    void push(StepContext& step, GrainReference& grain);
+    void push(StepContext& step, GrainReference& grain, const Immersed& here);
     [[nodiscard]] double resistanceOf(const GrainReference& grain, const std::array<CellShare, 8>& shares,
                                       const Vector<double>& slip) const;
     void requireInside(const StepContext& step, const GrainReference& grain) const;
@@ -71,6 +79,7 @@ private:
     std::unique_ptr<FluidHost> host;
     PressureModel model;
     FluidFields now;
+    std::vector<Immersed> immersed;  // in the order of grains
     FluidLedger total;
     Vector<double> ofStep{0, 0, 0};
     mutable std::uint64_t asked = 0, outside = 0;  // how often the law was asked, and beyond where it holds

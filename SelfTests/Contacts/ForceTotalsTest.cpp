@@ -50,23 +50,15 @@ TEST(ForceQuantum, isAPowerOfTwoTimesTheSquareOfOneBelowTheRadius) {
     }
 }
 
-/// Settles a box, and calls look(scene) after each of its steps.
-template <class S, class Look>
-void settle(int layers, int steps, Look&& look) {
-    SettlingBox<S> scene(layers);
-    scene.initialise();
-    for (int n = 0; n < steps; ++n) {
-        scene.step();
-        look(scene);
-    }
-}
-
 // The kernel's sums, of whole numbers in the order of blocks, against the sums of the records, in that of
 // partners: bit for bit.
 template <class S>
 void expectSumsOfRecords() {
     int acting = 0;
-    settle<S>(5, 600, [&](SettlingBox<S>& scene) {
+    SettlingBox<S> scene(5);
+    scene.initialise();
+    for (int n = 0; n < 600; ++n) {
+        scene.step();
         const ParticleStore& grains = scene.particleHandler.store();
         const ContactStore& store = scene.contacts().store();
         ASSERT_TRUE(store.keepsTotals);
@@ -81,7 +73,7 @@ void expectSumsOfRecords() {
             }
             acting += norm(sum.force) > 0 ? 1 : 0;
         }
-    });
+    }
     EXPECT_GT(acting, 1000);
 }
 TEST(ForceTotals, areTheSumsOfTheRecords) {
