@@ -28,13 +28,13 @@ public:
     /// How many quanta a force of 1 N is on a grain of a radius (m).
     template <Number T>
     [[nodiscard, gnu::always_inline]] T perNewton(const T& radius) const {
-        const T inverse = powerOfTwo(-exponentOf(radius));
+        const T inverse = inversePowerOfTwoBelow(radius);
         return inverse * inverse * perUnit;
     }
     /// How many quanta a torque of 1 N m is, on a grain for which a force of 1 N has so many.
     template <Number T>
     [[nodiscard, gnu::always_inline]] static T perNewtonMetre(const T& radius, const T& perNewton) {
-        return perNewton * powerOfTwo(-exponentOf(radius));
+        return perNewton * inversePowerOfTwoBelow(radius);
     }
     /// Whether a force (N) fits; one that is not a number does not.
     template <Number T>
@@ -48,7 +48,7 @@ public:
     }
     /// m, p: a quantum of a torque over that of a force.
     [[nodiscard, gnu::always_inline]] static double lengthOf(double radius) {
-        return powerOfTwo(exponentOf(radius));
+        return powerOfTwoBelow(radius);
     }
 
     /// Quanta of 1 N on a grain of a radius of 1 m, a power of two, as restart files have it.
@@ -56,11 +56,6 @@ public:
     void setPerUnitForce(double quanta) { perUnit = quanta, unit = 1 / quanta; }
 
 private:
-    template <Number T>
-    [[gnu::always_inline]] static T powerOfTwo(const T& exponent) {
-        return scaleByPowerOfTwo(T(1), exponent);
-    }
-
     double perUnit = 0;
     double unit = 0;  // N, of a quantum on a grain of a radius of 1 m: u
 };

@@ -60,14 +60,16 @@ public:
 
     /// Takes the total of a grain, and leaves zero.
     [[gnu::always_inline]] ForceTotal take(std::size_t grain) {
-        ForceTotal sum = first[grain];
+        // Two vectors, not a ForceTotal: g++ would keep this in memory.
+        ForceTotal::Whole force = first[grain].force, torque = first[grain].torque;
         first[grain] = {};
         for (Copy& copy : others) {
             if (copy.marks[grain / OwnTotals::grainsOfAMark] == 0) continue;
-            sum += copy.totals[grain];
+            force += copy.totals[grain].force;
+            torque += copy.totals[grain].torque;
             copy.totals[grain] = {};
         }
-        return sum;
+        return {force, torque};
     }
     /// In N (and N m), of a grain of a radius (m).
     template <bool hasTorque>

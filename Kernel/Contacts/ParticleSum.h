@@ -13,8 +13,8 @@ namespace pendular {
 /// arm for the torque.
 /// @param radius of the grain, m
 template <bool hasTorque, bool hasContactTorque>
-[[gnu::always_inline]] inline ForceAndTorque<hasTorque> sumInOrder(const ContactStore& store,
-                                                                   std::size_t grain, double radius) {
+[[gnu::noinline]] ForceAndTorque<hasTorque> sumInOrder(const ContactStore& store, std::size_t grain,
+                                                       double radius) {
     static constexpr std::array<double, 2> signs{1, -1};  // on body 1, on body 2
     if constexpr (hasTorque) {
         const Mask torquePart = maskFromBits(0b01110000);
@@ -100,7 +100,7 @@ template <bool hasTorque, bool hasContactTorque>
     // Nothing has been added to the total of a grain without contacts.
     if (store.sides.of(grain).empty()) return {};
     if (store.keepsTotals) [[likely]] {
-        const ForceTotal total = store.totals.take(grain);
+        ForceTotal total = store.totals.take(grain);
         if (total.fits()) [[likely]]
             return store.totals.inNewtons<hasTorque>(total, radius);
     }

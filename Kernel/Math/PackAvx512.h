@@ -153,6 +153,11 @@ struct Pack {
             _mm512_and_si512(_mm512_castpd_si512(a.value), _mm512_set1_epi64(0x000fffffffffffff));
         return Pack(_mm512_castsi512_pd(_mm512_or_si512(fraction, _mm512_set1_epi64(0x3ff0000000000000))));
     }
+    [[gnu::always_inline]] friend Pack inversePowerOfTwoBelow(Pack a) {
+        const __m512i power =
+            _mm512_and_si512(_mm512_castpd_si512(a.value), _mm512_set1_epi64(0x7ff0000000000000));
+        return Pack(_mm512_castsi512_pd(_mm512_sub_epi64(_mm512_set1_epi64(0x7fe0000000000000), power)));
+    }
     [[gnu::always_inline]] friend Pack leadingBitsOf(Pack a) {
         return Pack(_mm512_castsi512_pd(
             _mm512_and_si512(_mm512_castpd_si512(a.value), _mm512_set1_epi64(-0x100000000))));

@@ -209,6 +209,12 @@ struct alignas(64) Pack {
                 return (n & 0x000fffffffffffffu) | 0x3ff0000000000000u;
             });
     }
+    [[gnu::always_inline]] friend Pack inversePowerOfTwoBelow(const Pack& a) {
+        return mapBits(
+            a, [](part::Naturals n) __attribute__((always_inline)) {
+                return 0x7fe0000000000000u - (n & 0x7ff0000000000000u);
+            });
+    }
     [[gnu::always_inline]] friend Pack leadingBitsOf(const Pack& a) {
         return mapBits(
             a, [](part::Naturals n) __attribute__((always_inline)) { return n & 0xffffffff00000000u; });

@@ -68,6 +68,17 @@ void max(A, B) = delete;
     return std::bit_cast<double>(fraction | 0x3ff0000000000000u);
 }
 
+/// The power of two at or below a positive normal number.
+[[gnu::always_inline]] inline double powerOfTwoBelow(double value) {
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & 0x7ff0000000000000u);
+}
+
+/// One over the power of two at or below a positive normal number under 2^1023.
+[[gnu::always_inline]] inline double inversePowerOfTwoBelow(double value) {
+    const std::uint64_t power = std::bit_cast<std::uint64_t>(value) & 0x7ff0000000000000u;
+    return std::bit_cast<double>(0x7fe0000000000000u - power);
+}
+
 /// The value with the lowest 32 bits of its significand cleared: two such numbers of 21 bits have an exact
 /// product.
 [[gnu::always_inline]] inline double leadingBitsOf(double value) {

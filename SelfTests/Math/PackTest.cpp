@@ -316,6 +316,10 @@ TEST(Pack, splitsExponentAndSignificand) {
             EXPECT_EQ(significandOf(Pack(number))[7], significand);
             EXPECT_EQ(scaleByPowerOfTwo(significand, double(k)), number);
             EXPECT_EQ(scaleByPowerOfTwo(Pack(significand), Pack(k))[7], number);
+            EXPECT_EQ(powerOfTwoBelow(number), std::ldexp(1, k));
+            if (k == 1023) continue;
+            EXPECT_EQ(inversePowerOfTwoBelow(number), std::ldexp(1, -k));
+            EXPECT_EQ(inversePowerOfTwoBelow(Pack(number))[7], std::ldexp(1, -k));
         }
     EXPECT_EQ(leadingBitsOf(0x1.fffffffffffffp0), 0x1.fffffp0);
     EXPECT_EQ(leadingBitsOf(Pack(-0x1.fffffffffffffp0))[7], -0x1.fffffp0);
@@ -329,6 +333,9 @@ TEST(Pack, bitOperationsAgreeForAllNumbers) {
         "significandOf", [](auto a) { return significandOf(a); }, [](double a) { return significandOf(a); });
     expectUnary(
         "leadingBitsOf", [](auto a) { return leadingBitsOf(a); }, [](double a) { return leadingBitsOf(a); });
+    expectUnary(
+        "inversePowerOfTwoBelow", [](auto a) { return inversePowerOfTwoBelow(a); },
+        [](double a) { return inversePowerOfTwoBelow(a); });
     expectBinary(
         "scaleByPowerOfTwo", [](auto a, auto b) { return scaleByPowerOfTwo(a, b); },
         [](double a, double b) { return scaleByPowerOfTwo(a, b); });
