@@ -71,6 +71,16 @@ std::vector<std::string> warnings(const Scene& scene, bool atEnd) {
     return found;
 }
 
+void addStepForError(SummaryRows& rows, const StepForError& chosen) {
+    rows.addNumber("step for an error of", chosen.asked, "1");
+    rows.addNumber("speed of collisions", chosen.speed, "m/s");
+    rows.addNumber("error of collisions, largest", chosen.largest, "1");
+    rows.addNumber("error of collisions, mean", chosen.mean, "1");
+    if (chosen.step > chosen.limit)
+        rows.add("not promised by this step",
+                 "that a bed whose friction sticks stays at rest, and that overlaps near 5 % are borne");
+}
+
 void addRun(SummaryRows& rows, const Scene& scene) {
     const bool atEnd = scene.getTime() >= scene.getTimeMax() * (1 - 1e-12) || !scene.continueSolve();
     const bool stopped = !scene.stopSentence().empty();
@@ -89,6 +99,7 @@ void addRun(SummaryRows& rows, const Scene& scene) {
                                        scene.wallHandler, scene.scheme()),
                    "s");
     if (scene.acceptsUnstableTimeStep()) rows.add("step above the stability limit", "accepted");
+    if (scene.getStepForError()) addStepForError(rows, *scene.getStepForError());
     rows.add("threads", scene.getNumberOfThreads());
     rows.add("grains", scene.particleHandler.getSize());
     if (const std::size_t bodies = scene.bodyHandler.getSize(); bodies > 0) rows.add("rigid bodies", bodies);

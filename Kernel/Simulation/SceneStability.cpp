@@ -79,4 +79,15 @@ void Scene::setAdaptiveTimeStep(double share, std::optional<double> largestStep)
     inside->adaptive.set(share, largestStep.value_or(0));
 }
 
+void Scene::setStepFor(double error, std::optional<double> speed) {
+    requireSetUp("a time step for an error");
+    const StepForError found = stepForError(*this, error, speed);
+    setTimeStep(found.step);
+    if (found.step > found.limit) acceptUnstableTimeStep();
+    inside->stepForError = found;
+    logger(LogLevel::Info, "{}", found.text());
+}
+
+const std::optional<StepForError>& Scene::getStepForError() const { return inside->stepForError; }
+
 }  // namespace pendular

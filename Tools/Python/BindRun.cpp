@@ -56,6 +56,13 @@ void bindTime(SceneClass& scene) {
             "stability_advice", [](PythonScene& s) { return s.scene().stabilityAdvice().text(); },
             comment("Scene::stabilityAdvice"))
         .def(
+            "set_step_for",
+            [](PythonScene& s, double error, std::optional<double> speed) {
+                s.scene().setStepFor(error, speed);
+                return s.scene().getStepForError()->text();
+            },
+            py::arg("error"), py::arg("speed") = py::none(), comment("Scene::setStepFor"))
+        .def(
             "accept_unstable_time_step", [](PythonScene& s) { s.scene().acceptUnstableTimeStep(); },
             comment("Scene::acceptUnstableTimeStep"))
         .def(

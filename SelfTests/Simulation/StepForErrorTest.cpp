@@ -1,0 +1,197 @@
+#include "Kernel/Simulation/StepForError.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "Kernel/Species/Laws.h"
+#include "SelfTests/Scenes/FewGrains.h"
+#include "SelfTests/Support/Refusal.h"
+
+namespace pendular::stepForErrorTest {
+namespace {
+
+using scenes::FewGrains;
+using support::contains;
+using support::isOneSentence;
+using support::refusal;
+
+constexpr double radius = 1e-3, density = 2500, speed = 0.2, restitution = 0.5;  // m, kg/m^3, m/s, 1
+const double massOfGrain = 4.0 / 3 * std::numbers::pi * radius * radius * radius * density;
+
+LinearViscoelasticSpecies linear() {
+    LinearViscoelasticSpecies species;
+    species.setDensity(density);
+    species.setStiffnessAndRestitutionCoefficient(1e4, restitution, massOfGrain);
+    return species;
+}
+HertzianViscoelasticMindlinSpecies hertz() {
+    HertzianViscoelasticMindlinSpecies species;
+    species.setDensity(density);
+    species.setElasticModulusAndPoissonRatio(5e6, 0.25);
+    species.setEffectiveShearModulus(computeEffectiveShearModulus(5e6, 0.25));
+    species.setSlidingFrictionCoefficient(0.5);
+    species.setRestitutionCoefficient(restitution);
+    return species;
+}
+
+/// Two grains a gap (m) from each other, which meet at the speed above.
+template <class S>
+struct TwoGrains : FewGrains<S> {
+    explicit TwoGrains(const S& species, double gap = 1e-3)
+        : FewGrains<S>(species,
+                       {{.position = {-radius - gap / 2, 0, 0}, .velocity = {speed / 2, 0, 0}},
+                        {.position = {radius + gap / 2, 0, 0}, .velocity = {-speed / 2, 0, 0}}},
+                       1e-7) {
+        this->setQuiet();
+    }
+};
+
+/// The same, and more far away: the stability limit is that of a bed.
+struct ManyGrains : TwoGrains<HertzianViscoelasticMindlinSpecies> {
+    ManyGrains() : TwoGrains(hertz()) {
+        for (int k = 0; k < 20; ++k) {
+            SphericalParticle grain(speciesHandler.getLastObject());
+            grain.setRadius(radius);
+            grain.setPosition({0, 0.1 + 0.01 * k, 0});
+            particleHandler.copyAndAddObject(grain);
+        }
+    }
+};
+
+/// The largest error of the coefficient of restitution of the closed form, over beginnings of the touch.
+double errorOfRebound(double step, const Integrator& integrator) {
+    double largest = 0;
+    for (int k = 0; k < 40; ++k) {
+        TwoGrains<LinearViscoelasticSpecies> scene(linear(), (2 + k / 40.0) * step * speed);
+        scene.setIntegrator(integrator);
+        scene.acceptUnstableTimeStep();
+        scene.setTimeStep(step);
+        scene.initialise();
+        while (scene.getTime() < 1e-3) scene.step();  // a contact takes some 8e-5 s
+        const double parting = scene.particleHandler.getObject(1).getVelocity().x() -
+                               scene.particleHandler.getObject(0).getVelocity().x();
+        largest = std::max(largest, std::abs(parting / speed - restitution));
+    }
+    return largest;
+}
+
+// Against e of the closed form. It is looked at between the steps that were looked at as well, and the errors
+// of neighbouring lengths of the step differ by less than half of the error.
+TEST(StepForError, keepsToTheErrorThatIsAskedFor) {
+    for (const Integrator& integrator : {integrators::predictedVelocityVerlet, integrators::velocityVerlet})
+        for (const double asked : {0.05, 0.01, 0.003}) {
+            TwoGrains<LinearViscoelasticSpecies> scene(linear());
+            scene.setIntegrator(integrator);
+            const StepForError found = stepForError(scene, asked, speed);
+            EXPECT_LE(found.largest, asked);
+            EXPECT_LE(errorOfRebound(found.step, integrator), 1.5 * asked) << integrator.name << asked;
+            // A step that is twice as long and more is not as exact.
+            EXPECT_GT(errorOfRebound(2.5 * found.byCollisions, integrator), asked)
+                << integrator.name << asked;
+        }
+}
+
+// 10 steps a contact give 1 %, and 26 give 0.1 %, of head-on collisions (Kernel/Motion/README.md, found by
+// another program); the step is one of a ladder of 1.25, and the last of its rung.
+TEST(StepForError, isThatOfTheChartOfCollisions) {
+    TwoGrains<LinearViscoelasticSpecies> scene(linear());
+    const double contact = linearContactTime(1e4, linear().getDissipation(), massOfGrain / 2);
+    EXPECT_NEAR(contact / stepForError(scene, 0.01, speed).byCollisions, 10, 3);
+    EXPECT_NEAR(contact / stepForError(scene, 0.001, speed).byCollisions, 26, 8);
+}
+
+TEST(StepForError, isNotLongerThanBedsStand) {
+    ManyGrains scene;
+    const double ofFastest = 0.9 * scene.shortestContactTime() / std::numbers::pi;
+    const StepForError loose = stepForError(scene, 0.1, speed);
+    EXPECT_EQ(loose.step, std::min(ofFastest, loose.byCollisions));
+    EXPECT_GT(loose.step, scene.stabilityLimit());
+    EXPECT_LE(stepForError(scene, 0.009, speed).step, scene.stabilityLimit());
+    scene.setIntegrator(integrators::velocityVerlet);
+    EXPECT_EQ(stepForError(scene, 0.1, speed).byBeds, ofFastest / 2);
+    scene.setIntegrator(integrators::adamsMoulton);
+    EXPECT_LE(stepForError(scene, 0.1, speed).step, scene.stabilityLimit());
+}
+
+// Their laws are those of the scene, which must not be touched by the collisions.
+TEST(StepForError, leavesTheSceneAsItIs) {
+    const auto run = [](auto choose) {
+        ManyGrains scene;
+        choose(scene);
+        scene.initialise();
+        for (int k = 0; k < 2000; ++k) scene.step();
+        return scene.particleHandler.getObject(0).getVelocity();
+    };
+    double step = 0;
+    const Vec3D chosen = run([&](auto& scene) {
+        scene.setStepFor(0.05, speed);
+        step = scene.getTimeStep();
+        EXPECT_EQ(step, scene.getStepForError()->step);
+        EXPECT_TRUE(scene.acceptsUnstableTimeStep());
+    });
+    const Vec3D given = run([&](auto& scene) {
+        scene.setTimeStep(step);
+        scene.acceptUnstableTimeStep();
+    });
+    EXPECT_EQ(chosen, given);
+    EXPECT_LT(chosen.x(), 0);  // it has met the other
+}
+
+// The speed of a fall through the height of the grains is that of a collision.
+TEST(StepForError, takesTheSpeedOfTheScene) {
+    TwoGrains<HertzianViscoelasticMindlinSpecies> scene(hertz());
+    EXPECT_NEAR(stepForError(scene, 0.1).speed, speed / 2, 1e-12);  // the largest of a grain
+    for (std::size_t k = 0; k < 2; ++k) scene.particleHandler.getObject(k).setVelocity(Vec3D::Zero());
+    const std::string sentence = refusal([&] { (void)stepForError(scene, 0.1); });
+    EXPECT_TRUE(isOneSentence(sentence));
+    EXPECT_TRUE(contains(sentence, "at rest"));
+}
+
+// Grains of 10 um radius that a neck holds: they stay together below some 15 mm/s.
+TEST(StepForError, standsGrainsThatStayTogether) {
+    HertzianViscoelasticJKRSpecies species;
+    species.setDensity(density);
+    species.setElasticModulusAndPoissonRatio(1e9, 0.25);
+    species.setRestitutionCoefficient(0.9);
+    species.setWorkOfAdhesion(0.05);
+    species.setAdhesionModulus(species.getEffectiveElasticModulus());
+    Simulation<HertzianViscoelasticJKRSpecies> scene;
+    scene.setQuiet();
+    const auto* added = scene.speciesHandler.copyAndAddObject(species);
+    for (const double x : {0.0, 1e-4}) {
+        SphericalParticle grain(added);
+        grain.setRadius(1e-5);
+        grain.setPosition({x, 0, 0});
+        scene.particleHandler.copyAndAddObject(grain);
+    }
+    const StepForError slow = stepForError(scene, 0.01, 1e-3), fast = stepForError(scene, 0.01, 1);
+    EXPECT_EQ(slow.largest, 0);
+    EXPECT_GT(fast.largest, 0);
+    EXPECT_LE(fast.largest, 0.01);
+}
+
+TEST(StepForError, saysWhatIsLost) {
+    ManyGrains scene;
+    EXPECT_TRUE(contains(stepForError(scene, 0.1, speed).text(), "times the stability limit"));
+    EXPECT_TRUE(contains(stepForError(scene, 0.001, speed).text(), "below the stability limit"));
+}
+
+TEST(StepForError, refusesWhatCannotBe) {
+    TwoGrains<HertzianViscoelasticMindlinSpecies> scene(hertz());
+    for (const double error : {0.0, -1.0, 0.2, std::nan("")})
+        EXPECT_TRUE(isOneSentence(refusal([&] { (void)stepForError(scene, error, speed); }))) << error;
+    for (const double given : {0.0, -1.0, infinity})
+        EXPECT_TRUE(isOneSentence(refusal([&] { (void)stepForError(scene, 0.1, given); }))) << given;
+    Simulation<HertzianViscoelasticMindlinSpecies> empty;
+    empty.speciesHandler.copyAndAddObject(hertz());
+    EXPECT_TRUE(contains(refusal([&] { (void)stepForError(empty, 0.1, speed); }), "that could meet"));
+    // First-order errors of a dashpot.
+    TwoGrains<LinearViscoelasticSpecies> damped(linear());
+    damped.setIntegrator(integrators::velocityVerlet);
+    EXPECT_TRUE(contains(refusal([&] { (void)stepForError(damped, 2e-4, speed); }), "steps in a contact"));
+}
+
+}  // namespace
+}  // namespace pendular::stepForErrorTest
