@@ -55,7 +55,7 @@ public:
     /// @param accelerations m/s^2, of the grains in the last step
     ContactKernel(const PreparedLaws<S>& preparedLaws, double step, ContactTiming contactTiming,
                   const OverlapWatch& watch, ContactStore& contactStore, const Vector<double>* accelerations,
-                  const OwnTotals& forceTotals)
+                  const OwnTotals& forceTotals, bool withSamples)
         : overlaps(watch),
           laws(preparedLaws),
           timeStep(step),
@@ -66,7 +66,7 @@ public:
           memory(contactStore.memory),
           quantum(contactStore.totals.quantum),
           own(forceTotals),
-          ledger(!contactStore.memory.energies.empty()),
+          ledger(withSamples),
           amongTorques(S::hasTorque || contactStore.memory.getLayout().hasTorque) {}
 
     /// The overlaps and capillary numbers of the contacts that this kernel has computed.
@@ -554,17 +554,19 @@ private:
     // Arguments are passed by value: what the kernel hands out by reference it would have to keep in memory
     // in every step.
 
-    /// Writes what the ledger reads of eight contacts, without their friction.
-    [[gnu::noinline, gnu::cold]] void writeSamples(std::size_t block, Pack normalX, Pack normalY,
-                                                   Pack normalZ, Pack lever, Pack overlap,
-                                                   Pack effectiveRadius, Pack effectiveMass, Pack elastic,
-                                                   Pack repulsion, Pack adhesive,
-                                                   [[maybe_unused]] Pack viscous, Mask touching,
-                                                   Mask bridged) {
+    /// Writes what the ledger reads of eight contacts, without their friction. Not gnu::cold: with a ledger
+    /// it is called for each block.
+    [[gnu::noinline]] void writeSamples(std::size_t block, Pack normalX, Pack normalY, Pack normalZ,
+                                        Pack lever, Pack overlap, Pack effectiveRadius, Pack effectiveMass,
+                                        Pack elastic, Pack repulsion, Pack adhesive,
+                                        [[maybe_unused]] Pack viscous, Mask touching, Mask bridged) {
         const Pack dashpot = repulsion - select(touching, elastic, Pack(0));
         for (int k = 0; k < Pack::lanes; ++k) {
             const std::size_t at = block * Pack::lanes + static_cast<std::size_t>(k);
-            ContactSample& sample = memory.energies[at].now = {};
+            ContactSample& sample = memory.energies[at].now;
+            static_cast<CoreSample&>(sample) = {};
+            if constexpr (HasContactTorque<Friction>) static_cast<CoupleSample&>(sample) = {};
+            if constexpr (resists != BridgeResists::Nothing) sample.bridge = {};
             const bool touches = laneOf(touching, k), joins = laneOf(bridged, k);
             if (!touches && !joins) continue;
             sample.touching = touches ? 1 : 0;
@@ -599,10 +601,9 @@ private:
             sample.elasticEnergy = left;
         }
     }
-    [[gnu::noinline, gnu::cold]] void writeSample(std::size_t block, SliderSample ContactSample::*part,
-                                                  Pack forceX, Pack forceY, Pack forceZ, Pack springX,
-                                                  Pack springY, Pack springZ, Pack stiffness, Mask slides,
-                                                  Mask touching) {
+    [[gnu::noinline]] void writeSample(std::size_t block, SliderSample ContactSample::*part, Pack forceX,
+                                       Pack forceY, Pack forceZ, Pack springX, Pack springY, Pack springZ,
+                                       Pack stiffness, Mask slides, Mask touching) {
         const Vector<Pack> stretch{springX, springY, springZ},
             spring = -stiffness * stretch, rest = Vector<Pack>{forceX, forceY, forceZ} - spring;
         const Pack stretch2 = squaredNorm(stretch);

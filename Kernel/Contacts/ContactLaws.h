@@ -52,8 +52,8 @@ struct ContactTask {
     Vector<double> wallSpin;  // rad/s
     double step;              // s
     ContactTiming timing;
-    double unlisted;  // m, that bodies can have approached since they were listed
-    bool withLedger;
+    double unlisted;   // m, that bodies can have approached since they were listed
+    bool withSamples;  // what the ledger reads of contacts is written
     OverlapWatch* overlaps;
     CapillaryWatch* capillaryNumbers;
     OwnTotals totals;

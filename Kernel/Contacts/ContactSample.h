@@ -23,24 +23,38 @@ struct BridgeSample {
     Vector<double> torque{0, 0, 0};  // N, over the effective radius
 };
 
-/// What a contact does at the end of a step, by mechanism; all zero where it does not act.
-struct ContactSample {
-    double touching = 0, bridged = 0;      // 1 or 0
-    Vector<double> normal{0, 0, 0};        // unit, from body 1 to body 2
+// What a contact does at the end of a step, by mechanism; all zero where it does not act. The parts that a
+// contact does not have stay zero, and are not touched: a scene of many contacts waits for its memory.
+
+/// Of all contacts.
+struct CoreSample {
+    double touching = 0, bridged = 0;  // 1 or 0
+    Vector<double> normal{0, 0, 0};    // unit, from body 1 to body 2
+    double halfOverlap = 0;            // m
+    double effectiveRadius = 0;        // m
+    double elasticForce = 0;           // N, repulsion of the normal law
+    double dashpotForce = 0;           // N, repulsion
+    double adhesiveForce = 0;          // N, attraction
+    double elasticEnergy = 0;          // J, that the overlap gives back
+    double creepLoss = 0;              // J of it, that the creep of the law has taken at this sample
+    SliderSample sliding;
+};
+/// Of contacts with walls.
+struct WallSample {
     Vector<double> wallVelocity{0, 0, 0};  // m/s, of a wall's surface
     Vector<double> wallSpin{0, 0, 0};      // rad/s, of a wall
     Vector<double> wallPoint{0, 0, 0};     // m, where a wall is touched
-    Vector<double> arm1{0, 0, 0};          // m, of body 1 to the contact, if it is no sphere; else zero
-    Vector<double> arm2{0, 0, 0};          // m, of body 2
-    double halfOverlap = 0;                // m
-    double effectiveRadius = 0;            // m
-    double elasticForce = 0;               // N, repulsion of the normal law
-    double dashpotForce = 0;               // N, repulsion
-    double adhesiveForce = 0;              // N, attraction
-    double elasticEnergy = 0;              // J, that the overlap gives back
-    double creepLoss = 0;                  // J of it, that the creep of the law has taken at this sample
-    SliderSample sliding;
-    SliderSample rolling, torsion;  // torques on body 1 over the effective radius
+};
+/// Of bodies that are no spheres.
+struct ArmSample {
+    Vector<double> arm1{0, 0, 0};  // m, of body 1 to the contact; zero of a sphere
+    Vector<double> arm2{0, 0, 0};  // m, of body 2
+};
+/// Of laws with a torque of their own: torques on body 1 over the effective radius.
+struct CoupleSample {
+    SliderSample rolling, torsion;
+};
+struct ContactSample : CoreSample, WallSample, ArmSample, CoupleSample {
     BridgeSample bridge;
 
     [[nodiscard]] bool isShaped() const { return arm1 != Vector<double>{0, 0, 0}; }

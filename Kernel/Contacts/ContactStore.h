@@ -202,7 +202,13 @@ public:
         blockOf.back() = static_cast<std::uint32_t>(block);
         return static_cast<std::uint32_t>(count);
     }
-    /// Asks for what the kernel reads and writes of a block.
+    /// Asks for what the kernel writes of a block for the ledger.
+    [[gnu::always_inline]] void prefetchSamples(std::size_t block) const {
+        for (std::size_t k = 0; k < Pack::lanes; ++k)
+            prefetch<true>(static_cast<const CoreSample*>(&energies[block * Pack::lanes + k].now),
+                           sizeof(CoreSample));
+    }
+    /// Asks for what the kernel reads and writes of a block besides.
     [[gnu::always_inline]] void prefetchBlock(std::size_t block) const {
         history.prefetchBlock(block);
         normalHistory.prefetchBlock(block);

@@ -655,7 +655,7 @@ void ContactSystem::computeBucket(const Grains& grains, double step, ContactTimi
                            step,
                            timing,
                            unlisted,
-                           ledger,
+                           hasSamples(bucket),
                            nullptr,
                            nullptr,
                            {}};

@@ -206,24 +206,26 @@ public:
         for (const std::uint32_t side : sidesOf(place)) callIfActing(side / 2, function);
     }
 
+    /// How many records of energy there are, where a ledger is kept.
+    [[nodiscard]] std::size_t energyRecordCount() const { return contacts.memory.slotCount(); }
     /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
-    /// step, also where it counts on another rank. Only where a ledger is kept.
-    /// @param inOrder of identities, and then those of other ranks; else as they lie in memory, which is
-    /// faster
+    /// step, also where it counts on another rank, as they lie in memory.
+    /// @param first, end of the records that are visited: several threads may visit some each
     template <class Function>
-    void forEachEnergyRecord(const Grains& grains, bool inOrder, Function&& function) {
-        const auto visit = [&](std::uint32_t slot) {
-            EnergyRecord& record = contacts.memory.energies[slot];
-            if (!record.now.acts() && !record.last.acts()) return;
-            const std::uint32_t contact = contacts.contactAt(slot);
-            const std::size_t b = contact / Pack::lanes, lane = contact % Pack::lanes;
-            const Bucket& bucket = contacts.bucketOf(b);
-            if (bucket.wall >= 0) showWallMotion(grains, bucket, contact, record);
-            function(bucket, contacts.blocks[b], lane, record);
-        };
-        if (inOrder) forEachWithMemory(grains, visit);
+    void forEachEnergyRecord(const Grains& grains, std::size_t first, std::size_t end, Function&& function) {
+        constexpr std::size_t ahead = 8;
+        for (std::size_t slot = std::max<std::size_t>(first, Pack::lanes); slot < end; ++slot) {
+            if (slot + ahead < end) prefetchRecord(grains, static_cast<std::uint32_t>(slot + ahead));
+            visitRecord(grains, static_cast<std::uint32_t>(slot), function);
+        }
+    }
+    /// The same in the order of identities, and then those of other ranks.
+    template <class Function>
+    void forEachEnergyRecordInOrder(const Grains& grains, Function&& function) {
+        forEachWithMemory(grains, [&](std::uint32_t slot) { visitRecord(grains, slot, function); });
         for (std::uint32_t slot = Pack::lanes; slot < contacts.memory.slotCount(); ++slot)
-            if (!inOrder || contacts.firstOf(contacts.contactAt(slot)) >= grains.ownSize()) visit(slot);
+            if (contacts.firstOf(contacts.contactAt(slot)) >= grains.ownSize())
+                visitRecord(grains, slot, function);
     }
 
     /// The liquid (m^3) of the bridges of the grain at a place: half of each to another grain, all of one to
@@ -248,7 +250,57 @@ public:
     /// The length (m) of the tangential spring.
     [[nodiscard]] double springLength(std::uint32_t contact) const;
 
+    /// Where a ledger is kept for the wear of walls alone, samples are those of contacts with these walls.
+    /// @param numbers of the walls; all contacts have samples without this call
+    void sampleOnly(std::vector<int> numbers) { sampledWalls = std::move(numbers); }
+    /// As forEachEnergyRecord(), for the contacts with the walls of sampleOnly(), as they are listed.
+    template <class Function>
+    void forEachSampled(const Grains& grains, Function&& function) {
+        for (const Bucket& bucket : contacts.buckets) {
+            if (bucket.wall < 0 || !hasSamples(bucket)) continue;
+            for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
+                if (contacts.slots[b] == ContactStore::asleep || contacts.slots[b] == ContactStore::waking)
+                    continue;
+                for (std::uint32_t lane = 0; lane < Pack::lanes; ++lane) {
+                    const auto contact = static_cast<std::uint32_t>(b * Pack::lanes + lane);
+                    EnergyRecord& record = contacts.memory.energies[contacts.slotOf(contact)];
+                    if (!record.now.acts() && !record.last.acts()) continue;
+                    showWallMotion(grains, bucket, contact, record);
+                    function(bucket, contacts.blocks[b], lane, record);
+                }
+            }
+        }
+    }
+
 private:
+    /// Asks for what the account reads of a contact: it lies all over the memory.
+    [[gnu::always_inline]] void prefetchRecord(const Grains& grains, std::uint32_t slot) const {
+        const EnergyRecord& record = contacts.memory.energies[slot];
+        prefetch<true>(static_cast<const CoreSample*>(&record.now), sizeof(CoreSample));
+        prefetch<true>(static_cast<const CoreSample*>(&record.last), sizeof(CoreSample));
+        const std::uint32_t contact = contacts.contactAt(slot);
+        const std::size_t b = contact / Pack::lanes, lane = contact % Pack::lanes;
+        for (const std::uint32_t grain : {contacts.blocks[b].first[lane], contacts.blocks[b].second[lane]}) {
+            if (grain >= grains.size()) continue;  // the part of a wall
+            prefetch(&grains.atStart[grain], sizeof(MotionAtStart));
+            prefetch(&grains.translation[grain], sizeof(TranslationRecord));
+            prefetch(&grains.rotation[grain], sizeof(RotationRecord));
+        }
+    }
+    template <class Function>
+    void visitRecord(const Grains& grains, std::uint32_t slot, Function& function) {
+        EnergyRecord& record = contacts.memory.energies[slot];
+        if (!record.now.acts() && !record.last.acts()) return;
+        const std::uint32_t contact = contacts.contactAt(slot);
+        const std::size_t b = contact / Pack::lanes;
+        const Bucket& bucket = contacts.bucketOf(b);
+        if (bucket.wall >= 0) showWallMotion(grains, bucket, contact, record);
+        function(bucket, contacts.blocks[b], contact % Pack::lanes, record);
+    }
+    [[nodiscard]] bool hasSamples(const Bucket& bucket) const {
+        return ledger &&
+               (!sampledWalls || std::ranges::find(*sampledWalls, bucket.wall) != sampledWalls->end());
+    }
     void chooseQuantum(const Grains& grains);
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
         return walls->getObject(static_cast<std::size_t>(bucket.wall));
@@ -338,7 +390,8 @@ private:
     std::optional<NeighbourSearch> cells;
     std::vector<std::uint32_t> passed;  // places of grains whose contacts are no longer in their order
     bool ledger = false;
-    GrainSharing* sharing = nullptr;  // null: this scene has all grains
+    std::optional<std::vector<int>> sampledWalls;  // none: all contacts have samples
+    GrainSharing* sharing = nullptr;               // null: this scene has all grains
     AllRanks allRanks;
     /// What a wall, or the account of the energy, has lost by a grain that has gone.
     struct Lost {

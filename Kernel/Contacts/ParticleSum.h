@@ -10,7 +10,7 @@ namespace pendular {
 /// The sum over the contacts of the grain at a place, in the order of its partners: the same bits for any
 /// number of threads. Contacts with memory that do not act at the moment add zeros, which is cheaper than to
 /// ask. A record with torque is one Pack, weighted by the side's sign for the force and by the grain's lever
-/// arm for the torque.
+/// arm for the torque. A call: it is rare, and inlined it would take the registers of the end of a step.
 /// @param radius of the grain, m
 template <bool hasTorque, bool hasContactTorque>
 [[gnu::noinline]] ForceAndTorque<hasTorque> sumInOrder(const ContactStore& store, std::size_t grain,

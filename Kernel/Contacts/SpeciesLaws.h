@@ -224,7 +224,7 @@ protected:
         using Geometry = decltype(geometryOf(task.begin));
         ContactKernel<S> kernel(prepared[task.bucket], task.step, task.timing,
                                 task.overlaps->part(overlapLimit.largest), task.store, task.acceleration,
-                                task.totals);
+                                task.totals, task.withSamples);
         bool all = true;
         for (std::size_t b = task.begin, end = task.end; b < end; ++b)
             if (slots[b] != ContactStore::asleep || unlisted > gaps[b]) {
@@ -262,8 +262,11 @@ private:
                     prefetchTotals(task.totals.totals, ahead.second);
             }
         }
-        if (memory < task.end && task.store.slots[memory] != ContactStore::asleep)
+        if (memory < task.end && task.store.slots[memory] != ContactStore::asleep) {
             task.store.memory.prefetchBlock(task.store.slots[memory]);
+            if (task.withSamples) [[unlikely]]
+                task.store.memory.prefetchSamples(task.store.slots[memory]);
+        }
     }
 
     [[gnu::always_inline]] static void prefetchTotals(const ForceTotal* totals,

@@ -21,10 +21,11 @@ Vector<double> wallVelocityAt(const ContactSample& s) {
 }
 
 RelativeMotion relativeMotion(const ContactSample& sample, const BodyMotion& first, const BodyMotion& second,
-                              bool isWall) {
+                              const ContactKind& kind) {
+    const bool isWall = kind.isWall;
     const Vector<double> turning =
         sample.effectiveRadius * (first.spin - (isWall ? sample.wallSpin : second.spin));
-    if (sample.isShaped()) {
+    if (kind.isShaped && sample.isShaped()) {
         Vector<double> velocity = first.velocity + cross(first.spin, sample.arm1);
         velocity -= isWall ? wallVelocityAt(sample)
                            : second.velocity + second.slide + cross(second.spin, sample.arm2);
@@ -124,21 +125,33 @@ ContactWear contactWear(const EnergyRecord& record, double slidingWork, const Ve
     return done;
 }
 
+void takeNowAsLast(EnergyRecord& record, const ContactKind& kind) {
+    ContactSample& last = record.last;
+    const ContactSample& now = record.now;
+    static_cast<CoreSample&>(last) = now;
+    if (kind.isWall) static_cast<WallSample&>(last) = now;
+    if (kind.isShaped) static_cast<ArmSample&>(last) = now;
+    if (kind.hasCouples) static_cast<CoupleSample&>(last) = now;
+    if (kind.resistsMotion) last.bridge = now.bridge;
+}
+
 void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion& second,
                 const ContactKind& kind, double step, EnergyLedger& account) {
     const ContactSample &last = record.last, &now = record.now;
-    const RelativeMotion before = relativeMotion(last, first, second, kind.isWall);
-    const RelativeMotion after = relativeMotion(now, first, second, kind.isWall);
+    const RelativeMotion before = relativeMotion(last, first, second, kind);
+    const RelativeMotion after = relativeMotion(now, first, second, kind);
     const double half = 0.5 * step;
     const auto against = [&](double ContactSample::*force) {
         return half * (last.*force * before.approach + now.*force * after.approach);
     };
-    account.walls +=
-        half * (givenByHeld(last, first, second, kind.isWall) + givenByHeld(now, first, second, kind.isWall) -
-                givenByPiston(last, kind.lastPiston) - givenByPiston(now, kind.piston));
+    if (kind.isWall || first.isHeld || second.isHeld)
+        account.walls += half * (givenByHeld(last, first, second, kind.isWall) +
+                                 givenByHeld(now, first, second, kind.isWall) -
+                                 givenByPiston(last, kind.lastPiston) - givenByPiston(now, kind.piston));
 
     // An image that moves is moved by the shear or strain.
-    if (!second.isHeld) account.images += half * dot(forceOnFirst(last) + forceOnFirst(now), second.slide);
+    if (!second.isHeld && second.slide != Vector<double>{0, 0, 0})
+        account.images += half * dot(forceOnFirst(last) + forceOnFirst(now), second.slide);
 
     account.elastic += now.elasticEnergy;
     (kind.isPlastic ? account.plastic : account.stepError) +=
@@ -157,16 +170,18 @@ void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion&
         return half * (bridge.normalForce * motion.approach - dot(bridge.drag, motion.slip) -
                        dot(bridge.torque, motion.turning));
     };
-    account.viscousBridges += lostInBridge(last.bridge, before) + lostInBridge(now.bridge, after);
+    if (kind.resistsMotion)
+        account.viscousBridges += lostInBridge(last.bridge, before) + lostInBridge(now.bridge, after);
 
     const bool lasts = last.touching > 0 && now.touching > 0;
     addSlider(last.sliding, now.sliding, before.slip, after.slip, lasts, step,
               {account.tangentialElastic, account.tangentialDashpots, account.sliding}, account);
-    addSlider(last.rolling, now.rolling, before.turning, after.turning, lasts, step,
-              {account.rollingElastic, account.rolling, account.rolling}, account);
-    addSlider(last.torsion, now.torsion, before.turning, after.turning, lasts, step,
-              {account.torsionElastic, account.torsion, account.torsion}, account);
-    record.last = record.now;
+    if (kind.hasCouples) {
+        addSlider(last.rolling, now.rolling, before.turning, after.turning, lasts, step,
+                  {account.rollingElastic, account.rolling, account.rolling}, account);
+        addSlider(last.torsion, now.torsion, before.turning, after.turning, lasts, step,
+                  {account.torsionElastic, account.torsion, account.torsion}, account);
+    }
 }
 
 }  // namespace pendular

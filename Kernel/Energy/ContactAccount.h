@@ -21,19 +21,24 @@ struct ContactKind {
     bool isWall = false;
     bool isPlastic = false;       // the normal law has a history
     bool adhesionBreaks = false;  // else it is a function of the separation, which loses nothing
+    bool hasCouples = true;       // torques besides those of its force
+    bool resistsMotion = true;    // a bridge
+    bool isShaped = true;         // between bodies that are no spheres
     // Of a wall whose kinetic energy is in the ledger, where it is touched, in the step; and of the wall that
     // was touched before, if a contact has gone on with another one.
     RigidVelocity piston{}, lastPiston{};
 };
 
-/// The wear of a wall by a contact with it in a step, from a record to which addContact() still has to come.
+/// The wear of a wall by a contact with it in a step, from a record before takeNowAsLast().
 /// @param slidingWork J, that the slider dissipates in the step; @param velocity of the grain at the start of
 /// the step, m/s; @param mass of the grain, kg
 ContactWear contactWear(const EnergyRecord& record, double slidingWork, const Vector<double>& velocity,
                         double mass);
 
-/// Adds to an account what one contact did in a step (s), and makes the present sample the last one.
+/// Adds to an account what one contact did in a step (s).
 void addContact(EnergyRecord& record, const BodyMotion& first, const BodyMotion& second,
                 const ContactKind& kind, double step, EnergyLedger& account);
+/// The present sample becomes the last one: of it, what a contact of this kind has.
+void takeNowAsLast(EnergyRecord& record, const ContactKind& kind);
 
 }  // namespace pendular

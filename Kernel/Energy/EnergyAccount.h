@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 #include <utility>
 
 #include "Kernel/Contacts/ContactSystem.h"
@@ -29,7 +30,7 @@ struct ContactLoss {
 /// and torques alike. The work of each force of each contact is summed by the same formula, so that the
 /// account closes to round-off for any number of steps, and what elastic forces did but is not found as
 /// stored energy is told apart as the error of the time steps. The sums of a step are exact, so that no bit
-/// depends on who adds up what first; one thread makes them. Rigid bodies: see BodyAccount.h.
+/// depends on who adds up what first, and on the number of threads. Rigid bodies: see BodyAccount.h.
 class EnergyAccount {
 public:
     using Grains = ParticleStore;
@@ -54,6 +55,16 @@ public:
         takeHeldLoads(grains, contacts.store());
         bodies.begin(grains, contacts.store());
         allWereHere = !grains.isShared;
+    }
+
+    /// The same where the account is kept for the wear of walls alone.
+    static void beginWear(Grains& grains) {
+        grains.remembersStart = true;
+        grains.atStart.resize(grains.size());
+        for (std::size_t place = 0; place < grains.size(); ++place) {
+            grains.atStart[place].velocity = grains.translation[place].velocity;
+            if (grains.hasSpin) grains.atStart[place].spin = grains.rotation[place].spin;
+        }
     }
 
     /// Membranes may have been added and removed in the run: what was stored in them came with them.
@@ -124,7 +135,8 @@ public:
 
     /// Ends the account of the step.
     void finish(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
-                const Vector<double>& gravity, double step, const Integrator& scheme, EnergyLedger& ledger) {
+                const Vector<double>& gravity, double step, const Integrator& scheme, int threads,
+                EnergyLedger& ledger) {
         // Grains may have gone to other ranks since the start of the step.
         const AllRanks& ranks = contacts.ranks();
         bodies.follow(grains, ranks, allWereHere);
@@ -135,62 +147,13 @@ public:
         ranks.addUp({&besides, &byHolders});
         ledger.stepError -= besides.value();
         ledger.walls += byHolders.value();
-        const PeriodicBox& box = contacts.periodicBox();
         const std::vector<WornWall*> wornOf = wornWalls(walls);
-        for (WornWall* const worn : wornOf)
-            if (worn) worn->forgetStep();
-        sums.clear();
+        WearOfStep wear(wornOf);
         lossesOfStep.clear();
-        std::vector<WearOfContact> wear;
-        // Exact sums need no order, but the wear of a wall and what heats grains are added up in that of
-        // identities.
-        const bool inOrder =
-            notesLosses || std::ranges::any_of(wornOf, [](const WornWall* wall) { return wall != nullptr; });
-        contacts.forEachEnergyRecord(
-            grains, inOrder,
-            [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane, EnergyRecord& record) {
-                const ContactLaws& laws = contacts.laws().ofPair(bucket.species1, bucket.species2);
-                ContactKind kind{
-                    .isWall = bucket.wall >= 0, .isPlastic = laws.isPlastic, .adhesionBreaks = laws.breaks};
-                if (kind.isWall) {
-                    kind.lastPiston =
-                        pistonMotion(walls, static_cast<int>(record.lastWall), record.last, true);
-                    kind.piston = pistonMotion(walls, bucket.wall, record.now, false);
-                    record.lastWall = bucket.wall;
-                }
-                const std::uint32_t first = block.first[lane], second = block.second[lane];
-                BodyMotion other = kind.isWall ? BodyMotion{} : meanMotion(grains, second);
-                if (!kind.isWall && box.imagesMove) {
-                    const Vector<double> apart =
-                        grains.translation[second].position - grains.translation[first].position;
-                    other.slide = -box.velocityBetweenImages(apart, box.nearest(apart));
-                }
-                const BodyMotion grain = meanMotion(grains, first);
-                WornWall* const worn = kind.isWall ? wornOf[static_cast<std::size_t>(bucket.wall)] : nullptr;
-                EnergyLedger account;  // of this contact in the step
-                if (!worn || step == 0) {
-                    addContact(record, grain, other, kind, step, account);
-                } else {
-                    const EnergyRecord then = record;  // addContact() makes the present sample the last one
-                    addContact(record, grain, other, kind, step, account);
-                    const Vector<double> arm = depthOf(then, grain.radius);
-                    if (!grain.isHeld)
-                        wear.push_back({grains.identity[first], bucket.wall, second,
-                                        grains.translation[first].position + arm,
-                                        contactWear(then, account.sliding, grains.atStart[first].velocity,
-                                                    massAtContact(grains, box, first, arm))});
-                }
-                // The membrane's own account has this work, as it was done on the vertices.
-                if (kind.isWall && walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
-                    account.stepError -= std::exchange(account.walls, 0);
-                if (first >= grains.ownSize()) return;  // it counts on another rank
-                sums.add(std::bit_cast<Row>(account));
-                if (notesLosses && step > 0)
-                    lossesOfStep.push_back({grains.identity[first],
-                                            kind.isWall ? ObservedContact::none : grains.identity[second],
-                                            bucket.wall, account.lost()});
-            });
-        if (inOrder) takeWear(wornOf, ranks, wear);
+        const StepOfScene scene{grains, contacts, walls, step};
+        ExactRows<ledgerEntries>& sums =
+            notesLosses ? sumInOrder(scene, contacts, wear) : sumOnThreads(scene, contacts, threads, wear);
+        wear.give(ranks);
         std::vector<ExactSum*> columns;
         for (ExactSum& column : sums.exact()) columns.push_back(&column);
         ranks.addUp(columns);
@@ -204,6 +167,20 @@ public:
         takeInMembranes(walls, step, ledger);
         ledger.kinetic = ranks.sum(sumOfKineticEnergy(grains));
         ledger.potential = ledger.carried + ranks.sum(sumOfPotentialEnergy(grains, gravity));
+    }
+
+    /// The same where the account is kept for the wear of walls alone, and contacts have samples at these.
+    static void finishWearAlone(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
+                                double step) {
+        const std::vector<WornWall*> wornOf = wornWalls(walls);
+        WearOfStep wear(wornOf);
+        WearOfStep::Own worn;
+        contacts.forEachSampled(grains, [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane,
+                                            EnergyRecord& record) {
+            accountOf({grains, contacts, walls, step}, wear, bucket, block, lane, record, worn);
+        });
+        wear.add(worn);
+        wear.give(contacts.ranks());
     }
 
 private:
@@ -235,14 +212,134 @@ private:
         Vector<double> point;  // m
         ContactWear done;
     };
-    /// Wear is added up in the order of identities, on all ranks.
-    static void takeWear(const std::vector<WornWall*>& walls, const AllRanks& ranks,
-                         const std::vector<WearOfContact>& own) {
-        std::vector<WearOfContact> all = ranks.gather(own);
-        std::stable_sort(all.begin(), all.end(),
-                         [](const auto& a, const auto& b) { return a.identity < b.identity; });
-        for (const WearOfContact& one : all)
-            walls[static_cast<std::size_t>(one.wall)]->takeWear(one.part, one.point, one.done);
+    /// The wear of the walls (null for those that do not wear) in a step.
+    class WearOfStep {
+    public:
+        explicit WearOfStep(const std::vector<WornWall*>& ofScene) : walls(ofScene) {
+            for (WornWall* const worn : walls)
+                if (worn) worn->forgetStep();
+        }
+        [[nodiscard]] bool wears(int wall) const {
+            return wall >= 0 && walls[static_cast<std::size_t>(wall)] != nullptr;
+        }
+        using Own = std::vector<WearOfContact>;
+        void add(const Own& some) { own.insert(own.end(), some.begin(), some.end()); }
+        /// It is added up in the order of identities, on all ranks.
+        void give(const AllRanks& ranks) const {
+            if (std::ranges::none_of(walls, [](const WornWall* wall) { return wall != nullptr; })) return;
+            std::vector<WearOfContact> all = ranks.gather(own);
+            std::ranges::sort(all, {}, [](const WearOfContact& one) {
+                return std::tuple(one.identity, one.wall, one.part);
+            });
+            for (const WearOfContact& one : all)
+                walls[static_cast<std::size_t>(one.wall)]->takeWear(one.part, one.point, one.done);
+        }
+
+    private:
+        const std::vector<WornWall*>& walls;
+        Own own;
+    };
+
+    struct StepOfScene {
+        const Grains& grains;
+        const ContactSystem& contacts;
+        const WallHandler& walls;
+        double step;  // s
+    };
+    using Sums = ExactRows<ledgerEntries>;
+    struct PartOfSums {
+        Sums sums;
+        WearOfStep::Own wear;
+    };
+    /// The sums over the contacts of a step; exact ones need no order.
+    Sums& sumOnThreads(const StepOfScene& scene, ContactSystem& contacts, int threads, WearOfStep& wear) {
+        constexpr std::size_t worthAThread = 1024, share = 512;
+        if (parts.size() < static_cast<std::size_t>(threads)) parts.resize(static_cast<std::size_t>(threads));
+        for (PartOfSums& part : parts) part.sums.clear(), part.wear.clear();
+        inShares(
+            contacts.energyRecordCount(), threads,
+            [&](int number, std::size_t first, std::size_t end) {
+                PartOfSums& part = parts[static_cast<std::size_t>(number)];
+                contacts.forEachEnergyRecord(
+                    scene.grains, first, end,
+                    [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane,
+                        EnergyRecord& record) {
+                        const EnergyLedger account =
+                            accountOf(scene, wear, bucket, block, lane, record, part.wear);
+                        if (block.first[lane] < scene.grains.ownSize())  // else it counts on another rank
+                            part.sums.add(std::bit_cast<Row>(account));
+                    });
+            },
+            worthAThread, shareOf(share));
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            wear.add(parts[k].wear);
+            if (k > 0) parts[0].sums.add(parts[k].sums);
+        }
+        return parts[0].sums;
+    }
+    /// The same in the order of identities, in which grains are heated.
+    Sums& sumInOrder(const StepOfScene& scene, ContactSystem& contacts, WearOfStep& wear) {
+        parts.resize(std::max<std::size_t>(parts.size(), 1));
+        PartOfSums& part = parts[0];
+        part.sums.clear(), part.wear.clear();
+        contacts.forEachEnergyRecordInOrder(scene.grains, [&](const Bucket& bucket, const ContactBlock& block,
+                                                              std::size_t lane, EnergyRecord& record) {
+            const EnergyLedger account = accountOf(scene, wear, bucket, block, lane, record, part.wear);
+            const std::uint32_t first = block.first[lane];
+            if (first >= scene.grains.ownSize()) return;
+            part.sums.add(std::bit_cast<Row>(account));
+            if (scene.step == 0) return;
+            const std::vector<std::uint32_t>& identity = scene.grains.identity;
+            lossesOfStep.push_back({identity[first],
+                                    bucket.wall >= 0 ? ObservedContact::none : identity[block.second[lane]],
+                                    bucket.wall, account.lost()});
+        });
+        wear.add(part.wear);
+        return part.sums;
+    }
+
+    /// The account of a contact in a step, and what it wears off.
+    static EnergyLedger accountOf(const StepOfScene& scene, const WearOfStep& wear, const Bucket& bucket,
+                                  const ContactBlock& block, std::size_t lane, EnergyRecord& record,
+                                  WearOfStep::Own& worn) {
+        const Grains& grains = scene.grains;
+        const PeriodicBox& box = scene.contacts.periodicBox();
+        const ContactLaws& laws = scene.contacts.laws().ofPair(bucket.species1, bucket.species2);
+        ContactKind kind{.isWall = bucket.wall >= 0,
+                         .isPlastic = laws.isPlastic,
+                         .adhesionBreaks = laws.breaks,
+                         .hasCouples = scene.contacts.layout().hasContactTorque,
+                         .resistsMotion = laws.resistsMotion,
+                         .isShaped = scene.contacts.laws().shapes() != nullptr};
+        if (kind.isWall) {
+            kind.lastPiston = pistonMotion(scene.walls, static_cast<int>(record.lastWall), record.last, true);
+            kind.piston = pistonMotion(scene.walls, bucket.wall, record.now, false);
+            record.lastWall = bucket.wall;
+        }
+        const std::uint32_t first = block.first[lane], second = block.second[lane];
+        BodyMotion other = kind.isWall ? BodyMotion{} : meanMotion(grains, second);
+        if (!kind.isWall && box.imagesMove) {
+            const Vector<double> apart =
+                grains.translation[second].position - grains.translation[first].position;
+            other.slide = -box.velocityBetweenImages(apart, box.nearest(apart));
+        }
+        const BodyMotion grain = meanMotion(grains, first);
+        EnergyLedger account;  // of this contact in the step
+        addContact(record, grain, other, kind, scene.step, account);
+        const bool slidesOrBegins =
+            account.sliding != 0 || (record.now.touching > 0 && !(record.last.touching > 0));
+        if (slidesOrBegins && scene.step > 0 && wear.wears(bucket.wall) && !grain.isHeld) {
+            const Vector<double> arm = depthOf(record, grain.radius);
+            worn.push_back({grains.identity[first], bucket.wall, second,
+                            grains.translation[first].position + arm,
+                            contactWear(record, account.sliding, grains.atStart[first].velocity,
+                                        massAtContact(grains, box, first, arm))});
+        }
+        takeNowAsLast(record, kind);
+        // The membrane's own account has this work, as it was done on the vertices.
+        if (kind.isWall && scene.walls.getObject(static_cast<std::size_t>(bucket.wall)).membrane())
+            account.stepError -= std::exchange(account.walls, 0);
+        return account;
     }
 
     /// The mass (kg) that a wall feels at a contact with the grain at a place: of a rigid body, what its
@@ -442,7 +539,7 @@ private:
     std::vector<HeldLoad> heldLoads;
     bool allWereHere = true;  // at the start of the step: ranks did not share the grains
     BodyAccount bodies;
-    ExactRows<ledgerEntries> sums;  // over the contacts of a step
+    std::vector<PartOfSums> parts;  // of each thread
     std::vector<ContactLoss> lossesOfStep;
     bool notesLosses = false;
     EnergyLedger atBegin;

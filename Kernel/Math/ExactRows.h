@@ -39,6 +39,10 @@ public:
         for (std::size_t column = 0; column < columns; ++column) all[column] = sums[column].value();
         return all;
     }
+    void add(ExactRows& other) {
+        takeInBatch();
+        for (std::size_t column = 0; column < columns; ++column) sums[column].add(other.exact()[column]);
+    }
     /// All is zero again.
     void clear() {
         rows = 0;

@@ -9,32 +9,48 @@
 namespace pendular {
 
 Features AccountPart::features(const StepContext& /*scene*/) const {
-    return kept ? Features{Feature::EnergyLedger} : Features{};
+    if (kept) return {Feature::EnergyLedger};
+    return wears ? Features{Feature::WornWalls} : Features{};
+}
+
+void AccountPart::begin(StepContext& scene, bool /*isRestarted*/) { sampleWornWalls(scene); }
+
+/// Where the account is for wear alone, other contacts are not looked at.
+void AccountPart::sampleWornWalls(StepContext& scene) const {
+    if (wears && !kept) scene.contacts.sampleOnly(numbersOfWornWalls(scene.walls));
 }
 
 void AccountPart::takeOver(StepContext& scene, const SceneChanges& changes) {
     const StepTimes::Within ledgers(scene.times, StepTimes::Part::Ledger);
-    if (changes.walls) EnergyAccount::wallsChanged(scene.walls, ledger);
+    if (!changes.walls) return;
+    sampleWornWalls(scene);
+    if (kept) EnergyAccount::wallsChanged(scene.walls, ledger);
 }
 
 void AccountPart::beforeMotion(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
     step.contacts.renewGhosts(step.grains());  // a hook may have changed velocities
-    account.begin(step.grains(), step.contacts, step.walls, step.gravity, step.length, ledger);
+    if (kept) account.begin(step.grains(), step.contacts, step.walls, step.gravity, step.length, ledger);
+    else EnergyAccount::beginWear(step.grains());
 }
 
 void AccountPart::afterMotion(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
-    account.moved(step.grains(), step.contacts.ranks(), step.gravity, ledger);
+    if (kept) account.moved(step.grains(), step.contacts.ranks(), step.gravity, ledger);
 }
 
 void AccountPart::finish(StepContext& step) {
     const StepTimes::Within ledgers(step.times, StepTimes::Part::Ledger);
-    account.finish(step.grains(), step.contacts, step.walls, step.gravity, step.length, *step.scheme, ledger);
+    if (kept)
+        account.finish(step.grains(), step.contacts, step.walls, step.gravity, step.length, *step.scheme,
+                       step.threads, ledger);
+    else EnergyAccount::finishWearAlone(step.grains(), step.contacts, step.walls, step.length);
     if (step.length > 0) EnergyAccount::finishWear(step.walls, step.time + step.length);
 }
 
-void AccountPart::takeBack(StepContext& /*step*/) { account.takeBack(ledger); }
+void AccountPart::takeBack(StepContext& /*step*/) {
+    if (kept) account.takeBack(ledger);
+}
 
 void AccountPart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {
     archive.same("ledgerKept", kept, {},
@@ -47,6 +63,7 @@ void AccountPart::visitSetting(StateArchive& archive, StepContext& /*scene*/) {
 }
 
 void AccountPart::addTo(SummaryRows& rows) const {
+    if (!kept) return;
     for (const auto& entry : EnergyLedger::entries())
         rows.addNumber(fmt::format("energy: {}", entry.name), ledger.*entry.member, "J");
     rows.addNumber("energy lost", ledger.lost(), "J");

@@ -11,6 +11,7 @@ class AccountPart : public StepPart {
 public:
     [[nodiscard]] std::string_view name() const override { return "energy"; }
     [[nodiscard]] Features features(const StepContext& scene) const override;
+    void begin(StepContext& scene, bool isRestarted) override;
     void takeOver(StepContext& scene, const SceneChanges& changes) override;
     void beforeMotion(StepContext& step) override;
     void afterMotion(StepContext& step) override;
@@ -20,12 +21,17 @@ public:
     void addTo(SummaryRows& rows) const override;
 
     void keep(bool keepIt) { kept = keepIt; }
+    /// Walls wear: there is an account of their contacts also where no ledger is kept.
+    void noteWear(bool wallsWear) { wears = wallsWear; }
+    /// The ledger.
     [[nodiscard]] bool isKept() const { return kept; }
+    /// There is an account, for the ledger or for wear alone.
+    [[nodiscard]] bool acts() const { return kept || wears; }
     [[nodiscard]] const EnergyLedger& energies() const { return ledger; }
-    /// Lets the context show the ledger and the account to other parts: null where none is kept.
+    /// Lets the context show the ledger and the account to other parts: null where there is none.
     void show(StepContext& scene) {
         scene.ledger = kept ? &ledger : nullptr;
-        scene.account = kept ? &account : nullptr;
+        scene.account = acts() ? &account : nullptr;
     }
     /// The scene begins with what is in the ledger now.
     void beginWithThis() { energyAtStart = ledger.total(); }
@@ -33,10 +39,12 @@ public:
     [[nodiscard]] double changeSinceStart() const { return ledger.total() - energyAtStart; }
 
 private:
+    void sampleWornWalls(StepContext& scene) const;
+
     EnergyLedger ledger;
     EnergyAccount account;
     double energyAtStart = 0;  // J, of the ledger
-    bool kept = false;
+    bool kept = false, wears = false;
 };
 
 }  // namespace pendular

@@ -62,10 +62,10 @@ void changeVelocities(StepContext& step, Function&& changeAt) {
     for (std::size_t k = 0; k < grains.bodies.sizeWithGhosts(); ++k)
         if (const Vector<double> change = changeAt(grains.bodies[k].position); squaredNorm(change) > 0) {
             grains.bodies[k].velocity += change;
-            if (step.account && k < grains.bodies.size())
+            if (step.ledger && k < grains.bodies.size())
                 given.add(step.account->changedImageOfBody(grains, k, change));
         }
-    if (step.account) EnergyAccount::givenByImages(given, step.contacts.ranks(), *step.ledger);
+    if (step.ledger) EnergyAccount::givenByImages(given, step.contacts.ranks(), *step.ledger);
 }
 
 }  // namespace

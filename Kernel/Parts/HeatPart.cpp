@@ -82,7 +82,7 @@ void HeatPart::check(const StepContext& scene) {
                             "Conduction::Constriction, or hold no walls at a temperature.",
                             wall));
     }
-    if (contactsHeat && !scene.account)
+    if (contactsHeat && !scene.ledger)
         throw InputError("heat: heatByContacts() needs the energy ledger; call keepEnergyLedger().");
     for (const std::uint32_t place : scene.grains().place)
         checkValue(nameOfGrain(scene.grains(), scene.grains().identity[place]), "temperature",

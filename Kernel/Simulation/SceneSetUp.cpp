@@ -49,10 +49,8 @@ void Scene::Inside::refuseUnlessBridgesJoin() const {
 void Scene::Inside::setUp() {
     ParticleHandler& particles = scene.particleHandler;
     scene.setupInitialConditions();
-    // A wall that wears needs the ledger: it tells what slides.
-    if (std::ranges::any_of(wornWalls(scene.wallHandler),
-                            [](const WornWall* wall) { return wall != nullptr; }))
-        account.keep(true);
+    // The account tells what slides at walls that wear.
+    account.noteWear(!numbersOfWornWalls(scene.wallHandler).empty());
     scene.prepareOutputs();
     scene.requireTimeStep();
     account.show(context);
@@ -144,7 +142,7 @@ void Scene::Inside::check() {
     refuseForDiscs(context);
     parts.refuseOwnConflicts(found);
     refuseWalls(laws().shapes(), scene.wallHandler);
-    refuseWear(scene.wallHandler, account.isKept(), laws().layout.hasTorque);
+    refuseWear(scene.wallHandler, account.acts(), laws().layout.hasTorque);
     GrainSizes sizes = sizesOf(scene.particleHandler.store());
     if (laws().shapes()) checkedRadii = laws().shapes()->largestRadiusRatio();
     if (scene.hasBegun() && stepLength() != checkedStep) refuseOtherStep();
@@ -183,7 +181,7 @@ void Scene::Inside::prepare() {
     scene.sprayHandler.close();
     parts.begin(context, scene.isRestarted());
     contacts.prepare(laws(), scene.wallHandler, box, SkinChoice::byCost(context.smallestRadius),
-                     account.isKept(), films.areKept() ? &films : nullptr);
+                     account.acts(), films.areKept() ? &films : nullptr);
     warn();
 }
 

@@ -117,7 +117,7 @@ void Scene::Inside::findForces(StepContext& step) {
 }
 
 void Scene::Inside::bookWentRound(const StepContext& step) {
-    if (!step.account) return;
+    if (!step.ledger) return;
     const StepTimes::Within ledger(step.times, StepTimes::Part::Ledger);
     step.account->wentRound(step.grains(), contacts.ranks(), step.gravity, *step.ledger);
 }

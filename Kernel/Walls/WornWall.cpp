@@ -12,14 +12,23 @@ std::vector<WornWall*> wornWalls(const WallHandler& walls) {
     return found;
 }
 
-void refuseWear(const WallHandler& walls, bool withLedger, bool withFriction) {
+std::vector<int> numbersOfWornWalls(const WallHandler& walls) {
+    const std::vector<WornWall*> worn = wornWalls(walls);
+    std::vector<int> numbers;
+    for (std::size_t w = 0; w < worn.size(); ++w)
+        if (worn[w]) numbers.push_back(static_cast<int>(w));
+    return numbers;
+}
+
+void refuseWear(const WallHandler& walls, bool withAccount, bool withFriction) {
     const std::vector<WornWall*> worn = wornWalls(walls);
     for (std::size_t w = 0; w < worn.size(); ++w) {
         if (!worn[w]) continue;
-        if (!withLedger)
+        if (!withAccount)
             throw InputError(fmt::format(
-                "wall {}: it keeps its wear, and was added to a run without an energy ledger, by which "
-                "sliding is known; add it at set-up, or call keepEnergyLedger() there.",
+                "wall {}: it keeps its wear, and was added to a run without walls that wear and without an "
+                "energy ledger, by which sliding is known; add it at set-up, or call keepEnergyLedger() "
+                "there.",
                 w));
         if (worn[w]->wearLaw().needsFriction() && !withFriction)
             throw InputError(fmt::format(

@@ -42,6 +42,7 @@ TEST(Wear, ofADraggedGrainIsThatOfAnIndependentTable) {
     const WearLaw reye = WearLaw::reye(3.33333333333333e-12);
     for (const WearLaw& law : {archard, reye}) {
         Drag scene(law);
+        scene.keepEnergyLedger();
         scene.initialise();
         scene.steps(25000);
         const double half = scene.wear().volume;
@@ -251,8 +252,21 @@ TEST(HeavyWear, hasTheSameBitsForAnyThreadsAndThroughARestart) {
     EXPECT_GT(whole->wear().impacts, 50);
     expectSameWear(*whole, *threaded);
     expectSameWear(*whole, *resumed);
+}
+
+/// Without the ledger the account is that of the worn wall's contacts alone.
+TEST(Wear, isTheSameWithAndWithoutTheLedger) {
+    const auto alone = heap(1), ledger = heap(3);
+    ledger->keepEnergyLedger();
+    for (const auto* scene : {&alone, &ledger}) {
+        (*scene)->initialise();
+        (*scene)->steps(3000);
+    }
+    EXPECT_GT(alone->wear().volume, 0);
+    expectSameWear(*alone, *ledger);
+    EXPECT_FALSE(alone->keepsEnergyLedger());
     // What grains lose by friction among themselves is not the wall's.
-    EXPECT_LT(whole->wear().slidingWork, whole->energyLedger().sliding);
+    EXPECT_LT(ledger->wear().slidingWork, ledger->energyLedger().sliding);
 }
 
 TEST(Wear, isTheSameSceneOtherwise) {
