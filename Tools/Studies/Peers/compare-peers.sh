@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs the same scenes in Pendular and in those of LIGGGHTS, LAMMPS and YADE that are installed, in turn, one thread each,
-# and writes the medians as a table (CSV) and a chart (PNG).
-#   Tools/Studies/Peers/compare-peers.sh [--scenes "bed wet-bed mixture sheared-mixture clumps"] [--particles "25000 250000"] [--runs 3] [--output FOLDER]
+# Runs the same scenes in Pendular and in those of LIGGGHTS, LAMMPS and YADE that are installed, in turn, on one core or some
+# each, and writes the medians as a table (CSV) and a chart (PNG).
+#   Tools/Studies/Peers/compare-peers.sh [--scenes "bed wet-bed mixture sheared-mixture clumps"] [--particles "25000 250000"] [--runs 3] [--cores 1] [--output FOLDER]
 #                          [--bed FILE] [--drum FILE --drum-walls FILE]
 # --scenes     bed: dry, of the numbers of --particles; wet-bed: the first of these, with liquid bridges (Bagheri's law and the
 #              exact one), beside LIGGGHTS' easo/capillary/viscous; mixture: 20 000 grains, radii 1 to 10, two sizes of equal
@@ -9,19 +9,22 @@
 #              sheared-mixture: the same, whose grains start with 100 1/s times their height as speed along x; LIGGGHTS with
 #              a skin of 1 mm, the best of 0.2, 0.5, 1 and 2 mm; clumps: beds of 10 000 spheres in clumps of 2 (a rod), 4 (a square)
 #              and 8 (a cube) that touch, which LIGGGHTS inserts as multispheres and lets settle first (minutes)
+# --cores N    threads of Pendular and YADE; processes of LIGGGHTS and LAMMPS by mpirun, which share the beds along x, and from
+#              8 on (an even number) along x and y: all layers of a bed weigh alike
 # --bed FILE   rows radius x y z: the bed of Dosta et al. (2024) instead of the one that Pendular makes by itself
 # --drum FILE  their drum, with its walls as rows of nine numbers; LIGGGHTS only. Without it there is no drum.
 # --build DIR  a build folder; build/release if not given
 set -euo pipefail
 study=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 tools=$study/../..
-scenes=bed particles="25000 250000" runs=3 output=peers bed="" drum="" drum_walls="" build="$tools/../build/release"
+scenes=bed particles="25000 250000" runs=3 cores=1 output=peers bed="" drum="" drum_walls="" build="$tools/../build/release"
 command_line="Tools/Studies/Peers/compare-peers.sh $*"
 source "$tools/read-options.sh"
-read_options scenes particles runs output bed drum drum-walls build -- "$@"
+read_options scenes particles runs cores output bed drum drum-walls build -- "$@"
 read -ra sizes <<<"$particles"
 for number in "${sizes[@]:-}"; do require_number particles "$number"; done
 require_number runs "$runs"
+require_number cores "$cores"
 read -ra scene_names <<<"$scenes"
 for scene in "${scene_names[@]:-}"; do
     case $scene in
@@ -45,6 +48,16 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1
 
+# How a peer starts on all cores, and the grid by which it shares a bed.
+launch=()
+if ((cores > 1)); then
+    require_program "$(command -v mpirun || echo mpirun)"
+    launch=(mpirun -np "$cores")
+    if ((EUID == 0)) && mpirun --version | grep -q "Open MPI"; then launch+=(--allow-run-as-root); fi
+fi
+grid_y=$((cores >= 8 && cores % 2 == 0 ? 2 : 1))
+grid=(-var gridx $((cores / grid_y)) -var gridy "$grid_y")
+
 # Rows of the run at hand: scene,code,particles,steps,seconds,kinetic_energy_J
 raw=$work/raw.csv
 : >"$raw"
@@ -59,7 +72,7 @@ parse_log() {  # scene, code, log
 run_peer() {  # scene, code, command...
     local scene=$1 code=$2 log=$work/$2.log
     shift 2
-    if (cd "$work" && "$@" >"$log" 2>&1); then
+    if (cd "$work" && ${launch[@]+"${launch[@]}"} "$@" >"$log" 2>&1); then
         parse_log "$scene" "$code" "$log"
     else
         say "$code failed: $(tail -1 "$log")"
@@ -90,12 +103,12 @@ prepare_bed() {  # options of benchmark-scenes for the scene...
     box=$(sed -n '1s/.*: //p' "$work/bed.rows")
     lammps_data "$work/bed.rows" "$box" 1 >"$work/bed.data"
     read -r xlo xhi ylo yhi zlo <<<"$box"
-    vars=(-var data "$work/bed.data" -var xlo "$xlo" -var xhi "$xhi" -var ylo "$ylo" -var yhi "$yhi" -var zlo "$zlo" -var warm "$warm" -var steps "$steps" -var shear "${shear:-0}" -var skin "${skin:-2e-4}")
+    vars=("${grid[@]}" -var data "$work/bed.data" -var xlo "$xlo" -var xhi "$xhi" -var ylo "$ylo" -var yhi "$yhi" -var zlo "$zlo" -var warm "$warm" -var steps "$steps" -var shear "${shear:-0}" -var skin "${skin:-2e-4}")
 }
 run_ours() {  # name of the row, scene, options of benchmark-scenes...
     local name=$1 scene=$2 row
     shift 2
-    row=$("$ours" "$@" --steps "$steps" --warm "$warm") || exit 1
+    row=$("$ours" "$@" --threads "$cores" --steps "$steps" --warm "$warm") || exit 1
     parse_ours "$scene" "$name" "$row"
 }
 run_liggghts() {  # scene, model
@@ -119,7 +132,7 @@ run_bed() {  # particles
         fi
         if command -v yade >/dev/null && ((copies == 1)); then
             awk -F, 'NF == 4 && $1 + 0 > 0 { print $1, $2, $3, $4 }' "$work/bed.rows" >"$work/yade.rows"
-            GRAINS=$work/yade.rows BOX=$box WARM=$((warm / 5)) STEPS=$((steps / 4)) yade -n -x -j1 "$study/bed_yade.py" 2>/dev/null |
+            GRAINS=$work/yade.rows BOX=$box WARM=$((warm / 5)) STEPS=$((steps / 4)) yade -n -x "-j$cores" "$study/bed_yade.py" 2>/dev/null |
                 awk -v s=$((steps / 4)) -v n=25000 '/^result/ { printf "bed,yade,%d,%d,%s,\n", n, s, $2 }' >>"$raw"
         fi
     done
@@ -193,16 +206,16 @@ done
 if [[ -n $drum ]]; then run_drum; fi
 
 {
-    "$tools/describe-machine.sh" "$command_line; one thread each; medians of $runs runs in turn"
+    "$tools/describe-machine.sh" "$command_line; one core each, or those of --cores; medians of $runs runs in turn"
     echo "scene,code,particles,threads,steps,median_seconds,million_particle_steps_per_second,lowest,highest,kinetic_energy_J,ours_over_this"
-    sort -t, -k1,1 -k3,3n -k2,2 "$raw" | awk -F, '
+    sort -t, -k1,1 -k3,3n -k2,2 "$raw" | awk -F, -v cores="$cores" '
         function flush(   i, j, v) {
             if (count == 0) return
             for (i = 1; i <= count; i++) for (j = i + 1; j <= count; j++) if (rate[j] < rate[i]) { v = rate[i]; rate[i] = rate[j]; rate[j] = v }
             m = int((count + 1) / 2)
             key[++rows] = scene "," n; name[rows] = code; median[rows] = rate[m]
             if (code == "pendular") own[scene "," n] = rate[m]
-            line[rows] = sprintf("%s,%s,%d,1,%d,%.4f,%.3f,%.3f,%.3f,%s", scene, code, n, s, n * s / rate[m] * 1e-6, rate[m], rate[1], rate[count], ke)
+            line[rows] = sprintf("%s,%s,%d,%d,%d,%.4f,%.3f,%.3f,%.3f,%s", scene, code, n, cores, s, n * s / rate[m] * 1e-6, rate[m], rate[1], rate[count], ke)
             count = 0
         }
         { if ($1 != scene || $2 != code || $3 != n) { flush(); scene = $1; code = $2; n = $3 }
