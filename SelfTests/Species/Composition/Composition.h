@@ -7,6 +7,7 @@
 #include "SelfTests/Scenes/FewGrains.h"
 #include "SelfTests/Species/Composition/TwoBodies.h"
 #include "SelfTests/Support/AnyMaterial.h"
+#include "SelfTests/Support/Quantum.h"
 #include "SelfTests/Support/Random.h"
 
 // Any normal law with any friction law and any adhesion: the product of four of each kind, of which each
@@ -171,12 +172,16 @@ void expectSimulationWorks() {
             const auto grain = scene.particleHandler.getObject(0);
             const Vec3D force = grain.getForce();
             const double size = force.norm() + 1e-6;  // N
-            EXPECT_LT((wall.getForce() + force).norm(), 1e-12 * size);
+            // Of one contact: each component of the grain's force, and of its torque, is rounded to half a
+            // quantum.
+            const double quantum = support::quantumOf(scene, grain.getRadius());
+            EXPECT_LT((wall.getForce() + force).norm(), 1e-12 * size + quantum);
             if constexpr (S::hasTorque) {
                 const RotationRecord& turning = scene.particleHandler.store().rotation[0];
                 const Vec3D torque = grain.getPosition().cross(force) +
                                      toEigen(turning.angularAcceleration) / turning.inverseInertia;
-                EXPECT_LT((wall.getTorque() + torque).norm(), 1e-12 * size * 1e-3);
+                EXPECT_LT((wall.getTorque() + torque).norm(),
+                          1e-12 * size * 1e-3 + quantum * (grain.getPosition().norm() + grain.getRadius()));
             }
         }
         return std::vector{scene.motion(0)};

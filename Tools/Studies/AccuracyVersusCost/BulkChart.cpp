@@ -44,6 +44,7 @@ auto runVariants(const Options& options, int seeds, const BulkChartOptions& char
     constexpr std::size_t count = Scene<HertzianViscoelasticMindlinSpecies>::names.size();
     std::vector<VariantResult<count>> results;
     forEachVariant(chart.elasticModulus, [&]<class S>(const LawVariant& variant) {
+        if (!results.empty() && !chart.law.empty() && variant.law != chart.law) return;
         VariantResult<count> result{.variant = variant};
         std::shared_ptr<Scene<S>> scene;
         for (int seed = 1; seed <= seeds; ++seed) {
@@ -107,6 +108,9 @@ void chartBulk(const BulkChartOptions& options) {
     static const std::vector<std::string_view> scenes{"bed", "drum", "both"};
     if (std::find(scenes.begin(), scenes.end(), options.scene) == scenes.end())
         unknownName("scene", options.scene, scenes);
+    std::vector<std::string_view> laws{""};
+    bulk::forEachVariant(1, [&]<class S>(const bulk::LawVariant& variant) { laws.push_back(variant.law); });
+    if (std::find(laws.begin(), laws.end(), options.law) == laws.end()) unknownName("law", options.law, laws);
     CsvFile file(options.file,
                  "scene,law,elastic_modulus_Pa,step_times_omega,step_s,steps_per_contact,figure,mean,"
                  "standard_error,deviation_percent,deviation_standard_error_percent,"

@@ -8,6 +8,7 @@ namespace pendular {
 struct BulkChartOptions {
     std::filesystem::path file = "bulk.csv";
     std::string scene = "both";   // bed, drum or both
+    std::string law;              // this one alone beside the reference; empty: all
     double elasticModulus = 1e8;  // Pa, of the reference
     int beds = 6, drums = 2;      // runs of each law
     int bedGrains = 1200;

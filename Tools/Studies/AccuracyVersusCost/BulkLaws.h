@@ -61,6 +61,9 @@ void forEachVariant(double elasticModulus, Function&& function) {
     for (const double step : {0.6, 0.9}) call.template operator()<HertzMindlin>("Hertz-Mindlin", 1, step);
     for (const double step : {0.3, 0.9}) call.template operator()<HertzMindlin>("Hertz-Mindlin", 10, step);
     call.template operator()<HertzMindlin>("Hertz-Mindlin", 100, 0.3);
+    using Incremental = Species<HertzianViscoelastic, MindlinIncremental, NoAdhesion>;
+    for (const double step : {0.3, 0.9})
+        call.template operator()<Incremental>("Hertz-Mindlin incremental", 1, step);
     for (const double step : {0.3, 0.9}) call.template operator()<Linear>("linear", 1, step);
     call.template operator()<HertzianViscoelasticSpecies>("Hertz without friction", 1, 0.3);
     call.template operator()<LinearViscoelasticSpecies>("linear without friction", 1, 0.3);

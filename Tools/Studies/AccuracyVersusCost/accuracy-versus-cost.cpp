@@ -95,6 +95,8 @@ int main(int argc, char** argv) {
     add(ofBulk, "--elastic-modulus-Pa", bulk.elasticModulus, "Young's modulus of the reference, Pa");
     addFormerName(app, "--elastic-modulus-pa", bulk.elasticModulus)->needs(ofBulk);
     add(ofBulk, "--scene", bulk.scene, "bed, drum or both");
+    add(ofBulk, "--law", bulk.law,
+        "one law alone beside the reference, by its name in the table; all if not given");
     const std::array ofBed{
         add(ofBulk, "--beds", bulk.beds, "beds of each law, from different grains"),
         add(ofBulk, "--bed-particles", bulk.bedGrains, "grains of the bed"),
