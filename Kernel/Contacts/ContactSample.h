@@ -61,7 +61,7 @@ struct ContactSample : CoreSample, WallSample, ArmSample, CoupleSample {
     [[nodiscard]] bool acts() const { return touching + bridged > 0; }
 };
 
-/// What a ledger of the energy reads of a contact; kept only when one is asked for.
+/// What the account of the energy reads of a contact; kept only where there is one.
 struct EnergyRecord {
     ContactSample now, last;  // at the end of this step and of the one before
     double adhesionWork = 0;  // J, done against the adhesion since it began to act

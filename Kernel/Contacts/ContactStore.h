@@ -148,7 +148,7 @@ public:
     RecordColumns records;               // of laws with friction
     std::vector<ForceRecord> forces;     // of laws without
     std::vector<TorqueRecord> torques;   // empty unless the friction law has a torque of its own
-    std::vector<EnergyRecord> energies;  // empty unless a ledger is kept
+    std::vector<EnergyRecord> energies;  // empty unless there is an account of the energy
     std::vector<std::uint32_t> blockOf;  // the block of contacts that has this block of memory
 
     /// The volume of a bridge whose liquid moves, and the one for which it was prepared, negative (or -0) if

@@ -206,7 +206,7 @@ public:
         for (const std::uint32_t side : sidesOf(place)) callIfActing(side / 2, function);
     }
 
-    /// How many records of energy there are, where a ledger is kept.
+    /// How many records of energy there are, where there is an account.
     [[nodiscard]] std::size_t energyRecordCount() const { return contacts.memory.slotCount(); }
     /// Calls function(bucket, block, lane, record) for each contact that acts, or did at the end of the last
     /// step, also where it counts on another rank, as they lie in memory.
@@ -250,14 +250,14 @@ public:
     /// The length (m) of the tangential spring.
     [[nodiscard]] double springLength(std::uint32_t contact) const;
 
-    /// Where a ledger is kept for the wear of walls alone, samples are those of contacts with these walls.
-    /// @param numbers of the walls; all contacts have samples without this call
-    void sampleOnly(std::vector<int> numbers) { sampledWalls = std::move(numbers); }
-    /// As forEachEnergyRecord(), for the contacts with the walls of sampleOnly(), as they are listed.
+    /// Where an account is kept for the wear of walls alone, contacts with walls have samples, and others do
+    /// not: of all walls, as a contact may go over from one to another.
+    void sampleWallsAlone() { samplesPairs = false; }
+    /// As forEachEnergyRecord(), for the contacts with walls, as they are listed.
     template <class Function>
-    void forEachSampled(const Grains& grains, Function&& function) {
+    void forEachRecordAtWalls(const Grains& grains, Function&& function) {
         for (const Bucket& bucket : contacts.buckets) {
-            if (bucket.wall < 0 || !hasSamples(bucket)) continue;
+            if (bucket.wall < 0) continue;
             for (std::uint32_t b = bucket.begin; b < bucket.end; ++b) {
                 if (contacts.slots[b] == ContactStore::asleep || contacts.slots[b] == ContactStore::waking)
                     continue;
@@ -284,7 +284,7 @@ private:
             if (grain >= grains.size()) continue;  // the part of a wall
             prefetch(&grains.atStart[grain], sizeof(MotionAtStart));
             prefetch(&grains.translation[grain], sizeof(TranslationRecord));
-            prefetch(&grains.rotation[grain], sizeof(RotationRecord));
+            if (grains.hasSpin) prefetch(&grains.rotation[grain], sizeof(RotationRecord));
         }
     }
     template <class Function>
@@ -298,8 +298,7 @@ private:
         function(bucket, contacts.blocks[b], contact % Pack::lanes, record);
     }
     [[nodiscard]] bool hasSamples(const Bucket& bucket) const {
-        return ledger &&
-               (!sampledWalls || std::ranges::find(*sampledWalls, bucket.wall) != sampledWalls->end());
+        return ledger && (samplesPairs || bucket.wall >= 0);
     }
     void chooseQuantum(const Grains& grains);
     [[nodiscard]] const Wall& wallOf(const Bucket& bucket) const {
@@ -390,8 +389,8 @@ private:
     std::optional<NeighbourSearch> cells;
     std::vector<std::uint32_t> passed;  // places of grains whose contacts are no longer in their order
     bool ledger = false;
-    std::optional<std::vector<int>> sampledWalls;  // none: all contacts have samples
-    GrainSharing* sharing = nullptr;               // null: this scene has all grains
+    bool samplesPairs = true;         // where there is an account: of grains with grains
+    GrainSharing* sharing = nullptr;  // null: this scene has all grains
     AllRanks allRanks;
     /// What a wall, or the account of the energy, has lost by a grain that has gone.
     struct Lost {

@@ -169,14 +169,14 @@ public:
         ledger.potential = ledger.carried + ranks.sum(sumOfPotentialEnergy(grains, gravity));
     }
 
-    /// The same where the account is kept for the wear of walls alone, and contacts have samples at these.
+    /// The same where the account is kept for the wear of walls alone, and contacts have samples at walls.
     static void finishWearAlone(const Grains& grains, ContactSystem& contacts, const WallHandler& walls,
                                 double step) {
         const std::vector<WornWall*> wornOf = wornWalls(walls);
         WearOfStep wear(wornOf);
         WearOfStep::Own worn;
-        contacts.forEachSampled(grains, [&](const Bucket& bucket, const ContactBlock& block, std::size_t lane,
-                                            EnergyRecord& record) {
+        contacts.forEachRecordAtWalls(grains, [&](const Bucket& bucket, const ContactBlock& block,
+                                                  std::size_t lane, EnergyRecord& record) {
             accountOf({grains, contacts, walls, step}, wear, bucket, block, lane, record, worn);
         });
         wear.add(worn);
@@ -250,12 +250,17 @@ private:
     struct PartOfSums {
         Sums sums;
         WearOfStep::Own wear;
+
+        void clear() {
+            sums.clear();
+            wear.clear();
+        }
     };
     /// The sums over the contacts of a step; exact ones need no order.
     Sums& sumOnThreads(const StepOfScene& scene, ContactSystem& contacts, int threads, WearOfStep& wear) {
         constexpr std::size_t worthAThread = 1024, share = 512;
         if (parts.size() < static_cast<std::size_t>(threads)) parts.resize(static_cast<std::size_t>(threads));
-        for (PartOfSums& part : parts) part.sums.clear(), part.wear.clear();
+        for (PartOfSums& part : parts) part.clear();
         inShares(
             contacts.energyRecordCount(), threads,
             [&](int number, std::size_t first, std::size_t end) {
@@ -281,7 +286,7 @@ private:
     Sums& sumInOrder(const StepOfScene& scene, ContactSystem& contacts, WearOfStep& wear) {
         parts.resize(std::max<std::size_t>(parts.size(), 1));
         PartOfSums& part = parts[0];
-        part.sums.clear(), part.wear.clear();
+        part.clear();
         contacts.forEachEnergyRecordInOrder(scene.grains, [&](const Bucket& bucket, const ContactBlock& block,
                                                               std::size_t lane, EnergyRecord& record) {
             const EnergyLedger account = accountOf(scene, wear, bucket, block, lane, record, part.wear);

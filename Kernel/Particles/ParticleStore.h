@@ -72,7 +72,7 @@ public:
     std::vector<Vector<double>> acceleration;  // m/s^2, of the last step
     std::vector<EarlierAcceleration> earlier;  // empty unless the integrator needs it
     bool remembersEarlier = false;             // it does, also where there are no grains
-    std::vector<MotionAtStart> atStart;        // empty unless an energy ledger is kept
+    std::vector<MotionAtStart> atStart;        // empty unless there is an account of the energy
     bool remembersStart = false;               // it is, also where there are no grains
     std::vector<HeldBits> held;                // empty unless something is held along some axes only
     std::vector<std::uint16_t> species;

@@ -13,18 +13,13 @@ Features AccountPart::features(const StepContext& /*scene*/) const {
     return wears ? Features{Feature::WornWalls} : Features{};
 }
 
-void AccountPart::begin(StepContext& scene, bool /*isRestarted*/) { sampleWornWalls(scene); }
-
-/// Where the account is for wear alone, other contacts are not looked at.
-void AccountPart::sampleWornWalls(StepContext& scene) const {
-    if (wears && !kept) scene.contacts.sampleOnly(numbersOfWornWalls(scene.walls));
+void AccountPart::begin(StepContext& scene, bool /*isRestarted*/) {
+    if (!kept) scene.contacts.sampleWallsAlone();
 }
 
 void AccountPart::takeOver(StepContext& scene, const SceneChanges& changes) {
     const StepTimes::Within ledgers(scene.times, StepTimes::Part::Ledger);
-    if (!changes.walls) return;
-    sampleWornWalls(scene);
-    if (kept) EnergyAccount::wallsChanged(scene.walls, ledger);
+    if (kept && changes.walls) EnergyAccount::wallsChanged(scene.walls, ledger);
 }
 
 void AccountPart::beforeMotion(StepContext& step) {

@@ -6,7 +6,7 @@
 
 namespace pendular {
 
-/// The account of the energy, where a ledger is kept.
+/// The account of the energy, where a ledger is kept or walls wear.
 class AccountPart : public StepPart {
 public:
     [[nodiscard]] std::string_view name() const override { return "energy"; }
@@ -39,8 +39,6 @@ public:
     [[nodiscard]] double changeSinceStart() const { return ledger.total() - energyAtStart; }
 
 private:
-    void sampleWornWalls(StepContext& scene) const;
-
     EnergyLedger ledger;
     EnergyAccount account;
     double energyAtStart = 0;  // J, of the ledger

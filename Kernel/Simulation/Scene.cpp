@@ -131,6 +131,7 @@ void Scene::setIntegrator(const Integrator& scheme) {
     requireSetUp("integrator");
     checkIntegrator(scheme);
     inside->integrator = scheme;
+    inside->stepForError.reset();
 }
 
 void Scene::acceptUnstableTimeStep(bool accept) { inside->context.acceptsUnstableStep = accept; }

@@ -261,13 +261,14 @@ public:
     /// begins with setTimeStep(). At set-up. Kernel/Step/README.md says what it does not go with.
     void setAdaptiveTimeStep(double share, std::optional<double> largestStep = {});
     [[nodiscard]] const AdaptiveStep& adaptiveTimeStep() const;
-    /// Takes the time step for an error (1) of collisions at a speed (m/s): stepForError() has what it finds
-    /// and when it throws. A step above the stability limit is accepted; the summary says what was found. At
-    /// set-up, when species, integrator, walls and grains are there.
+    /// The time step for an error (1) of collisions at a speed (m/s): findStepForError() says how it is
+    /// found, and when it throws. At set-up, when species, integrator, walls and grains are there.
     /// @param speed that of estimateOverlaps() if it is not given
+    [[nodiscard]] StepForError stepForError(double error, std::optional<double> speed = {});
+    /// Takes it. A step above the stability limit is accepted; the summary says what was found.
     void setStepFor(double error, std::optional<double> speed = {});
-    /// What setStepFor() found, if it was called.
-    [[nodiscard]] const std::optional<StepForError>& getStepForError() const;
+    /// What setStepFor() found, if the time step is still its own.
+    [[nodiscard]] std::optional<StepForError> getStepForError() const;
     [[nodiscard]] const Integrator& getIntegrator() const;
     /// The integrator as the scene uses it: springsInStep where the friction lacks dashpots, or with the
     /// adaptive step.

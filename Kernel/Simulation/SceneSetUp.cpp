@@ -50,7 +50,8 @@ void Scene::Inside::setUp() {
     ParticleHandler& particles = scene.particleHandler;
     scene.setupInitialConditions();
     // The account tells what slides at walls that wear.
-    account.noteWear(!numbersOfWornWalls(scene.wallHandler).empty());
+    account.noteWear(std::ranges::any_of(wornWalls(scene.wallHandler),
+                                         [](const WornWall* wall) { return wall != nullptr; }));
     scene.prepareOutputs();
     scene.requireTimeStep();
     account.show(context);

@@ -79,15 +79,22 @@ void Scene::setAdaptiveTimeStep(double share, std::optional<double> largestStep)
     inside->adaptive.set(share, largestStep.value_or(0));
 }
 
-void Scene::setStepFor(double error, std::optional<double> speed) {
+StepForError Scene::stepForError(double error, std::optional<double> speed) {
     requireSetUp("a time step for an error");
-    const StepForError found = stepForError(*this, error, speed);
+    return findStepForError(*this, error, speed);
+}
+
+void Scene::setStepFor(double error, std::optional<double> speed) {
+    const StepForError found = stepForError(error, speed);
     setTimeStep(found.step);
-    if (found.step > found.limit) acceptUnstableTimeStep();
+    acceptUnstableTimeStep(found.step > found.limit);
     inside->stepForError = found;
     logger(LogLevel::Info, "{}", found.text());
 }
 
-const std::optional<StepForError>& Scene::getStepForError() const { return inside->stepForError; }
+std::optional<StepForError> Scene::getStepForError() const {
+    const std::optional<StepForError>& found = inside->stepForError;
+    return found && found->step == getTimeStep() ? found : std::nullopt;
+}
 
 }  // namespace pendular

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "Kernel/Base/InputError.h"
@@ -49,7 +51,8 @@ struct Approach {
 /// What is left of the relative motion; nothing of bodies that stay together.
 struct Aftermath {
     double parting = 0, slip = 0, rim1 = 0, rim2 = 0;  // m/s
-    double contactTime = 0;                            // s
+    double contactTime = 0;                            // s, of the first touch
+    bool parted = false;
 
     [[nodiscard]] std::array<double, 4> motion() const { return {parting, slip, rim1, rim2}; }
 };
@@ -59,7 +62,7 @@ class Collision : public Scene {
 public:
     Collision(ContactLaws& of, const Meeting& pair, const Approach& approach, double step,
               const Integrator& integrator)
-        : meeting(pair), longest(100 * pair.halfPeriod + 2 * approach.gap / approach.normal) {
+        : meeting(pair) {
         setLaws(of);
         const double m1 = of.massOf(pair.species1, pair.bodies.radius1);
         const double share =
@@ -79,20 +82,26 @@ public:
     }
     ~Collision() override { completeLeftRun(); }
 
+    /// Until the bodies have parted, and no bridge or neck holds them, or are drawn back to each other: they
+    /// have less energy than parting takes then, as nothing gives them any.
     Aftermath finish() {
         initialise();
         Aftermath seen;
-        for (double begin = -1; getTime() < longest;) {
+        std::optional<double> begin;  // s, of the touch
+        for (bool leaves = false;;) {
             step();
             const bool touches = overlap() > 0;
-            if (touches && begin < 0) begin = getTime();
-            if (begin < 0 || touches) continue;
-            if (seen.contactTime == 0) seen.contactTime = getTime() - begin;
-            if (contactForceOn(0).squaredNorm() > 0) continue;  // a bridge or a neck still holds
             const Vec3D relative = velocityOf(1) - velocityOf(0);
-            return {relative.x(), relative.y(), rimOf(0), rimOf(1), seen.contactTime};
+            if (touches && !begin) begin = getTime();
+            if (!begin) continue;
+            if (!touches && seen.contactTime == 0) seen.contactTime = getTime() - *begin;
+            if (leaves && relative.x() < 0) return seen;
+            leaves = relative.x() > 0;
+            if (!touches && !(contactForceOn(0).squaredNorm() > 0))
+                return {relative.x(), relative.y(), rimOf(0), rimOf(1), seen.contactTime, true};
+            if (getNumberOfTimeSteps() > mostSteps)
+                return seen;  // hardly faster than those that are drawn back
         }
-        return seen;
     }
 
 private:
@@ -122,29 +131,27 @@ private:
         return grain.getRadius() * grain.getAngularVelocity().z();
     }
 
+    static constexpr std::size_t mostSteps = 4'000'000;
+
     Meeting meeting;
-    double longest;  // s
 };
 
-/// Largest and mean errors over some collisions, as shares of the speed.
+/// Largest and mean errors over some collisions, as shares of the speed; the mean is that of the angle at
+/// which it is largest.
 struct CollisionErrors {
-    double largest = 0;
-    std::array<double, 4> sums{};
-    int count = 0;
+    double largest = 0, mean = 0;
 
-    void include(const Aftermath& seen, const Aftermath& exact, double speed) {
-        for (std::size_t k = 0; k < sums.size(); ++k) {
-            const double error = (seen.motion()[k] - exact.motion()[k]) / speed;
-            // One that is not a number is larger than all.
-            largest = std::isnan(error) ? infinity : std::max(largest, std::abs(error));
-            sums[k] += error;
+    void include(std::span<const Aftermath> seen, const Aftermath& exact, double speed) {
+        for (std::size_t k = 0; k < exact.motion().size(); ++k) {
+            double sum = 0;
+            for (const Aftermath& one : seen) {
+                const double error = (one.motion()[k] - exact.motion()[k]) / speed;
+                // One that is not a number is larger than all.
+                largest = std::isnan(error) ? infinity : std::max(largest, std::abs(error));
+                sum += error;
+            }
+            mean = std::max(mean, std::abs(sum) / static_cast<double>(seen.size()));
         }
-        ++count;
-    }
-    [[nodiscard]] double mean() const {
-        double most = 0;
-        for (const double sum : sums) most = std::max(most, std::abs(sum) / count);
-        return most;
     }
 };
 
@@ -156,7 +163,15 @@ public:
             const double angle = degrees * std::numbers::pi / 180;
             Angle at{.normal = speed * std::cos(angle), .slip = speed * std::sin(angle)};
             const double step = meeting.halfPeriod / stepsOfExact;
-            at.exact = finish(at, step, 2.5, integrators::predictedVelocityVerlet);
+            try {
+                at.exact = finish(at, step, 2.5, integrators::predictedVelocityVerlet);
+            } catch (const RunError& error) {
+                throw InputError(
+                    fmt::format("setStepFor: at {:.4g} m/s a collision of species {} with {} cannot "
+                                "be computed; give a lower speed or stiffer grains ({}).",
+                                speed, meeting.species1, meeting.species2, withoutStop(error)));
+            }
+            anyParts |= at.exact.parted;
             // Bodies that stay together have no time of a contact.
             contactTime =
                 std::min(contactTime, at.exact.contactTime > 0 ? at.exact.contactTime : meeting.halfPeriod);
@@ -164,26 +179,42 @@ public:
         }
     }
     [[nodiscard]] const Meeting& pair() const { return meeting; }
+    [[nodiscard]] bool someParts() const { return anyParts; }
 
     /// Over beginnings of the touch within a step, and steps a contact from n to n + 1.
-    [[nodiscard]] CollisionErrors errorsAt(double steps) const {
+    /// @param enough an error at which it does not matter how large it is
+    [[nodiscard]] CollisionErrors errorsAt(double steps, double enough = infinity) const {
         CollisionErrors errors;
-        for (const Angle& at : angles)
+        std::vector<Aftermath> seen;
+        for (const Angle& at : angles) {
+            seen.clear();
             for (int length = 0; length < lengths; ++length)
                 for (int k = 0; k < beginnings; ++k) {
                     const double step = contactTime / (steps + (length + 0.5) / lengths);
                     // Two steps before the touch: an integrator that looks back has them.
                     const double before = 2 + (k + 0.5) / beginnings;
-                    errors.include(finish(at, step, before, scene.getIntegrator()), at.exact, speed);
+                    try {
+                        seen.push_back(finish(at, step, before, scene.getIntegrator()));
+                    } catch (const RunError&) {  // so long a step throws the grains through each other
+                        return {infinity, infinity};
+                    }
+                    CollisionErrors one;
+                    one.include(std::span(&seen.back(), 1), at.exact, speed);
+                    if (one.largest > enough) return one;
                 }
+            errors.include(seen, at.exact, speed);
+        }
         return errors;
     }
-    /// s: up to which all steps are as exact as asked, looked at from a fifth of a contact on.
-    [[nodiscard]] double longestStep(double error) const {
-        for (double steps = fewestSteps; steps < mostSteps; steps *= 1.25)
-            // An error that is small by chance is not at the next numbers of steps.
-            if (isWithin(error, steps) && isWithin(error, 1.25 * steps) && isWithin(error, 1.6 * steps))
-                return contactTime / (steps + 1);
+    /// s, not above a step: up to which all steps are as exact as asked, looked at from a fifth of a contact
+    /// on. An error that is small by chance is not so at the next numbers of steps, too.
+    [[nodiscard]] double longestStep(double error, double notAbove) const {
+        int within = 0;  // so many numbers of steps one after the other
+        for (double steps = std::max(fewestSteps, stepsAt(notAbove) - 1); steps < 1.6 * mostSteps;
+             steps *= 1.25) {
+            within = errorsAt(steps, error).largest <= error ? within + 1 : 0;
+            if (within == 3) return std::min(notAbove, contactTime / (steps / (1.25 * 1.25) + 1));
+        }
         throw InputError(fmt::format(
             "setStepFor: an error of {:.4g} needs more than {:.0f} steps in a contact of species {} with {}; "
             "ask for a larger error, or take an integrator that is more exact in it.",
@@ -192,6 +223,12 @@ public:
     [[nodiscard]] double stepsAt(double step) const { return contactTime / step; }
 
 private:
+    static std::string withoutStop(const RunError& error) {
+        std::string text = error.what();
+        if (text.ends_with('.')) text.pop_back();
+        return text;
+    }
+
     static constexpr double stepsOfExact = 2000, fewestSteps = 5, mostSteps = 1000;
     static constexpr int lengths = 4, beginnings = 16;
 
@@ -199,7 +236,6 @@ private:
         double normal, slip;  // m/s
         Aftermath exact{};
     };
-    [[nodiscard]] bool isWithin(double error, double steps) const { return errorsAt(steps).largest <= error; }
     /// @param before the touch, steps
     [[nodiscard]] Aftermath finish(const Angle& at, double step, double before,
                                    const Integrator& integrator) const {
@@ -212,6 +248,7 @@ private:
     double speed;                   // m/s
     double contactTime = infinity;  // s, the shortest
     std::vector<Angle> angles;
+    bool anyParts = false;
 };
 
 /// For each two species, and each species with each wall's, the bodies that part soonest.
@@ -249,10 +286,12 @@ double stepOfBeds(Scene& scene, double error) {
 
 }  // namespace
 
-StepForError stepForError(Scene& scene, double error, std::optional<double> speed) {
+StepForError findStepForError(Scene& scene, double error, std::optional<double> speed) {
     checkValue("setStepFor", "error", error, "1", {1e-4, 0.1});
     if (speed) checkValue("setStepFor", "speed of collisions", *speed, "m/s", positive);
     scene.laws().mixAll();
+    if (scene.laws().grainsAreDiscs())
+        throw InputError("setStepFor: it is for spheres and not for discs; take stabilityLimit().");
     if (scene.laws().shapes())
         throw InputError(
             "setStepFor: collisions of superquadrics differ by how they are turned; take "
@@ -260,8 +299,7 @@ StepForError stepForError(Scene& scene, double error, std::optional<double> spee
     const std::vector<Meeting> meetings = meetingsOf(scene);
     if (meetings.empty())
         throw InputError(
-            "setStepFor: no two grains, and no grain and a wall, are there that could meet; call "
-            "it when they are.");
+            "setStepFor: there are no grains yet that could meet; call it after they are added.");
     StepForError found{.asked = error, .limit = scene.stabilityLimit()};
     found.speed = speed ? *speed : estimateOverlaps(scene).speed;
     if (!(found.speed > 0))
@@ -270,19 +308,23 @@ StepForError stepForError(Scene& scene, double error, std::optional<double> spee
             "at which they will meet.");
     std::vector<Collisions> collisions;
     for (const Meeting& meeting : meetings) collisions.emplace_back(scene, meeting, found.speed);
-    found.byCollisions = infinity;
-    for (const Collisions& of : collisions)
-        found.byCollisions = std::min(found.byCollisions, of.longestStep(error));
-    found.byBeds = stepOfBeds(scene, error);
-    found.step = std::min(found.byCollisions, found.byBeds);
+    found.byBeds = found.byCollisions = stepOfBeds(scene, error);
     for (const Collisions& of : collisions) {
-        const CollisionErrors errors = of.errorsAt(of.stepsAt(found.step));
-        if (errors.largest < found.largest) continue;
-        found.largest = errors.largest, found.mean = errors.mean();
-        found.species1 = of.pair().species1, found.species2 = of.pair().species2;
-        found.atWall = of.pair().isAtWall();
+        found.byCollisions = of.longestStep(error, found.byCollisions);
+        found.together &= !of.someParts();
     }
-    return found;
+    // At the step that is taken others were not looked at, nor steps a little shorter.
+    for (found.step = found.byCollisions;; found.step /= 1.1) {
+        found.largest = found.mean = 0;
+        for (const Collisions& of : collisions) {
+            const CollisionErrors errors = of.errorsAt(of.stepsAt(found.step));
+            if (errors.largest < found.largest) continue;
+            found.largest = errors.largest, found.mean = errors.mean;
+            found.species1 = of.pair().species1, found.species2 = of.pair().species2;
+            found.atWall = of.pair().isAtWall();
+        }
+        if (found.largest <= error) return found;
+    }
 }
 
 std::string StepForError::text() const {
@@ -291,6 +333,7 @@ std::string StepForError::text() const {
         "at "
         "most {:.2g} of the speed, {:.2g} in the mean (species {} with {} {}).",
         step, asked, speed, largest, mean, species1, atWall ? "a wall of" : "species", species2);
+    if (together) said += " At this speed they stay together, so their error is not known.";
     if (step <= limit) return said + fmt::format(" It is below the stability limit ({:.4g} s).", limit);
     return said + fmt::format(
                       " It is {:.3g} times the stability limit ({:.4g} s): that a bed whose friction "

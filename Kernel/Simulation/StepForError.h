@@ -14,12 +14,13 @@ struct StepForError {
     double asked = 0;         // 1, the error
     double speed = 0;         // m/s, at which grains meet
     double largest = 0;       // 1, error of the motion after a collision, over the speed, found at the step
-    double mean = 0;          // 1, the same of the mean over when a touch begins in a step
-    double byCollisions = 0;  // s, up to which that error is below the one asked for
+    double mean = 0;          // 1, of the mean motion over when a touch begins in a step
+    double byCollisions = 0;  // s, up to which that error is below the one asked for; at most:
     double byBeds = 0;        // s, up to which figures of beds and flows keep to it
     double limit = 0;         // s, stabilityLimit()
     std::size_t species1 = 0, species2 = 0;  // of the collision with the largest error
     bool atWall = false;                     // with a wall of species 2
+    bool together = true;  // all bodies stay together at this speed: their error is not known
 
     /// What was found and what is lost, in a few sentences.
     [[nodiscard]] std::string text() const;
@@ -33,15 +34,17 @@ struct StepForError {
 /// and 45 degrees, for each two species and each species with each wall: those sizes that part soonest. Each
 /// is computed with 16 beginnings of the touch within a step and four lengths of the step (at whole numbers
 /// of steps a contact ends in a step as it begins), and once with 2000 steps a contact, which stands for the
-/// exact one. Liquid that moves is not there: these collisions are dry.
+/// exact one. Liquid that moves is not there: these collisions are dry; grains of rigid bodies meet as
+/// single ones.
 ///
 /// A bed has more: at most 0.9 over the highest frequency of two grains, up to which figures of poured beds
 /// and drums were right to 1 % with the default integrator (Kernel/Motion/README.md), half of that with
-/// velocityVerlet, whose beds have 5 % too many contacts there, and stabilityLimit() for errors below 1 %,
-/// which no bulk resolved, and for other integrators.
+/// velocityVerlet, whose beds have 5 % too many contacts there; and at most stabilityLimit() for errors below
+/// 1 %, which no bulk resolved, and for other integrators.
 ///
-/// Throws InputError where the scene has no grains, a number is out of its range, grains are superquadrics,
-/// or no step of a fifth to a thousandth of a contact is as exact as asked.
-[[nodiscard]] StepForError stepForError(Scene& scene, double error, std::optional<double> speed = {});
+/// Scene::stepForError() calls it, and sees to it that the scene has not begun: it shares its laws.
+/// Throws InputError where the scene has no grains, a number is out of its range, grains are
+/// superquadrics or discs, or no step of a fifth to a thousandth of a contact is as exact as asked.
+[[nodiscard]] StepForError findStepForError(Scene& scene, double error, std::optional<double> speed);
 
 }  // namespace pendular

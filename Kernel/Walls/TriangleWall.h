@@ -47,8 +47,8 @@ public:
     void setFreeBody(double density);
 
     /// Counts from the start of the run what grains do to each triangle, and what they wear off it by the
-    /// law; the scene keeps the ledger of the energy for it. The shape stays. Throws InputError before set()
-    /// and in a run.
+    /// law; the scene keeps an account of its contacts for it. The shape stays. Throws InputError before
+    /// set() and in a run.
     void keepWear(const WearLaw& law);
     /// The same, and the vertices move, so that the wall loses this volume. Its material is behind the
     /// normals of its triangles: a grain that touches it from there ends the run. Coplanar triangles are not

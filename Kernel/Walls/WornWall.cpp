@@ -12,14 +12,6 @@ std::vector<WornWall*> wornWalls(const WallHandler& walls) {
     return found;
 }
 
-std::vector<int> numbersOfWornWalls(const WallHandler& walls) {
-    const std::vector<WornWall*> worn = wornWalls(walls);
-    std::vector<int> numbers;
-    for (std::size_t w = 0; w < worn.size(); ++w)
-        if (worn[w]) numbers.push_back(static_cast<int>(w));
-    return numbers;
-}
-
 void refuseWear(const WallHandler& walls, bool withAccount, bool withFriction) {
     const std::vector<WornWall*> worn = wornWalls(walls);
     for (std::size_t w = 0; w < worn.size(); ++w) {

@@ -40,9 +40,6 @@ public:
 /// The walls that keep their wear, by the numbers of the walls; null for those that do not.
 std::vector<WornWall*> wornWalls(const WallHandler& walls);
 
-/// Their numbers.
-std::vector<int> numbersOfWornWalls(const WallHandler& walls);
-
 /// Throws InputError where a wall keeps its wear and the scene cannot.
 /// @param withAccount the scene has an account of the energy; @param withFriction its laws have friction
 void refuseWear(const WallHandler& walls, bool withAccount, bool withFriction);

@@ -254,7 +254,30 @@ TEST(HeavyWear, hasTheSameBitsForAnyThreadsAndThroughARestart) {
     expectSameWear(*whole, *resumed);
 }
 
-/// Without the ledger the account is that of the worn wall's contacts alone.
+/// A grain that is drawn from a plate that does not wear over to one that does, and back: its contact goes
+/// over with it, so that it is no impact on any of them.
+TEST(Wear, isTheSameWithAndWithoutTheLedgerWhereContactsGoOver) {
+    std::vector<SurfaceWear> worn;
+    for (const bool withLedger : {true, false}) {
+        Drag scene(archard);
+        for (const double x : {-0.4, 0.3 - 0.1}) {
+            const Vec3D corner{x - 0.15, -0.15, 0};
+            scene.add(wallTests::mesh(wallTests::parallelogram(corner, {0.3, 0, 0}, {0, 0.3, 0}, 1, 1)));
+        }
+        scene.keepEnergyLedger(withLedger);
+        auto grain = scene.particleHandler.getObject(0);
+        grain.setPosition({-0.151, 1e-3, grain.getPosition().z()});
+        scene.initialise();
+        scene.steps(20000);
+        worn.push_back(scene.wear());
+    }
+    EXPECT_GT(worn[0].volume, 0);
+    EXPECT_EQ(worn[0].volume, worn[1].volume);
+    EXPECT_EQ(worn[0].slidingWork, worn[1].slidingWork);
+    EXPECT_EQ(worn[0].impacts, worn[1].impacts);
+}
+
+/// Without the ledger the account is that of contacts with walls alone.
 TEST(Wear, isTheSameWithAndWithoutTheLedger) {
     const auto alone = heap(1), ledger = heap(3);
     ledger->keepEnergyLedger();
