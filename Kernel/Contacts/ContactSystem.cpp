@@ -258,14 +258,17 @@ double ContactSystem::goThroughFaces(Grains& grains, std::span<const std::uint32
     passage.leave(grains, places);
     bringBack();
     passage.arrive(grains, filmReach() + skin.width(), time);
-    if (!passage.needsList()) return 0;
-    double stored = 0;
-    for (const std::uint32_t contact : passage.toEnd()) stored += endContact(grains, contact);
+    if (!allRanks.any(passage.needsList())) return 0;
+    ExactSum stored;
+    for (const std::uint32_t contact : passage.toEnd()) stored.add(endContact(grains, contact));
     RememberedContacts remembered;
     remembered.take(contacts, grains.identity, threads);
     passage.rename(remembered);
+    const bool areShared = sharing && sharing->areDistributed();
+    if (areShared) distribute(grains, remembered, 0);
     listAgain(grains, remembered);
-    return stored;
+    if (areShared) listedOnRanks(grains);
+    return allRanks.sum(stored);
 }
 
 void ContactSystem::bringBackPlaced(const Grains& grains, std::span<const std::uint32_t> places,

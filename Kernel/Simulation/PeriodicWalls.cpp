@@ -324,16 +324,19 @@ void PeriodicWalls::approach(const Vector<double>& centre) {
     }
 }
 
-bool PeriodicWalls::isBringingBackDue(const ParticleStore& grains, double shift) {
+bool PeriodicWalls::isBringingBackDue(const ParticleStore& grains, double shift, bool haveBodies,
+                                      const AllRanks& ranks) {
     // The centre of a body may move farther than its grains.
     for (std::size_t k = 0; k < grains.bodies.size(); ++k) approach(grains.bodies[k].position);
     nearest -= shift;
+    if (haveBodies) nearest = ranks.smallest(nearest);
     if (nearest > 0) return false;
     nearest = infinity;
     for (std::size_t k = 0; k < grains.size(); ++k)
         if (!grains.isGap(k) && !grains.bodies.contains(grains.identity[k]))
             approach(grains.translation[k].position);
     for (std::size_t k = 0; k < grains.bodies.size(); ++k) approach(grains.bodies[k].position);
+    nearest = ranks.smallest(nearest);
     if (nearest < 0) return true;
     nearest *= 1 - 1e-9;  // sums of shifts are rounded
     return false;

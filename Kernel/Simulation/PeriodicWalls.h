@@ -51,7 +51,9 @@ public:
     [[nodiscard]] const std::vector<bool>& endsOfWalls() const { return hasEnds; }
 
     /// Whether a grain is too far outside, when grains have moved by at most a shift (m) since the last time.
-    [[nodiscard]] bool isBringingBackDue(const ParticleStore& grains, double shift);
+    /// @param haveBodies there are rigid bodies, on this rank or on others
+    [[nodiscard]] bool isBringingBackDue(const ParticleStore& grains, double shift, bool haveBodies,
+                                         const AllRanks& ranks);
     /// Grains have been put somewhere else.
     void lookAgain() { nearest = 0; }
     /// The places of all grains that are outside.

@@ -139,7 +139,9 @@ void Scene::Inside::takeOverOnRanks(const GrainChanges& changes, bool lastBodyWe
     const bool newBodies = !changes.altered.empty() &&
                            !areKnownNewBodies(changes, context.grains(), checkedSizes, bodies.widest());
     const bool newGrains = isNewToChecks(changes.added);  // all ranks ask
+    const bool hadEnds = periodicWalls.haveEnds();
     if (contacts.ranks().any(lastBodyWent || newBodies || newGrains || stepLength() != checkedStep)) check();
+    if (periodicWalls.haveEnds()) wrapPlaced(context.grains(), changes, hadEnds);
 }
 
 /// A bridge pays for the drift of the step that comes, and Adams' formulas have the weights of equal steps.
@@ -157,7 +159,8 @@ void Scene::Inside::refuseOtherStep() const {
 }
 
 void Scene::Inside::wrapPlaced(ParticleStore& grains, const GrainChanges& changes, bool hadEnds) {
-    const double before = potentialEnergy(grains, context.gravity);
+    const auto energy = [&] { return contacts.ranks().sum(sumOfPotentialEnergy(grains, context.gravity)); };
+    const double before = context.ledger ? energy() : 0;
     if (!hadEnds) wrapAll(grains);  // no contact is at a part of a wall
     const auto isOutside = [&](std::uint32_t identity) {
         const Vector<double>& position = grains.translation[grains.place[identity]].position;
@@ -166,12 +169,13 @@ void Scene::Inside::wrapPlaced(ParticleStore& grains, const GrainChanges& change
     std::vector<std::uint32_t> places;
     for (const auto* identities : {&changes.added, &changes.placed})
         for (const std::uint32_t identity : *identities)
-            if (isOutside(identity)) places.push_back(grains.place[identity]);
+            if (grains.place.contains(identity) && isOutside(identity))  // it may be on another rank
+                places.push_back(grains.place[identity]);
     contacts.bringBackPlaced(grains, places, periodicWalls.endsOfWalls(), [&] {
         for (const std::uint32_t place : places)
             grains.translation[place].position = box.wrap(grains.translation[place].position);
     });
-    if (context.ledger) context.ledger->carried += before - potentialEnergy(grains, context.gravity);
+    if (context.ledger) context.ledger->carried += before - energy();
     periodicWalls.lookAgain();
 }
 

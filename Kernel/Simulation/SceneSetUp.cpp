@@ -159,10 +159,6 @@ void Scene::Inside::check() {
     const double smallest = sizes.smallest();
     periodicWalls.check(scene.wallHandler, scene.wallHandler.hasChanges(), box, laws(), sizes,
                         sizes.hasBodies ? bodies.widest() : 0, std::min(context.smallestRadius, smallest));
-    if (sharing && periodicWalls.haveEnds())
-        throw InputError(
-            "Simulation: a scene on several ranks (setRanks()) cannot repeat walls yet; let them end inside "
-            "the period, or run it on one rank.");
     checkedStep = stepLength();
     scene.wallHandler.changesAreKnown();
     checkedSizes = std::move(sizes);

@@ -133,10 +133,15 @@ void Scene::Inside::bringBack(StepContext& step) {
 
 void Scene::Inside::bringBackAtWalls(StepContext& step) {
     ParticleStore& grains = step.grains();
-    if (!periodicWalls.isBringingBackDue(grains, step.shifts.grains)) return;
-    const double stored =
-        contacts.goThroughFaces(grains, periodicWalls.outside(grains), periodicWalls.endsOfWalls(),
-                                step.time + step.length, [&] { wrapAll(grains); });
+    if (!periodicWalls.isBringingBackDue(grains, step.shifts.grains, checkedSizes.hasBodies,
+                                         contacts.ranks()))
+        return;
+    const double stored = contacts.goThroughFaces(grains, periodicWalls.outside(grains),
+                                                  periodicWalls.endsOfWalls(), step.time + step.length, [&] {
+                                                      wrapAll(grains);
+                                                      if (sharing)
+                                                          exchangeMotion(step);  // a body goes as a whole
+                                                  });
     if (step.ledger) step.ledger->driver -= stored;  // in the step, as finish() sums what is stored anew
     bookWentRound(step);
 }

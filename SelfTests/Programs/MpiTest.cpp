@@ -57,6 +57,24 @@ TEST_F(Mpi, runsHaveTheFilesOfOneProcess) {
     }
 }
 
+/// Sprays, liquid that moves with inlet and outlet, bodies that come and leave, heat and bonds: on two
+/// processes, and begun on two and gone on with on three.
+TEST_F(Mpi, runsOfAllKindsHaveTheFilesOfOneProcess) {
+    for (const std::string kind : {"liquid", "spray", "bodies", "heat", "bonds"}) {
+        SCOPED_TRACE(kind);
+        const std::string own = (folders::binary / "SelfTests/shared-run").string() + " " + kind + " ",
+                          whole = in(kind), onTwo = in(kind + "2"), inParts = in(kind + "23");
+        for (const std::string& command :
+             {own + whole + " 140", onRanks(2) + own + onTwo + " 140", onRanks(2) + own + inParts + " 70",
+              onRanks(3) + own + inParts + " 140"}) {
+            const ProgramResult result = run(command);
+            EXPECT_EQ(result.exitCode, 0) << result.output;
+        }
+        expectSameFiles(whole, onTwo, timed);
+        expectSameFiles(whole, inParts, timed);
+    }
+}
+
 /// A driver has the same files and the same one log.
 TEST_F(Mpi, driversRunAsTheyAre) {
     const std::string drum = (folders::drivers / "RotatingDrum/RotatingDrum").string() +
@@ -101,6 +119,24 @@ TEST_F(Mpi, allEndWhereOneFails) {
         if (what == "setup") continue;
         EXPECT_NO_THROW(checkRestartFile(restart));
         EXPECT_FALSE(fs::exists(restart.string() + ".part"));
+    }
+}
+
+/// A rank that ends by itself, in the middle of a run, leaves the others waiting: half a minute.
+class LongMpi : public Mpi {};
+TEST_F(LongMpi, allEndWhereOneHasEndedEarly) {
+    for (const int ranks : {2, 3}) {
+        const std::string own = in(std::to_string(ranks));
+        const auto begin = std::chrono::steady_clock::now();
+        const ProgramResult result = run(onRanks(ranks) + program + own + " 200 leave 1");
+        const auto lasted = std::chrono::steady_clock::now() - begin;
+        EXPECT_GT(lasted, std::chrono::seconds(29));
+        EXPECT_LT(lasted, std::chrono::seconds(90));
+        EXPECT_NE(result.exitCode, 0);
+        EXPECT_NE(result.exitCode, 124) << "it has not ended by itself";
+        EXPECT_EQ(countOf(result.output, "Error: A rank has ended while others waited for it"), 1u)
+            << result.output;
+        EXPECT_NO_THROW(checkRestartFile(restartFileOf(own + "/run")));
     }
 }
 

@@ -54,7 +54,7 @@ PeriodicBox randomBox(support::Random& random) {
 TEST(GrainExtents, findAllNeighbours) {
     support::Random random(1);
     std::size_t needed = 0, asked = 0, all = 0;
-    for (int round = 0; round < 3000; ++round) {
+    for (int round = 0; round < 10000; ++round) {
         const PeriodicBox box = randomBox(random);
         const std::vector<Sphere> spheres = randomSpheres(random, 2e-3);
         const double reach = random.uniform(0, 0.02);

@@ -4,19 +4,9 @@
 
 #include <array>
 
-#include "Kernel/Output/EnergyFile.h"
-#include "Kernel/Output/Hdf5Output.h"
-#include "Kernel/Output/MercuryOutput.h"
-#include "Kernel/Output/ParaViewOutput.h"
-#include "Kernel/Output/RunTable.h"
-#include "Kernel/Output/WallForceFile.h"
-#include "Kernel/Parts/BondPart.h"
-#include "Kernel/Parts/HeatPart.h"
-#include "Kernel/Sizes/SizeLaws.h"
-#include "SelfTests/Liquid/WetScenes.h"
+#include "SelfTests/Ranks/SharedRuns.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Restart/StateContent.h"
-#include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Support/Refusal.h"
 #include "SelfTests/Support/RunProgram.h"
 #include "SelfTests/Support/SameFiles.h"
@@ -26,48 +16,8 @@ namespace pendular::runOnRanksTest {
 namespace {
 
 using namespace support;
-using Wet = HertzianViscoelasticMindlinLiquidBridgeBagheriSpecies;
-using Moving = Species<HertzianViscoelastic, Mindlin, LiquidMigration<LiquidBridgeBagheri>>;
+using namespace ranks;
 namespace fs = std::filesystem;
-
-constexpr std::size_t half = 210, whole = 420;  // steps
-
-/// Six layers of grains that fall and touch, with a table of the driver and all kinds of files.
-template <class Box>
-class RunWithFiles : public Box {
-public:
-    /// @param finer of how many steps one is made
-    RunWithFiles(const fs::path& folder, std::size_t steps, std::string_view columns, int finer = 1)
-        : Box(6), table(folder / "table.csv", std::string(columns)) {
-        this->setQuiet();
-        this->setName((folder / "run").string());
-        this->setTimeMax(static_cast<double>(steps) * this->getTimeStep());
-        const double interval = 100 * this->getTimeStep();
-        this->setTimeStep(this->getTimeStep() / finer);
-        this->setSaveCount(static_cast<std::size_t>(70 * finer));
-        this->keepRestartFile();
-        this->addOutput(ParaViewOutput().withInterval(interval));
-        this->addOutput(Hdf5Output().withInterval(interval));
-        this->addOutput(WallForceFile(interval));
-        this->addOutput(MercuryOutput().withEnergies(false));
-        if (fs::exists(this->restartFile())) this->restartFrom(this->restartFile());
-    }
-    void completeOutput() override { table.close(); }
-    void visitState(StateArchive& archive) override { table.visitState(archive); }
-
-protected:
-    RunTable table;
-};
-
-/// Of wet grains.
-class SharedRun : public RunWithFiles<scenes::SettlingBox<Wet>> {
-public:
-    SharedRun(const fs::path& folder, std::size_t steps, int finer = 1)
-        : RunWithFiles(folder, steps, "time_s,z_m,J", finer) {}
-    void writeOutput() override {
-        table.row(getTime(), particleHandler.getObject(3).getPosition().z(), getKineticEnergy());
-    }
-};
 
 template <class SomeRun = SharedRun>
 void runOn(std::size_t ranks, const fs::path& folder, std::size_t steps, const RankOptions& options = {}) {
@@ -91,21 +41,6 @@ TEST(RunOnRanks, writesTheFilesOfOneProcess) {
     }
 }
 
-/// With rigid bodies, an account of the energy, and grains that leave at the bottom.
-class RichRun : public SharedRun {
-public:
-    RichRun(const fs::path& folder, std::size_t steps) : SharedRun(folder, steps, 4) {
-        for (std::uint32_t k = 0; k + 1 < 96; k += 8) bodyHandler.join({k, k + 1});
-        keepEnergyLedger();
-        addOutput(EnergyFile(200 * getTimeStep()));
-        Outlet outlet;
-        outlet.setPlane({0, 0, -1}, {0, 0, 0.0018});
-        outletHandler.copyAndAddObject(outlet);
-        wallHandler.keepForces();
-    }
-    void writeOutput() override {}
-};
-
 TEST(RunOnRanks, writesTheFilesOfBodiesAndEnergy) {
     const TestFolder folder;
     const fs::path serial = folder.path() / "1";
@@ -125,40 +60,6 @@ TEST(RunOnRanks, writesTheFilesOfBodiesAndEnergy) {
     }
 }
 
-/// Grains with films whose liquid moves: they touch, part, come by an inlet and leave at the bottom.
-class MovingRun : public RunWithFiles<wet::WetBox<Moving>> {
-public:
-    MovingRun(const fs::path& folder, std::size_t steps)
-        : RunWithFiles(folder, steps, "time_s,begun,ended,formed,ruptured,films_m3,bridges_m3,walls_m3") {
-        listenToContacts();
-        Outlet outlet;
-        outlet.setPlane({0, 0, -1}, {0, 0, 0.0018});
-        outletHandler.copyAndAddObject(outlet);
-        SphericalParticle grain;
-        grain.setSpecies(speciesHandler.getObject(0));
-        Inlet inlet;
-        inlet.setGrain(grain);
-        inlet.setSizes(evenSizes(1.8e-3, 2.1e-3));
-        inlet.setRegion(BoxRegion({0.001, 0.001, 0.0186}, {0.0115, 0.0115, 0.0212}));
-        inlet.setNumberFlow(5000);
-        inletHandler.copyAndAddObject(inlet);
-    }
-
-private:
-    /// Every other grain is thrown up, so that bridges rupture.
-    void actionsAfterTimeStep() override {
-        if (getNumberOfTimeSteps() % 120 != 0) return;
-        for (GrainReference grain : particleHandler)
-            if (grain.getId() % 2 == 0) grain.setVelocity(grain.getVelocity() + Vec3D(0, 0, 1));
-    }
-    void writeOutput() override {
-        const ContactEventCounts& events = contactEventCounts();
-        const LiquidLedger liquid = liquidLedger();
-        table.row(getTime(), events.touchesBegun, events.touchesEnded, events.bridgesFormed,
-                  events.bridgesRuptured, liquid.films, liquid.bridges, liquid.walls);
-    }
-};
-
 TEST(RunOnRanks, writesTheFilesOfLiquidThatMovesAndOfEvents) {
     const TestFolder folder;
     const fs::path serial = folder.path() / "1";
@@ -176,25 +77,6 @@ TEST(RunOnRanks, writesTheFilesOfLiquidThatMovesAndOfEvents) {
         expectSameFiles(serial, own);
     }
 }
-
-/// Grains that conduct heat, from a hot floor and from what their contacts lose.
-class HeatedRun : public SharedRun {
-public:
-    HeatedRun(const fs::path& folder, std::size_t steps) : SharedRun(folder, steps, 4) {
-        const GrainColumnReference temperature = particleHandler.addColumn("temperature", "K", 293);
-        for (std::uint32_t k = 0; k < 96; ++k) temperature[k] = 280 + k;
-        heat = &addPart<HeatPart>(temperature);
-        for (const std::size_t kind : {0u, 1u})
-            heat->setMaterial(speciesHandler.getObject(kind), {.conductivity = 1, .heatCapacity = 800});
-        heat->holdWall(5, 400);
-        heat->heatByContacts();
-        keepEnergyLedger();
-    }
-    void writeOutput() override {
-        table.row(getTime(), heat->ledger().fromWalls, heat->ledger().fromContacts);
-    }
-    HeatPart* heat;
-};
 
 /// Two ranks go on with what three have begun, and the other way round, with cuts that wander.
 template <class SomeRun>
@@ -218,31 +100,6 @@ TEST(RunOnRanks, conductsHeat) {
     EXPECT_GT(alone.heat->ledger().fromContacts, 0);
     expectToGoOnWith<HeatedRun>(serial, folder.path());
 }
-
-/// Chains of grains that bonds join, some of which break; one of the grains leaves the scene.
-class BondedRun : public SharedRun {
-public:
-    BondedRun(const fs::path& folder, std::size_t steps) : SharedRun(folder, steps, 4) {
-        bonds = &addPart<BondPart>();
-        const std::size_t cement =
-            bonds->addMaterial({.radius = 4e-4,
-                                .stiffness = [](const BondSection& s,
-                                                double length) { return beamBond(2e6, 8e5, 0.9, s, length); },
-                                .strength = {.tensile = 1e5, .shear = 1e5},
-                                .damping = 0.1});
-        for (std::uint32_t k = 0; k < 96; ++k)
-            if (k % 4 < 3) bonds->join(k, k + 1, cement);
-        keepEnergyLedger();
-        addOutput(EnergyFile(200 * getTimeStep()));
-        Outlet outlet;
-        outlet.setPlane({0, 0, -1}, {0, 0, 0.0014});
-        outletHandler.copyAndAddObject(outlet);
-    }
-    void writeOutput() override {
-        table.row(getTime(), static_cast<double>(bonds->broken()), energyLedger().fracture);
-    }
-    BondPart* bonds;
-};
 
 TEST(RunOnRanks, bondsGrains) {
     const TestFolder folder;
@@ -269,15 +126,19 @@ void expectToGoOnFromEach() {
             SCOPED_TRACE(fmt::format("{} ranks, then {}", first, second));
             fs::copy(begun, own);
             runOn<SomeRun>(second, own, whole);
-            EXPECT_EQ(contentOf(serial / "table.csv"), contentOf(own / "table.csv"));
-            EXPECT_TRUE(contentOf(serial / "run-restart.h5") == contentOf(own / "run-restart.h5"));
+            expectSameFiles(serial, own);
         }
     }
 }
 
 TEST(RunOnRanks, goesOnFromTheFilesOfAnyNumber) { expectToGoOnFromEach<SharedRun>(); }
 TEST(RunOnRanks, goesOnWithLiquidInletAndOutlet) { expectToGoOnFromEach<MovingRun>(); }
+TEST(LongRunOnRanks, goesOnWithDryGrains) { expectToGoOnFromEach<DryRun>(); }
 TEST(LongRunOnRanks, goesOnWithBodiesAndEnergy) { expectToGoOnFromEach<RichRun>(); }
+TEST(LongRunOnRanks, goesOnWithBodiesThatCome) { expectToGoOnFromEach<ClumpRun>(); }
+TEST(LongRunOnRanks, goesOnWithASpray) { expectToGoOnFromEach<SprayedRun>(); }
+TEST(LongRunOnRanks, goesOnWithHeat) { expectToGoOnFromEach<HeatedRun>(); }
+TEST(LongRunOnRanks, goesOnWithBonds) { expectToGoOnFromEach<BondedRun>(); }
 
 /// Between parts of a run, and in a hook after gather(), all is there on all ranks, and may be changed.
 TEST(RunOnRanks, mayBeChangedBetweenParts) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "Kernel/Sizes/SizeLaws.h"
+#include "SelfTests/Periodic/PavedFloor.h"
 #include "SelfTests/Ranks/SharedScene.h"
 #include "SelfTests/Scenes/SettlingBox.h"
 #include "SelfTests/Scenes/ShearedCloud.h"
@@ -301,6 +302,40 @@ TEST(SharedFeatures, oneBodyThatIsLongerThanAllParts) {
                                       scene.bodyHandler.join(members);
                                   }),
                       {3, 7});
+}
+
+/// Grains, or pairs of them, that go to and fro on a mesh of one period, which is repeated with the scene.
+template <class S>
+auto onRepeatedFloor(bool arePairs) {
+    using namespace periodic;
+    return [=](auto&& use) {
+        std::vector<scenes::GrainMotion> grains;
+        for (int k = 0; k < 50; ++k) {
+            const Vec3D cell(k % 5 + 0.5, k / 5 % 5 + 0.5, 0);
+            grains.push_back({.radius = 0.9e-3 + 2e-6 * k,
+                              .position = 0.2 * length * cell + Vec3D(0, 0, k < 25 ? 1.1e-3 : 3.3e-3),
+                              .velocity = {k % 2 == 0 ? 1.5 : -1.3, 0.3 * (k % 3 - 1), 0}});
+        }
+        auto scene = floors::filmedGrains<S>(grains, {0, 1});
+        scene->keepEnergyLedger();
+        floors::addFloor(*scene, {true, 0.37 * length, 1.37 * length});
+        if (arePairs)
+            for (std::uint32_t k = 0; k < 50; k += 4) scene->bodyHandler.join({k, k + 1});
+        use(*scene);
+    };
+}
+
+TEST(SharedFeatures, wallsThatAreRepeated) {
+    for (const bool arePairs : {false, true})
+        onRepeatedFloor<periodic::floors::Dry>(arePairs)([](auto& scene) {
+            scene.initialise();
+            scene.steps(1000);
+            EXPECT_GT(scene.crossings, 5);
+            EXPECT_TRUE(scene.wallHandler.getObject(0).isRepeated());
+        });
+    expectSameOnRanks(1000, onRepeatedFloor<periodic::floors::Dry>(false), {2, 3, 7});
+    expectSameOnRanks(1000, onRepeatedFloor<periodic::floors::Dry>(true), {2, 3});
+    expectSameOnRanks(1000, onRepeatedFloor<periodic::floors::Migrating>(false), {3});
 }
 
 }  // namespace

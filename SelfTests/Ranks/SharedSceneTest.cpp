@@ -193,6 +193,24 @@ TEST(SharedScene, fewerGrainsThanRanks) {
     }
 }
 
+// The left one of three grains flies to the others: in the end its rank has none, and contacts are the
+// other's.
+TEST(SharedScene, aRankLosesItsLastGrain) {
+    const std::vector<scenes::GrainMotion> grains{{.position = {0, 0, 0}, .velocity = {2.5, 0, 0}},
+                                                  {.position = {4e-3, 0.4e-3, 0}, .velocity = {1, 0, 0}},
+                                                  {.position = {6.2e-3, 0, 0}, .velocity = {1, 0, 0}}};
+    const auto make = [&](auto&& use) {
+        scenes::FewGrains<Wet> scene(scenes::boxMaterial<Wet>(0), grains, 0x1p-19);
+        use(scene);
+    };
+    EXPECT_EQ(runOnRanks(2, cutsStay, 1, make).fewest, 1u);
+    for (const std::size_t steps : {300u, 1500u}) {
+        const Outcome found = runOnRanks(2, cutsStay, steps, make);
+        EXPECT_EQ(found.hash, runOnRanks(1, cutsStay, steps, make).hash);
+        EXPECT_EQ(found.fewest, steps == 300 ? 1u : 0u);
+    }
+}
+
 // A rank has no other ghosts than those that are as near to one of its grains as the farthest of its listed
 // pairs are to each other; it has all of these.
 TEST(SharedScene, hasTheFewestGhosts) {
@@ -251,6 +269,17 @@ TEST_P(HeavySharedBenchmark, hasTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(All, HeavySharedBenchmark, testing::Values("wet-bed", "drum"),
                          scenes::benchmarkTestName);
 
+/// All of them, on any number of ranks and threads.
+class LongSharedBenchmark : public testing::TestWithParam<const char*> {};
+
+TEST_P(LongSharedBenchmark, hasTheSameBits) {
+    const support::TestFolder folder;
+    const auto choice = scenes::smallBenchmark(GetParam(), folder.path());
+    for (const int threads : {1, 2})
+        expectSameOnRanks(1000, [&](auto&& use) { scenes::withMovingBenchmark(choice, threads, use); });
+}
+INSTANTIATE_TEST_SUITE_P(All, LongSharedBenchmark, scenes::benchmarkScenes(), scenes::benchmarkTestName);
+
 // What ranks cannot share yet is refused, by all of them.
 
 template <class SetUp>
@@ -298,6 +327,43 @@ TEST(SharedScene, refusesToTellOfAllGrainsWhatARankCannotKnow) {
     expectRefused([](auto& scene) { return pendularState(scene, true); });
     expectRefused([](auto& scene) { return scene.stabilityAdvice(); });
     expectRefused([](auto& scene) { return stateOf(scene); });
+}
+
+/// Clusters, figures of bridges, advice on the time step, and the number of grains that fields are made of.
+template <class S>
+std::vector<double> figuresOf(S& scene) {
+    std::vector<double> figures;
+    for (const Clusters& clusters : {clustersOfContacts(scene), clustersWithin(scene, 2.4e-3)}) {
+        figures.push_back(static_cast<double>(clusters.list.size()));
+        for (const Cluster& one : clusters.list)
+            figures.insert(figures.end(),
+                           {static_cast<double>(one.size), one.gyrationRadius, one.bridgeVolume});
+    }
+    const PendularState liquid = pendularState(scene, true);
+    figures.insert(figures.end(), {liquid.liquidOverSolid, liquid.bridgesOfAGrain, liquid.overlappingShare});
+    const StabilityAdvice advice = scene.stabilityAdvice();
+    figures.insert(figures.end(), {advice.step, advice.byOverlap, advice.byNeighbours, advice.meanOverlap,
+                                   advice.contactsOfGrain, advice.slidingShare, advice.overlapOfThis});
+    figures.push_back(static_cast<double>(stateOf(scene).grains.size()));
+    return figures;
+}
+
+TEST(SharedScene, tellsOfAllGrainsAfterGathering) {
+    constexpr std::size_t steps = 900;
+    scenes::SettlingBox<Wet> alone(4);
+    alone.initialise();
+    alone.step(steps);
+    const std::vector<double> expected = figuresOf(alone);
+    EXPECT_GT(alone.contacts().counts().acting, 64u);
+    VirtualRanks(3).run([&](Exchange& exchange) {
+        scenes::SettlingBox<Wet> scene(4);
+        scene.setQuiet();
+        scene.setRanks(exchange, cutsWander);
+        scene.initialise();
+        scene.step(steps);
+        scene.gather();
+        EXPECT_EQ(figuresOf(scene), expected);
+    });
 }
 
 TEST(SharedScene, refusesEachConflictInOneSentence) {

@@ -19,11 +19,13 @@ public:
     Actions actions;
     std::function<void()> beforeStep, afterStep;  // of the one who watches
     std::size_t stopAfter = 1'000'000;            // steps
+    bool gathers = false;  // all grains come to all ranks before a hook that changes something
 
 protected:
     void actBefore(std::size_t steps) {
         if (beforeStep) beforeStep();
         const auto [first, last] = actions.before.equal_range(steps);
+        if (gathers && first != last) scene().gather();
         for (auto action = first; action != last; ++action) action->second();
     }
     void actAfter() {

@@ -44,6 +44,7 @@ private:
         if (isDue("step", 120)) throw RunError("A grain of this rank has gone.");
         if (isDue("kill", 120)) std::raise(SIGKILL);
         if (isDue("term", 120)) std::raise(SIGTERM);
+        if (isDue("leave", 120)) std::exit(0);
         if (isDue("disk", 120)) {  // as a full disk: no file grows any more
             std::signal(SIGXFSZ, SIG_IGN);
             const rlimit none{0, 0};
