@@ -104,11 +104,12 @@ void GrainSharing::migrate(ParticleStore& grains, const PeriodicBox& box, const 
     luggage.pack(owners, toEach);
     done.migrated += leaving.size();
     grains.keepOnly(staying);
-    for (Message& message : exchange.swap(std::move(toEach))) takeGrains(message, grains, luggage);
+    for (Message& message : exchange.swap(std::move(toEach))) takeGrains(std::move(message), grains, luggage);
     grains.bodies.sort();
 }
 
-void GrainSharing::takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage) {
+/// The message gives its memory back.
+void GrainSharing::takeGrains(Message message, ParticleStore& grains, const Luggage& luggage) {
     for (auto left = message.take<std::uint32_t>(); left > 0; --left)
         takeRow(message, grains, grains.addPlace(message.take<std::uint32_t>()));
     takeBodies(message, grains.bodies, false);
@@ -125,15 +126,17 @@ void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
     for (const std::uint32_t k : own) addRow(message, grains, k);
     addBodies(message, grains.bodies, bodies);
     luggage.packAll(message);
-    std::vector<Message> toEach(exchange.count(), message);
-    toEach[exchange.rank()] = {};  // it has them
+    std::vector<Message> toEach(exchange.count());
+    for (std::size_t q = 0; q < exchange.count(); ++q)
+        if (q != exchange.rank()) toEach[q] = message;  // it has them
+    message = {};
     grains.keepOnly(own);
     grains.bodies.keepOnly(bodies);
     isDistributed = grains.isShared = false;
     times.forgetSteps();
     std::vector<Message> fromEach = exchange.swap(std::move(toEach));
     for (std::size_t q = 0; q < exchange.count(); ++q)
-        if (q != exchange.rank()) takeGrains(fromEach[q], grains, luggage);
+        if (q != exchange.rank()) takeGrains(std::move(fromEach[q]), grains, luggage);
     grains.bodies.sort();
 }
 

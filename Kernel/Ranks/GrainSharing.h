@@ -106,7 +106,7 @@ private:
     /// Whether one rank has too much more to do than the mean, of a scene that is worth it.
     [[nodiscard]] bool areImbalanced(const ParticleStore& grains, const Luggage& luggage);
     void migrate(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage);
-    static void takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage);
+    static void takeGrains(Message message, ParticleStore& grains, const Luggage& luggage);
     /// Of the own grain at each place.
     [[nodiscard]] std::vector<std::size_t> findOwners(const ParticleStore& grains,
                                                       const PeriodicBox& box) const;

@@ -128,6 +128,10 @@ TEST_F(Mpi, isRefusedWhereProcessesCannotWorkTogether) {
     const std::string one = program + in("1") + " 10";
     expectOneSentence(run("SLURM_NTASKS=4 " + one), "start it with mpirun or srun --mpi=pmix");
     expectOneSentence(run("OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=0 " + one), "MPI knows 1 of them");
+    const std::string other = (folders::binary / "SelfTests/CountMessages.so").string();
+    expectOneSentence(
+        run("PENDULAR_MPI_MODULE=" + other + " OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=0 " + one),
+        "PendularMpi.so is of another version of Pendular");
     EXPECT_EQ(run("SLURM_NTASKS=4 PENDULAR_RANKS=1 " + one).exitCode, 0);
 }
 

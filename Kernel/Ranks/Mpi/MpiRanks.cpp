@@ -68,7 +68,10 @@ public:
             return MPI_Ialltoall(lengthsTo.data(), 1, MPI_INT64_T, lengthsFrom.data(), 1, MPI_INT64_T, work,
                                  request);
         });
-        return swapWithNeighbours(std::move(toEach), {lengthsFrom.begin(), lengthsFrom.end()});
+        std::vector<Message> fromEach =
+            swapWithNeighbours(std::move(toEach), {lengthsFrom.begin(), lengthsFrom.end()});
+        sent.clear();  // it may be the whole scene
+        return fromEach;
     }
 
     [[nodiscard]] std::vector<Message> swapWithNeighbours(
@@ -258,7 +261,8 @@ private:
 
 }  // namespace pendular
 
-extern "C" [[gnu::visibility("default")]] pendular::ProcessRanks* makePendularRanks() {
+/// Its number is another one where Exchange or ProcessRanks have other functions (ProgramRanks.cpp).
+extern "C" [[gnu::visibility("default")]] pendular::ProcessRanks* makePendularRanks2() {
     static pendular::MpiRanks ranks;
     return &ranks;
 }
