@@ -117,6 +117,7 @@ void GrainSharing::takeGrains(Message message, ParticleStore& grains, const Lugg
 }
 
 void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
+    times.endSteps(exchange);
     std::vector<std::uint32_t> own, bodies(grains.bodies.size());
     for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
         if (!grains.isGap(k)) own.push_back(k);
@@ -133,7 +134,6 @@ void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
     grains.keepOnly(own);
     grains.bodies.keepOnly(bodies);
     isDistributed = grains.isShared = false;
-    times.forgetSteps();
     std::vector<Message> fromEach = exchange.swap(std::move(toEach));
     for (std::size_t q = 0; q < exchange.count(); ++q)
         if (q != exchange.rank()) takeGrains(std::move(fromEach[q]), grains, luggage);

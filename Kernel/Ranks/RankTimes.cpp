@@ -17,8 +17,12 @@ static double meanOf(const std::vector<double>& values) {
 void RankTimes::beginList(const Exchange& exchange) {
     listBegan = Clock::now();
     const double before = all.working;
-    all = sums(exchange);
+    endSteps(exchange);
     workSinceList = all.working - before;
+}
+
+void RankTimes::endSteps(const Exchange& exchange) {
+    all = sums(exchange);
     areSteps = false;
 }
 

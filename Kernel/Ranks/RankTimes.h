@@ -18,8 +18,9 @@ public:
     void beginList(const Exchange& exchange);
     void endList(const Exchange& exchange);
     void addStep() { ++steps; }
-    /// What was measured since the last list does not count: files were written.
-    void forgetSteps() { areSteps = false; }
+    /// Grains are gathered: what comes until the next list are no steps, and those before it, which end
+    /// early, say nothing of how slow a rank is.
+    void endSteps(const Exchange& exchange);
 
     /// Whether one rank has too much more to do than the mean, of a scene that is worth it. All ranks ask
     /// together, and get the same answer.

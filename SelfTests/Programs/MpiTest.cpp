@@ -68,7 +68,7 @@ TEST_F(Mpi, driversRunAsTheyAre) {
     EXPECT_EQ(alone.exitCode, 0) << alone.output;
     EXPECT_EQ(shared.exitCode, 0) << shared.output;
     expectSameFiles(in("1"), in("2"), timed);
-    for (const char* once : {"Summary of the run", "120 grains, 0.00101 s in"})
+    for (const char* once : {"Summary of the run", "120 grains, 0.00101 s in", "waiting for other ranks"})
         EXPECT_EQ(countOf(shared.output, once), 1u) << shared.output;
     const ProgramResult wrong = run(onRanks(2) + drum + in("2") + " --speed 3");
     EXPECT_NE(wrong.exitCode, 0);
