@@ -31,6 +31,8 @@ struct Options {
     std::size_t exchange = 0;  // grains that come and go in a step
     bool header = false;
     bool grains = false;   // print these instead
+    bool ranks = false;    // print what they did
+    double wander = 0;     // share of the grains that go to another rank at each list
     std::string paraView;  // beginning of the names of frames; empty: none
 };
 
@@ -118,12 +120,71 @@ private:
     std::deque<std::uint32_t> alive;
 };
 
+/// What ranks do in the timed steps.
+class RanksAtWork {
+public:
+    explicit RanksAtWork(Scene& shared) : scene(shared), ranks(ranksOfProgram()) {}
+
+    static constexpr std::string_view columns =
+        ",ranks,processor_seconds_of_all,largest_work_over_mean,waiting_over_steps,lists,list_s,cuts,cut_s,"
+        "migrated_a_list_over_grains,ghosts_of_rank,asked_of_rank,bytes_a_step_of_rank";
+
+    void share(double wander) {
+        if (ranks) scene.setRanks(*ranks, {.cutsWander = wander > 0, .wanderBy = wander});
+    }
+    void begin() { before = now(); }
+    void end() { after = now(); }
+
+    void print() const {
+        const auto over = [](double value, double by) { return by > 0 ? value / by : 0; };
+        double cuts = 0, migrated = 0, ghosts = 0, asked = 0;                              // of all ranks
+        double cutting = 0, listing = 0, working = 0, waiting = 0, most = 0, seconds = 0;  // s
+        for (std::size_t q = 0; q < after.size(); ++q) {
+            const RankCounts &first = before[q].counts, &last = after[q].counts;
+            cuts += static_cast<double>(last.cuts - first.cuts);
+            migrated += static_cast<double>(last.migrated - first.migrated);
+            // Of all lists: a bed at rest is listed once.
+            const auto allLists = static_cast<double>(last.lists);
+            ghosts += over(static_cast<double>(last.ghosts), allLists);
+            asked += over(static_cast<double>(last.asked), allLists);
+            cutting += last.cutting - first.cutting, listing += last.listing - first.listing;
+            working += last.working - first.working, waiting += last.waiting - first.waiting;
+            most = std::max(most, last.working - first.working);
+            seconds += after[q].processor - before[q].processor;
+        }
+        const auto& grains = scene.particleHandler.store();
+        const auto count = static_cast<double>(after.size());
+        const std::size_t lists = after[0].counts.lists - before[0].counts.lists;  // of each rank
+        fmt::print(",{},{:.6g},{:.4f},{:.4f},{},{:.4g},{},{:.4g},{:.4g},{:.1f},{:.1f},{:.0f}", after.size(),
+                   seconds, over(most * count, working), over(waiting, working + waiting), lists,
+                   over(listing / count, static_cast<double>(lists)), cuts / count, over(cutting, cuts),
+                   over(migrated / static_cast<double>(grains.size()), static_cast<double>(lists)),
+                   over(ghosts, count), over(asked, count), over(ghosts, count) * (grains.hasSpin ? 72 : 48));
+    }
+
+private:
+    struct OfRank {
+        RankCounts counts;
+        double processor;  // s
+    };
+    [[nodiscard]] std::vector<OfRank> now() const {
+        const OfRank own{scene.rankCounts(), processorTime()};
+        return ranks ? ranks->ofAll(own) : std::vector{own};
+    }
+
+    Scene& scene;
+    ProcessRanks* ranks;
+    std::vector<OfRank> before, after;
+};
+
 void measure(Scene& scene, const Options& options, double memoryBefore) {
     scene.setNumberOfThreads(options.threads);
     if (!options.paraView.empty()) scene.setName(options.paraView);
-    if (ProcessRanks* const ranks = ranksOfProgram()) scene.setRanks(*ranks, {});
+    RanksAtWork ranks(scene);
+    ranks.share(options.wander);
     scene.initialise();
     scene.step(options.warm);
+    ranks.begin();
     const std::size_t rebuildsBefore = scene.contacts().rebuildCount();
     GrainFlow flow(scene, options.exchange);
     const double processorBefore = processorTime();
@@ -136,6 +197,7 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
         }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double processorSeconds = processorTime() - processorBefore;
+    ranks.end();
     flow.report(seconds);
     scene.gather();
 
@@ -148,13 +210,16 @@ void measure(Scene& scene, const Options& options, double memoryBefore) {
         fmt::print(
             "scene,species,particles,listed_pairs,touching,threads,steps,seconds,million_particle_steps_per_"
             "second,bytes_per_particle,rebuilds,kinetic_energy_J,state_hash,peak_bytes_per_particle,"
-            "processor_seconds\n");
-    fmt::print("{},{},{},{},{},{},{},{:.6g},{:.4f},{:.1f},{},{:.6e},{:016x},{:.1f},{:.6g}\n",
+            "processor_seconds{}\n",
+            options.ranks ? RanksAtWork::columns : "");
+    fmt::print("{},{},{},{},{},{},{},{:.6g},{:.4f},{:.1f},{},{:.6e},{:016x},{:.1f},{:.6g}",
                options.choice.scene, scene.laws().name, grains.size(), listed, touching, options.threads,
                options.steps, seconds, count * static_cast<double>(options.steps) / seconds * 1e-6,
                static_cast<double>(grains.bytes() + scene.contacts().bytes()) / count,
                scene.contacts().rebuildCount() - rebuildsBefore, translationalEnergy(grains),
                stateHash(grains), (peakMemory() - memoryBefore) / count, processorSeconds);
+    if (options.ranks) ranks.print();
+    fmt::print("\n");
     if (!options.paraView.empty()) measureFrames(scene, seconds / static_cast<double>(options.steps));
 }
 
@@ -173,6 +238,7 @@ void printGrains(const Options& options) {
 int run(const Options& options) {
     if (options.grains) return printGrains(options), 0;
     checkValue("benchmark-scenes", "steps", static_cast<double>(options.steps), "", {1, 1e12});
+    checkValue("benchmark-scenes", "wander", options.wander, "of the grains", {0, 1});
     const double memoryBefore = peakMemory();
     scenes::withBenchmarkScene(options.choice, options.threads,
                                [&](Scene& scene) { measure(scene, options, memoryBefore); });
@@ -221,6 +287,10 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--paraview", o.paraView,
                    "writes a frame for ParaView of this name after the timed steps, and says what it costs");
+    app.add_flag("--rank-columns", o.ranks, "also say what ranks did in the timed steps (mpirun)");
+    app.add_option("--wander", o.wander,
+                   "share of the grains that go to another rank at each list, by new cuts")
+        ->capture_default_str();
     app.add_flag("--header", o.header, "print the names of the columns first");
     app.add_flag(
         "--grains", o.grains,

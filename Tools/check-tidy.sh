@@ -57,9 +57,12 @@ for program in clang++ clang-tidy; do
     command -v "$program" >/dev/null || refuse "$program is not installed (Tools/install-dependencies.sh --clang)"
 done
 
-# The flags of clang for a file of the kernel, with those for HDF5; and what CMake generates.
+# The flags of clang for a file of the kernel, with those for HDF5 and MPI; and what CMake generates.
 cmake -G Ninja -S "$folder" -B "$build" -D CMAKE_CXX_COMPILER=clang++ -D CMAKE_BUILD_TYPE=Release -D CMAKE_EXPORT_COMPILE_COMMANDS=ON \
     -D PENDULAR_PRECOMPILED_HEADERS=OFF -D PENDULAR_BUILD_TESTS=OFF >/dev/null
 sed -n 's/^ *"command": ".*clang++ \(.*\) -o .*Kernel\/State\/Hdf5File.cpp",$/\1/p' "$build/compile_commands.json" >"$build/flags"
+mpi=$(grep '"command".*MpiRanks.cpp' "$build/compile_commands.json" || true)
+grep -o -e '-isystem [^ ]*' <<<"$mpi" >>"$build/flags" || true
+if [[ -z $mpi ]]; then files=$(grep -v MpiRanks.cpp <<<"$files") || exit 0; fi
 awk -F/ '{ name = $0; sub("/[^/]*$", "", name); row[name] = row[name] " " $0 } END { for (name in row) print row[name] }' <<<"$files" |
     xargs -P "$(getconf _NPROCESSORS_ONLN)" -L 1 "$folder/Tools/check-tidy.sh" --group

@@ -198,6 +198,14 @@ void ContactLiquid::look(const ParticleStore& grains, std::vector<std::uint32_t>
         if (grains.place.contains(identity)) places.push_back(grains.place[identity]);
 }
 
+/// Where films meet nothing has acted yet. Whether the kernel has written a record, of no force, depends on
+/// what else is in the block.
+static void clearRecord(ContactMemory& memory, std::size_t slot) {
+    if (memory.getLayout().hasTorque) memory.records.clear(slot);
+    else memory.forces[slot] = {};
+    if (!memory.torques.empty()) memory.torques[slot] = {};
+}
+
 void ContactLiquid::move(ContactStore& store, const LiquidLaws& laws, ParticleStore& grains,
                          ContactEvents& events) {
     places.clear(), ruptured.clear(), formed.clear();
@@ -232,6 +240,7 @@ void ContactLiquid::move(ContactStore& store, const LiquidLaws& laws, ParticleSt
     for (const std::uint32_t contact : formed) {
         if (const FilmContact* const met = liquid.findFilmContact(contact)) {
             events.startColumns(store, contact);
+            clearRecord(store.memory, store.slotOf(contact));
             const Bucket& bucket = store.bucketOf(contact / Pack::lanes);
             ContactNumbers bridge{};
             store.memory.interaction.get(store.slotOf(contact), bridge.data());

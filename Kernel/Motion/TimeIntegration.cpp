@@ -233,9 +233,13 @@ double TimeIntegration::begin(ParticleStore& grains, double step, int threads, c
     return withLoops(grains.hasSpin, false, box.imagesMove,
                      [&]<class L>() { return L::begin(grains, step, threads, scheme, box); });
 }
-/// Grains of rigid bodies, and those of other ranks, are not moved here.
+/// Grains of rigid bodies are not moved here. Those of other ranks are not, either: nobody needs their
+/// totals.
 static void noteTaken(const ParticleStore& grains, const ContactStore& store) {
-    if (grains.bodies.empty() && grains.ownSize() == grains.size()) store.totals.allAreTaken();
+    if (!grains.bodies.empty() || !store.keepsTotals) return;
+    for (std::size_t ghost = grains.ownSize(); ghost < grains.size(); ++ghost)
+        static_cast<void>(store.totals.take(ghost));
+    store.totals.allAreTaken();
 }
 void TimeIntegration::finish(ParticleStore& grains, const ContactStore& store, const Vector<double>& gravity,
                              double step, int threads, const Integrator& scheme) {

@@ -1,6 +1,7 @@
 #include "Kernel/Ranks/Bisection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -20,6 +21,44 @@ void Bisection::cut(std::vector<Point> points, std::span<const double> shares) {
     cutPart(points, shares, 0);
 }
 
+namespace {
+
+struct Cut {
+    double border = infinity;  // m
+    double width = -1;         // m, of the slab around it that has so many points as a layer
+};
+
+/// Where the share of the weight is on the low side, and how thick a layer of points is there.
+/// @param points place (m) and weight, in any order
+Cut findCut(std::vector<std::pair<double, double>> points, double share) {
+    const auto begin = points.begin();
+    const auto at = [&](std::size_t k) { return begin + static_cast<std::ptrdiff_t>(k); };
+    const auto weightOf = [&](std::size_t from, std::size_t to) {
+        return std::accumulate(at(from), at(to), 0.0,
+                               [](double sum, const auto& p) { return sum + p.second; });
+    };
+    const double until = share * weightOf(0, points.size());
+    double passed = 0;
+    std::size_t low = 0, high = points.size();
+    while (low < high) {
+        const std::size_t middle = (low + high) / 2;
+        std::nth_element(at(low), at(middle), at(high));
+        const double before = passed + weightOf(low, middle), here = points[middle].second;
+        if (before + 0.5 * here < until) passed = before + here, low = middle + 1;
+        else high = middle;
+    }
+    if (low == points.size()) return {};
+    const double border = points[low].first;
+    const auto half =
+        static_cast<std::size_t>(0.5 * std::pow(static_cast<double>(points.size()), 2.0 / 3)) + 1;
+    const std::size_t first = low - std::min(low, half), last = std::min(low + half, points.size() - 1);
+    std::nth_element(begin, at(first), at(low));
+    std::nth_element(at(low), at(last), points.end());
+    return {border, points[last].first - points[first].first};
+}
+
+}  // namespace
+
 std::uint32_t Bisection::cutPart(std::span<Point> points, std::span<const double> shares,
                                  std::uint32_t firstRank) {
     const auto number = static_cast<std::uint32_t>(nodes.size());
@@ -28,27 +67,24 @@ std::uint32_t Bisection::cutPart(std::span<Point> points, std::span<const double
         nodes[number].low = firstRank;
         return number;
     }
-    double widest = -1;
-    std::uint32_t axis = 0;
-    for (std::uint32_t a = 0; a < 3 && !points.empty(); ++a) {
-        const auto [low, high] =
-            std::ranges::minmax(points, {}, [&](const Point& p) { return p.position.*axes[a]; });
-        const double width = high.position.*axes[a] - low.position.*axes[a];
-        if (width > widest) widest = width, axis = a;
-    }
-    std::ranges::sort(points, {}, [&](const Point& p) { return p.position.*axes[axis]; });
     const std::size_t lowRanks = shares.size() / 2;
     const auto sumOf = [](std::span<const double> some) {
         return std::accumulate(some.begin(), some.end(), 0.0);
     };
-    double weight = 0, passed = 0;
-    for (const Point& point : points) weight += point.weight;
-    const double until = weight * sumOf(shares.first(lowRanks)) / sumOf(shares);
-    std::size_t next = 0;
-    while (next < points.size() && passed + 0.5 * points[next].weight < until)
-        passed += points[next++].weight;
+    const double share = sumOf(shares.first(lowRanks)) / sumOf(shares);
+    Cut best;
+    std::uint32_t axis = 0;
+    std::vector<std::pair<double, double>> along(points.size());
+    for (std::uint32_t a = 0; a < 3; ++a) {
+        std::ranges::transform(points, along.begin(),
+                               [&](const Point& p) { return std::pair(p.position.*axes[a], p.weight); });
+        if (const Cut found = findCut(along, share); found.width > best.width) best = found, axis = a;
+    }
     nodes[number].axis = axis;
-    nodes[number].border = next < points.size() ? points[next].position.*axes[axis] : infinity;
+    nodes[number].border = best.border;
+    const auto isLow = [&](const Point& p) { return p.position.*axes[axis] < best.border; };
+    const auto next =
+        static_cast<std::size_t>(std::partition(points.begin(), points.end(), isLow) - points.begin());
     const std::uint32_t low = cutPart(points.first(next), shares.first(lowRanks), firstRank),
                         high = cutPart(points.subspan(next), shares.subspan(lowRanks),
                                        firstRank + static_cast<std::uint32_t>(lowRanks));

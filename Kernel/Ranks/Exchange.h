@@ -36,6 +36,11 @@ public:
         for (Message& from : swap(std::vector<Message>(count(), message)))
             for (std::int64_t& integer : integers) integer += from.take<std::int64_t>();
     }
+    /// largest() in two calls: other messages may be on their way between them, so that ranks wait once.
+    virtual void beginLargest(double own) { begun = own; }
+    [[nodiscard]] virtual double endLargest() { return largest(begun); }
+    /// s, how long this rank has waited for others so far.
+    [[nodiscard]] virtual double waited() const { return 0; }
     /// What each rank gives, in the order of ranks.
     template <class Value>
     [[nodiscard]] std::vector<Value> ofAll(const Value& own) {
@@ -45,6 +50,9 @@ public:
         for (Message& from : swap(std::vector<Message>(count(), message))) all.push_back(from.take<Value>());
         return all;
     }
+
+private:
+    double begun = 0;
 };
 
 }  // namespace pendular

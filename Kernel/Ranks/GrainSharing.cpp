@@ -1,7 +1,11 @@
 #include "Kernel/Ranks/GrainSharing.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "Kernel/Ranks/GrainExtents.h"
@@ -33,6 +37,7 @@ void takeBodies(Message& message, RigidBodies& bodies, bool areGhosts) {
 
 void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, double reach,
                               const Luggage& luggage) {
+    times.beginList(exchange);
     if (!isDistributed || options.cutsWander || areImbalanced(grains, luggage)) cutAnew(grains, box, luggage);
     migrate(grains, box, luggage);
     isDistributed = grains.isShared = true;
@@ -42,29 +47,41 @@ void GrainSharing::distribute(ParticleStore& grains, const PeriodicBox& box, dou
 }
 
 bool GrainSharing::areImbalanced(const ParticleStore& grains, const Luggage& luggage) {
-    constexpr double worthIt = 1000;  // grains and contacts of a rank
     done.load = 0;
     for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
         if (!grains.isGap(k)) done.load += luggage.weightOf(k);
-    const std::vector<double> loads = exchange.ofAll(done.load);
-    const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / static_cast<double>(loads.size());
-    return mean > worthIt && std::ranges::max(loads) > 1.1 * mean;
+    return times.areImbalanced(exchange, done.load, options.balanceAfter);
 }
 
-/// Where all ranks have all grains, each gives its share of the points.
+RankCounts GrainSharing::counts() const {
+    RankCounts all = done;
+    const RankTimes::Sums took = times.sums(exchange);
+    all.working = took.working;
+    all.waiting = took.waiting;
+    all.listing = took.listing - done.cutting;
+    return all;
+}
+
+/// Where all ranks have all grains, each gives its share of the points. A grain weighs as it takes time on
+/// the rank that had it.
 void GrainSharing::cutAnew(const ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage) {
+    const auto begin = std::chrono::steady_clock::now();
     const std::size_t first = isDistributed ? 0 : exchange.rank(),
                       step = isDistributed ? 1 : exchange.count();
     std::vector<Bisection::Point> points;
-    for (std::size_t k = first; k < grains.ownSize(); k += step)
-        if (!grains.isGap(k))
-            points.push_back(
-                {box.wrap(grains.translation[k].position), luggage.weightOf(static_cast<std::uint32_t>(k))});
+    for (std::size_t k = first; k < grains.ownSize(); k += step) {
+        if (grains.isGap(k)) continue;
+        const Vector<double> position = box.wrap(grains.translation[k].position);
+        const double slowness = times.areMeasured() ? times.slownessOf(cuts.ownerOf(position)) : 1;
+        points.push_back({position, slowness * luggage.weightOf(static_cast<std::uint32_t>(k))});
+    }
     std::vector<double> shares(exchange.count(), 1);
     if (options.cutsWander)
         for (std::size_t q = 0; q < shares.size(); ++q)
-            shares[q] += 0.5 * static_cast<double>((7 * done.lists + 3 * q) % 5);
+            shares[q] += options.wanderBy * static_cast<double>((7 * done.lists + 3 * q) % 5);
     cuts.cut(exchange, points, shares);
+    ++done.cuts;
+    done.cutting += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 void GrainSharing::migrate(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage) {
@@ -87,11 +104,12 @@ void GrainSharing::migrate(ParticleStore& grains, const PeriodicBox& box, const 
     luggage.pack(owners, toEach);
     done.migrated += leaving.size();
     grains.keepOnly(staying);
-    for (Message& message : exchange.swap(std::move(toEach))) takeGrains(message, grains, luggage);
+    for (Message& message : exchange.swap(std::move(toEach))) takeGrains(std::move(message), grains, luggage);
     grains.bodies.sort();
 }
 
-void GrainSharing::takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage) {
+/// The message gives its memory back.
+void GrainSharing::takeGrains(Message message, ParticleStore& grains, const Luggage& luggage) {
     for (auto left = message.take<std::uint32_t>(); left > 0; --left)
         takeRow(message, grains, grains.addPlace(message.take<std::uint32_t>()));
     takeBodies(message, grains.bodies, false);
@@ -99,6 +117,7 @@ void GrainSharing::takeGrains(Message& message, ParticleStore& grains, const Lug
 }
 
 void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
+    times.endSteps(exchange);
     std::vector<std::uint32_t> own, bodies(grains.bodies.size());
     for (std::uint32_t k = 0; k < grains.ownSize(); ++k)
         if (!grains.isGap(k)) own.push_back(k);
@@ -108,14 +127,16 @@ void GrainSharing::gather(ParticleStore& grains, const Luggage& luggage) {
     for (const std::uint32_t k : own) addRow(message, grains, k);
     addBodies(message, grains.bodies, bodies);
     luggage.packAll(message);
-    std::vector<Message> toEach(exchange.count(), message);
-    toEach[exchange.rank()] = {};  // it has them
+    std::vector<Message> toEach(exchange.count());
+    for (std::size_t q = 0; q < exchange.count(); ++q)
+        if (q != exchange.rank()) toEach[q] = message;  // it has them
+    message = {};
     grains.keepOnly(own);
     grains.bodies.keepOnly(bodies);
     isDistributed = grains.isShared = false;
     std::vector<Message> fromEach = exchange.swap(std::move(toEach));
     for (std::size_t q = 0; q < exchange.count(); ++q)
-        if (q != exchange.rank()) takeGrains(fromEach[q], grains, luggage);
+        if (q != exchange.rank()) takeGrains(std::move(fromEach[q]), grains, luggage);
     grains.bodies.sort();
 }
 
@@ -239,6 +260,7 @@ void GrainSharing::keepGhosts(ParticleStore& grains, const std::vector<bool>& is
         for (const std::uint32_t identity : std::exchange(sent[q], {}))
             if (fromEach[q].take<bool>()) sent[q].push_back(identity);
     }
+    times.endList(exchange);
 }
 
 void GrainSharing::findPlaces(const ParticleStore& grains) {
@@ -261,54 +283,75 @@ void GrainSharing::findPlaces(const ParticleStore& grains) {
     gotBodiesPlaces = ofEach(gotBodies, ofBody);
 }
 
-template <class AddGrain, class AddBody, class TakeGrain, class TakeBody>
-void GrainSharing::exchangeWithGhosts(std::size_t bytesOfGrain, std::size_t bytesOfBody, AddGrain&& addGrain,
-                                      AddBody&& addBody, TakeGrain&& takeGrain, TakeBody&& takeBody) {
+template <class GrainAt, class BodyAt, class TakeGrain, class TakeBody>
+void GrainSharing::exchangeWithGhosts(GrainAt&& grainAt, BodyAt&& bodyAt, TakeGrain&& takeGrain,
+                                      TakeBody&& takeBody) {
     if (!isDistributed) return;
+    using OfGrain = std::invoke_result_t<GrainAt, std::uint32_t>;
+    using OfBody = std::invoke_result_t<BodyAt, std::uint32_t>;
     std::vector<Message> toEach(exchange.count());
     std::vector<std::size_t> bytesFromEach;
     for (std::size_t q = 0; q < exchange.count(); ++q) {
-        for (const std::uint32_t place : sentPlaces[q]) addGrain(place, toEach[q]);
-        for (const std::uint32_t at : sentBodiesPlaces[q]) addBody(at, toEach[q]);
-        bytesFromEach.push_back(bytesOfGrain * gotPlaces[q].size() + bytesOfBody * gotBodiesPlaces[q].size());
+        toEach[q].addEach<OfGrain>(sentPlaces[q].size(),
+                                   [&](std::size_t k) { return grainAt(sentPlaces[q][k]); });
+        toEach[q].addEach<OfBody>(sentBodiesPlaces[q].size(),
+                                  [&](std::size_t k) { return bodyAt(sentBodiesPlaces[q][k]); });
+        bytesFromEach.push_back(sizeof(OfGrain) * gotPlaces[q].size() +
+                                sizeof(OfBody) * gotBodiesPlaces[q].size());
     }
     std::vector<Message> fromEach = exchange.swapWithNeighbours(std::move(toEach), bytesFromEach);
     for (std::size_t q = 0; q < exchange.count(); ++q) {
-        for (const std::uint32_t place : gotPlaces[q]) takeGrain(place, fromEach[q]);
-        for (const std::uint32_t at : gotBodiesPlaces[q]) takeBody(at, fromEach[q]);
+        for (const std::uint32_t place : gotPlaces[q]) takeGrain(place, fromEach[q].take<OfGrain>());
+        for (const std::uint32_t at : gotBodiesPlaces[q]) takeBody(at, fromEach[q].take<OfBody>());
     }
 }
 
 void GrainSharing::tellGhosts(std::span<double> ofGrains, std::span<double> ofBodies) {
-    const auto addOf = [](std::span<double> numbers) {
-        return [numbers](std::uint32_t at, Message& to) { to.add(numbers[at]); };
+    const auto numberOf = [](std::span<double> numbers) {
+        return [numbers](std::uint32_t at) { return numbers[at]; };
     };
     const auto takeOf = [](std::span<double> numbers) {
-        return [numbers](std::uint32_t at, Message& from) { from.take(numbers[at]); };
+        return [numbers](std::uint32_t at, double number) { numbers[at] = number; };
     };
-    exchangeWithGhosts(sizeof(double), sizeof(double), addOf(ofGrains), addOf(ofBodies), takeOf(ofGrains),
-                       takeOf(ofBodies));
+    exchangeWithGhosts(numberOf(ofGrains), numberOf(ofBodies), takeOf(ofGrains), takeOf(ofBodies));
+}
+
+template <bool spins, bool accelerates>
+void GrainSharing::exchangeMotionOf(ParticleStore& grains) {
+    using Vectors = std::array<Vector<double>, (spins ? 3 : 2) + (accelerates ? (spins ? 2 : 1) : 0)>;
+    const auto forEachPart = [&](std::uint32_t place, auto&& use) {
+        use(grains.translation[place].position), use(grains.translation[place].velocity);
+        if constexpr (spins) use(grains.rotation[place].spin);
+        if constexpr (accelerates) use(grains.acceleration[place]);
+        if constexpr (accelerates && spins) use(grains.rotation[place].angularAcceleration);
+    };
+    exchangeWithGhosts(
+        [&](std::uint32_t place) {
+            Vectors parts;
+            std::size_t k = 0;
+            forEachPart(place, [&](const Vector<double>& part) { parts[k++] = part; });
+            return parts;
+        },
+        [&](std::uint32_t at) { return grains.bodies[at]; },
+        [&](std::uint32_t place, const Vectors& parts) {
+            std::size_t k = 0;
+            forEachPart(place, [&](Vector<double>& part) { part = parts[k++]; });
+        },
+        [&](std::uint32_t at, const RigidBody& body) { grains.bodies[at] = body; });
 }
 
 void GrainSharing::exchangeMotion(ParticleStore& grains, bool withAccelerations) {
-    const auto forEachPart = [&](std::uint32_t place, auto&& use) {
-        use(grains.translation[place].position), use(grains.translation[place].velocity);
-        if (grains.hasSpin) use(grains.rotation[place].spin);
-        if (!withAccelerations) return;
-        use(grains.acceleration[place]);
-        if (grains.hasSpin) use(grains.rotation[place].angularAcceleration);
-    };
-    const std::size_t vectors = (grains.hasSpin ? 3 : 2) + (withAccelerations ? (grains.hasSpin ? 2 : 1) : 0);
-    exchangeWithGhosts(
-        vectors * sizeof(Vector<double>), sizeof(RigidBody),
-        [&](std::uint32_t place, Message& to) {
-            forEachPart(place, [&](const Vector<double>& part) { to.add(part); });
-        },
-        [&](std::uint32_t at, Message& to) { to.add(grains.bodies[at]); },
-        [&](std::uint32_t place, Message& from) {
-            forEachPart(place, [&](Vector<double>& part) { from.take(part); });
-        },
-        [&](std::uint32_t at, Message& from) { from.take(grains.bodies[at]); });
+    if (grains.hasSpin)
+        withAccelerations ? exchangeMotionOf<true, true>(grains) : exchangeMotionOf<true, false>(grains);
+    else withAccelerations ? exchangeMotionOf<false, true>(grains) : exchangeMotionOf<false, false>(grains);
+}
+
+double GrainSharing::exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift) {
+    if (!isDistributed) return ownShift;
+    times.addStep();
+    exchange.beginLargest(std::isnan(ownShift) ? infinity : ownShift);
+    exchangeMotion(grains, withAccelerations);
+    return exchange.endLargest();
 }
 
 }  // namespace pendular

@@ -9,6 +9,7 @@
 #include "Kernel/Ranks/AllRanks.h"
 #include "Kernel/Ranks/Bisection.h"
 #include "Kernel/Ranks/Exchange.h"
+#include "Kernel/Ranks/RankTimes.h"
 
 namespace pendular {
 
@@ -17,6 +18,9 @@ struct RankOptions {
     /// Space is cut anew, and unevenly, at each list of contacts, so that many grains change their rank: for
     /// tests.
     bool cutsWander = false;
+    double wanderBy = 0.5;  // how uneven these cuts are
+    /// Space is cut anew by measured times, too: as often as ranks have worked for so long (s).
+    double balanceAfter = 2;
 };
 
 /// What this rank has done so far.
@@ -27,7 +31,12 @@ struct RankCounts {
     std::size_t ghosts = 0;     // and of these, those that are in a contact or a rigid body
     std::size_t heldTwice = 0;  // contacts that came from two ranks, over the lists
     std::size_t unequal = 0;    // and of these, those that were not the same bit for bit
-    double load = 0;            // of the own grains at the last list, as they are balanced: see Luggage
+    double load = 0;            // of the own grains at the last list: see Luggage
+    std::size_t cuts = 0;       // of space
+    double cutting = 0;         // s, these have taken
+    double listing = 0;         // s, lists have taken without that, and with waiting
+    double working = 0;         // s, steps between lists, without waiting for others
+    double waiting = 0;         // s, in these steps
 };
 
 /// What goes along with grains to other ranks.
@@ -67,6 +76,9 @@ public:
     /// Ghosts get the motion of the grains that they stand for.
     /// @param withAccelerations contacts feel them
     void exchangeMotion(ParticleStore& grains, bool withAccelerations);
+    /// The same for a step, and at the same time the largest of how far grains have moved on the ranks.
+    /// @param ownShift m; what is not a number counts as infinite
+    [[nodiscard]] double exchangeStep(ParticleStore& grains, bool withAccelerations, double ownShift);
 
     /// Ghosts get a number of the grains, or of the rigid bodies, that they stand for.
     /// @param ofGrains at each place; @param ofBodies at each place, ghosts included
@@ -84,17 +96,17 @@ public:
     }
     /// Whether each rank has its own grains only: from the first list on, until they are gathered.
     [[nodiscard]] bool areDistributed() const { return isDistributed; }
-    [[nodiscard]] const RankCounts& counts() const { return done; }
+    [[nodiscard]] RankCounts counts() const;
     void countHeldTwice(std::size_t all, std::size_t unequal) {
         done.heldTwice += all, done.unequal += unequal;
     }
 
 private:
     void cutAnew(const ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage);
-    /// Whether one rank has a tenth more to do than the mean, of a scene that is worth it.
+    /// Whether one rank has too much more to do than the mean, of a scene that is worth it.
     [[nodiscard]] bool areImbalanced(const ParticleStore& grains, const Luggage& luggage);
     void migrate(ParticleStore& grains, const PeriodicBox& box, const Luggage& luggage);
-    static void takeGrains(Message& message, ParticleStore& grains, const Luggage& luggage);
+    static void takeGrains(Message message, ParticleStore& grains, const Luggage& luggage);
     /// Of the own grain at each place.
     [[nodiscard]] std::vector<std::size_t> findOwners(const ParticleStore& grains,
                                                       const PeriodicBox& box) const;
@@ -103,15 +115,17 @@ private:
                     std::span<Message> toEach) const;
     void findGhosts(ParticleStore& grains, const PeriodicBox& box, double reach);
 
-    /// What is known of own grains and bodies goes to their ghosts: add(place, message), take(place,
-    /// message).
-    template <class AddGrain, class AddBody, class TakeGrain, class TakeBody>
-    void exchangeWithGhosts(std::size_t bytesOfGrain, std::size_t bytesOfBody, AddGrain&& addGrain,
-                            AddBody&& addBody, TakeGrain&& takeGrain, TakeBody&& takeBody);
+    /// What is known of own grains and bodies goes to their ghosts: grainAt(place) and bodyAt(place), to
+    /// takeGrain(place, this) and takeBody(place, this).
+    template <class GrainAt, class BodyAt, class TakeGrain, class TakeBody>
+    void exchangeWithGhosts(GrainAt&& grainAt, BodyAt&& bodyAt, TakeGrain&& takeGrain, TakeBody&& takeBody);
+    template <bool spins, bool accelerates>
+    void exchangeMotionOf(ParticleStore& grains);
 
     Exchange& exchange;
     RankOptions options;
     Bisection cuts;
+    RankTimes times;
     bool isDistributed = false;
     std::uint32_t onAllFrom = ~std::uint32_t{0};
     RankCounts done;

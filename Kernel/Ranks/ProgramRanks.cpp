@@ -54,13 +54,18 @@ ProcessRanks* startRanks() {
             fmt::format("{}, but this build of Pendular has no MPI: install libopenmpi-dev "
                         "(Tools/install-dependencies.sh --mpi) and build again with PENDULAR_MPI=ON, or {}.",
                         othersOf(started), alone));
-    const auto make = reinterpret_cast<ProcessRanks* (*)()>(dlsym(module, "makePendularRanks"));
-    ProcessRanks* const ranks = make ? make() : nullptr;
-    if (!ranks || ranks->count() != started.count)
+    const auto make = reinterpret_cast<ProcessRanks* (*)()>(dlsym(module, "makePendularRanks2"));
+    if (!make)
+        throw InputError(fmt::format(
+            "{}, but PendularMpi.so is of another version of Pendular than this program: build, or "
+            "install, both again, or {}.",
+            othersOf(started), alone));
+    ProcessRanks* const ranks = make();
+    if (ranks->count() != started.count)
         throw InputError(
             fmt::format("{}, but MPI knows {} of them: take the mpirun of the MPI with which Pendular was "
                         "built, or {}.",
-                        othersOf(started), ranks ? ranks->count() : 0, alone));
+                        othersOf(started), ranks->count(), alone));
     return ranks;
 }
 

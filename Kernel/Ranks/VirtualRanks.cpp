@@ -6,6 +6,7 @@
 
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Base/SilentRank.h"
+#include "Kernel/Base/Stopwatch.h"
 
 namespace pendular {
 
@@ -15,24 +16,31 @@ public:
 
     [[nodiscard]] std::size_t rank() const override { return own; }
     [[nodiscard]] std::size_t count() const override { return all.ranks; }
+    // NOLINTNEXTLINE(bugprone-exception-escape): it exchanges messages, not what two names stand for
     [[nodiscard]] std::vector<Message> swap(std::vector<Message> toEach) override {
         auto& mail = nextBoard().mail;
         for (std::size_t to = 0; to < all.ranks; ++to) mail[to][own] = std::move(toEach[to]);
-        all.meet();
+        meet();
         return std::exchange(mail[own], std::vector<Message>(all.ranks));
     }
     [[nodiscard]] double largest(double value) override {
         auto& values = nextBoard().values;
         values[own] = value;
-        all.meet();
+        meet();
         return std::ranges::max(values);
     }
+    [[nodiscard]] double waited() const override { return waiting.seconds(); }
 
 private:
     Board& nextBoard() { return all.boards[calls++ % 2]; }
+    void meet() {
+        const Stopwatch::Within within(waiting);
+        all.meet();
+    }
 
     VirtualRanks& all;
     std::size_t own, calls = 0;
+    Stopwatch waiting;
 };
 
 void VirtualRanks::run(const std::function<void(Exchange&)>& program) {

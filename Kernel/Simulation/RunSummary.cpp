@@ -22,6 +22,7 @@
 #include "Kernel/Motion/SceneLimits.h"
 #include "Kernel/Particles/GrainSums.h"
 #include "Kernel/Particles/ParticleStore.h"
+#include "Kernel/Ranks/GrainSharing.h"
 #include "Kernel/Simulation/PendularState.h"
 #include "Kernel/Simulation/Scene.h"
 #include "Kernel/Simulation/SceneCheck.h"
@@ -189,6 +190,11 @@ void addTimes(SummaryRows& rows, const Scene& scene) {
         rows.addNumber(fmt::format("wall time: {}", StepTimes::names[part]), seconds[part], "s",
                        fmt::format(" ({:.1f} %)", 100 * seconds[part] / total));
     }
+    // Of the first rank: the others need not be here.
+    if (const RankCounts ranks = scene.rankCounts(); ranks.working > 0)
+        rows.addNumber(
+            "waiting for other ranks", ranks.waiting, "s",
+            fmt::format(" ({:.1f} % of its steps)", 100 * ranks.waiting / (ranks.waiting + ranks.working)));
 }
 
 void addSpecies(SummaryRows& rows, const ContactLaws& laws) {

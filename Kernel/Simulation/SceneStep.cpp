@@ -84,8 +84,9 @@ void Scene::Inside::moveAll(StepContext& step) {
     step.grainsHaveMoved = true;
     parts.call(&StepPart::moveGrains, step);
     if (sharing) {
-        exchangeMotion(step);
-        step.shifts.grains = contacts.ranks().largest(step.shifts.grains);  // all list in the same step
+        // All list in the same step.
+        step.shifts.grains = sharing->exchangeStep(step.grains(), contactScheme(step).contacts.springsInStep,
+                                                   step.shifts.grains);
         step.shifts.approach = 2 * step.shifts.grains;
     }
     refuseRunaway(step.shifts.grains);

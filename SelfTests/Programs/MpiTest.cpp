@@ -86,7 +86,7 @@ TEST_F(Mpi, driversRunAsTheyAre) {
     EXPECT_EQ(alone.exitCode, 0) << alone.output;
     EXPECT_EQ(shared.exitCode, 0) << shared.output;
     expectSameFiles(in("1"), in("2"), timed);
-    for (const char* once : {"Summary of the run", "120 grains, 0.00101 s in"})
+    for (const char* once : {"Summary of the run", "120 grains, 0.00101 s in", "waiting for other ranks"})
         EXPECT_EQ(countOf(shared.output, once), 1u) << shared.output;
     const ProgramResult wrong = run(onRanks(2) + drum + in("2") + " --speed 3");
     EXPECT_NE(wrong.exitCode, 0);
@@ -164,6 +164,10 @@ TEST_F(Mpi, isRefusedWhereProcessesCannotWorkTogether) {
     const std::string one = program + in("1") + " 10";
     expectOneSentence(run("SLURM_NTASKS=4 " + one), "start it with mpirun or srun --mpi=pmix");
     expectOneSentence(run("OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=0 " + one), "MPI knows 1 of them");
+    const std::string other = (folders::binary / "SelfTests/CountMessages.so").string();
+    expectOneSentence(
+        run("PENDULAR_MPI_MODULE=" + other + " OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=0 " + one),
+        "PendularMpi.so is of another version of Pendular");
     EXPECT_EQ(run("SLURM_NTASKS=4 PENDULAR_RANKS=1 " + one).exitCode, 0);
 }
 

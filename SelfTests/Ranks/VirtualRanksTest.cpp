@@ -158,6 +158,23 @@ TEST(Bisection, findsAllPartsThatAreNear) {
     }
 }
 
+/// A block that is 1.2 times as long along y, with an antenna that makes it widest along x: fewest points lie
+/// at a cut across y.
+TEST(Bisection, cutsWhereFewestPointsAre) {
+    UniformRandom random(1);
+    std::vector<Bisection::Point> points;
+    for (int k = 0; k < 4000; ++k) {
+        const double x = random.uniform(0, 1), y = random.uniform(0, 1.2), z = random.uniform(0, 1);
+        points.push_back({{k % 40 == 0 ? 5 * x : x, y, z}, 1});
+    }
+    Bisection cuts;
+    cuts.cut(points, std::vector<double>{1, 1});
+    for (const double x : {0.1, 0.9, 4.5}) {
+        EXPECT_EQ(cuts.ownerOf({x, 0.5, 0.5}), 0u);
+        EXPECT_EQ(cuts.ownerOf({x, 0.7, 0.5}), 1u);
+    }
+}
+
 TEST(Bisection, standsWithoutPoints) {
     VirtualRanks(3).run([](Exchange& exchange) {
         Bisection cuts;

@@ -6,6 +6,7 @@
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,6 +17,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Base/Stopwatch.h"
 #include "Kernel/Ranks/ProgramRanks.h"
 
 namespace pendular {
@@ -52,6 +54,7 @@ public:
         MPI_Comm_size(work, &all);
         own = static_cast<std::size_t>(number);
         ranks = static_cast<std::size_t>(all);
+        if (ranksOfMachine() > sysconf(_SC_NPROCESSORS_ONLN)) keptTries = 100;
     }
 
     [[nodiscard]] std::size_t rank() const override { return own; }
@@ -65,7 +68,10 @@ public:
             return MPI_Ialltoall(lengthsTo.data(), 1, MPI_INT64_T, lengthsFrom.data(), 1, MPI_INT64_T, work,
                                  request);
         });
-        return swapWithNeighbours(std::move(toEach), {lengthsFrom.begin(), lengthsFrom.end()});
+        std::vector<Message> fromEach =
+            swapWithNeighbours(std::move(toEach), {lengthsFrom.begin(), lengthsFrom.end()});
+        sent.clear();  // it may be the whole scene
+        return fromEach;
     }
 
     [[nodiscard]] std::vector<Message> swapWithNeighbours(
@@ -95,12 +101,20 @@ public:
     }
 
     [[nodiscard]] double largest(double value) override {
+        beginLargest(value);
+        return endLargest();
+    }
+
+    void beginLargest(double value) override {
         given = std::isnan(value) ? INFINITY : value;  // MPI_MAX need not pass it on
-        wait([&](MPI_Request* request) {
-            return MPI_Iallreduce(&given, &most, 1, MPI_DOUBLE, MPI_MAX, work, request);
-        });
+        require(MPI_Iallreduce(&given, &most, 1, MPI_DOUBLE, MPI_MAX, work, &reduction.emplace_back()));
+    }
+    [[nodiscard]] double endLargest() override {
+        wait(reduction);
+        reduction.clear();
         return most;
     }
+    [[nodiscard]] double waited() const override { return waiting.seconds(); }
 
     void addUp(std::span<std::int64_t> integers) override {
         sums.assign(integers.begin(), integers.end());
@@ -190,18 +204,29 @@ private:
         std::_Exit(EXIT_FAILURE);
     }
 
-    /// Waits until all is done: awake for about a millisecond, and then mostly asleep, so that other
-    /// programs, and ranks on the same processor, get on. Where another rank has failed, it never will be
-    /// done.
+    [[nodiscard]] int ranksOfMachine() const {
+        MPI_Comm machine = MPI_COMM_NULL;
+        int count = 1;
+        MPI_Comm_split_type(work, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+        MPI_Comm_size(machine, &count);
+        MPI_Comm_free(&machine);
+        return count;
+    }
+
+    /// Waits until all is done: awake for a millisecond or two, and then mostly asleep, so that other
+    /// programs get on. Ranks that share a processor let each other have it much sooner; others keep theirs
+    /// until then: on a machine that has other work, who lets go comes back after some milliseconds. Where
+    /// another rank has failed, it never will be done.
     void wait(std::vector<MPI_Request>& requests) {
+        const Stopwatch::Within within(waiting);
         for (std::size_t tries = 0;; ++tries) {
             int isDone = 0;
             require(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &isDone,
                                 MPI_STATUSES_IGNORE));
             if (isDone != 0) return;
-            if (tries < 100) continue;
+            if (tries < keptTries) continue;
             sched_yield();
-            if (tries > 2000) std::this_thread::sleep_for(std::chrono::microseconds(20));
+            if (tries > keptTries + 2000) std::this_thread::sleep_for(std::chrono::microseconds(20));
             if (tries % 64 != 0) continue;
             if (const std::string sentence = failure(); !sentence.empty()) throw AnotherRankFailed(sentence);
             refuseToWaitForNobody();
@@ -219,9 +244,12 @@ private:
     std::vector<std::string> got;
     std::vector<Message> sent;
     double given = 0, most = 0;
+    std::vector<MPI_Request> reduction;  // that has begun
 
+    Stopwatch waiting;
     MPI_Comm work = MPI_COMM_NULL, failures = MPI_COMM_NULL;
     std::size_t own = 0, ranks = 1;
+    std::size_t keptTries = 10000;  // of a wait, before others may have the processor
     bool hasFailed = false;         // this rank or another one
     std::optional<double> hasLeft;  // s, when another one was found to have ended
     std::string told;               // by this rank, if it is not the first one, which says it by itself
@@ -233,7 +261,8 @@ private:
 
 }  // namespace pendular
 
-extern "C" [[gnu::visibility("default")]] pendular::ProcessRanks* makePendularRanks() {
+/// Its number is another one where Exchange or ProcessRanks have other functions (ProgramRanks.cpp).
+extern "C" [[gnu::visibility("default")]] pendular::ProcessRanks* makePendularRanks2() {
     static pendular::MpiRanks ranks;
     return &ranks;
 }
