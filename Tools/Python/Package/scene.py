@@ -26,7 +26,11 @@ class Scene(_kernel.Scene):
 
     def add_box(self, species: _kernel.Species, lowest: Sequence[float], highest: Sequence[float],
                 *, lid: bool = True, forces: bool = False) -> List[_kernel.Wall]:
-        """Adds the planes of a box (m): along x, y and z the lower and the upper one; without lid not the last."""
+        """Adds the planes of a box: along x, y and z the lower and the upper one.
+
+        species: the material of their surfaces; lowest, highest: m, corners of the box. lid: without it not the last
+        plane. forces: they are kept, as by Wall.keep_forces().
+        """
         walls = []
         for axis in range(3):
             outward = np.zeros(3)
@@ -46,7 +50,7 @@ class Scene(_kernel.Scene):
         self.set_column("temperature", values)
 
     def run(self, until: Optional[float] = None, *, steps: Optional[int] = None, progress: Progress = False) -> Scene:
-        """Begins the run, or goes on with it, to a time (s), or for so many steps; it may be called again.
+        """Begins the run, or goes on with it, until a time (s), or for so many steps; it may be called again.
 
         progress: True shows a bar (by tqdm where it is installed), a function is called with the time (s). Ctrl-C is
         KeyboardInterrupt after the step, with a whole restart file where one is kept, and the scene can go on. Other
@@ -57,7 +61,11 @@ class Scene(_kernel.Scene):
         if steps is not None:
             if steps < 0:
                 raise _kernel.InputError(f"run() takes at least 0 steps; they are {steps}.")
-            self._run_steps(steps, progress if callable(progress) else None)
+            if progress is True:
+                with _bar(self.time, self.time + steps * self.time_step, self.name) as show:
+                    self._run_steps(steps, show)
+            else:
+                self._run_steps(steps, progress if callable(progress) else None)
         elif progress is True:
             with _bar(self.time, float(until), self.name) as show:  # type: ignore[arg-type]
                 self._run_to(until, show)  # type: ignore[arg-type]
