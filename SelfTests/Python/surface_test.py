@@ -37,6 +37,22 @@ def test_objects_have_texts_and_refuse_copies(make, text, advice):
             take(one)
 
 
+@pytest.mark.parametrize("wrong, right", [("timestep", "time_step"), ("gravitiy", "gravity"), ("endtime", "end_time"),
+                                          ("positions", "position")])
+def test_an_attribute_that_is_nearly_one_of_the_scene(wrong, right):
+    """It would be set, and do nothing."""
+    scene = tower()
+    with pytest.raises(AttributeError, match=f"no attribute {wrong}; did you mean {right}"):
+        setattr(scene, wrong, 1)
+    scene.mine, scene.glasses = 1, 2
+    scene.mine += 1
+    assert scene.mine == 2
+    with pytest.raises(AttributeError):
+        scene.walls[0].velocity = (0, 0, 1)
+    with pytest.raises(AttributeError):
+        scene.time = 3
+
+
 def test_walls_and_species_of_a_scene():
     scene = tower()
     steel = scene.add_species("HertzianViscoelasticMindlin", density=7800, young_modulus=1e7, poisson_ratio=0.3,

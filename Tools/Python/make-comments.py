@@ -16,13 +16,22 @@ def snake(name):
 
 
 # What a comment says for drivers in C++, and for those in Python.
-WORDS = [(r"Given to Simulation::add_output\(\), which then keeps", "It keeps"), (r"Given to Simulation::add_output\(\); the", "The"),
-         (r" ?Given to Simulation::add_output\(\)[.;]?", ""), (r" \((?:see )?(?:the )?README of this folder\)", ""),
-         (r"; see the README of this folder", ""), (r"\b(?:solve|run_to|run_steps)\(\)", "run()"), (r"\bfinish_run\(\)", "finish()"),
-         (r"\bshear_flow_at\(\)", "flow_at()"), (r"With all axes it is fix_particle\(\)", "'all' holds it altogether"),
-         (r"\bset_time_step\(\)", "time_step"), (r"\bEnergyLedger::lost\(\)", "lost_J of energy()"), (r"Throws as get_force\(\)", "Raises as force"),
-         (r", and in visit_state\(\)", ""), (r"\bread_grain_file\(\) reads", "add_grains_of_file() reads"),
-         (r"\b[A-Z]\w+::(?=[a-z_]+\(\))", ""), (r" \(MembraneNet\.h\)", ""), (r" \(Insertion\.h\)", "")]
+WORDS = [
+    (r"Given to Simulation::add_output\(\), which then keeps", "It keeps"),
+    (r"Given to Simulation::add_output\(\); the", "The"),
+    (r" ?Given to Simulation::add_output\(\)[.;]?", ""),
+    (r" \((?:see )?(?:the )?README of this folder\)|; see the README of this folder", ""),
+    (r" \(MembraneNet\.h\)| \(Insertion\.h\)|, and in visit_state\(\)", ""),
+    (r"\b(?:solve|run_to|run_steps)\(\)", "run()"),
+    (r"\bfinish_run\(\)", "finish()"),
+    (r"\bshear_flow_at\(\)", "flow_at()"),
+    (r"With all axes it is fix_particle\(\)", "'all' holds it altogether"),
+    (r"\bset_time_step\(\)", "time_step"),
+    (r"\bEnergyLedger::lost\(\)", "what is lost in energy()"),
+    (r"Throws as get_force\(\)", "Raises as force"),
+    (r"\bread_grain_file\(\) reads", "add_grains_of_file() reads"),
+    (r"\b[A-Z]\w+::(?=[a-z_]+\(\))", ""),
+]
 
 
 def in_python(text):

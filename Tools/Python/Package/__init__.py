@@ -61,9 +61,9 @@ from .scene import Scene
 __all__ = [
     "InputError", "Mixture", "Region", "RunError", "RunStopped", "Scene", "Shape", "Sizes", "Species", "Wall",
     "bidisperse_sizes", "block", "box", "clump", "cylinder", "draw", "even_sizes", "fields", "frames", "load_species",
-    "lognormal_sizes", "membrane_sheet", "membrane_tube", "mesh_inside", "normal_sizes", "one_size", "rank",
-    "rank_count", "read_sizes", "restart", "rosin_rammler_sizes", "shaped_species", "sizes", "softest_modulus", "species", "sphere", "superquadric",
-    "table", "to_pyvista", "walls_to_pyvista",
+    "lognormal_sizes", "membrane_sheet", "membrane_tube", "mesh_inside", "normal_sizes", "one_size", "rank", "rank_count",
+    "read_sizes", "restart", "rosin_rammler_sizes", "shaped_species", "sizes", "softest_modulus", "species", "sphere",
+    "superquadric", "table", "to_pyvista", "walls_to_pyvista",
 ]  # fmt: skip
 __version__ = _version
 

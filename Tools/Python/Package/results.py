@@ -75,8 +75,9 @@ def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, al
          axes: Optional[Any] = None, colormap: str = "viridis", walls: bool = True) -> Any:
     """Draws the grains of a scene as discs by matplotlib, as seen along an axis, those in front last; returns the axes.
 
-    color: the name of a column of grains() (a vector is taken by its length), or a number for each grain, shown by colormap.
-    axes: those of matplotlib to draw into; else a new figure has them. walls: as lines, behind the grains. A grain that is no sphere is the disc of the ball around it.
+    color: the name of a column of grains() (a vector is taken by its length), or a number for each grain, shown by
+    colormap. axes: those of matplotlib to draw into; else a new figure has them. walls: as lines, behind the grains. A
+    grain that is no sphere is the disc of the ball around it.
     """
     import matplotlib.pyplot as plt
     from matplotlib.collections import EllipseCollection, PolyCollection

@@ -1,8 +1,9 @@
 """The scene: what _kernel.Scene has, and what is shorter in Python."""
 from __future__ import annotations
 
+import difflib
 import sys
-from typing import Any, Callable, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -72,6 +73,16 @@ class Scene(_kernel.Scene):
         else:
             self._run_to(until, progress if callable(progress) else None)  # type: ignore[arg-type]
         return self
+
+    if not TYPE_CHECKING:  # mypy would take any name then
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            """Attributes of your own are kept, but a name that is nearly one of the scene is a mistake."""
+            if not hasattr(type(self), name) and name not in self.__dict__:
+                near = difflib.get_close_matches(name, dir(type(self)), 1, 0.8)
+                if near:
+                    raise AttributeError(f"A Scene has no attribute {name}; did you mean {near[0]}?")
+            super().__setattr__(name, value)
 
     def __enter__(self) -> Scene:
         return self
