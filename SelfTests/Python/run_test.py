@@ -259,6 +259,15 @@ def test_scenes_with_functions_that_know_them_are_collected():
     assert gone() is None
 
 
+def test_the_garbage_collector_meets_objects_that_are_being_made():
+    """It is asked at each allocation, also while the first scene has no content yet."""
+    code = ("import gc, pendular\ngc.set_threshold(1)\nclass Own(pendular.Scene): pass\nfor kind in (pendular.Scene, Own):\n"
+            "    scene = kind()\n    g = scene.add_species('LinearViscoelastic', density=1)\n"
+            "    print(scene.add_plane(g, (0, 0, 1), (0, 0, 0)))\n")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and done.stdout == 2 * "<pendular.Wall 0: plane>\n", done.stderr
+
+
 def test_a_scene_that_lives_to_the_end_of_the_interpreter():
     code = ("import pendular\nscene = pendular.Scene('left', quiet=False)\n"
             "g = scene.add_species('LinearViscoelastic', density=2500, stiffness=300, dissipation=1e-3)\n"

@@ -279,7 +279,10 @@ struct SpeciesHandle : Handle {
 /// The object of a class as Python's garbage collector meets it; null while it is being made.
 template <class Of>
 Of* heldBy(PyObject* self) {
-    const auto held = reinterpret_cast<py::detail::instance*>(self)->get_value_and_holder();
+    auto* const instance = reinterpret_cast<py::detail::instance*>(self);
+    // As pybind11 makes the first object of a class in Python, it has no place for its content yet.
+    if (!instance->simple_layout && !instance->nonsimple.values_and_holders) return nullptr;
+    const auto held = instance->get_value_and_holder();
     return held.holder_constructed() ? held.value_ptr<Of>() : nullptr;
 }
 /// For a class that holds objects of Python, which may hold it.
