@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 namespace pendular {
 
 /// Whether the kernel works in a program of somebody else, whose signals, exceptions and libraries are left
@@ -7,5 +9,10 @@ namespace pendular {
 [[nodiscard]] bool isHosted();
 /// Called by setHosted().
 void markAsHosted();
+
+/// From now on this is asked now and then by what takes long outside of runs, as a dense insertion. It may
+/// throw: what was under way has changed nothing then. Empty: nothing is asked.
+void setInterruption(std::function<void()> question);
+void askForInterruption();
 
 }  // namespace pendular

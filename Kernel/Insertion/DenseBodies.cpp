@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Insertion/MayOverlap.h"
 #include "Kernel/Insertion/SpreadPoints.h"
@@ -128,6 +129,7 @@ private:
 
     /// Where bodies are not free, all of them step; returns whether they are.
     bool relax() {
+        askForInterruption();
         placeSpheres();
         list();
         if (push()) return true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/Parallel.h"
 #include "Kernel/Contacts/NeighbourSearch.h"
 #include "Kernel/Insertion/MayOverlap.h"
@@ -51,6 +52,7 @@ public:
     DenseStart run() {
         DenseStart made;
         for (; made.iterations < mostIterations; ++made.iterations) {
+            askForInterruption();
             list();
             made.shrink = push();
             if (made.shrink >= 1) break;

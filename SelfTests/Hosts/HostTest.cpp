@@ -12,6 +12,7 @@
 #include "Kernel/Simulation/Program.h"
 #include "Kernel/Simulation/Progress.h"
 #include "Kernel/Simulation/RunControl.h"
+#include "Kernel/Sizes/SizeLaws.h"
 #include "Kernel/Species/Laws.h"
 #include "Kernel/State/Hdf5File.h"
 #include "SelfTests/Scenes/SettlingBox.h"
@@ -94,6 +95,29 @@ TEST(Host, stopsOneSceneAndGoesOnWithAnother) {
     EXPECT_EQ(first.getNumberOfTimeSteps(), 1u);
     second.solve();
     EXPECT_EQ(second.getNumberOfTimeSteps(), 50u);
+}
+
+/// It may leave what takes long outside of runs: nothing has come then.
+TEST(Host, leavesADenseInsertion) {
+    struct Enough {};
+    Simulation<HertzianViscoelasticMindlinSpecies> scene;
+    SphericalParticle grain;
+    grain.setSpecies(
+        scene.speciesHandler.copyAndAddObject(scenes::boxMaterial<HertzianViscoelasticMindlinSpecies>(0)));
+    const auto insert = [&] {
+        scene.insert(evenSizes(1e-3, 2e-3), BoxRegion({0, 0, 0}, {0.02, 0.02, 0.02}),
+                     Amount::solidFraction(0.5), grain);
+    };
+    int asked = 0;
+    setInterruption([&] {
+        if (++asked == 3) throw Enough();
+    });
+    EXPECT_THROW(insert(), Enough);
+    EXPECT_EQ(scene.particleHandler.getSize(), 0u);
+    setInterruption({});
+    insert();
+    EXPECT_GT(scene.particleHandler.getSize(), 100u);
+    EXPECT_EQ(asked, 3);
 }
 
 #ifdef PENDULAR_HAS_HDF5

@@ -104,11 +104,16 @@ def test_two_threads_run_one_scene():
 
 
 CHANGES = {
-    "add" : lambda s : s.add_grains(s.glass, [[ 1, 1, 1 ]], 1e-3), "remove" : lambda s : s.remove_grains([0]),
-        "velocity" : lambda s : s.set_velocity((0, 0, 1)), "species" : lambda s : s.glass.set(density = 1),
-        "wall" : lambda s : s.wall(0).set_velocity((0, 0, 1)),
-        "removed wall" : lambda s : s.remove_wall(s.wall(0)), "view" : lambda s : s.view("position"),
-        "run" : lambda s : s.run(steps = 1), "restart" : lambda s : s.write_restart("a.h5"),
+    "add": lambda s: s.add_grains(s.glass, [[1, 1, 1]], 1e-3),
+    "remove": lambda s: s.remove_grains([0]),
+    "velocity": lambda s: s.set_velocity((0, 0, 1)),
+    "spin": lambda s: setattr(s, "spin", (0, 0, 1)),
+    "species": lambda s: s.glass.set(density=1),
+    "wall": lambda s: s.wall(0).set_velocity((0, 0, 1)),
+    "removed wall": lambda s: s.remove_wall(s.wall(0)),
+    "view": lambda s: s.view("position"),
+    "run": lambda s: s.run(steps=1),
+    "restart": lambda s: s.write_restart("a.h5"),
 }
 
 
@@ -180,19 +185,18 @@ def other_scene():
 
 
 OF_OTHERS = {
-    "region" : lambda s : s.insert(s.glass, EVEN, other_scene()[1], number = 1),
-        "region of an inlet" : lambda s : s.add_inlet(s.glass, EVEN, other_scene()[1], number_flow = 1),
-        "region of an outlet" : lambda s : s.add_outlet(region = other_scene()[1]),
-        "species of a pair" : lambda s : s.set_pair(s.glass, tower().glass),
-        "species of a wall" : lambda s : s.add_plane(tower().glass, (0, 0, 1), (0, 0, 1)),
-        "other species of a wall" : lambda s : s.wall(0).set_species(tower().glass),
-        "species that come" : lambda s : s.insert(tower().glass, EVEN, BOX, number = 1),
-        "wall to remove" : lambda s : s.remove_wall(tower().wall(0)),
-        "wall to follow" : lambda s
-        : s.add_inlet(s.glass, EVEN, BOX, number_flow = 1, follows_wall = tower().wall(0)),
-        "species that are warm" : lambda s
-        : (s.conduct_heat(), s.set_heat_material(tower().glass, conductivity = 1, heat_capacity = 1)),
-          "wall that is warm" : lambda s : (s.conduct_heat(), s.hold_temperature(tower().wall(0), 300)),
+    "region": lambda s: s.insert(s.glass, EVEN, other_scene()[1], number=1),
+    "region of an inlet": lambda s: s.add_inlet(s.glass, EVEN, other_scene()[1], number_flow=1),
+    "region of an outlet": lambda s: s.add_outlet(region=other_scene()[1]),
+    "species of a pair": lambda s: s.set_pair(s.glass, tower().glass),
+    "species of a wall": lambda s: s.add_plane(tower().glass, (0, 0, 1), (0, 0, 1)),
+    "other species of a wall": lambda s: s.wall(0).set_species(tower().glass),
+    "species that come": lambda s: s.insert(tower().glass, EVEN, BOX, number=1),
+    "wall to remove": lambda s: s.remove_wall(tower().wall(0)),
+    "wall to follow": lambda s: s.add_inlet(s.glass, EVEN, BOX, number_flow=1, follows_wall=tower().wall(0)),
+    "species that are warm": lambda s: (s.conduct_heat(),
+                                        s.set_heat_material(tower().glass, conductivity=1, heat_capacity=1)),
+    "wall that is warm": lambda s: (s.conduct_heat(), s.hold_temperature(tower().wall(0), 300)),
 }
 
 

@@ -1,5 +1,7 @@
 """What is around the module: the choice of the processor's level, documentation."""
+import inspect
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -102,9 +104,46 @@ def test_everything_is_documented(name):
     assert lines, name
 
 
+def functions():
+    """Those of the package and of its classes, with the texts of attributes."""
+    owners = [(pendular, pendular.__all__)]
+    for name in ("Scene", "Wall", "Species", "Sizes", "Region", "Mixture"):
+        of = getattr(pendular, name)
+        owners.append((of, [n for n in dir(of) if not n.startswith("_")]))
+    for owner, names in owners:
+        for name in names:
+            value = getattr(owner, name)
+            if not isinstance(value, type):
+                yield pytest.param(name, value, id=f"{owner.__name__}.{name}")
+
+
+def arguments_of(name, value):
+    """(names of arguments, text without the signature)."""
+    if inspect.isfunction(value):
+        return [n for n in inspect.signature(value).parameters if n != "self"], value.__doc__ or ""
+    first, _, text = (value.__doc__ or "").partition("\n")
+    if not first.startswith(f"{name}("):
+        return [], value.__doc__ or ""
+    return [n for n in re.findall(r"[(,] (?:\*, )?(\w+): ", first.replace("(", "( ", 1)) if n not in ("self", "arg0")], text
+
+
+@pytest.mark.parametrize("name, value", functions())
+def test_help_says_what_each_argument_is(name, value):
+    """Its name is in the text, which has no word that means nothing in Python."""
+    arguments, text = arguments_of(name, value)
+    assert text.strip()
+    for argument in arguments:
+        assert re.search(rf"\b{argument}\b", text), f"{argument} is not in: {text}"
+    assert not re.search(r"::|add_output|\bsolve\(|README of this|@param|\bstd\b|visit_state|fix_particle", text), text
+
+
+def test_arguments_are_found():
+    assert arguments_of("add_plane", pendular.Scene.add_plane)[0] == ["species", "outward", "point", "forces"]
+    assert "follows_wall" in arguments_of("add_inlet", pendular.Scene.add_inlet)[0]
+
+
 def test_names_are_those_of_python():
     """No name of the kernel is left in what help() says: they are in small letters."""
-    import re
     for value in public(pendular.Scene):
         for word in re.findall(r"\b(?:set|get|add|keep|is|has)[A-Z]\w+", value.__doc__ or ""):
             pytest.fail(f"{word} in {value}")

@@ -167,7 +167,8 @@ def test_contacts_sinter():
     grown = start - (scene.position[1, 0] - scene.position[0, 0])
     assert grown == pytest.approx(0.04 * 2 * 0.5 * 1e-3 / (1 + 2 * 0.5 * 0.05 / 0.1), rel=2e-3)
 
-#What is done, and words of the sentence.
+
+# What is done, and words of the sentence.
 MISUSES = {
     "bonds that are not there": (lambda s: s.bonds(), "add_bond_material"),
     "no stiffness": (lambda s: s.add_bond_material(5e-4), "young_modulus"),

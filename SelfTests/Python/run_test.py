@@ -94,12 +94,12 @@ def test_errors_of_the_kernel_keep_their_class():
     assert isinstance(caught.value, pendular.RunError)
 
 
-def interrupt_after(seconds):
+def interrupt_after(seconds, clock=time.perf_counter):
     sent = []
 
     def send():
         time.sleep(seconds)
-        sent.append(time.perf_counter())
+        sent.append(clock())
         os.kill(os.getpid(), signal.SIGINT)
 
     threading.Thread(target=send, daemon=True).start()
@@ -139,6 +139,22 @@ def test_control_c_in_a_function():
     scene.clear_calls()
     scene.run(steps=2)
     assert scene.steps == 6
+
+
+@pytest.mark.parametrize("shape", [None, pendular.clump([[0, 0, -0.4, 0.5], [0, 0, 0.4, 0.5]])], ids=["grains", "clumps"])
+def test_control_c_in_a_dense_insertion(shape):
+    """It would take 10 s of the processor. The scene is as before, and can go on."""
+    scene, count = tower(), 200_000 if shape is None else 40_000
+    sent = interrupt_after(0.7, time.process_time)
+    edge = (count * 1e-9 / 0.55) ** (1 / 3)
+    with pytest.raises(KeyboardInterrupt):
+        scene.insert(scene.glass, pendular.even_sizes(1.1e-3, 1.3e-3),
+                     pendular.box((0, 0, 0.1), (edge, edge, 0.1 + edge)), shape=shape, number=count)
+    assert time.process_time() - sent[0] < 1.5 and len(scene) == 4  # s; most of it before the first look
+    plain = tower()
+    scene.run(steps=100)
+    plain.run(steps=100)
+    assert scene.hash() == plain.hash()
 
 
 def test_other_threads_go_on_and_are_refused():
@@ -241,6 +257,15 @@ def test_scenes_with_functions_that_know_them_are_collected():
     gone = lost()
     gc.collect()
     assert gone() is None
+
+
+def test_the_garbage_collector_meets_objects_that_are_being_made():
+    """It is asked at each allocation, also while the first scene has no content yet."""
+    code = ("import gc, pendular\ngc.set_threshold(1)\nclass Own(pendular.Scene): pass\nfor kind in (pendular.Scene, Own):\n"
+            "    scene = kind()\n    g = scene.add_species('LinearViscoelastic', density=1)\n"
+            "    print(scene.add_plane(g, (0, 0, 1), (0, 0, 0)))\n")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and done.stdout == 2 * "<pendular.Wall 0: plane>\n", done.stderr
 
 
 def test_a_scene_that_lives_to_the_end_of_the_interpreter():

@@ -29,6 +29,18 @@ using ShapedSpecies = TypeList<@shapedSpecies@>;
 }  // namespace pendular
 ]])
 
+file(CONFIGURE OUTPUT "${pythonGenerated}/Version.h" @ONLY CONTENT [[
+#pragma once
+
+// Written by CMake.
+
+namespace pendular::python {
+
+inline constexpr const char* version = "@PROJECT_VERSION@";
+
+}  // namespace pendular::python
+]])
+
 file(GLOB pythonSources CONFIGURE_DEPENDS "${pythonFolder}/*.cpp")
 file(GLOB_RECURSE kernelHeaders CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Kernel/*.h")
 add_custom_command(OUTPUT "${pythonGenerated}/Comments.cpp"

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <array>
+
 #include "Kernel/Superquadrics/SuperquadricHandler.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/Regions.h"
@@ -49,8 +53,7 @@ SuperquadricHandler& shapesOf(PythonScene& scene) {
     if (SuperquadricHandler* const handler = scene.superquadrics()) return *handler;
     throw InputError(
         "This scene takes spheres and clumps only; make it by Scene(superquadrics=NAME), with the name of "
-        "its one "
-        "species type.");
+        "its one species type.");
 }
 
 std::uint32_t addShape(PythonScene& scene, const SpeciesHandle& species, const AnyShape& shape,
@@ -117,19 +120,30 @@ py::dict bodies(PythonScene& scene) {
 }  // namespace
 
 void bindBodies(py::module_& module, SceneClass& scene) {
-    py::class_<AnyShape>(module, "Shape",
-                         "What grains are that are no spheres: a clump, a superquadric, a block.");
+    py::class_<AnyShape> shape(module, "Shape",
+                               "What grains are that are no spheres: a clump, a superquadric, a block.");
+    refuseCopies(shape, anew);
+    shape.def("__repr__", [](const AnyShape& s) {
+        return fmt::format("<pendular.Shape: {}>",
+                           std::array{"clump", "superquadric", "block"}[s.of.index()]);
+    });
     module.def("clump", &clump, py::arg("spheres"), py::kw_only(), py::arg("mass") = py::none(),
-               py::arg("centre") = Vec3D(0, 0, 0), py::arg("inertia") = py::none(), comment("ClumpTemplate"));
+               py::arg("centre") = Vec3D(0, 0, 0), py::arg("inertia") = py::none(),
+               comment("ClumpTemplate",
+                       "spheres: N x 4 numbers, x, y, z and radius, in m, or in any unit where sizes scale "
+                       "them. mass: kg, centre: of mass, and inertia: 3 x 3, kg m^2, about it: of the shape "
+                       "as it is given; without them, those of the solid that the spheres make."));
     module.def(
         "superquadric",
         [](const Vec3D& half, int n1, int n2) {
             return AnyShape{SuperquadricGrain({half.x(), half.y(), half.z(), n1, n2})};
         },
-        py::arg("half_lengths"), py::arg("n1") = 2, py::arg("n2") = 2, comment("Superquadric"));
+        py::arg("half_lengths"), py::arg("n1") = 2, py::arg("n2") = 2,
+        comment("Superquadric", "half_lengths: a, b and c, m."));
     module.def(
         "block", [](const Vec3D& half, double radius) { return AnyShape{BlockGrain(half, radius)}; },
-        py::arg("half_lengths"), py::arg("edge_radius"), comment("BlockGrain"));
+        py::arg("half_lengths"), py::arg("edge_radius"),
+        comment("BlockGrain", "half_lengths: m, from the centre to the faces; edge_radius: m."));
     module.def("shaped_species", &shapedSpecies, "The names of species types for Scene(superquadrics=NAME).");
 
     scene
@@ -137,31 +151,35 @@ void bindBodies(py::module_& module, SceneClass& scene) {
              py::arg("orientation") = py::make_tuple(1, 0, 0, 0), py::arg("velocity") = Vec3D(0, 0, 0),
              py::arg("spin") = Vec3D(0, 0, 0), py::arg("scale") = 1.0,
              "Adds one clump, superquadric or block; returns the number of its body.\n\n"
-             "position: m, of its centre of mass. orientation: a quaternion w, x, y, z of any length that "
-             "turns the "
-             "shape. velocity: m/s, spin: rad/s. scale: the factor of all lengths.")
+             "species: its material. position: m, of its centre of mass. orientation: a quaternion w, x, y, "
+             "z of any length that turns the shape. velocity: m/s, spin: rad/s. scale: the factor of all "
+             "lengths.")
         .def("join", &join, py::arg("identities"), py::kw_only(), py::arg("mass") = py::none(),
              py::arg("centre") = Vec3D(0, 0, 0), py::arg("inertia") = py::none(),
-             comment("BodyHandler::join"))
+             comment("BodyHandler::join",
+                     "identities: of the grains. mass: kg, centre: m, of mass, in space, as the grains are "
+                     "now, and inertia: 3 x 3, kg m^2, about it. Returns the number of the body."))
         .def("bodies", &bodies,
              "Columns of all rigid bodies, in the order of their numbers: mass_kg, position_m, ...")
         .def(
             "body_of",
             [](PythonScene& s, std::uint32_t grain) { return s.scene().bodyHandler.bodyOf(grain); },
-            py::arg("identity"), comment("BodyHandler::bodyOf"))
+            py::arg("identity"),
+            comment("BodyHandler::bodyOf", "identity: of the grain. Returns None where it is in none."))
         .def(
             "grains_of_body",
             [](PythonScene& s, std::size_t body) {
                 return s.scene().bodyHandler.getObject(body).getGrains();
             },
-            py::arg("body"), comment("BodyReference::getGrains"))
+            py::arg("body"), comment("BodyReference::getGrains", "body: its number."))
         .def(
             "remove_body",
             [](PythonScene& s, std::size_t body) {
                 s.requireNoViews();
                 s.scene().bodyHandler.removeObject(body);
             },
-            py::arg("body"), comment("BodyHandler::removeObject"))
+            py::arg("body"),
+            comment("BodyHandler::removeObject", "body: its number. Raises InputError where there is none."))
         .def(
             "set_body_velocity",
             [](PythonScene& s, std::size_t body, const std::optional<Vec3D>& velocity,
@@ -173,11 +191,21 @@ void bindBodies(py::module_& module, SceneClass& scene) {
             py::arg("body"), py::arg("velocity") = py::none(), py::arg("spin") = py::none(),
             "Gives a body a velocity (m/s), a spin (rad/s), or both.")
         .def(
+            "hold_body",
+            [](PythonScene& s, std::size_t body, const std::string& axes) {
+                s.scene().bodyHandler.getObject(body).setHeldAxes(heldAxesNamed(axes));
+            },
+            py::arg("body"), py::arg("axes") = "all",
+            comment("BodyReference::setHeldAxes",
+                    "body: its number; axes: of x, y, z, about_x, about_y and about_z, with blanks between "
+                    "them; 'all'; 'in_plane'; \'\': it is free."))
+        .def(
             "fix_body",
             [](PythonScene& s, std::size_t body, bool fix) {
                 s.scene().bodyHandler.getObject(body).fixBody(fix);
             },
-            py::arg("body"), py::arg("fix") = true, comment("BodyReference::fixBody"));
+            py::arg("body"), py::arg("fix") = true,
+            comment("BodyReference::fixBody", "body: its number; fix: or let it go."));
 }
 
 }  // namespace pendular::python

@@ -123,22 +123,26 @@ void bindBonds(SceneClass& scene) {
              py::arg("tensile_strength") = infinity, py::arg("shear_strength") = infinity,
              py::arg("moment_share") = 1.0, py::arg("at_ends") = true, py::arg("damping") = 0.0,
              "What bonds are made of; returns its number for bond(). At set-up the first one.\n\n"
-             "radius: m, of the round section. Its stiffness is that of Timoshenko's beam (young_modulus and "
-             "shear_modulus, Pa; shear_share: 0.9, infinite for Euler's), or of a parallel bond of Potyondy "
-             "and Cundall (normal_stiffness and shear_stiffness, Pa/m), or stiffness(length) returns the "
-             "normal, shear (N/m), bending and twist (N m/rad) one. It breaks at tensile_strength or "
-             "shear_strength (Pa) at the rim; moment_share (0 to 1): how much moments count; at_ends: the "
-             "larger bending moment of its ends counts, else that in its middle. damping: of the critical "
-             "one. Raises InputError.")
+             "radius: m, of the round section. Its stiffness is that of Timoshenko's beam (young_modulus "
+             "and shear_modulus, Pa; shear_share: 0.9, infinite for Euler's), or of a parallel bond of "
+             "Potyondy and Cundall (normal_stiffness and shear_stiffness, Pa/m), or stiffness(length) "
+             "returns the normal, shear (N/m), bending and twist (N m/rad) one. It breaks at "
+             "tensile_strength or shear_strength (Pa) at the rim; moment_share (0 to 1): how much moments "
+             "count; at_ends: the larger bending moment of its ends counts, else that in its middle. "
+             "damping: of the critical one. Raises InputError.")
         .def("bond", &bond, py::arg("first"), py::arg("second"), py::arg("material"), py::arg("length") = 0.0,
-             comment("BondPart::join"))
+             comment("BondPart::join",
+                     "first, second: N identities each, of which first[k] is joined with second[k]. "
+                     "material: the number that add_bond_material() has returned. length: m, at rest; 0: "
+                     "the distance at which they are."))
         .def("bonds", &bonds,
              "Columns of all bonds that hold: particle1, particle2, material, length_m (at rest); of the "
              "last step force_N (on particle2), torque1_Nm (on particle1) and torque2_Nm.")
         .def_property_readonly(
             "broken_bonds", [](const PythonScene& s) { return bondsOf(s).broken(); },
             "How many bonds have broken.")
-        .def("bonded_orientation", &orientation, py::arg("identity"), comment("BondPart::orientationOf"));
+        .def("bonded_orientation", &orientation, py::arg("identity"),
+             comment("BondPart::orientationOf", "identity: of the grain. A quaternion w, x, y, z."));
 }
 
 }  // namespace pendular::python

@@ -22,6 +22,31 @@ py::dict contacts(const PythonScene& scene) {
     return made;
 }
 
+/// The contacts of one grain, which are a few: without a look at all others.
+py::dict contactsOf(const PythonScene& scene, std::size_t identity) {
+    const std::vector<ObservedContact> seen = scene.scene().interactionsOf(identity);
+    const auto column = [&](auto&& of) {
+        std::vector<std::decay_t<decltype(of(seen.front()))>> values;
+        for (const ObservedContact& one : seen) values.push_back(of(one));
+        return arrayOf(std::move(values));
+    };
+    py::dict made;
+    made["particle1"] = column([](const ObservedContact& c) { return std::int64_t{c.particle1}; });
+    made["particle2"] = column([](const ObservedContact& c) {
+        return c.wall < 0 ? static_cast<std::int64_t>(c.particle2) : std::int64_t{-1};
+    });
+    made["wall"] = column([](const ObservedContact& c) { return static_cast<std::int64_t>(c.wall); });
+    made["force_N"] = column([](const ObservedContact& c) { return c.force; });
+    made["normal_force_N"] = column([](const ObservedContact& c) { return c.normalForce; });
+    made["adhesive_force_N"] = column([](const ObservedContact& c) { return c.adhesiveForce; });
+    made["tangential_force_N"] = column([](const ObservedContact& c) { return norm(c.tangentialForce()); });
+    made["overlap_m"] = column([](const ObservedContact& c) { return c.overlap(); });
+    made["contact_point_m"] = column([](const ObservedContact& c) { return c.point; });
+    made["bridged"] = column([](const ObservedContact& c) { return std::int64_t{c.bridged}; });
+    made["bridge_volume_m3"] = column([](const ObservedContact& c) { return c.bridgeVolume; });
+    return made;
+}
+
 py::dict takeEvents(PythonScene& scene) {
     const std::size_t count = scene.events.size();
     std::vector<double> time(count);
@@ -62,21 +87,22 @@ void setColumn(PythonScene& scene, const std::string& name, const ArrayLike& val
 void bindContacts(SceneClass& scene) {
     scene
         .def("contacts", &contacts,
-             "Columns of all contacts that have a force, in the order of identities, as of the last step, by "
-             "the names "
-             "that they have in the HDF5 files: particle1, particle2 (-1 at a wall), wall (-1 between "
-             "grains), "
-             "force_N (on particle1, N x 3), normal_force_N, adhesive_force_N, overlap_m, contact_point_m, "
-             "...")
+             "Columns of all contacts that have a force, in the order of identities, as of the last step, "
+             "by the names that they have in the HDF5 files: particle1, particle2 (-1 at a wall), wall (-1 "
+             "between grains), force_N (on particle1, N x 3), normal_force_N, adhesive_force_N, overlap_m, "
+             "contact_point_m, ...")
+        .def("contacts_of", &contactsOf, py::arg("identity"),
+             "The contacts of one grain, by its identity, as contacts() has them: particle1, particle2, "
+             "wall, force_N (on particle1), normal_force_N, adhesive_force_N, tangential_force_N, "
+             "overlap_m, contact_point_m, bridged and bridge_volume_m3. Raises InputError where there is no "
+             "such grain.")
         .def(
             "listen_to_contacts", [](PythonScene& s, bool listen) { s.scene().listenToContacts(listen); },
-            py::arg("listen") = true, comment("Scene::listenToContacts"))
+            py::arg("listen") = true, comment("Scene::listenToContacts", "listen: or no more."))
         .def("take_events", &takeEvents,
              "Columns of the contact events since they were last taken: time_s, particle1, particle2 (-1 at "
-             "a wall), "
-             "wall (-1 between grains), kind (0: a touch begins, 1: it ends, 2: a bridge forms, 3: it "
-             "ruptures). "
-             "After listen_to_contacts().")
+             "a wall), wall (-1 between grains), kind (0: a touch begins, 1: it ends, 2: a bridge forms, 3: "
+             "it ruptures). After listen_to_contacts().")
         .def(
             "event_counts",
             [](const PythonScene& s) {
@@ -87,18 +113,18 @@ void bindContacts(SceneClass& scene) {
                 made["bridges_ruptured"] = counts.bridgesRuptured;
                 return made;
             },
-            comment("ContactEventCounts"))
+            comment("ContactEventCounts",
+                    "touches_begun, touches_ended, bridges_formed and bridges_ruptured."))
         .def(
             "add_contact_column",
             [](PythonScene& s, const std::string& name, const std::string& unit, double initial) {
                 s.contactColumns.insert_or_assign(name, s.scene().addContactColumn(name, unit, initial));
             },
             py::arg("name"), py::arg("unit") = "", py::arg("initial") = 0.0,
-            comment("Scene::addContactColumn"))
+            comment("Scene::addContactColumn", "name, unit: words; initial: its first value."))
         .def("set_contact_column", &setColumn, py::arg("name"), py::arg("values"),
-             "Sets what add_contact_column() keeps: one number, or one for each row of contacts(), which has "
-             "it as "
-             "NAME_UNIT.");
+             "Sets what add_contact_column() keeps under this name. values: one number, or one for each row "
+             "of contacts(), which has it as NAME_UNIT.");
 }
 
 }  // namespace pendular::python

@@ -89,13 +89,14 @@ py::dict energies(const PythonScene& scene) {
 void writeFields(PythonScene& scene, const std::string& coordinates, const Vec3D& lowest,
                  const Vec3D& highest, double spacing, double width, double interval, double average,
                  const std::string& kernel, bool withContacts, bool againstFlow, bool hdf5,
-                 const std::string& name) {
+                 const std::optional<std::string>& by, const std::string& name) {
     FieldOutput output(FieldGrid(coordinates, toVector(lowest), toVector(highest), spacing),
                        kernelShapeNamed(kernel), width);
     output.withInterval(interval).averagedOver(average).withName(name);
     if (!withContacts) output.withoutContacts();
     if (againstFlow) output.againstFlow();
     if (hdf5) output.asHdf5();
+    output.withGroups(groupsNamed(by, scene.species.size()));
     scene.scene().addOutput(std::move(output));
 }
 
@@ -108,24 +109,30 @@ void bindFields(SceneClass& scene) {
              py::arg("contacts") = true, py::arg("by") = py::none(),
              "Density, velocity, stress and others at the points of a grid, as of the last step.\n\n"
              "coordinates: those that are resolved (O, X, Y, Z, XY, XZ, YZ, XYZ, R, RZ); over the others of "
-             "the box "
-             "from lowest to highest (m) is averaged. spacing: m, between points. width: m, of the kernel "
-             "(gauss, lucy, "
-             "heaviside). by='species': also of each. Returns x_m, y_m, z_m of the points, and the fields by "
-             "the "
-             "names that they have in the files of write_fields(): an axis for each coordinate, then vectors "
-             "and "
-             "tensors. Stress is positive in compression.")
-        .def("mean_stress", &meanStressOf, py::arg("volume") = py::none(), comment("MeanStress"))
+             "the box from lowest to highest (m) is averaged. spacing: m, between points. width: m, of the "
+             "kernel (gauss, lucy, heaviside). contacts: stress of contacts, too. by='species': also of "
+             "each. Returns x_m, y_m, z_m of the points, and the fields by the names that they have in the "
+             "files of write_fields(): an axis for each coordinate, then vectors and tensors. Stress is "
+             "positive in compression.")
+        .def("mean_stress", &meanStressOf, py::arg("volume") = py::none(),
+             comment("MeanStress",
+                     "volume: m^3; that of the periodic box where it is not given. Returns total_Pa, "
+                     "kinetic_Pa, contact_Pa, capillary_Pa and viscous_Pa, 3 x 3 each, and pressure_Pa, a "
+                     "third of the trace of the total."))
         .def("clusters", &clusters, py::arg("distance") = py::none(),
-             "cluster: for each grain the number of its cluster, from the largest on; size: of each cluster, "
-             "in "
-             "grains. Grains are joined that touch or have a bridge, or, with a distance (m), whose centres "
-             "are nearer.")
+             "cluster: for each grain the number of its cluster, from the largest on; size: of each "
+             "cluster, in grains. Grains are joined that touch or have a bridge, or, with a distance (m), "
+             "whose centres are nearer.")
         .def(
             "keep_energy_ledger", [](PythonScene& s) { s.scene().keepEnergyLedger(); },
             comment("Scene::keepEnergyLedger"))
-        .def("energy", &energies, comment("EnergyLedger"))
+        .def("energy", &energies,
+             "The energies of the ledger (J) by their names, as in NAME-energy.csv: what the scene has, has "
+             "lost, "
+             "and was given. After keep_energy_ledger().")
+        .def_property_readonly(
+            "energy_unaccounted", [](const PythonScene& s) { return s.scene().energyUnaccountedFor(); },
+            comment("Scene::energyUnaccountedFor"))
         .def_property_readonly(
             "kinetic_energy", [](const PythonScene& s) { return s.scene().getKineticEnergy(); },
             "J, of the centres of the grains that can move")
@@ -141,8 +148,16 @@ void bindFields(SceneClass& scene) {
         .def("write_fields", &writeFields, py::arg("coordinates"), py::arg("lowest"), py::arg("highest"),
              py::arg("spacing"), py::arg("width"), py::kw_only(), py::arg("interval"),
              py::arg("average") = 0.0, py::arg("kernel") = "gauss", py::arg("contacts") = true,
-             py::arg("against_flow") = false, py::arg("hdf5") = false, py::arg("name") = "coarse",
-             comment("FieldOutput"));
+             py::arg("against_flow") = false, py::arg("hdf5") = false, py::arg("by") = py::none(),
+             py::arg("name") = "coarse",
+             "Fields at the points of a grid over the run, averaged over time: files as fields() has them "
+             "now. With up to one coordinate NAME-coarse.csv with rows of all averages, else "
+             "NAME-coarse.pvd for ParaView, or NAME-coarse.h5.\n\n"
+             "coordinates, lowest, highest (m), spacing (m), width (m), kernel: as in fields(). interval: "
+             "s, between two samples; average: s, over which they are averaged; 0: each is a row. contacts: "
+             "stress of contacts, too. against_flow: velocities are those against the flow of shear and "
+             "strain. hdf5: write NAME-coarse.h5. by='species': also of each. name: in the place of coarse. "
+             "Raises InputError.");
 }
 
 }  // namespace pendular::python

@@ -15,15 +15,15 @@ namespace {
 template <class Number, std::size_t width, class Write>
 py::array copyOf(const PythonScene& scene, Write&& write) {
     const ParticleStore& grains = scene.scene().particleHandler.store();
-    std::vector<Number> numbers(width * grains.count());
-    Number* to = numbers.data();
+    std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(grains.count())};
+    if constexpr (width > 1) shape.push_back(static_cast<py::ssize_t>(width));
+    py::array_t<Number> made(std::move(shape));
+    Number* to = made.mutable_data();
     for (const std::uint32_t place : grains.place) {
         write(grains, place, to);
         to += width;
     }
-    const auto count = static_cast<py::ssize_t>(grains.count());
-    if constexpr (width == 1) return arrayOf(std::move(numbers));
-    else return arrayOf(std::move(numbers), {count, static_cast<py::ssize_t>(width)});
+    return made;
 }
 
 void put(double* to, const Vector<double>& vector) { to[0] = vector.x, to[1] = vector.y, to[2] = vector.z; }
@@ -64,11 +64,29 @@ py::array species(const PythonScene& scene) {
     return copyOf<std::int64_t, 1>(
         scene, [](const auto& grains, auto place, auto* to) { *to = grains.species[place]; });
 }
+/// For what the kernel tells of one grain.
+GrainReference grainAt(const PythonScene& scene, const ParticleStore& grains, std::uint32_t place) {
+    return const_cast<Scene&>(scene.scene()).particleHandler.getObject(grains.identity[place]);
+}
 py::array films(const PythonScene& scene) {
     return copyOf<double, 1>(scene, [&](const auto& grains, auto place, double* to) {
-        *to = const_cast<Scene&>(scene.scene())
-                  .particleHandler.getObject(grains.identity[place])
-                  .getLiquidVolume();
+        *to = grainAt(scene, grains, place).getLiquidVolume();
+    });
+}
+py::array torques(const PythonScene& scene) {
+    return copyOf<double, 3>(scene, [&](const auto& grains, auto place, double* to) {
+        put(to, toVector(grainAt(scene, grains, place).getTorque()));
+    });
+}
+py::array contactForces(const PythonScene& scene) {
+    return copyOf<double, 3>(scene, [&](const auto& grains, auto place, double* to) {
+        put(to, toVector(scene.scene().contactForceOn(grains.identity[place])));
+    });
+}
+py::array held(const PythonScene& scene) {
+    return copyOf<bool, 6>(scene, [&](const auto& grains, auto place, bool* to) {
+        const HeldAxes axes = grainAt(scene, grains, place).getHeldAxes();
+        for (const bool is : {axes.x, axes.y, axes.z, axes.aboutX, axes.aboutY, axes.aboutZ}) *to++ = is;
     });
 }
 
@@ -92,14 +110,20 @@ void setPositions(PythonScene& scene, const ArrayLike& rows, const Which& which)
     setAll(scene, rows, "position", 3, which,
            [](GrainReference grain, const PerGrain& v, py::ssize_t k) { grain.setPosition(v.vector(k)); });
 }
-void setVelocities(PythonScene& scene, const ArrayLike& rows, const Which& which) {
-    setAll(scene, rows, "velocity", 3, which,
+/// Velocities may be given in prepare() of a part of the step, too.
+PythonScene& toGiveVelocities(const PythonScene& scene) {
+    scene.requireMayGiveVelocities();
+    return const_cast<PythonScene&>(scene);
+}
+void setVelocities(const PythonScene& scene, const ArrayLike& rows, const Which& which) {
+    setAll(toGiveVelocities(scene), rows, "velocity", 3, which,
            [](GrainReference grain, const PerGrain& v, py::ssize_t k) { grain.setVelocity(v.vector(k)); });
 }
-void setSpins(PythonScene& scene, const ArrayLike& rows, const Which& which) {
-    setAll(scene, rows, "spin", 3, which, [](GrainReference grain, const PerGrain& v, py::ssize_t k) {
-        grain.setAngularVelocity(v.vector(k));
-    });
+void setSpins(const PythonScene& scene, const ArrayLike& rows, const Which& which) {
+    setAll(toGiveVelocities(scene), rows, "spin", 3, which,
+           [](GrainReference grain, const PerGrain& v, py::ssize_t k) {
+               grain.setAngularVelocity(v.vector(k));
+           });
 }
 void setRadii(PythonScene& scene, const ArrayLike& rows, const Which& which) {
     setAll(scene, rows, "radius", 1, which,
@@ -175,8 +199,8 @@ void setColumn(PythonScene& scene, const std::string& name, const ArrayLike& row
 }  // namespace
 
 void bindGrainArrays(SceneClass& scene) {
-    const auto all = [](auto set) {
-        return [set](PythonScene& s, const ArrayLike& rows) { set(s, rows, std::nullopt); };
+    const auto all = []<class Scene>(void (*set)(Scene&, const ArrayLike&, const Which&)) {
+        return [set](Scene& s, const ArrayLike& rows) { set(s, rows, std::nullopt); };
     };
     scene
         .def_property(
@@ -189,36 +213,46 @@ void bindGrainArrays(SceneClass& scene) {
         .def_property("film", &films, all(&setFilms), "m^3, N: the liquid on each grain, where liquid moves")
         .def_property_readonly("mass", &masses, "kg, N; in rigid bodies the share of each grain")
         .def_property_readonly("force", &forces, comment("GrainReference::getForce"))
+        .def_property_readonly("torque", &torques, comment("GrainReference::getTorque"))
+        .def_property_readonly(
+            "contact_force", &contactForces,
+            "N, N x 3: of all contacts on each grain in the last step, also on one that is held; without "
+            "its weight")
+        .def_property_readonly("held", &held,
+                               "N x 6: whether each grain is held along x, y and z, and about x, y and z")
         .def_property_readonly("identity", &identities,
                                "N: the numbers of the grains, given once and for all")
         .def_property_readonly("grain_species", &species, "N: the index of the material of each")
         .def("set_position", &setPositions, py::arg("position"), py::arg("identities") = py::none(),
-             "Puts these grains elsewhere (m): one row, or one for each.")
+             "Puts these grains elsewhere.\n\n"
+             "position: m, three numbers, or N x 3. identities: of the grains; all without them.")
         .def("set_velocity", &setVelocities, py::arg("velocity"), py::arg("identities") = py::none(),
-             "Gives these grains velocities (m/s): one row, or one for each.")
+             "Gives these grains velocities.\n\n"
+             "velocity: m/s, three numbers, or N x 3. identities: of the grains; all without them.")
         .def("set_spin", &setSpins, py::arg("spin"), py::arg("identities") = py::none(),
-             "Gives these grains spins (rad/s): one row, or one for each.")
+             "Gives these grains spins.\n\n"
+             "spin: rad/s, three numbers, or N x 3. identities: of the grains; all without them.")
         .def("set_radius", &setRadii, py::arg("radius"), py::arg("identities") = py::none(),
-             comment("GrainReference::setRadius"))
+             comment("GrainReference::setRadius",
+                     "radius: m, one or N. identities: of the grains; all without them."))
         .def("set_film", &setFilms, py::arg("film"), py::arg("identities") = py::none(),
-             comment("GrainReference::setLiquidVolume"))
+             comment("GrainReference::setLiquidVolume",
+                     "film: m^3, one or N. identities: of the grains; all without them."))
         .def("view", &viewOf, py::arg("name"),
-             "An array that looks into the memory of the scene, without a copy: position, velocity (N x 3), "
-             "radius "
-             "or identity. It is read-only, its rows are by place and not by identity, and a place without a "
-             "grain "
-             "has a radius of 0. While it lives, whatever would move the memory raises BufferError.")
+             "An array that looks into the memory of the scene, without a copy, by its name: position, "
+             "velocity (N x 3), radius or identity. It is read-only, its rows are by place and not by "
+             "identity, and a place without a grain has a radius of 0. While it lives, whatever would move "
+             "the memory raises BufferError.")
         .def("grains", &fieldsOfGrains, py::kw_only(), py::arg("stress") = false,
-             "All fields of the grains, by the names that they have in the HDF5 files: position_m, radius_m, "
-             "...; "
-             "with stress also stress_Pa (N x 3 x 3, tension positive).")
+             "All fields of the grains, by the names that they have in the HDF5 files: position_m, "
+             "radius_m, ...; with stress also stress_Pa (N x 3 x 3, tension positive).")
         .def(
             "add_column",
             [](PythonScene& s, const std::string& name, const std::string& unit, double initial) {
                 static_cast<void>(s.scene().particleHandler.addColumn(name, unit, initial));
             },
             py::arg("name"), py::arg("unit") = "", py::arg("initial") = 0.0,
-            comment("ParticleHandler::addColumn"))
+            comment("ParticleHandler::addColumn", "name, unit: words; initial: of all grains."))
         .def(
             "column",
             [](PythonScene& s, const std::string& name) {
@@ -226,9 +260,9 @@ void bindGrainArrays(SceneClass& scene) {
                 return copyOf<double, 1>(
                     s, [&](const auto&, auto place, double* to) { *to = column.values[place]; });
             },
-            py::arg("name"), "N: a copy of what add_column() keeps.")
+            py::arg("name"), "N: a copy of what add_column() keeps under this name.")
         .def("set_column", &setColumn, py::arg("name"), py::arg("values"),
-             "Sets what add_column() keeps: one number, or one for each grain.")
+             "Sets what add_column() keeps under this name. values: one number, or one for each grain.")
         .def(
             "hash",
             [](const PythonScene& s) {

@@ -5,9 +5,9 @@
 
 namespace pendular::python {
 
-namespace {
-
-HeldAxes axesNamed(const std::string& axes) {
+HeldAxes heldAxesNamed(const std::string& axes) {
+    if (axes == "all") return HeldAxes::all();
+    if (axes == "in_plane") return HeldAxes::inPlane();
     HeldAxes held;
     const std::pair<std::string_view, bool HeldAxes::*> known[] = {{"x", &HeldAxes::x},
                                                                    {"y", &HeldAxes::y},
@@ -23,12 +23,14 @@ HeldAxes axesNamed(const std::string& axes) {
         const auto* const found =
             std::ranges::find(known, word, &std::pair<std::string_view, bool HeldAxes::*>::first);
         if (found == std::end(known))
-            throw InputError(
-                fmt::format("held axis '{}'; there are x, y, z, about_x, about_y and about_z.", word));
+            throw InputError(fmt::format(
+                "held axis '{}'; there are x, y, z, about_x, about_y and about_z, all and in_plane.", word));
         held.*found->second = true;
     }
     return held;
 }
+
+namespace {
 
 py::array add(PythonScene& scene, const SpeciesHandle& species, const ArrayLike& position,
               const ArrayLike& radius, const ArrayLike& velocity, const ArrayLike& spin,
@@ -38,7 +40,7 @@ py::array add(PythonScene& scene, const SpeciesHandle& species, const ArrayLike&
     const py::ssize_t count = places.size() == 0 ? 0 : places.shape(0);
     const PerGrain radii(radius, "radius", 1, count), velocities(velocity, "velocity", 3, count),
         spins(spin, "spin", 3, count), films(film, "film", 1, count);
-    const HeldAxes axes = fixed ? HeldAxes::all() : axesNamed(held);
+    const HeldAxes axes = fixed ? HeldAxes::all() : heldAxesNamed(held);
     ParticleHandler& grains = scene.scene().particleHandler;
     std::vector<SphericalParticle> checked(
         static_cast<std::size_t>(count));  // all, before the first is added
@@ -83,16 +85,17 @@ void bindGrains(SceneClass& scene) {
              py::arg("velocity") = py::make_tuple(0, 0, 0), py::arg("spin") = py::make_tuple(0, 0, 0),
              py::arg("film") = 0.0, py::arg("fixed") = false, py::arg("held") = "",
              "Adds grains, at set-up or between steps; returns their identities.\n\n"
-             "position: N x 3, m. radius: m, one or N. velocity (m/s), spin (rad/s): three numbers, or N x "
-             "3. film: "
-             "m^3 of liquid, one or N, where liquid moves. fixed: held in place, and moved by velocity and "
-             "spin "
-             "alone. held: axes along and about which they are held, as 'z about_x about_y'. Raises "
-             "InputError, "
-             "and adds none then.")
-        .def("remove_grains", &remove, py::arg("identities"), comment("ParticleHandler::removeObject"))
+             "species: their material. position: N x 3, m. radius: m, one or N. velocity (m/s), spin "
+             "(rad/s): three numbers, or N x 3. film: m^3 of liquid, one or N, where liquid moves. fixed: "
+             "held in place, and moved by velocity and spin alone. held: axes along and about which they "
+             "are held, as 'z about_x about_y'. Raises InputError, and adds none then.")
+        .def("remove_grains", &remove, py::arg("identities"),
+             comment("ParticleHandler::removeObject", "identities: of those that go; all or none."))
         .def("add_grains_of_file", &addFromFile, py::arg("species"), py::arg("file"),
-             py::arg("step") = py::none(), comment("readGrainFile"))
+             py::arg("step") = py::none(),
+             comment("readGrainFile",
+                     "species: a list; grains of the file's type 1 get the first one, and so on. file: its "
+                     "name. step: of a dump."))
         .def(
             "write_grains",
             [](PythonScene& s, const std::filesystem::path& file) {
@@ -105,21 +108,23 @@ void bindGrains(SceneClass& scene) {
         .def(
             "hold",
             [](PythonScene& s, const ArrayLike& identities, const std::string& axes) {
-                const HeldAxes held = axes == "all" ? HeldAxes::all() : axesNamed(axes);
+                const HeldAxes held = heldAxesNamed(axes);
                 for (const std::uint32_t identity : identitiesOf(identities, "identities"))
                     s.scene().particleHandler.getObject(identity).setHeldAxes(held);
             },
-            py::arg("identities"), py::arg("axes") = "all", comment("GrainReference::setHeldAxes"))
+            py::arg("identities"), py::arg("axes") = "all",
+            comment("GrainReference::setHeldAxes",
+                    "identities: of the grains; axes: of x, y, z, about_x, about_y and about_z, with blanks "
+                    "between them; 'all'; 'in_plane'; \'\': they are free."))
         .def(
             "hold_all",
             [](PythonScene& s, const std::string& axes) {
-                s.scene().particleHandler.holdAll(axes == "in_plane" ? HeldAxes::inPlane() : axesNamed(axes));
+                s.scene().particleHandler.holdAll(heldAxesNamed(axes));
             },
             py::arg("axes") = "in_plane",
-            "Holds all grains and rigid bodies along and about these axes, those that are there and those to "
-            "come: "
-            "'in_plane' is a scene in the plane of x and y. A velocity or a spin there is refused. At "
-            "set-up.")
+            "Holds all grains and rigid bodies along and about these axes, those that are there and those "
+            "to come: 'in_plane' is a scene in the plane of x and y. A velocity or a spin there is refused. "
+            "At set-up.")
         .def(
             "set_grains_are_discs", [](PythonScene& s) { s.setGrainsAreDiscs(); },
             comment("SpeciesOwner::setGrainsAreDiscs"))
@@ -129,7 +134,9 @@ void bindGrains(SceneClass& scene) {
                 for (const std::uint32_t identity : identitiesOf(identities, "identities"))
                     s.scene().particleHandler.getObject(identity).setSpecies(&species);
             },
-            py::arg("identities"), py::arg("species"), "Gives grains another material, also during a run.")
+            py::arg("identities"), py::arg("species"),
+            "Gives grains another material, also during a run.\n\n"
+            "identities: of the grains; species: of this scene.")
         .def("__len__", [](const PythonScene& s) { return s.scene().particleHandler.getSize(); });
 }
 

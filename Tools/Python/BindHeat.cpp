@@ -50,8 +50,7 @@ void bindHeat(SceneClass& scene) {
         .def("conduct_heat", &conduct, py::arg("temperature") = 293.0, py::kw_only(),
              py::arg("law") = "constriction", py::arg("softening") = 1.0,
              "Gives the grains a temperature (K), which is their column `temperature`: heat is conducted "
-             "where they "
-             "touch, at set-up of the scene.\n\n"
+             "where they touch, at set-up of the scene.\n\n"
              "law: 'constriction', 2 k a with the contact radius a of Hertz, or 'area_over_distance', as "
              "MercuryDPM's Thermal species. softening: for grains that are softer than their material, the "
              "ratio of the moduli of simulated and real grains, up to 1. Every material of the scene needs "
@@ -63,8 +62,8 @@ void bindHeat(SceneClass& scene) {
                 heatOf(s).setMaterial(&species, {conductivity, heatCapacity});
             },
             py::arg("species"), py::kw_only(), py::arg("conductivity"), py::arg("heat_capacity"),
-            "Heat in the grains and walls of a material: conductivity, W/(m K), 0 for an insulator; "
-            "heat_capacity, J/(kg K). Raises InputError.")
+            "Heat in the grains and walls of a material, the species: conductivity, W/(m K), 0 for an "
+            "insulator; heat_capacity, J/(kg K). Raises InputError.")
         .def(
             "hold_temperature",
             [](PythonScene& s, const WallHandle& wall, double temperature,
@@ -72,14 +71,14 @@ void bindHeat(SceneClass& scene) {
                 heatOf(s).holdWall(numberOf(s, wall), temperature, conductivity);
             },
             py::arg("wall"), py::arg("temperature"), py::arg("conductivity") = py::none(),
-            comment("HeatPart::holdWall"))
+            comment("HeatPart::holdWall", "wall: of this scene; temperature: K; conductivity: W/(m K)."))
         .def(
             "insulate",
             [](PythonScene& s, const WallHandle& wall) { heatOf(s).insulateWall(numberOf(s, wall)); },
             py::arg("wall"), "A wall that had a temperature conducts no heat any more.")
         .def(
             "heat_by_contacts", [](PythonScene& s, bool heats) { heatOf(s).heatByContacts(heats); },
-            py::arg("heats") = true, comment("HeatPart::heatByContacts"))
+            py::arg("heats") = true, comment("HeatPart::heatByContacts", "heats: or no more."))
         .def("heat", &ledger,
              "The heat of the scene, J: stored_J, of all grains; from_walls_J, of held temperatures; "
              "from_contacts_J, what contacts have lost, as far as it went into grains; to_walls_J, what of "

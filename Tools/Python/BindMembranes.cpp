@@ -86,10 +86,14 @@ void bindMembranes(py::module_& module, SceneClass& scene) {
     wall.def("hold", &hold, py::arg("where"), py::arg("velocity") = Vec3D(0, 0, 0), comment("Membrane::hold"))
         .def(
             "hold_rim", [](const WallHandle& w, const Vec3D& v) { w.as<Membrane>("rim").holdRim(v); },
-            py::arg("velocity") = Vec3D(0, 0, 0), comment("Membrane::holdRim"))
+            py::arg("velocity") = Vec3D(0, 0, 0),
+            comment("Membrane::holdRim", "velocity: m/s, with which they move from now on."))
         .def(
             "set_pressure", [](const WallHandle& w, double p) { w.as<Membrane>("pressure").setPressure(p); },
-            py::arg("pressure"), comment("Membrane::setPressure"))
+            py::arg("pressure"),
+            "A pressure on the membrane, also in a run: it acts from the end of the next step on.\n\n"
+            "pressure: Pa, pushes along the normals (of corners that run counter-clockwise towards the "
+            "eye); negative against them.")
         .def_property_readonly(
             "volume", [](const WallHandle& w) { return w.as<Membrane>("volume").getVolume(); },
             comment("Membrane::getVolume"))
@@ -118,8 +122,7 @@ void bindMembranes(py::module_& module, SceneClass& scene) {
              py::arg("acceleration") = 1.0,
              "Counts what grains wear off each triangle of a mesh, by a law: reye (factor, m^3/J), archard "
              "(coefficient, hardness in Pa), finnie (cutting_share, flow_stress in Pa), or none. With an "
-             "interval "
-             "(s) the vertices move by it, times acceleration. At set-up.")
+             "interval (s) the vertices move by it, times acceleration. At set-up.")
         .def("wear", &wear, "Columns of what was done to each triangle: sliding_work_J, worn_volume_m3, ...");
 
     scene.def(
@@ -131,7 +134,12 @@ void bindMembranes(py::module_& module, SceneClass& scene) {
         },
         py::arg("species"), py::arg("mesh"), py::kw_only(), py::arg("young_modulus"), py::arg("thickness"),
         py::arg("density"), py::arg("scale") = 1.0, py::arg("hold_rim") = false, py::arg("pressure") = 0.0,
-        py::arg("damping") = 0.0, comment("Membrane"));
+        py::arg("damping") = 0.0,
+        comment("Membrane",
+                "species: the material of its surface. mesh: the name of a file (STL, OBJ, PLY), or an "
+                "array of triangles, N x 3 x 3 numbers; scale: m for one unit of it. young_modulus: Pa; "
+                "thickness: m; density: kg/m^3. hold_rim: its free edges stay. pressure: Pa, along the "
+                "normals; damping: 1/s, a force of this rate times mass and velocity on each vertex."));
 
     module.def(
         "membrane_sheet",

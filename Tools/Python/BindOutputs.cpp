@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
 #include "Kernel/Output/EnergyFile.h"
 #include "Kernel/Output/GrainFlowFiles.h"
 #include "Kernel/Output/Hdf5Output.h"
@@ -11,10 +16,73 @@ namespace pendular::python {
 
 namespace {
 
+/// Rows of all grains, which a function of Python makes for each frame. Frames ask for the grains in the
+/// order of identities, so a grain that is not behind the last one begins a new frame.
+class RowsOfFrame {
+public:
+    /// @param numbers of a row: 1, or 3 of a vector
+    RowsOfFrame(PythonScene& of, std::string called, py::function function, py::ssize_t numbers)
+        : scene(of), name(std::move(called)), make(shared(std::move(function))), width(numbers) {}
+
+    /// Those of one grain.
+    const double* operator()(std::size_t identity) {
+        if (rows.empty() || identity <= last) rows = ofAll(), next = rows.data();
+        last = identity;
+        return std::exchange(next, next + width);
+    }
+
+private:
+    std::vector<double> ofAll() {
+        return scene.ask([&] {
+            const Doubles made = Doubles::ensure((*make)(scene.object()));
+            const auto count = static_cast<py::ssize_t>(scene.scene().particleHandler.getSize());
+            if (!made || made.ndim() != (width == 1 ? 1 : 2) || made.size() != count * width) {
+                PyErr_Clear();
+                throw InputError(
+                    fmt::format("The function of the field {} must return {} for each of {} grains.", name,
+                                width == 3 ? "three numbers" : "a number", count));
+            }
+            return std::vector<double>(made.data(), made.data() + made.size());
+        });
+    }
+
+    PythonScene& scene;
+    std::string name;
+    std::shared_ptr<py::function> make;
+    py::ssize_t width;
+    std::vector<double> rows;
+    const double* next = nullptr;
+    std::size_t last = 0;
+};
+
+using Functions = std::map<std::string, py::function>;
+
 template <class Output>
-void addFrames(PythonScene& scene, double interval, bool contacts, bool stress, bool doubles) {
-    scene.scene().addOutput(
-        Output().withInterval(interval).withContacts(contacts).withStress(stress).withDoubles(doubles));
+void addFrames(PythonScene& scene, double interval, bool contacts, bool contactPoints, bool stress,
+               bool doubles, const Functions& numbers, const Functions& vectors) {
+    Output output;
+    output.withInterval(interval).withContacts(contacts).withContactPoints(contactPoints);
+    output.withStress(stress).withDoubles(doubles);
+    for (const auto& [name, function] : numbers) {
+        const auto rows = std::make_shared<RowsOfFrame>(scene, name, function, 1);
+        output.addField(name, [rows](std::size_t grain) { return *(*rows)(grain); });
+    }
+    for (const auto& [name, function] : vectors) {
+        const auto rows = std::make_shared<RowsOfFrame>(scene, name, function, 3);
+        output.addField(name, [rows](std::size_t grain) {
+            const double* const row = (*rows)(grain);
+            return Eigen::Vector3d(row[0], row[1], row[2]);
+        });
+    }
+    scene.scene().addOutput(std::move(output));
+}
+
+/// How both kinds of frames are bound.
+template <class Output>
+void bindFrames(SceneClass& scene, const char* name, const char* text) {
+    scene.def(name, &addFrames<Output>, py::arg("interval"), py::kw_only(), py::arg("contacts") = true,
+              py::arg("contact_points") = false, py::arg("stress") = false, py::arg("doubles") = false,
+              py::arg("fields") = Functions{}, py::arg("vectors") = Functions{}, text);
 }
 
 template <class Table>
@@ -25,26 +93,35 @@ void addTable(PythonScene& scene, double interval) {
 }  // namespace
 
 void bindOutputs(SceneClass& scene) {
+    bindFrames<ParaViewOutput>(
+        scene, "write_paraview",
+        "Writes NAME.pvd, which ParaView opens, with a frame at each multiple of the interval (s).\n\n"
+        "contacts, contact_points, stress: these as well; doubles: of 64 bits, not of 32. fields, vectors: "
+        "what else the grains are to have, a function for each name (which ends with the unit): f(scene) "
+        "returns N numbers, or N x 3.");
+    bindFrames<Hdf5Output>(
+        scene, "write_hdf5",
+        "Writes NAME-fields.h5, which frames() reads, with a frame at each multiple of "
+        "the interval (s); contacts, contact_points, stress, doubles, fields and vectors are "
+        "as in write_paraview().");
     scene
-        .def("write_paraview", &addFrames<ParaViewOutput>, py::arg("interval"), py::kw_only(),
-             py::arg("contacts") = true, py::arg("stress") = false, py::arg("doubles") = false,
-             "Writes NAME.pvd, which ParaView opens, with a frame at each multiple of the interval (s).")
-        .def(
-            "write_hdf5", &addFrames<Hdf5Output>, py::arg("interval"), py::kw_only(),
-            py::arg("contacts") = true, py::arg("stress") = false, py::arg("doubles") = false,
-            "Writes NAME-fields.h5, which frames() reads, with a frame at each multiple of the interval (s).")
-        .def("write_energy", &addTable<EnergyFile>, py::arg("interval"), comment("EnergyFile"))
-        .def("write_wall_forces", &addTable<WallForceFile>, py::arg("interval"), comment("WallForceFile"))
-        .def("write_inlets", &addTable<InletFile>, py::arg("interval"), comment("InletFile"))
-        .def("write_outlets", &addTable<OutletFile>, py::arg("interval"), comment("OutletFile"))
-        .def("write_flux", &addTable<FluxFile>, py::arg("interval"), comment("FluxFile"))
+        .def("write_energy", &addTable<EnergyFile>, py::arg("interval"),
+             comment("EnergyFile", "interval: s, between two rows."))
+        .def("write_wall_forces", &addTable<WallForceFile>, py::arg("interval"),
+             comment("WallForceFile", "interval: s, between two rows."))
+        .def("write_inlets", &addTable<InletFile>, py::arg("interval"),
+             comment("InletFile", "interval: s, between two rows."))
+        .def("write_outlets", &addTable<OutletFile>, py::arg("interval"),
+             comment("OutletFile", "interval: s, between two rows."))
+        .def("write_flux", &addTable<FluxFile>, py::arg("interval"),
+             comment("FluxFile", "interval: s, between two rows."))
         .def(
             "write_mercury",
             [](PythonScene& s, std::size_t steps) {
                 s.scene().addOutput(MercuryOutput().withEnergies(s.scene().keepsEnergyLedger()));
                 s.scene().setSaveCount(steps);
             },
-            py::arg("steps"), comment("MercuryOutput"))
+            py::arg("steps"), comment("MercuryOutput", "steps: between two frames."))
         .def(
             "write_summary", [](PythonScene& s) { s.scene().addOutput(RunSummary()); },
             comment("RunSummary"));

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "Kernel/Parts/AdaptiveStep.h"
 #include "Kernel/Simulation/OverlapEstimate.h"
 #include "Kernel/Species/LawNames.h"
@@ -33,7 +35,8 @@ void bindTime(SceneClass& scene) {
             "How many steps have been done.")
         .def_property(
             "time_step", [](const PythonScene& s) { return s.scene().getTimeStep(); },
-            [](PythonScene& s, double step) { s.scene().setTimeStep(step); }, comment("Run::setTimeStep"))
+            [](PythonScene& s, double step) { s.scene().setTimeStep(step); },
+            "s; in a run it holds from the next step on, and the time goes on from where it is")
         .def_property(
             "end_time", [](const PythonScene& s) { return s.scene().getTimeMax(); },
             [](PythonScene& s, double end) { s.scene().setTimeMax(end); },
@@ -41,8 +44,8 @@ void bindTime(SceneClass& scene) {
             "finish().")
         .def("choose_time_step", &chooseTimeStep, py::arg("steps_in_contact") = 25.0,
              "Sets the time step (s) to the smaller of stability_limit() and shortest_contact_time() over "
-             "this "
-             "number, and returns it.")
+             "this number, and returns it.\n\n"
+             "steps_in_contact: in the shortest contact, at least.")
         .def(
             "stability_limit", [](PythonScene& s) { return s.scene().stabilityLimit(); },
             comment("Scene::stabilityLimit"))
@@ -74,11 +77,26 @@ void bindTime(SceneClass& scene) {
                 s.scene().setAdaptiveTimeStep(share, largest);
             },
             py::arg("share") = 0.9, py::arg("largest_step") = py::none(),
-            comment("Scene::setAdaptiveTimeStep"))
+            comment("Scene::setAdaptiveTimeStep", "share: of what contacts stand; largest_step: s."))
+        .def(
+            "adaptive_time_step",
+            [](const PythonScene& s) {
+                const AdaptiveStep& step = s.scene().adaptiveTimeStep();
+                py::dict made;
+                made["choices"] = step.choiceCount();
+                made["smallest_s"] = step.smallestStep(), made["largest_s"] = step.largestStep();
+                return made;
+            },
+            "How often set_adaptive_time_step() has chosen a step, the smallest and the largest (s).")
+        .def_property_readonly(
+            "integrator", [](const PythonScene& s) { return snakeCase(s.scene().getIntegrator().name); },
+            "The name of the integrator, as set_integrator() takes it.")
         .def(
             "set_integrator",
             [](PythonScene& s, const std::string& name) { s.scene().setIntegrator(integratorNamed(name)); },
-            py::arg("name"), comment("Scene::setIntegrator"))
+            py::arg("name"),
+            comment("Scene::setIntegrator",
+                    "name: as velocity_verlet; the sentence that refuses another name lists them."))
         .def(
             "estimate_overlaps",
             [](PythonScene& s, double pressure) { return estimateOverlaps(s.scene(), pressure).text(); },
@@ -121,11 +139,9 @@ void bindRun(SceneClass& scene) {
                 return f;
             },
             py::arg("steps"), py::arg("function"),
-            "Calls function(scene) after each step whose number is a multiple of this one. All may be read "
-            "and "
+            "Calls function(scene) after each step whose number is a multiple of steps. All may be read and "
             "changed in it. Where it returns False, run() returns after the step; where it raises, the run "
-            "ends, and "
-            "run() raises the same.")
+            "ends, and run() raises the same.")
         .def(
             "every_time",
             [](PythonScene& s, double interval, py::function f) {
@@ -133,8 +149,8 @@ void bindRun(SceneClass& scene) {
                 return f;
             },
             py::arg("interval"), py::arg("function"),
-            "Calls function(scene) after the steps nearest to the multiples of a time (s), as every_steps() "
-            "does.")
+            "Calls function(scene) after the steps nearest to the multiples of the interval (s), as "
+            "every_steps() does.")
         .def(
             "at_end",
             [](PythonScene& s, py::function f) {
@@ -143,8 +159,7 @@ void bindRun(SceneClass& scene) {
             },
             py::arg("function"),
             "Calls function(scene) once the run has ended, whatever has ended it: files of your own are to "
-            "be "
-            "completed there.")
+            "be completed there.")
         .def("clear_calls", &PythonScene::clearCalls,
              "No function of every_steps() and every_time() is called any more.")
         .def_readwrite(
@@ -153,9 +168,8 @@ void bindRun(SceneClass& scene) {
             "remember from step to step. Give all of them, with their shapes, before the run.")
         .def("keep_restart_file", &PythonScene::keepRestartFile, py::arg("interval") = 600.0,
              py::arg("steps") = 0,
-             "Keeps NAME-restart.h5: written at the start and the end of the run, at Ctrl-C, whenever this "
-             "time "
-             "(s of the clock) has passed, and after so many steps (0: not).")
+             "Keeps NAME-restart.h5: written at the start and the end of the run, at Ctrl-C, whenever the "
+             "interval (s of the clock) has passed, and after so many steps (0: not).")
         .def_property_readonly(
             "restart_file", [](const PythonScene& s) { return s.scene().restartFile(); }, "Where it is.")
         .def(
@@ -164,7 +178,7 @@ void bindRun(SceneClass& scene) {
                 s.requireNoViews();
                 s.scene().restartFrom(file);
             },
-            py::arg("file"), comment("Run::restartFrom"))
+            py::arg("file"), comment("Run::restartFrom", "file: its name."))
         .def_property_readonly(
             "restart_time", [](const PythonScene& s) { return s.scene().restartTime(); },
             comment("Run::restartTime"))
@@ -175,7 +189,24 @@ void bindRun(SceneClass& scene) {
                                      // grains
                 s.scene().writeRestart(file);
             },
-            py::arg("file"), comment("Run::writeRestart"))
+            py::arg("file"), comment("Run::writeRestart", "file: its name."))
+        .def(
+            "measure_step_times", [](PythonScene& s, bool measure) { s.scene().measureStepTimes(measure); },
+            py::arg("measure") = true, comment("Run::measureStepTimes", "measure: or no more."))
+        .def(
+            "step_times",
+            [](const PythonScene& s) {
+                const auto seconds = s.scene().stepTimes().seconds();
+                py::dict made;
+                for (std::size_t k = 0; k < seconds.size(); ++k) {
+                    std::string name(StepTimes::names[k]);
+                    std::ranges::replace(name, ' ', '_');
+                    made[py::str(name + "_s")] = seconds[k];
+                }
+                return made;
+            },
+            "Where the time of the run went (s of the clock), since measure_step_times(): motion_s, "
+            "search_s, contacts_s, walls_s, liquid_s, sum_s, energy_ledger_s, output_s and other_s.")
         .def_property(
             "threads", [](const PythonScene& s) { return s.scene().getNumberOfThreads(); },
             [](PythonScene& s, int count) { s.scene().setNumberOfThreads(count); },

@@ -50,7 +50,12 @@ void bindSoftness(py::module_& module, SceneClass& scene) {
         py::arg("figures"), py::kw_only(), py::arg("young_modulus"), py::arg("poisson_ratio") = 0.25,
         py::arg("density"), py::arg("diameter"), py::arg("pressure") = 0.0, py::arg("speed") = 0.0,
         py::arg("pull") = 0.0, py::arg("kept") = py::none(), py::arg("error") = 0.01,
-        comment("softestModulus"));
+        comment("softestModulus",
+                "figures: names, as 'solid_fraction' and 'friction'. young_modulus: Pa, and poisson_ratio, "
+                "of the material; density: kg/m^3; diameter: m. pressure: Pa; speed: m/s, of the fastest; "
+                "pull: N, the largest attraction of a contact; kept: 'strength' or 'collisions', what of "
+                "cohesion is to stay; error: of the figures. Returns young_modulus_Pa, bounds (modulus, "
+                "reason), least_gain, most_gain, adhesion_factor and text."));
     scene.def(
         "softest_modulus",
         [](PythonScene& s, const std::vector<std::string>& figures, double young, double poisson,
@@ -65,10 +70,11 @@ void bindSoftness(py::module_& module, SceneClass& scene) {
         py::arg("pressure") = 0.0, py::arg("pull") = 0.0, py::arg("kept") = py::none(),
         py::arg("error") = 0.01,
         "The softest Young's modulus (Pa) with which these figures of the scene are right, as "
-        "pendular.softest_modulus(); density, diameter, pressure and speed are those of the scene. "
-        "figures: names, as 'solid_fraction' and 'friction'. young_modulus: Pa, of the material. pressure: "
-        "Pa, besides. pull: N, the largest attraction of a contact; kept: 'strength' or 'collisions'. error: "
-        "of the figures. Returns young_modulus_Pa, bounds, least_gain, most_gain, adhesion_factor and text.");
+        "pendular.softest_modulus(); density, diameter, pressure and speed are those of the scene. figures: "
+        "names, as 'solid_fraction' and 'friction'. young_modulus: Pa, and poisson_ratio, of the material. "
+        "pressure: Pa, besides. pull: N, the largest attraction of a contact; kept: 'strength' or "
+        "'collisions'. error: of the figures. Returns young_modulus_Pa, bounds, least_gain, most_gain, "
+        "adhesion_factor and text.");
 }
 
 }  // namespace pendular::python

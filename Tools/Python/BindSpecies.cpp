@@ -134,15 +134,18 @@ SpeciesHandle add(PythonScene& scene, const std::string& type, const py::kwargs&
     setValues(other->addSpecies(typeNamed(type)), values);
     AnySpecies& added = scene.addSpecies(typeNamed(type));
     setValues(added, values);
+    scene.species.push_back(&added);
     return {scene, added};
 }
 
 }  // namespace
 
 void bindSpecies(py::module_& module, SceneClass& scene) {
-    py::class_<SpeciesHandle>(module, "Species", collectHandles<SpeciesHandle>(),
-                              "A material of a scene; add_species() makes it.")
-        .def_property_readonly("index", &SpeciesHandle::getIndex, "Its number in the scene, from 0.")
+    py::class_<SpeciesHandle> material(module, "Species", collectHandles<SpeciesHandle>(),
+                                       "A material of a scene; add_species() makes it.");
+    refuseCopies(material, "it is a part of its scene; hand its numbers on.");
+    compareBy(material, [](const SpeciesHandle& s) { return s.getIndex(); });
+    material.def_property_readonly("index", &SpeciesHandle::getIndex, "Its number in the scene, from 0.")
         .def_property_readonly(
             "name", [](const SpeciesHandle& s) { return withoutEnding(s.species->getName()); },
             "Normal, friction and adhesion law.")
@@ -166,6 +169,14 @@ void bindSpecies(py::module_& module, SceneClass& scene) {
         });
 
     scene
+        .def_property_readonly(
+            "species",
+            [](PythonScene& s) {
+                std::vector<SpeciesHandle> all;
+                for (AnySpecies* const one : s.species) all.emplace_back(s, *one);
+                return all;
+            },
+            "The materials, in the order of their indices, which grain_species has.")
         .def("add_species", &add, py::arg("type"),
              "Adds a material by the name of its laws (pendular.species() lists them), with its fields: "
              "density (kg/m^3), those of pendular.fields(type), or young_modulus (Pa) and poisson_ratio, "
@@ -182,9 +193,8 @@ void bindSpecies(py::module_& module, SceneClass& scene) {
                 setValues(s.lawsOfPair(*a.species, *b.species, name), valuesOf(values));
             },
             py::arg("a"), py::arg("b"), py::arg("type") = py::none(),
-            "Gives the contacts of two materials values of their own, and, where the materials have "
-            "different "
-            "types, the type of their laws. What is not given is mixed from both.");
+            "Gives the contacts of two materials, a and b, values of their own, and, where the materials "
+            "have different types, the type of their laws. What is not given is mixed from both.");
 
     module.def("species", &knownSpecies,
                "The names of all species that are compiled into this module. Others: a library for "

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "Kernel/Output/SceneFields.h"
 #include "Kernel/Walls/AxisymmetricWall.h"
 #include "Kernel/Walls/InfiniteCylinder.h"
 #include "Kernel/Walls/IntersectionOfHalfSpaces.h"
@@ -86,6 +89,22 @@ WallHandle addSolid(PythonScene& scene, const SpeciesHandle& species, const Arra
     return addWall(scene, species, wall, forces);
 }
 
+std::string kindOf(const WallHandle& handle) {
+    Wall& wall = handle.wall();
+    const auto is = [&]<class Kind>(const Kind*) { return dynamic_cast<Kind*>(&wall) != nullptr; };
+    if (wall.isRemoved()) return "removed";
+    if (is(static_cast<InfiniteWall*>(nullptr))) return "plane";
+    if (is(static_cast<InfiniteCylinder*>(nullptr))) return "cylinder";
+    if (is(static_cast<FiniteCylinder*>(nullptr))) return "tube";
+    if (is(static_cast<AxisymmetricWall*>(nullptr))) return "profile";
+    return wall.membrane() ? "membrane" : "mesh";
+}
+
+double liquidOf(const WallHandle& handle) {
+    static_cast<void>(handle.wall());
+    return handle.owner->scene().liquidOfWall(handle.number);
+}
+
 Eigen::Isometry3d poseOf(const py::object& answer) {
     const Doubles numbers = Doubles::ensure(answer);
     if (!numbers || (numbers.size() != 3 && numbers.size() != 16)) {
@@ -109,22 +128,46 @@ void setMotion(const WallHandle& handle, py::function function) {
         });
 }
 
+/// As frames have them.
+py::dict polygons(const PythonScene& scene) {
+    FrameContent content;
+    content.contacts = false;
+    PolyData made = content.of(scene.scene()).walls.value_or(PolyData{});
+    py::dict answer;
+    answer["points_m"] = arrayOf(std::move(made.points));
+    answer["ends"] = arrayOf(std::move(made.ends));
+    for (PolyDataField& field : made.cellFields) answer[py::str(field.name)] = arrayOf(std::move(field));
+    return answer;
+}
+
 void bindMotion(py::class_<WallHandle>& wall) {
     wall.def(
             "set_velocity",
             [](const WallHandle& w, const Vec3D& v) { w.as<RigidWall>("velocity").setVelocity(v); },
-            py::arg("velocity"), comment("RigidWall::setVelocity"))
+            py::arg("velocity"),
+            "Moves the wall from now on.\n\n"
+            "velocity: m/s; with an angular velocity, that of its point. It takes the place of what has "
+            "moved the wall.")
         .def(
             "set_angular_velocity",
             [](const WallHandle& w, const Vec3D& spin, const Vec3D& point) {
                 w.as<RigidWall>("velocity").setAngularVelocity(spin, point);
             },
-            py::arg("spin"), py::arg("point") = Vec3D(0, 0, 0), comment("RigidWall::setAngularVelocity"))
-        .def("set_motion", &setMotion, py::arg("function"), comment("RigidWall::setMotion"))
+            py::arg("spin"), py::arg("point") = Vec3D(0, 0, 0),
+            "Turns the wall from now on.\n\n"
+            "spin: rad/s, about an axis through the point (m; where it is now), which moves with "
+            "set_velocity(). It takes the place of what has moved the wall.")
+        .def("set_motion", &setMotion, py::arg("function"),
+             "The pose of the wall by the time: function(time in s) returns a shift (m), three numbers, or "
+             "a pose as a matrix 4 x 4, from the frame in which the wall was given to the scene. It is "
+             "asked in each step, may read the scene and not change it.\n\n"
+             "During a run, the wall is moved from where it is by what the function changes from then on. A "
+             "restart file does not keep a function, so the scene that goes on has to be set up with it. "
+             "Velocities are differences of poses within 2.4e-7 s.")
         .def(
             "set_surface_velocity",
             [](const WallHandle& w, const Vec3D& v) { w.as<RigidWall>("surface").setSurfaceVelocity(v); },
-            py::arg("velocity"), comment("RigidWall::setSurfaceVelocity"))
+            py::arg("velocity"), comment("RigidWall::setSurfaceVelocity", "velocity: m/s."))
         .def(
             "velocity_at",
             [](const WallHandle& w, const Vec3D& point) {
@@ -151,14 +194,16 @@ void bindDrives(py::class_<WallHandle>& wall) {
             [](const WallHandle& w, double mass, double load) {
                 w.as<InfiniteWall>("piston").setPiston(mass, load);
             },
-            py::arg("mass"), py::arg("load"), comment("InfiniteWall::setPiston"))
+            py::arg("mass"), py::arg("load"),
+            comment("InfiniteWall::setPiston", "mass: kg; load: N, along the normal towards the grains."))
         .def(
             "set_target_force",
             [](const WallHandle& w, double force, double time, double largest) {
                 w.as<InfiniteWall>("servo").setTargetForce(force, time, largest);
             },
             py::arg("force"), py::arg("time"), py::arg("largest_speed"),
-            comment("InfiniteWall::setTargetForce"))
+            comment("InfiniteWall::setTargetForce",
+                    "force: N, of the grains on the plane; time: s; largest_speed: m/s."))
         .def_property_readonly(
             "driven_velocity",
             [](const WallHandle& w) { return w.as<InfiniteWall>("drive").getDrivenVelocity(); },
@@ -173,7 +218,10 @@ void bindDrives(py::class_<WallHandle>& wall) {
                 w.as<RigidWall>("body").setSlider(direction, {mass, force, friction, largestSpeed});
             },
             py::arg("direction"), py::kw_only(), py::arg("mass"), py::arg("force") = 0.0,
-            py::arg("friction") = 0.0, py::arg("largest_speed") = infinity, comment("RigidWall::setSlider"))
+            py::arg("friction") = 0.0, py::arg("largest_speed") = infinity,
+            comment("RigidWall::setSlider",
+                    "direction: of any length; mass: kg; force: N, along it; friction: N, of its bearing, "
+                    "against its motion; largest_speed: m/s."))
         .def(
             "set_rotor",
             [](const WallHandle& w, const Vec3D& axis, const Vec3D& point, double inertia, double torque,
@@ -181,7 +229,10 @@ void bindDrives(py::class_<WallHandle>& wall) {
                 w.as<RigidWall>("body").setRotor(axis, point, {inertia, torque, friction, largestSpin});
             },
             py::arg("axis"), py::arg("point"), py::kw_only(), py::arg("inertia"), py::arg("torque") = 0.0,
-            py::arg("friction") = 0.0, py::arg("largest_spin") = infinity, comment("RigidWall::setRotor"))
+            py::arg("friction") = 0.0, py::arg("largest_spin") = infinity,
+            comment("RigidWall::setRotor",
+                    "axis: of any length; point: m, on it; inertia: kg m^2, about it; torque: N m; "
+                    "friction: N m, of its bearing, against its motion; largest_spin: rad/s."))
         .def(
             "set_free_body",
             [](const WallHandle& w, std::optional<double> density, std::optional<double> mass,
@@ -200,7 +251,9 @@ void bindDrives(py::class_<WallHandle>& wall) {
             py::kw_only(), py::arg("density") = py::none(), py::arg("mass") = py::none(),
             py::arg("centre") = Vec3D(0, 0, 0), py::arg("inertia") = py::none(),
             py::arg("force") = Vec3D(0, 0, 0), py::arg("torque") = Vec3D(0, 0, 0),
-            comment("RigidWall::setFreeBody"))
+            comment("RigidWall::setFreeBody",
+                    "density: kg/m^3, of a closed mesh; or mass: kg, centre: m, of mass, and inertia: 3 x "
+                    "3, kg m^2, about it. force: N, and torque: N m, that act besides."))
         .def_property_readonly(
             "body_speed", [](const WallHandle& w) { return w.as<RigidWall>("body").getBodySpeed(); },
             comment("RigidWall::getBodySpeed"))
@@ -213,6 +266,8 @@ void bindDrives(py::class_<WallHandle>& wall) {
 
 void bindWalls(py::module_& module, SceneClass& scene) {
     py::class_<WallHandle> wall(module, "Wall", collectHandles<WallHandle>(), "A wall of a scene.");
+    refuseCopies(wall, "it is a part of its scene; hand its number on.");
+    compareBy(wall, [](const WallHandle& w) { return w.number; });
     wall.def_readonly("number", &WallHandle::number, "Its number, in the order of adding, from 0.")
         .def_property_readonly(
             "force", [](const WallHandle& w) { return w.wall().getForce(); }, comment("Wall::getForce"))
@@ -223,34 +278,56 @@ void bindWalls(py::module_& module, SceneClass& scene) {
             [](const WallHandle& w, bool keep, const Vec3D& about) {
                 w.as<Wall>("forces").keepForces(keep, about);
             },
-            py::arg("keep") = true, py::arg("about") = Vec3D(0, 0, 0), comment("Wall::keepForces"))
+            py::arg("keep") = true, py::arg("about") = Vec3D(0, 0, 0),
+            comment("Wall::keepForces", "keep: or no more; about: m, the point of the torque."))
         .def(
             "set_species",
             [](const WallHandle& w, const SpeciesHandle& s) {
                 s.requireOf(*w.owner, "species");
                 w.as<Wall>("species").setSpecies(&s);
             },
-            py::arg("species"), "Gives the wall another material.")
-        .def("__repr__", [](const WallHandle& w) { return fmt::format("<pendular.Wall {}>", w.number); });
+            py::arg("species"),
+            "Gives the wall another material, also during a run.\n\nspecies: of this scene.")
+        .def_property_readonly("kind", &kindOf, "plane, cylinder, tube, profile, mesh, membrane, or removed.")
+        .def_property_readonly("liquid", &liquidOf, comment("Scene::liquidOfWall"))
+        .def("__repr__",
+             [](const WallHandle& w) { return fmt::format("<pendular.Wall {}: {}>", w.number, kindOf(w)); });
     bindMotion(wall);
     bindDrives(wall);
 
     scene
         .def("add_plane", &addPlane, py::arg("species"), py::arg("outward"), py::arg("point"), py::kw_only(),
-             py::arg("forces") = false, comment("InfiniteWall::set"))
+             py::arg("forces") = false,
+             "Adds a plane; grains are on the side from which its normal points away.\n\n"
+             "species: the material of its surface. outward: its normal, away from the grains, of any "
+             "length; point: m, on it. forces: they are kept, as by keep_forces().")
         .def("add_cylinder", &addCylinder, py::arg("species"), py::arg("axis"), py::arg("point"),
              py::arg("radius"), py::kw_only(), py::arg("grains_inside") = true,
              py::arg("length") = py::none(), py::arg("forces") = false,
              "Adds a circular cylinder without ends: a container, or a rod with the grains outside. With a "
-             "length "
-             "(m) it is a thin tube with open ends about the point, and grains may be on both sides.")
+             "length (m) it is a thin tube with open ends about the point, and grains may be on both "
+             "sides.\n\n"
+             "species: the material of its surface. axis: its direction, of any length; point: m, on the "
+             "axis, of a tube its middle; radius: m; grains_inside: else outside. forces: they are kept, as "
+             "by keep_forces().")
         .def("add_profile", &addProfile, py::arg("species"), py::arg("axis"), py::arg("point"),
-             py::arg("profile"), py::kw_only(), py::arg("forces") = false, comment("AxisymmetricWall"))
+             py::arg("profile"), py::kw_only(), py::arg("forces") = false,
+             comment("AxisymmetricWall",
+                     "species: the material of its surface. axis: its direction, of any length; point: m, "
+                     "on the axis, at the height 0. profile: M x 2 numbers, radius and height (m), at least "
+                     "2 points. forces: they are kept, as by keep_forces()."))
         .def("add_mesh", &addMesh, py::arg("species"), py::arg("mesh"), py::kw_only(), py::arg("scale") = 1.0,
-             py::arg("forces") = false, comment("TriangleWall"))
+             py::arg("forces") = false,
+             comment("TriangleWall",
+                     "species: the material of its surface. mesh: the name of a file (STL, OBJ, PLY), or an "
+                     "array of triangles, N x 3 x 3 numbers; scale: m for one unit of it. forces: they are "
+                     "kept, as by keep_forces()."))
         .def("add_solid", &addSolid, py::arg("species"), py::arg("normals"), py::arg("points"), py::kw_only(),
              py::arg("centre"), py::arg("radius"), py::arg("forces") = false,
-             comment("intersectionOfHalfSpaces"))
+             comment("intersectionOfHalfSpaces",
+                     "species: the material of its surface. normals: N x 3, into the solid's outside, of "
+                     "any length; points: N x 3, m, one on each plane. centre and radius: m, of a sphere "
+                     "around all places where grains come. forces: they are kept, as by keep_forces()."))
         .def(
             "remove_wall",
             [](PythonScene& s, const WallHandle& w) {
@@ -268,6 +345,20 @@ void bindWalls(py::module_& module, SceneClass& scene) {
                 return WallHandle(s, number);
             },
             py::arg("number"), "The wall with this number.")
+        .def("wall_polygons", &polygons,
+             "The walls as pictures show them: points_m, corners of plane polygons one after another; ends, "
+             "where each polygon ends among them; and of each polygon its wall, species, and what was worn "
+             "off. Endless walls are cut off around the grains and where they meet.")
+        .def_property_readonly(
+            "walls",
+            [](PythonScene& s) {
+                std::vector<WallHandle> all;
+                const WallHandler& walls = s.scene().wallHandler;
+                for (std::size_t number = 0; number < walls.getSize(); ++number)
+                    if (!walls.isRemoved(number)) all.emplace_back(s, number);
+                return all;
+            },
+            "All walls that there are, in the order of their numbers.")
         .def_property_readonly(
             "wall_count", [](const PythonScene& s) { return s.scene().wallHandler.getSize(); },
             comment("WallHandler::getSize"));

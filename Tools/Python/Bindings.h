@@ -23,6 +23,7 @@ void bindLiquid(SceneClass& scene);
 void bindContacts(SceneClass& scene);
 void bindFields(SceneClass& scene);
 void bindOutputs(SceneClass& scene);
+void bindParts(SceneClass& scene);
 void bindBonds(SceneClass& scene);
 void bindHeat(SceneClass& scene);
 void bindSoftness(py::module_& module, SceneClass& scene);

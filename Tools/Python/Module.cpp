@@ -2,11 +2,15 @@
 
 #include <dlfcn.h>
 
+#include <chrono>
 #include <regex>
 
+#include "Kernel/Base/Host.h"
 #include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/SpeciesRegistry.h"
+#include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/Program.h"
+#include "Python/Version.h"
 #include "Tools/Python/Bindings.h"
 #include "Tools/Python/MoreSpecies.h"
 
@@ -73,12 +77,24 @@ void registerError(py::module_& module, const char* name, PyObject* base) {
     });
 }
 
+/// Ctrl-C while grains are inserted: the interpreter is asked for it every 20 ms.
+void raiseInterrupt() {
+    using Clock = std::chrono::steady_clock;
+    thread_local Clock::time_point last;
+    const auto now = Clock::now();
+    if (now - last < std::chrono::milliseconds(20)) return;
+    last = now;
+    const py::gil_scoped_acquire python;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 int visitScene(const PythonScene& scene, visitproc visit, void* argument) {
     return scene.visitObjects(visit, argument);
 }
 
 std::shared_ptr<PythonScene> make(const std::string& name, int threads, bool quiet,
                                   const std::optional<std::string>& superquadrics) {
+    silenceOtherRanks();  // what all processes print the first one prints
     auto made = superquadrics
                     ? makeShapedScene(superquadrics->ends_with("Species") ? *superquadrics
                                                                           : *superquadrics + "Species")
@@ -93,8 +109,10 @@ std::shared_ptr<PythonScene> make(const std::string& name, int threads, bool qui
 
 PYBIND11_MODULE(_kernel, module) {
     setHosted();
+    setInterruption(&raiseInterrupt);
     registerMoreSpecies();
     module.doc() = "The kernel of Pendular.";
+    module.attr("__version__") = version;
     registerError<InputError>(module, "InputError", PyExc_ValueError);
     registerError<RunError>(module, "RunError", PyExc_RuntimeError);
     registerError<RunStopped>(module, "RunStopped", PyExc_RuntimeError);
@@ -103,6 +121,9 @@ PYBIND11_MODULE(_kernel, module) {
                      collectGarbage<PythonScene, &visitScene, [](PythonScene& of) { of.clearObjects(); }>());
     scene.def(py::init(&make), py::arg("name") = "", py::kw_only(), py::arg("threads") = 1,
               py::arg("quiet") = true, py::arg("superquadrics") = py::none());
+
+    refuseCopies(scene,
+                 "write_restart() keeps its state, and another scene that is set up alike goes on from it.");
 
     bindSpecies(module, scene);
     bindSizes(module);
@@ -119,11 +140,20 @@ PYBIND11_MODULE(_kernel, module) {
     bindContacts(scene);
     bindFields(scene);
     bindOutputs(scene);
+    bindParts(scene);
     bindBonds(scene);
     bindHeat(scene);
     bindSoftness(module, scene);
 
     module.def("load_species", &loadSpecies, py::arg("library"), comment("loadSpeciesLibrary"));
+    module.def(
+        "rank", [] { return startedTogether().rank; },
+        "The number of this process, from 0, among those that mpirun or srun has started together.");
+    module.def(
+        "rank_count", [] { return startedTogether().count; },
+        "How many processes were started together: 1 without mpirun and srun.");
+    module.def(
+        "_fail_on_ranks", [](const std::string& sentence) { failOnRanks(sentence); }, py::arg("sentence"));
     module.def("_stop_all", &PythonScene::stopAll);
     module.def("_set_log", &setLog, py::arg("function"));
 }

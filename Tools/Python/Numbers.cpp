@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <variant>
@@ -133,6 +135,14 @@ py::array arrayOf(PolyDataField&& field) {
             return arrayOf(std::move(numbers), std::move(shape));
         },
         std::move(field.numbers));
+}
+
+const char* comment(std::string_view name, std::string_view arguments) {
+    static std::deque<std::string> all;
+    std::string text = comment(name);
+    text.resize(
+        std::min(text.find('\n'), text.size()));  // arguments of the kernel follow in lines of their own
+    return all.emplace_back(text.append("\n\n").append(arguments)).c_str();
 }
 
 std::string camelCase(std::string_view name) {

@@ -82,6 +82,8 @@ std::string snakeCase(std::string_view name);
 /// What help() says: the comment of the kernel at this function or class, "Scene::setPeriodic", with names as
 /// they are in Python. make-comments.py takes it from the header as the module is built.
 const char* comment(std::string_view name);
+/// The same, with what arguments are, and units, where the kernel has them in other functions.
+const char* comment(std::string_view name, std::string_view arguments);
 
 }  // namespace pendular::python
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "Kernel/Base/RunError.h"
+#include "Kernel/Ranks/ProgramRanks.h"
 #include "Kernel/Simulation/Simulation.h"
 #include "Kernel/State/StateArchive.h"
 
@@ -147,7 +148,8 @@ void PythonScene::look() {
     } catch (const py::error_already_set& error) {
         if (!error.matches(PyExc_KeyboardInterrupt)) endBy(error);
         raised = std::current_exception();
-        running->requestPause();
+        if (ranksOfProgram()) running->requestStop();  // which all ranks hear
+        else running->requestPause();
     }
     schedule();
 }
@@ -171,8 +173,10 @@ void PythonScene::callDue() {
     const std::size_t done = running->getNumberOfTimeSteps();
     const double middle = running->getTime() + 0.5 * running->getTimeStep();
     const std::size_t count = calls.size();  // one may add another, or clear them
+    bool isGathered = false;
     for (std::size_t k = 0; k < count && k < calls.size(); ++k) {
         if (calls[k].steps > 0 ? done % calls[k].steps != 0 : middle < calls[k].next) continue;
+        if (!std::exchange(isGathered, true)) running->gather();  // functions are due on all ranks alike
         const py::function function = calls[k].function;
         const py::object answer = function(self);
         if (answer.is(py::bool_(false))) running->requestPause();
@@ -274,16 +278,19 @@ void PythonScene::keepRestartFile(double interval, std::size_t steps) {
 
 void PythonScene::noteEvent(const ContactEvent& event) { events.push_back({scene().getTime(), event}); }
 
-/// Each is an array, or a number; what is read has the shape that the scene was set up with.
 void PythonScene::visitRemembered(StateArchive& archive) {
     const py::gil_scoped_acquire python;
+    visitNumbers(archive, remembered, "remembered");
+}
+
+void visitNumbers(StateArchive& archive, py::dict kept, const std::string& whole) {
     std::map<std::string, Doubles> arrays;
-    for (const auto& [key, value] : remembered) {
+    for (const auto& [key, value] : kept) {
         const std::string name = py::str(key);
         Doubles numbers = Doubles::ensure(value);
         if (!numbers) {
             PyErr_Clear();
-            throw InputError(fmt::format("remembered['{}'] must be a number or an array of numbers.", name));
+            throw InputError(fmt::format("{}['{}'] must be a number or an array of numbers.", whole, name));
         }
         arrays.emplace(name, std::move(numbers));
     }
@@ -291,10 +298,10 @@ void PythonScene::visitRemembered(StateArchive& archive) {
         std::vector<double> column(numbers.data(), numbers.data() + numbers.size());
         archive.column<double>(name, column);
         if (!archive.isReading()) continue;
-        if (numbers.ndim() == 0) remembered[py::str(name)] = column.empty() ? 0.0 : column.front();
+        if (numbers.ndim() == 0) kept[py::str(name)] = column.empty() ? 0.0 : column.front();
         else if (static_cast<py::ssize_t>(column.size()) == numbers.size())
-            remembered[py::str(name)] = arrayOf(std::move(column)).attr("reshape")(numbers.attr("shape"));
-        else remembered[py::str(name)] = arrayOf(std::move(column));
+            kept[py::str(name)] = arrayOf(std::move(column)).attr("reshape")(numbers.attr("shape"));
+        else kept[py::str(name)] = arrayOf(std::move(column));
     }
 }
 
@@ -303,12 +310,14 @@ void PythonScene::visitRemembered(StateArchive& archive) {
 int PythonScene::visitObjects(visitproc visit, void* arg) const {
     for (const Call& call : calls) Py_VISIT(call.function.ptr());
     for (const py::function& call : callsAtEnd) Py_VISIT(call.ptr());
+    for (const py::object& part : parts) Py_VISIT(part.ptr());
     Py_VISIT(remembered.ptr());
     return 0;
 }
 
 void PythonScene::clearObjects() {
     calls.clear(), callsAtEnd.clear();
+    for (py::object& part : parts) part = py::none();
     remembered = py::dict();
 }
 

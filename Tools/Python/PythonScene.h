@@ -84,18 +84,28 @@ public:
     template <class Questions>
     auto ask(const Questions& questions) {
         const py::gil_scoped_acquire python;
-        const Asking here(asking);
+        const Counted here(asking);
         try {
             return questions();
         } catch (const py::error_already_set& error) {
             endBy(error);
         }
     }
+    /// The same, for functions that may change velocities and spins.
+    template <class Questions>
+    void askForVelocities(const Questions& questions) {
+        const Counted here(givingVelocities);
+        ask(questions);
+    }
 
     /// Throws RunError where another thread is at work in this scene.
     void requireThisThread() const;
     /// Throws InputError in a function that the kernel asks in the middle of a step: set_motion(), ...
     void requireMayChange() const;
+    /// The same, but for prepare() of a part of the step.
+    void requireMayGiveVelocities() const {
+        if (givingVelocities == 0) requireMayChange();
+    }
     /// Throws BufferError while an array of view() lives.
     void requireNoViews() const;
     class Busy;
@@ -108,8 +118,14 @@ public:
     int visitObjects(visitproc visit, void* argument) const;
     void clearObjects();
 
+    /// This scene in a function that it calls.
+    [[nodiscard]] py::handle object() const { return self; }
+
     /// Numbers and arrays of the driver's own that are in restart files, by name.
     py::dict remembered;
+    /// What add_part() was given.
+    std::vector<py::object> parts;
+    std::vector<AnySpecies*> species;  // in the order of their indices
     /// Events since they were last taken.
     struct Event {
         double time;  // s
@@ -128,11 +144,11 @@ private:
         py::function function;
     };
     class Running;
-    struct Asking {
-        explicit Asking(int& functions) : count(functions) { ++count; }
-        Asking(const Asking&) = delete;
-        Asking& operator=(const Asking&) = delete;
-        ~Asking() { --count; }
+    struct Counted {
+        explicit Counted(int& functions) : count(functions) { ++count; }
+        Counted(const Counted&) = delete;
+        Counted& operator=(const Counted&) = delete;
+        ~Counted() { --count; }
         int& count;
     };
 
@@ -152,6 +168,7 @@ private:
     Scene* running = nullptr;                       // this scene, while it steps
     mutable std::atomic<std::thread::id> thread{};  // that is at work in the scene, without the interpreter
     int asking = 0;                                 // functions that must not change the scene
+    int givingVelocities = 0;                       // of these, those that may change velocities and spins
     std::size_t nextLook = 0, nextClock = 0, lastClockStep = 0;
     double nextTime = 0;  // s
     std::chrono::steady_clock::time_point lastClock, nextProgress;
@@ -222,6 +239,35 @@ struct Handle {
     void requireOf(const PythonScene& scene, std::string_view what) const;
 };
 
+/// Copies of the class are refused, with a sentence that says what to do instead.
+template <class Class>
+void refuseCopies(Class& of, const char* advice) {
+    of.def("__reduce__", [advice](const py::object& self) -> py::object {
+        throw py::type_error("A " + std::string(py::str(py::type::of(self).attr("__name__"))) +
+                             " cannot be copied or pickled; " + advice);
+    });
+}
+
+/// For what is made of numbers.
+inline constexpr const char* anew = "make it again from its numbers.";
+
+/// Handles are equal where they are of the same thing of a scene.
+/// @param number of a handle
+template <class Class, class Number>
+void compareBy(Class& of, Number number) {
+    using One = typename Class::type;
+    of.def(
+          "__eq__",
+          [number](const One& a, const py::object& b) {
+              if (!py::isinstance<One>(b)) return false;
+              const auto& other = b.cast<const One&>();
+              return a.owner == other.owner && number(a) == number(other);
+          },
+          py::arg("other"))
+        .def("__hash__",
+             [number](const One& a) { return py::hash(py::make_tuple(py::hash(a.kept), number(a))); });
+}
+
 /// A species of a scene, for Python.
 struct SpeciesHandle : Handle {
     SpeciesHandle(PythonScene& scene, AnySpecies& of) : Handle(scene), species(&of) {}
@@ -233,7 +279,10 @@ struct SpeciesHandle : Handle {
 /// The object of a class as Python's garbage collector meets it; null while it is being made.
 template <class Of>
 Of* heldBy(PyObject* self) {
-    const auto held = reinterpret_cast<py::detail::instance*>(self)->get_value_and_holder();
+    auto* const instance = reinterpret_cast<py::detail::instance*>(self);
+    // As pybind11 makes the first object of a class in Python, it has no place for its content yet.
+    if (!instance->simple_layout && !instance->nonsimple.values_and_holders) return nullptr;
+    const auto held = instance->get_value_and_holder();
     return held.holder_constructed() ? held.value_ptr<Of>() : nullptr;
 }
 /// For a class that holds objects of Python, which may hold it.
@@ -261,6 +310,13 @@ py::custom_type_setup collectHandles() {
     };
     return collectGarbage<Of, visit, [](Of& of) { of.kept = {}; }>();
 }
+
+/// "z about_x about_y", "all", "in_plane"; empty: none. Throws InputError for others.
+HeldAxes heldAxesNamed(const std::string& axes);
+
+/// Numbers and arrays by name, as a restart file has them: what is read has the shapes of what is there.
+/// Throws InputError, with the name of the whole, for other things.
+void visitNumbers(StateArchive& archive, py::dict numbers, const std::string& whole);
 
 /// A function of Python as one of the kernel, which may copy and drop it in any thread.
 std::shared_ptr<py::function> shared(py::function function);

@@ -3,7 +3,7 @@
 
     make-comments.py OUTPUT.cpp KERNEL_FOLDER BINDING.cpp...
 
-For each comment("Class::function") or comment("Class") in the bindings it finds the declaration, and the /// comment in
+For each comment("Class::function") or comment("Class", ...) in the bindings it finds the declaration, and the /// comment in
 front of it. It fails where there is none.
 """
 import re
@@ -15,12 +15,33 @@ def snake(name):
     return re.sub(r"(?<=[a-z0-9])([A-Z])", r"_\1", name).lower()
 
 
+# What a comment says for drivers in C++, and for those in Python.
+WORDS = [
+    (r"Given to Simulation::add_output\(\), which then keeps", "It keeps"),
+    (r"Given to Simulation::add_output\(\); the", "The"),
+    (r" ?Given to Simulation::add_output\(\)[.;]?", ""),
+    (r" \((?:see )?(?:the )?README of this folder\)|; see the README of this folder", ""),
+    (r" \(MembraneNet\.h\)| \(Insertion\.h\)|, and in visit_state\(\)", ""),
+    (r"\b(?:solve|run_to|run_steps)\(\)", "run()"),
+    (r"\bfinish_run\(\)", "finish()"),
+    (r"\bshear_flow_at\(\)", "flow_at()"),
+    (r"With all axes it is fix_particle\(\)", "'all' holds it altogether"),
+    (r"\bset_time_step\(\)", "time_step"),
+    (r"\bEnergyLedger::lost\(\)", "what is lost in energy()"),
+    (r"Throws as get_force\(\)", "Raises as force"),
+    (r"\bread_grain_file\(\) reads", "add_grains_of_file() reads"),
+    (r"\b[A-Z]\w+::(?=[a-z_]+\(\))", ""),
+]
+
+
 def in_python(text):
     """Names of functions and fields as they are in Python; lines as they flow."""
     text = re.sub(r"@param (\w+)", lambda m: f"\n{snake(m[1])}:", text)
     text = re.sub(r"\b(?:Kernel/)?\w+/[\w/]+\.(?:h|md)\b", lambda m: m[0], text)
     text = re.sub(r"\b([a-z]{2,}(?:[A-Z][a-z0-9]*)+)\b", lambda m: snake(m[1]), text)
     text = re.sub(r"\bset_(\w+)\(\)", r"set_\1()", text).replace("Throws InputError", "Raises InputError")
+    for pattern, by in WORDS:
+        text = re.sub(pattern, by, text)
     return re.sub(r" *\n *", "\n", re.sub(r"[ \t]+", " ", text)).strip()
 
 
@@ -57,7 +78,7 @@ def comments_of(header):
 
 def main():
     output, kernel, *bindings = map(Path, sys.argv[1:])
-    wanted = sorted({n for b in bindings for n in re.findall(r'comment\("([\w:]+)"\)', b.read_text())})
+    wanted = sorted({n for b in bindings for n in re.findall(r'comment\(\s*"([\w:]+)"', b.read_text())})
     known = {}
     for header in sorted(kernel.rglob("*.h")):
         if header.name == "MercuryScene.h" or header.parent.name == "Mercury":

@@ -127,6 +127,8 @@ def main():
         elif callable(value):
             made = function(name, value, "")
             text += "\n" + made if made else ""
+        elif name == "__version__":
+            text += f"\n{name}: str\n"
     Path(sys.argv[1]).write_text(text)
 
 

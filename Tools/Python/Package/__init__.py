@@ -12,6 +12,7 @@
     print(scene.position)
 """
 import os as _os
+from typing import List
 
 from ._choose import choose as _choose
 
@@ -41,6 +42,8 @@ from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
     mesh_inside,
     normal_sizes,
     one_size,
+    rank,
+    rank_count,
     read_sizes,
     rosin_rammler_sizes,
     shaped_species,
@@ -50,16 +53,24 @@ from ._kernel import (  # noqa: E402  (which is in the folder that was chosen)
     sphere,
     superquadric,
 )
+from ._kernel import __version__ as _version
 from ._log import show_log as _show_log
-from .results import draw, frames, restart, table, to_pyvista
+from .results import draw, frames, restart, table, to_pyvista, walls_to_pyvista
 from .scene import Scene
 
 __all__ = [
     "InputError", "Mixture", "Region", "RunError", "RunStopped", "Scene", "Shape", "Sizes", "Species", "Wall",
     "bidisperse_sizes", "block", "box", "clump", "cylinder", "draw", "even_sizes", "fields", "frames", "load_species",
-    "lognormal_sizes", "membrane_sheet", "membrane_tube", "mesh_inside", "normal_sizes", "one_size", "read_sizes",
-    "restart", "rosin_rammler_sizes", "shaped_species", "sizes", "softest_modulus", "species", "sphere", "superquadric",
-    "table", "to_pyvista",
+    "lognormal_sizes", "membrane_sheet", "membrane_tube", "mesh_inside", "normal_sizes", "one_size", "rank", "rank_count",
+    "read_sizes", "restart", "rosin_rammler_sizes", "shaped_species", "sizes", "softest_modulus", "species", "sphere",
+    "superquadric", "table", "to_pyvista", "walls_to_pyvista",
 ]  # fmt: skip
+__version__ = _version
+
+
+def __dir__() -> List[str]:
+    """What is for users, in the lists that editors and notebooks show."""
+    return [*__all__, "__version__", "__doc__"]
+
 
 _show_log()

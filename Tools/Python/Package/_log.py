@@ -2,6 +2,7 @@
 the interpreter ends."""
 import atexit
 import sys
+from typing import Any
 
 from . import _kernel
 
@@ -19,7 +20,15 @@ def _write(level: int, text: str) -> None:
     stream.flush()
 
 
+def _tell_ranks(kind: Any, error: Any, trace: Any) -> None:
+    """The others end with this one, which would else be waited for."""
+    sys.__excepthook__(kind, error, trace)
+    _kernel._fail_on_ranks(f"{kind.__name__}: {error}")
+
+
 def show_log() -> None:
     _kernel._set_log(_write)
     atexit.register(_kernel._set_log, None)
     atexit.register(_kernel._stop_all)  # called first
+    if _kernel.rank_count() > 1:
+        sys.excepthook = _tell_ranks

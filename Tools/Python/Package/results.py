@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterator, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -37,7 +37,7 @@ def _numbers(data: Any) -> np.ndarray:
 def frames(file: Path, part: str = "particles") -> Iterator[Tuple[float, Columns]]:
     """The time (s) and the columns of each frame of NAME-fields.h5 (write_hdf5()), by the names that Scene.grains() has.
 
-    part: particles, contacts or walls; of files of write_fields(hdf5=True): fields. Raises InputError.
+    file: its name. part: particles, contacts or walls; of files of write_fields(hdf5=True): fields. Raises InputError.
     """
     with _open(file) as run:
         if "step" not in run:
@@ -50,7 +50,7 @@ def frames(file: Path, part: str = "particles") -> Iterator[Tuple[float, Columns
 
 
 def table(file: Path) -> pandas.DataFrame:
-    """A table of a run (NAME-energy.csv, ...) with the units in the names of its columns."""
+    """A table of a run (a file NAME-energy.csv, ...) with the units in the names of its columns."""
     import pandas
 
     if not os.path.exists(file):
@@ -72,13 +72,15 @@ def restart(file: Path) -> Columns:
 
 
 def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, along: str = "y",
-         axes: Optional[Any] = None, colormap: str = "viridis") -> Any:
-    """Draws the grains as discs by matplotlib, as seen along an axis, those in front last; returns the axes.
+         axes: Optional[Any] = None, colormap: str = "viridis", walls: bool = True) -> Any:
+    """Draws the grains of a scene as discs by matplotlib, as seen along an axis, those in front last; returns the axes.
 
-    color: the name of a column of grains() (a vector is taken by its length), or a number for each grain.
+    color: the name of a column of grains() (a vector is taken by its length), or a number for each grain, shown by
+    colormap. axes: those of matplotlib to draw into; else a new figure has them. walls: as lines, behind the grains. A
+    grain that is no sphere is the disc of the ball around it.
     """
     import matplotlib.pyplot as plt
-    from matplotlib.collections import EllipseCollection
+    from matplotlib.collections import EllipseCollection, PolyCollection
 
     if along not in ("x", "y", "z"):
         raise _kernel.InputError(f"draw() looks along 'x', 'y' or 'z'; not {along!r}.")
@@ -95,6 +97,9 @@ def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, al
                               transOffset=axes.transData, array=values[front], cmap=colormap, edgecolors="k",
                               linewidths=0.3)
     axes.add_collection(discs)
+    if walls:
+        corners = [polygon[:, [across, up]] for polygon in _polygons(scene)]
+        axes.add_collection(PolyCollection(corners, facecolors="none", edgecolors="0.6", linewidths=0.5, zorder=0))
     axes.set(aspect="equal", xlabel=f"{'xyz'[across]} (m)", ylabel=f"{'xyz'[up]} (m)")
     if len(front):
         low, high = (place - radius[:, None]).min(0), (place + radius[:, None]).max(0)
@@ -102,6 +107,12 @@ def draw(scene: _kernel.Scene, color: Union[str, np.ndarray, None] = None, *, al
     if color is not None:
         axes.figure.colorbar(discs, ax=axes, label=label)
     return axes
+
+
+def _polygons(scene: _kernel.Scene) -> List[np.ndarray]:
+    """Those of the walls, N x 3 corners (m) each."""
+    made = scene.wall_polygons()
+    return np.split(made["points_m"], made["ends"][:-1]) if len(made["ends"]) else []
 
 
 def _colors(columns: Columns, color: Union[str, np.ndarray, None]) -> Tuple[np.ndarray, str]:
@@ -129,3 +140,17 @@ def to_pyvista(scene: _kernel.Scene) -> Any:
         points[name] = values.reshape(len(values), -1) if values.ndim > 1 else values
     points["diameter_m"] = 2 * columns["radius_m"]
     return points
+
+
+def walls_to_pyvista(scene: _kernel.Scene) -> Any:
+    """The walls of a scene as polygons of pyvista, with the number of the wall and its species."""
+    import pyvista
+
+    made = scene.wall_polygons()
+    points, ends = made.pop("points_m"), made.pop("ends")
+    starts = np.concatenate([[0], ends[:-1]]).astype(int)
+    faces = [np.concatenate([[end - start], np.arange(start, end)]) for start, end in zip(starts, ends)]
+    surface = pyvista.PolyData(points, np.concatenate(faces) if faces else np.zeros(0, int))
+    for name, values in made.items():
+        surface[name] = values
+    return surface

@@ -1,8 +1,9 @@
 """The scene: what _kernel.Scene has, and what is shorter in Python."""
 from __future__ import annotations
 
+import difflib
 import sys
-from typing import Any, Callable, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -26,7 +27,11 @@ class Scene(_kernel.Scene):
 
     def add_box(self, species: _kernel.Species, lowest: Sequence[float], highest: Sequence[float],
                 *, lid: bool = True, forces: bool = False) -> List[_kernel.Wall]:
-        """Adds the planes of a box (m): along x, y and z the lower and the upper one; without lid not the last."""
+        """Adds the planes of a box: along x, y and z the lower and the upper one.
+
+        species: the material of their surfaces; lowest, highest: m, corners of the box. lid: without it not the last
+        plane. forces: they are kept, as by Wall.keep_forces().
+        """
         walls = []
         for axis in range(3):
             outward = np.zeros(3)
@@ -46,7 +51,7 @@ class Scene(_kernel.Scene):
         self.set_column("temperature", values)
 
     def run(self, until: Optional[float] = None, *, steps: Optional[int] = None, progress: Progress = False) -> Scene:
-        """Begins the run, or goes on with it, to a time (s), or for so many steps; it may be called again.
+        """Begins the run, or goes on with it, until a time (s), or for so many steps; it may be called again.
 
         progress: True shows a bar (by tqdm where it is installed), a function is called with the time (s). Ctrl-C is
         KeyboardInterrupt after the step, with a whole restart file where one is kept, and the scene can go on. Other
@@ -57,13 +62,27 @@ class Scene(_kernel.Scene):
         if steps is not None:
             if steps < 0:
                 raise _kernel.InputError(f"run() takes at least 0 steps; they are {steps}.")
-            self._run_steps(steps, progress if callable(progress) else None)
+            if progress is True:
+                with _bar(self.time, self.time + steps * self.time_step, self.name) as show:
+                    self._run_steps(steps, show)
+            else:
+                self._run_steps(steps, progress if callable(progress) else None)
         elif progress is True:
             with _bar(self.time, float(until), self.name) as show:  # type: ignore[arg-type]
                 self._run_to(until, show)  # type: ignore[arg-type]
         else:
             self._run_to(until, progress if callable(progress) else None)  # type: ignore[arg-type]
         return self
+
+    if not TYPE_CHECKING:  # mypy would take any name then
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            """Attributes of your own are kept, but a name that is nearly one of the scene is a mistake."""
+            if not hasattr(type(self), name) and name not in self.__dict__:
+                near = difflib.get_close_matches(name, dir(type(self)), 1, 0.8)
+                if near:
+                    raise AttributeError(f"A Scene has no attribute {name}; did you mean {near[0]}?")
+            super().__setattr__(name, value)
 
     def __enter__(self) -> Scene:
         return self

@@ -1,0 +1,158 @@
+"""A part of the step whose phases are functions of Python: still air, against its closed form."""
+import gc
+import weakref
+
+import numpy as np
+import pytest
+
+import pendular
+from conftest import GLASS, glass_in
+
+TAU = 0.01  # s, in which air at rest takes a grain's velocity to 1/e of it
+
+
+class StillAir:
+    """A linear drag, exact for any step. It remembers the energy that the air has taken."""
+
+    def __init__(self, name="still air"):
+        self.name = name
+        self.remembered = {"taken": 0.0}
+
+    def prepare(self, scene, length):
+        before = scene.velocity
+        scene.velocity = np.exp(-length / TAU) * before
+        self.remembered["taken"] += 0.5 * (scene.mass[:, None] * (before**2 - scene.velocity**2)).sum()
+
+    def summary(self):
+        return {"energy taken (J)": self.remembered["taken"]}
+
+
+def flight(name="", **options):
+    """Two grains that are far apart, without weight."""
+    scene = pendular.Scene(name, **options)
+    glass = glass_in(scene)
+    scene.add_grains(glass, [[0, 0, 0], [1, 0, 0]], 1e-3, velocity=[[0, 1, 2], [0.5, 0, 0]])
+    scene.time_step = 2e-6
+    return scene, scene.add_part(StillAir())
+
+
+def test_velocities_fall_as_in_the_closed_form():
+    """v = v0 exp(-t/tau) to the rounding of 1000 steps, and the air has taken what the ledger says the driver gave."""
+    scene, air = flight()
+    scene.keep_energy_ledger()
+    first = scene.kinetic_energy
+    scene.run(steps=1000)
+    assert scene.velocity == pytest.approx(np.array([[0, 1, 2], [0.5, 0, 0]]) * np.exp(-scene.time / TAU), rel=1e-12)
+    energy = scene.energy()
+    assert air.remembered["taken"] == pytest.approx(first - scene.kinetic_energy, rel=1e-12)
+    assert energy["given_by_driver_J"] == pytest.approx(-air.remembered["taken"], rel=1e-9)
+    assert abs(scene.energy_unaccounted) < 1e-12 * first
+
+
+def test_a_restart_keeps_bits_and_what_is_remembered():
+    whole, itsAir = flight()
+    whole.run(steps=60)
+    first, _ = flight()
+    first.run(steps=25)
+    first.write_restart("half.h5")
+    second, air = flight()
+    second.restart_from("half.h5")
+    second.run(steps=35)
+    assert second.hash() == whole.hash()
+    assert air.remembered["taken"] == itsAir.remembered["taken"] > 0
+
+
+def test_the_summary_has_its_row():
+    scene, air = flight("run")
+    scene.write_summary()
+    scene.run(steps=10)
+    scene.finish()
+    row, = [line for line in open("run-summary.csv") if line.startswith("still air: energy taken (J)")]
+    assert float(row.split(",")[1]) == pytest.approx(air.remembered["taken"], rel=1e-12)
+
+
+@pytest.mark.parametrize("change", [
+    lambda s: s.add_grains(s.species[0], [[0, 0, 1]], 1e-3), lambda s: setattr(s, "position", (0, 0, 0)),
+    lambda s: s.species[0].set(density=1), lambda s: s.run(steps=1), lambda s: setattr(s, "gravity", (0, 0, 1))])
+def test_prepare_changes_velocities_and_nothing_else(change):
+    class Part:
+        name = "part"
+
+        def prepare(self, scene, length):
+            change(scene)
+
+    scene, _ = flight()
+    scene.add_part(Part())
+    with pytest.raises(pendular.InputError, match="may read its scene, but not change it"):
+        scene.run(steps=3)
+
+
+def test_what_it_raises_reaches_the_caller():
+    class Part:
+        name = "part"
+
+        def prepare(self, scene, length):
+            raise KeyError("mine")
+
+    scene, _ = flight()
+    scene.add_part(Part())
+    with pytest.raises(KeyError, match="mine"):
+        scene.run(steps=3)
+
+
+def test_check_refuses_a_scene():
+    class Part:
+        name = "part"
+
+        def check(self, scene):
+            if scene.gravity.any():
+                raise pendular.InputError("part: gravity must be 0.")
+
+    scene, _ = flight()
+    scene.add_part(Part())
+    scene.gravity = (0, 0, -9.81)
+    with pytest.raises(pendular.InputError, match="gravity must be 0"):
+        scene.run(steps=1)
+
+
+class Named:
+    name = "still air"
+
+
+class NotCallable:
+    name, prepare = "part", 3
+
+
+@pytest.mark.parametrize("part, words", [(object(), "a name"), (Named(), "still air"), (NotCallable(), "function")])
+def test_misuse(part, words):
+    scene, _ = flight()
+    with pytest.raises(pendular.InputError, match=words):
+        scene.add_part(part)
+    scene.run(steps=2)  # as before
+    with pytest.raises(pendular.InputError, match="before the run|set-up|begun"):
+        scene.add_part(StillAir("other"))
+
+
+def test_a_scene_and_a_part_that_hold_each_other_are_collected():
+    def lost():
+        scene, air = flight()
+        air.scene = scene
+        scene.run(steps=2)
+        return weakref.ref(scene)
+
+    gone = lost()
+    gc.collect()
+    assert gone() is None
+
+
+def test_bodies_that_are_held_in_part():
+    """A clump that is held but along x and about x falls along x alone, with the acceleration g."""
+    scene = pendular.Scene()
+    glass = scene.add_species("HertzianViscoelasticMindlin", **GLASS)
+    body = scene.add_shape(glass, pendular.clump([[0, 0, 0, 1e-3], [1e-3, 0, 0, 1e-3]]), (0, 0, 0))
+    scene.hold_body(body, "y z about_y about_z")
+    scene.gravity = (-1, -2, -3)
+    scene.time_step = scene.stability_limit()
+    scene.run(steps=100)
+    velocity = scene.bodies()["velocity_m_per_s"][0]
+    assert velocity == pytest.approx([-scene.time, 0, 0], rel=1e-9, abs=0)
