@@ -15,9 +15,11 @@
 #include "Kernel/Mercury/MercuryBonds.h"
 #include "Kernel/Mercury/MercuryBoundaries.h"
 #include "Kernel/Mercury/MercuryCG.h"
+#include "Kernel/Mercury/MercuryCopyBoundaries.h"
 #include "Kernel/Mercury/MercuryData.h"
 #include "Kernel/Mercury/MercuryFiles.h"
 #include "Kernel/Mercury/MercuryHelpers.h"
+#include "Kernel/Mercury/MercuryInsertionBoundaries.h"
 #include "Kernel/Mercury/MercuryInteractions.h"
 #include "Kernel/Mercury/MercuryLogger.h"
 #include "Kernel/Mercury/MercuryPSD.h"
@@ -155,6 +157,13 @@ public:
                getGravitationalEnergy();
     }
 
+    /// Whether a grain would overlap nothing that is there.
+    [[nodiscard]] bool checkParticleForInteraction(const SphericalParticle& grain) const {
+        return hasRoomFor(*this, grain);
+    }
+    /// The grains that stand for others at ThinPeriodicBoundary, AngledPeriodicBoundary and their like.
+    [[nodiscard]] const GrainCopies& getCopies() const { return copies; }
+
     /// A grain that is held altogether moves on this path (m, by the time in s), where it is put at once, or
     /// with this velocity (m/s). Contacts see the velocity with which it goes from step to step. Throw
     /// InputError for one that is not held.
@@ -175,6 +184,8 @@ private:
     int systemDimensions = 3;
     MercuryPaths& paths = this->template addPart<MercuryPaths>();
     MercuryBonds& bonds = this->template addPart<MercuryBonds>();
+    MercuryInsertions& insertions = this->template addPart<MercuryInsertions>();
+    GrainCopies& copies = this->template addPart<GrainCopies>();
 
     std::shared_ptr<MercurySettings> settings = std::make_shared<MercurySettings>();
     MercuryDomain domain{*this};
@@ -187,7 +198,7 @@ public:
     MercuryNoFile interactionFile;  // restart files have the contacts
     MercuryRandom& random = settings->random;
     MercuryWallHandler wallHandler{Scene::wallHandler, domain, settings};
-    MercuryBoundaryHandler boundaryHandler{*this};
+    MercuryBoundaryHandler boundaryHandler{*this, {&copies, &insertions}};
     MercuryInteractionHandler interactionHandler{*this, settings, bonds};
     MercuryCGHandler cgHandler{*this};
 };

@@ -122,6 +122,14 @@ TEST(MercuryNames, theScriptMakesTheMechanicalChanges) {
         EXPECT_EQ(ported(there), std::string(here) + '\n');
 }
 
+// Each row names tests that there are, and the page says what the table does.
+TEST(MercuryNames, theTableOfProgramsIsWhole) {
+    const support::ProgramResult result =
+        support::run("python3 " + (folders::source / "Tools/mercury-programs.py").string() + " --check 2>&1");
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_TRUE(contains(result.output, " of 175")) << result.output;
+}
+
 TEST(MercuryNames, helpersReadTheCommandLine) {
     const char* const given[] = {"program", "-n", "7.5", "-quick", "-name", "bed", "-last"};
     EXPECT_EQ(helpers::readFromCommandLine(7, given, "-n", 2), 7.5);

@@ -7,7 +7,8 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "Tools/Python/HOW-DO-I.md").read_text()
 # A Python script needs no project; another one is about MercuryDPM's C++, and ranks are not bound.
-ONLY_CPP = {"Write a driver outside this repository", "Port a driver from MercuryDPM", "Run on several machines"}
+ONLY_CPP = {"Write a driver outside this repository", "Port a driver from MercuryDPM", "Run on several machines",
+            "Make a scene thin, turn it, or feed a flow"}
 
 
 def sections():
