@@ -17,6 +17,7 @@
 #include "Kernel/Mercury/MercuryCG.h"
 #include "Kernel/Mercury/MercuryCopyBoundaries.h"
 #include "Kernel/Mercury/MercuryData.h"
+#include "Kernel/Mercury/MercuryDroplets.h"
 #include "Kernel/Mercury/MercuryFiles.h"
 #include "Kernel/Mercury/MercuryHelpers.h"
 #include "Kernel/Mercury/MercuryInsertionBoundaries.h"
@@ -25,6 +26,7 @@
 #include "Kernel/Mercury/MercuryPSD.h"
 #include "Kernel/Mercury/MercuryPaths.h"
 #include "Kernel/Mercury/MercuryPlane.h"
+#include "Kernel/Mercury/MercuryRestart.h"
 #include "Kernel/Mercury/MercuryWalls.h"
 #include "Kernel/MercuryNames.h"
 
@@ -137,7 +139,12 @@ public:
 
     /// Goes on from the kernel's restart file of this name, for a scene that is set up as it was.
     void readRestartFile() { this->restartFrom(Run::restartFile()); }
-    void readRestartFile(const std::filesystem::path& file) { this->restartFrom(file); }
+    /// The same of a file; one of MercuryDPM's in text is a start: readMercuryRestart(). That is taken by
+    /// scenes of any species (Mercury3D).
+    void readRestartFile(const std::filesystem::path& file) {
+        if (!isMercuryRestart(file)) return this->restartFrom(file);
+        takeOver(readMercuryRestart(file), file);
+    }
     void writeRestartFile() { this->writeRestart(Run::restartFile()); }
     /// Adds the grains of a .data file, and takes its box: readMercuryData(). Their species must be there.
     void readDataFile(const std::filesystem::path& file);
@@ -175,6 +182,8 @@ public:
     }
 
 private:
+    void takeOver(const MercuryRestart& state, const std::filesystem::path& file);
+    void addGrainsOf(const std::vector<GrainRow>& rows);
     static void requireTwoOrThree(const char* what, int dimensions) {
         if (dimensions != 2 && dimensions != 3)
             throw InputError(
@@ -185,6 +194,7 @@ private:
     MercuryPaths& paths = this->template addPart<MercuryPaths>();
     MercuryBonds& bonds = this->template addPart<MercuryBonds>();
     MercuryInsertions& insertions = this->template addPart<MercuryInsertions>();
+    MercuryActions& actions = this->template addPart<MercuryActions>();
     GrainCopies& copies = this->template addPart<GrainCopies>();
 
     std::shared_ptr<MercurySettings> settings = std::make_shared<MercurySettings>();
@@ -198,7 +208,7 @@ public:
     MercuryNoFile interactionFile;  // restart files have the contacts
     MercuryRandom& random = settings->random;
     MercuryWallHandler wallHandler{Scene::wallHandler, domain, settings};
-    MercuryBoundaryHandler boundaryHandler{*this, {&copies, &insertions}};
+    MercuryBoundaryHandler boundaryHandler{*this, {&copies, &insertions, &actions}};
     MercuryInteractionHandler interactionHandler{*this, settings, bonds};
     MercuryCGHandler cgHandler{*this};
 };
@@ -206,10 +216,40 @@ public:
 template <class... Types>
 void MercuryScene<Types...>::readDataFile(const std::filesystem::path& file) {
     const MercuryFrame frame = readMercuryData(file);
+    addGrainsOf(frame.grains);
+    setDomain(frame.lowest, frame.highest);
+}
+
+template <class... Types>
+void MercuryScene<Types...>::addGrainsOf(const std::vector<GrainRow>& rows) {
     std::vector<SphericalParticle> ofTypes(this->speciesHandler.getSize());
     for (std::size_t k = 0; k < ofTypes.size(); ++k) ofTypes[k].setSpecies(this->speciesHandler.getObject(k));
-    addGrains(this->particleHandler, frame.grains, ofTypes);
-    setDomain(frame.lowest, frame.highest);
+    addGrains(this->particleHandler, rows, ofTypes);
+}
+
+template <class... Types>
+void MercuryScene<Types...>::takeOver(const MercuryRestart& state, const std::filesystem::path& file) {
+    if constexpr (sizeof...(Types) > 0) {
+        static_cast<void>(state);
+        throw InputError(fmt::format(
+            "The restart file {} is one of MercuryDPM's, in text, with species of its own; take Mercury3D.",
+            file.string()));
+    } else {
+        for (const MercuryRestart::Species& one : state.species) {
+            auto* const species = this->speciesHandler.addByName(one.type);
+            for (const auto& [field, value] : one.fields) species->set(field, value);
+        }
+        setDomain(state.lowest, state.highest);
+        this->setGravity(state.gravity);
+        if (state.timeStep > 0) this->setTimeStep(state.timeStep);
+        this->setTimeMax(state.timeMax);
+        this->setSaveCount(state.saveCount);
+        if (!state.name.empty()) this->setName(state.name);
+        for (const MercuryRestart::Plane& plane : state.planes)
+            wallHandler.copyAndAddObject(
+                InfiniteWall(plane.normal, plane.point, this->speciesHandler.getObject(plane.species)));
+        addGrainsOf(state.grains);
+    }
 }
 
 /// Species of any types, as there.

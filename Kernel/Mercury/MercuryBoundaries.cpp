@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "Kernel/Base/InputError.h"
+#include "Kernel/State/StateArchive.h"
 
 namespace pendular {
 namespace {
@@ -149,7 +151,52 @@ void FluxBoundary::set(const Vec3D& normal, double distance) {
     handOverWhenSet();
 }
 
-FluxCount FluxBoundary::count() const { return sceneThatHasIt().fluxPlaneHandler.countOf(number); }
+void FluxBoundary::handOver(Scene& of) { number = of.fluxPlaneHandler.copyAndAddObject(*plane); }
+
+void FluxBoundary::setPrescribedDistance(std::function<double(double)> distance) {
+    if (prescribed || !isAdded())
+        throw InputError(
+            "FluxBoundary: setPrescribedDistance() is called once, after the boundary was added.");
+    prescribed = std::move(distance);
+    actions().add(this);
+}
+
+void FluxBoundary::act(StepContext& step) {
+    const Vec3D normal = plane->normal;
+    const auto isBeyond = [&](const Vec3D& place, double time) {
+        return normal.dot(place) > prescribed(time);
+    };
+    for (const GrainReference grain : step.particles) {
+        const std::uint32_t identity = grain.getId();
+        // Where a grain was before its first step, it says itself.
+        const bool was = known.insert(identity).second
+                             ? isBeyond(grain.getPosition() - step.length * grain.getVelocity(), step.time)
+                             : beyond.contains(identity),
+                   is = isBeyond(grain.getPosition(), step.timeAfter);
+        if (is) beyond.insert(identity);
+        else beyond.erase(identity);
+        if (was == is) continue;
+        const double mass = step.particles.massOf(grain.getRadius(), grain.getSpeciesIndex());
+        if (is) ++own.forwards, own.massForwards += mass;
+        else ++own.backwards, own.massBackwards += mass;
+    }
+}
+
+void FluxBoundary::visitState(StateArchive& archive) {
+    for (auto [name, set] : {std::pair("beyond", &beyond), std::pair("known", &known)}) {
+        std::vector<std::uint32_t> identities(set->begin(), set->end());
+        archive.column<std::uint32_t>(name, identities);
+        *set = {identities.begin(), identities.end()};
+    }
+    archive.value("forwards", own.forwards);
+    archive.value("backwards", own.backwards);
+    archive.finite("massForwards", own.massForwards);
+    archive.finite("massBackwards", own.massBackwards);
+}
+
+FluxCount FluxBoundary::count() const {
+    return prescribed ? own : sceneThatHasIt().fluxPlaneHandler.countOf(number);
+}
 
 void MercuryBoundaryHandler::removeObject(std::size_t number) {
     getObject(number)->stop();

@@ -4,10 +4,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "Kernel/Mercury/MercuryActions.h"
 #include "Kernel/Mercury/MercuryInsertion.h"
 #include "Kernel/Parts/GrainCopies.h"
 #include "Kernel/Simulation/Scene.h"
@@ -21,6 +23,7 @@ namespace pendular {
 struct MercuryParts {
     GrainCopies* copies;
     MercuryInsertions* insertions;
+    MercuryActions* actions;
 };
 
 class MercuryBoundary {
@@ -54,6 +57,7 @@ protected:
     /// Of the scene that has it.
     [[nodiscard]] GrainCopies& copies() const { return *parts.copies; }
     [[nodiscard]] MercuryInsertions& insertions() const { return *parts.insertions; }
+    [[nodiscard]] MercuryActions& actions() const { return *parts.actions; }
     [[nodiscard]] bool isAdded() const { return scene != nullptr; }
 
     const char* name;
@@ -133,11 +137,13 @@ public:
 };
 
 /// A plane that counts the grains that go through it.
-class FluxBoundary : public MercuryBoundary {
+class FluxBoundary : public MercuryBoundary, public ActsInSteps {
 public:
     FluxBoundary() : MercuryBoundary("FluxBoundary") {}
     /// @param normal of any length, of which the distance (m) is measured in
     void set(const Vec3D& normal, double distance);
+    /// The plane is at this distance at the time (s): grains that it passes count, too. At set-up.
+    void setPrescribedDistance(std::function<double(double)> distance);
     [[nodiscard]] std::uint64_t getNumberOfParticlesCrossedForw() const { return count().forwards; }
     [[nodiscard]] std::uint64_t getNumberOfParticlesCrossedBack() const { return count().backwards; }
     [[nodiscard]] std::int64_t getNumberOfParticlesCrossedNet() const { return count().net(); }
@@ -149,14 +155,21 @@ public:
     [[nodiscard]] double getVolumeOfParticlesCrossedBack() const { return volumeOf(count().massBackwards); }
     [[nodiscard]] double getVolumeOfParticlesCrossedNet() const { return volumeOf(count().netMass()); }
 
+    void act(StepContext& step) override;
+    void visitState(StateArchive& archive) override;
+
 private:
     [[nodiscard]] bool isSet() const override { return plane.has_value(); }
-    void handOver(Scene& of) override { number = of.fluxPlaneHandler.copyAndAddObject(*plane); }
+    void handOver(Scene& of) override;
     [[nodiscard]] FluxCount count() const;
     [[nodiscard]] double volumeOf(double mass) const;
 
     std::optional<FluxPlane> plane;
     std::size_t number = 0;
+    // Of a plane that moves, which the kernel's do not: what it has counted, and who was beyond it.
+    std::function<double(double)> prescribed;
+    FluxCount own;
+    std::set<std::uint32_t> beyond, known;
 };
 
 /// The boundaries of a MercuryScene.

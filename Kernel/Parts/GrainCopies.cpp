@@ -10,6 +10,7 @@
 
 #include "Kernel/Base/InputError.h"
 #include "Kernel/Base/Logger.h"
+#include "Kernel/Base/RunError.h"
 #include "Kernel/Contacts/ContactLaws.h"
 #include "Kernel/Math/EigenConversion.h"
 #include "Kernel/State/StateArchive.h"
@@ -24,7 +25,8 @@ static constexpr int mostWidths = 4;
 
 std::span<const Conflict> GrainCopies::ownConflicts() const {
     static constexpr std::string_view single = "copies are made of single spheres",
-                                      takeSpheres = "take single spheres";
+                                      takeSpheres = "take single spheres",
+                                      pushedTwice = "copies would push a wall that forces move, too";
     static constexpr std::array table{
         Conflict{Feature::OwnPart, Feature::RigidBodies, single, takeSpheres},
         Conflict{Feature::OwnPart, Feature::Superquadrics, single, takeSpheres},
@@ -34,6 +36,10 @@ std::span<const Conflict> GrainCopies::ownConflicts() const {
             Feature::OwnPart, Feature::EnergyLedger,
             "the account would take what moves the copies for an error of the step",
             "leave keepEnergyLedger() out; with MercuryScene.h call eneFile.setFileType(FileType::NO_FILE)"},
+        Conflict{Feature::OwnPart, Feature::DrivenWalls, pushedTwice, "prescribe the motion of walls"},
+        Conflict{Feature::OwnPart, Feature::Membranes, pushedTwice, "leave one of them out"},
+        Conflict{Feature::OwnPart, Feature::WornWalls, "copies would wear a wall, too",
+                 "leave one of them out"},
         Conflict{Feature::OwnPart, Feature::Shear, "the copies do not go with the flow",
                  "leave one of them out"},
         Conflict{Feature::OwnPart, Feature::Strain, "the copies do not go with the flow",
@@ -249,21 +255,24 @@ void GrainCopies::renew(StepContext& step, double time) {
     makeCopies(step, time);
 }
 
-/// Grains, or copies, that others have taken out.
+/// Grains that others have taken out. Throws RunError where a copy was: it would come and go in each step.
 void GrainCopies::forgetGone(StepContext& step) {
     const auto isGone = [&](std::uint32_t identity) { return !step.particles.contains(identity); };
     std::erase_if(members, isGone);
     std::vector<std::uint32_t> alone;
-    for (auto& [identity, own] : copiesOf) {
-        const bool isGrainGone = isGone(identity);
-        std::erase_if(own, [&](const auto& one) {
-            if (isGone(one.second)) return copies.erase(one.second) > 0;
-            if (isGrainGone) alone.push_back(one.second);
-            return isGrainGone;
-        });
-    }
+    std::erase_if(copiesOf, [&](const auto& one) {
+        const bool isGrainGone = isGone(one.first);
+        for (const auto& [image, copy] : one.second)
+            if (isGrainGone) alone.push_back(copy);
+            else if (isGone(copy))
+                throw RunError(
+                    fmt::format("At time {:.6g} s particle {}, a copy of particle {}, was taken out; keep "
+                                "outlets {:.6g} m away "
+                                "from the faces, and remove the grain itself.",
+                                step.time, copy, one.first, staysWithin * step.largestReach));
+        return isGrainGone;
+    });
     for (const std::uint32_t copy : alone) removeCopy(step, copy);
-    std::erase_if(copiesOf, [](const auto& one) { return one.second.empty(); });
 }
 
 void GrainCopies::removeCopy(StepContext& step, std::uint32_t copy) {

@@ -25,7 +25,8 @@ namespace pendular {
 ///
 ///     scene.addPart<GrainCopies>().addPeriod({1, 0, 0}, 0, 2.1e-3);  // m
 ///
-/// Copies are grains in all outputs and sums (isCopy() tells). What the springs of friction remember of two
+/// Copies are grains in all outputs, counts and sums, also of the forces on walls (isCopy() tells), and where
+/// grains are inserted there must be room for their copies. What the springs of friction remember of two
 /// grains that touch is not handed to their copies: where both go through a face, they begin anew.
 class GrainCopies : public StepPart {
 public:

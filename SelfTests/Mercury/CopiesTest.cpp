@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "Kernel/MercuryScene.h"
@@ -408,6 +409,22 @@ TEST(MercuryPrograms, copiesSayWhatTheyAreNotFor) {
     const std::string tooNarrow = said(narrow, false), ledger = said(thin, true);
     EXPECT_TRUE(isOneSentence(tooNarrow) && contains(tooNarrow, "0.5 m apart")) << tooNarrow;
     EXPECT_TRUE(isOneSentence(ledger) && contains(ledger, "eneFile")) << ledger;
+    // A copy that an outlet takes out would come and go in each step.
+    Scene1 scene;
+    addSpecies(scene, 1, 1000);
+    addGrain(scene, 1, {0.1, 0.1, 0}, {0, 0, 0});
+    scene.boundaryHandler.copyAndAddObject(thin);
+    DeletionBoundary outlet;
+    outlet.set(Vec3D(1, 0, 0), 2);
+    scene.boundaryHandler.copyAndAddObject(outlet);
+    scene.setTimeStep(1e-4), scene.setTimeMax(1e-3);
+    std::string takenOut;
+    try {
+        scene.solve();
+    } catch (const RunError& error) {
+        takenOut = error.what();
+    }
+    EXPECT_TRUE(contains(takenOut, "a copy of particle 0, was taken out")) << takenOut;
     AngledPeriodicBoundary flat;
     EXPECT_TRUE(isOneSentence(refusal([&] {
         flat.set(Vec3D(1, 0, 0), Vec3D(1, 0, 0), Vec3D::Zero());
