@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "Kernel/Base/InputError.h"
@@ -423,7 +424,22 @@ void GrainCopies::makeOne(StepContext& step, std::uint32_t identity, const Image
     copies[made] = identity;
 }
 
+/// The faces, as a run that goes on must have them.
+std::vector<double> GrainCopies::numbersOfFaces() const {
+    std::vector<double> numbers;
+    const auto add = [&](const Vec3D& v) { numbers.insert(numbers.end(), v.begin(), v.end()); };
+    for (const Passage& passage : passages) {
+        for (const int face : {0, 1}) add(passage.outwards[face]), add(passage.points[face]);
+        if (passage.angle == 0) add(passage.shift(0)), add(passage.velocity(0));
+        for (const double number : {passage.angle, passage.gap, static_cast<double>(passage.kind)})
+            numbers.push_back(number);
+    }
+    return numbers;
+}
+
 void GrainCopies::visitState(StateArchive& archive, StepContext& /*scene*/) {
+    const std::vector<double> faces = numbersOfFaces();
+    archive.same<double>("faces", std::span<const double>(faces));
     std::vector<std::uint32_t> grains, ofGrains, inBox(members.begin(), members.end());
     std::vector<std::int32_t> turns, feeds;
     for (const auto& [identity, own] : copiesOf)

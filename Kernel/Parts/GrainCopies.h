@@ -116,6 +116,7 @@ private:
         return !copies.contains(identity) && (!isFeeding() || members.contains(identity));
     }
 
+    [[nodiscard]] std::vector<double> numbersOfFaces() const;
     void follow(ParticleStore& grains, double time) const;
     void adopt(StepContext& step);
     void renew(StepContext& step, double time);

@@ -381,9 +381,15 @@ TEST(MercuryPrograms, thinPeriodIsThatOfTheKernel) {
     EXPECT_EQ(matched, 15u);
 
     const TestFolder folder;
-    auto first = make(true, 0.7), second = make(true, 1.5);
+    auto first = make(true, 0.7), second = make(true, 1.5), other = make(true, 1.5);
     first->solve();
     first->writeRestart(folder.path() / "thin.h5");
+    ThinPeriodicBoundary more;
+    more.set(Vec3D(0, 0, 1), -5, 5);
+    other->boundaryHandler.copyAndAddObject(more);
+    other->restartFrom(folder.path() / "thin.h5");
+    const std::string otherFaces = refusal([&] { other->solve(); });
+    EXPECT_TRUE(isOneSentence(otherFaces) && contains(otherFaces, "faces")) << otherFaces;
     second->restartFrom(folder.path() / "thin.h5");
     second->solve();
     ASSERT_EQ(second->particleHandler.getSize(), thin->particleHandler.getSize());
