@@ -266,7 +266,7 @@ TEST(MercuryPrograms, timeDependentPeriodicBoundary) {
     addGrain(scene, 0.05, {0.5, 0.3, 0.5}, {0.2, 0.5, 0});
     scene.setTimeStep(1e-3);
     scene.setTimeMax(5);
-    auto tdpb = scene.boundaryHandler.copyAndAddObject(new TimeDependentPeriodicBoundary);
+    auto tdpb = scene.boundaryHandler.copyAndAddObject(TimeDependentPeriodicBoundary());
     tdpb->set(
         Vec3D(0, 1, 0), -1, 1, [](double t) { return Vec3D(1.25 + 0.1 * t, 0, 0); },
         [](double) { return Vec3D(0.1, 0, 0); });
